@@ -16,6 +16,7 @@ mod record;
 mod rounds;
 mod run;
 mod table;
+mod threads;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -49,6 +50,9 @@ struct Arguments {
     /// Time the check of a normal map against decoding it, and the recognition of a recipe against computing tangents, instead.
     #[arg(long)]
     check: bool,
+    /// Time all threads against one on meshes of all sizes, instead.
+    #[arg(long, conflicts_with_all = ["engines", "check", "instructions", "baseline"])]
+    threads: bool,
     /// Texels per side of the map of --check.
     #[arg(long, default_value_t = 4096, value_name = "N")]
     map_side: usize,
@@ -74,8 +78,9 @@ const DEEP_STACK: usize = 1 << 30;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    // Single-threaded engines run in this pool; the others create their own.
-    rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("no pool has started before");
+    // Single-threaded engines run in this pool; the others create their own. 0 is the default: one per core.
+    let threads = usize::from(!arguments.threads);
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().expect("no pool has started before");
     let deep = std::thread::Builder::new().stack_size(DEEP_STACK);
     let thread = deep.spawn(move || run(&arguments)).expect("a thread starts");
     match thread.join().expect("no engine panics") {
@@ -94,6 +99,10 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     }
     if arguments.check {
         return time_check(arguments);
+    }
+    if arguments.threads {
+        println!("{}", threads::table(&threads::measure(&arguments.meshes, arguments.quick)?));
+        return Ok(());
     }
     let engines = rounds::select(&arguments.engines)?;
     if arguments.instructions {

@@ -73,6 +73,21 @@ pub fn made() -> impl Iterator<Item = &'static str> {
     MAKERS.iter().map(|maker| maker.0)
 }
 
+/// The shapes of [`shape`].
+pub const SHAPES: [&str; 5] = ["grid", "quads", "sphere", "soup", "charts"];
+
+/// One of the [`SHAPES`] with about so many triangles.
+pub fn shape(name: &str, triangles: usize) -> OwnedMesh {
+    let side = ((triangles / 4) as f32).sqrt().ceil() as usize;
+    match name {
+        "quads" => quads(grid(2 * side, side)),
+        "sphere" => sphere(side, 2 * side),
+        "soup" => grid(2 * side, side).unindexed(),
+        "charts" => charts(triangles.div_ceil(50)),
+        _ => grid(2 * side, side),
+    }
+}
+
 /// The generated mesh with this name.
 pub fn make(name: &str, size: Size) -> Option<Named> {
     let (_, maker) = MAKERS.iter().find(|maker| maker.0 == name)?;

@@ -1,5 +1,7 @@
 //! How work is executed: vector widths, threads, the limits of a call, and windows of the triangle list.
 
+#[cfg(feature = "parallel")]
+mod helpers;
 pub(crate) mod limits;
 pub(crate) mod simd;
 pub(crate) mod threads;

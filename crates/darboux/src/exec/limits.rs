@@ -10,7 +10,7 @@ use crate::cancel::Cancel;
 use crate::exec::simd::{Width, WidthLimit};
 use crate::exec::vertex_progress::VertexProgress;
 
-/// The fewest triangles per thread: waking a thread costs more time than fewer triangles save.
+/// The fewest triangles per thread. With fewer, two threads are not always faster than one: docs/notes/speed.md has the measurements.
 const MIN_PER_THREAD: usize = if cfg!(small_limits) { 1 } else { 1 << 13 };
 
 /// Elements between two cancellation checks of a long loop.

@@ -4,34 +4,25 @@ use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::exec::limits::RunLimits;
-
-/// Runs all work for a mesh on a thread of the pool, so that the other threads are woken once and not at every stage.
 #[cfg(feature = "parallel")]
-pub(crate) fn on_pool<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> R {
-    if threads > 1 && rayon::current_thread_index().is_none() { rayon::scope(|_| work()) } else { work() }
-}
-
-#[cfg(not(feature = "parallel"))]
-pub(crate) fn on_pool<R: Send>(_threads: usize, work: impl FnOnce() -> R + Send) -> R {
-    work()
-}
+use crate::exec::helpers::call_with_helpers;
+use crate::exec::limits::RunLimits;
 
 /// Calls `job` once for every worker with its part of the work, on as many threads as there are workers.
 pub(crate) fn run<W: Send, P: Send>(
     workers: &mut [W],
-    parts: impl Iterator<Item = P>,
+    parts: impl Iterator<Item = P> + Send,
     job: impl Fn(&mut W, P) + Sync,
 ) {
     #[cfg(feature = "parallel")]
     if workers.len() > 1 {
-        rayon::in_place_scope(|scope| {
-            for (worker, part) in workers.iter_mut().zip(parts) {
-                let job = &job;
-                scope.spawn(move |_| job(worker, part));
+        let helpers = workers.len() - 1;
+        let rest = Mutex::new(workers.iter_mut().zip(parts));
+        return call_with_helpers(helpers, &|| {
+            while let Some((worker, part)) = rest.lock().ok().and_then(|mut rest| rest.next()) {
+                job(worker, part);
             }
         });
-        return;
     }
     for (worker, part) in workers.iter_mut().zip(parts) {
         job(worker, part);

@@ -97,7 +97,6 @@ use crate::math::cosine_of_degrees;
 use crate::topology::weld::Bounds;
 
 use crate::exec::limits::RunLimits;
-use crate::exec::threads;
 use crate::tangents::fast::angle_bounds::LARGEST_COSINE;
 use crate::tangents::fast::edge_tail::TailCells;
 use crate::tangents::fast::passes::{Discover, PassInput};
@@ -126,7 +125,7 @@ impl FastPath {
     ) -> bool {
         let threads = limits.thread_count(triangle_count(mesh));
         self.workers.resize_with(threads, Worker::default);
-        threads::on_pool(threads, || self.run_stages(mesh, options, limits, out)).is_some()
+        self.run_stages(mesh, options, limits, out).is_some()
     }
 
     fn run_stages(

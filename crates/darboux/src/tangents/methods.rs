@@ -12,7 +12,6 @@ mod vertex_sums;
 use crate::Mesh;
 
 use crate::exec::limits::RunLimits;
-use crate::exec::threads;
 use crate::tangents::MikkTSpaceOptions;
 use crate::tangents::methods::angle_area::group_sums::GroupWeight;
 use crate::tangents::methods::buffers::{MethodBuffers, SumBuffers};
@@ -77,13 +76,12 @@ where
     let slices = MeshSlices::new(mesh);
     let (mut sums, mut frames) =
         (SideSums::new(&slices, buffers), O::take_buffers(&mut buffers.tangents_of_side));
-    let report = threads::on_pool(limits.thread_count(slices.triangles().len()), || {
-        add_up(&slices, limits, &mut sums);
-        if limits.is_cancelled() {
-            return Report::default();
-        }
+    add_up(&slices, limits, &mut sums);
+    let report = if limits.is_cancelled() {
+        Report::default()
+    } else {
         finish::<N, W, O>(mesh, &slices, &mut sums, limits, &mut frames, corners)
-    });
+    };
     sums.return_to(buffers);
     O::return_buffers(frames, &mut buffers.tangents_of_side);
     report

@@ -76,9 +76,9 @@ fn chain(hash: u32, chains: usize) -> usize {
 /// One bit for each of many hash values, which the highest bits of a hash select.
 #[derive(Debug, Default)]
 pub(crate) struct HashFilter {
-    pub words: Vec<u64>,
+    words: Vec<u64>,
     /// How many of a hash's bits select its bit here.
-    pub bits: u32,
+    bits: u32,
 }
 
 impl HashFilter {
@@ -99,7 +99,7 @@ impl HashFilter {
     }
 
     /// True if the bit of a hash is set.
-    pub fn contains(&self, hash: u32) -> bool {
+    fn contains(&self, hash: u32) -> bool {
         let (word, bit) = place(hash, self.bits);
         self.words[word] & bit != 0
     }
@@ -112,29 +112,51 @@ fn place(hash: u32, bits: u32) -> (usize, u64) {
     (at / 64, 1 << (at % 64))
 }
 
-/// Sets the bits of hashes in the filter `seen`, and in `repeated` the bits of hashes whose bit was set before. Returns how many those are.
-///
-/// `seen`, `repeated`: the words of two filters from number `first` on. Hashes of other words are skipped.
-pub(crate) fn mark_collisions(
-    hashes: &[u32],
-    bits: u32,
-    first: usize,
-    seen: &mut [u64],
-    repeated: &mut [u64],
-) -> usize {
-    let mut collisions = 0;
-    if seen.is_empty() {
-        return 0;
+/// Which hashes occur, and which occur more than once: two bits for each of many hash values.
+#[derive(Debug, Default)]
+pub(crate) struct SeenHashes {
+    once: HashFilter,
+    twice: HashFilter,
+    /// How many hashes had a bit that was set before. No fewer vertices than this have a hash of `twice`, and no more than twice as many.
+    pub collisions: usize,
+}
+
+impl SeenHashes {
+    /// Removes all hashes, and chooses a size for `count` of them.
+    pub fn clear(&mut self, count: usize) {
+        self.once.clear(count);
+        self.twice.clear(count);
+        self.collisions = 0;
     }
-    for &hash in hashes {
-        let (word, bit) = place(hash, bits);
-        // No branch: it could not be predicted.
-        let at = word.wrapping_sub(first);
-        let (at, bit) = if at < seen.len() { (at, bit) } else { (0, 0) };
-        let found = seen[at] & bit;
-        repeated[at] |= found;
-        seen[at] |= bit;
-        collisions += usize::from(found != 0);
+
+    pub fn add(&mut self, hashes: &[u32]) {
+        let (once, twice) = (&mut self.once.words[..], &mut self.twice.words[..]);
+        let twice = &mut twice[..once.len()];
+        for &hash in hashes {
+            let (word, bit) = place(hash, self.once.bits);
+            let found = once[word] & bit;
+            twice[word] |= found;
+            once[word] |= bit;
+            self.collisions += usize::from(found != 0);
+        }
     }
-    collisions
+
+    /// Adds the hashes of another list of the same size.
+    pub fn merge(&mut self, other: &Self) {
+        let ours = self.once.words.iter_mut().zip(&mut self.twice.words);
+        let others = other.once.words.iter().zip(&other.twice.words);
+        let mut in_both = 0;
+        for ((once, twice), (other_once, other_twice)) in ours.zip(others) {
+            let both = *once & other_once;
+            in_both += both.count_ones() as usize;
+            *twice |= other_twice | both;
+            *once |= other_once;
+        }
+        self.collisions += other.collisions + in_both;
+    }
+
+    /// True if the bit of a hash was set more than once.
+    pub fn occurs_twice(&self, hash: u32) -> bool {
+        self.twice.contains(hash)
+    }
 }

@@ -115,16 +115,14 @@ impl FastPath {
     ) -> bool {
         let threads = limits.thread_count(triangle_count(mesh));
         self.workers.resize_with(threads, Worker::default);
-        threads::on_pool(threads, || {
-            let applies = self.applies(plan, mesh, limits);
-            if applies {
-                let list = TriangleList { mesh, weld: plan.weld.map(&self.records), split: &plan.split };
-                let pass = Replay { signs: &plan.signs };
-                let input = PassInput { list, windows: &plan.windows, pass, limits };
-                self.schedule.run(&input, plan.signs.len(), &mut self.workers, out);
-            }
-            applies && self.workers.iter().all(|worker| worker.findings.all_usable)
-        })
+        let applies = self.applies(plan, mesh, limits);
+        if applies {
+            let list = TriangleList { mesh, weld: plan.weld.map(&self.records), split: &plan.split };
+            let pass = Replay { signs: &plan.signs };
+            let input = PassInput { list, windows: &plan.windows, pass, limits };
+            self.schedule.run(&input, plan.signs.len(), &mut self.workers, out);
+        }
+        applies && self.workers.iter().all(|worker| worker.findings.all_usable)
     }
 
     /// True when welded vertices are still equal, and no coordinate is too large. Reads the records of vertices welded from corners.

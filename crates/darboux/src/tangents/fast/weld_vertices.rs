@@ -11,7 +11,7 @@ use crate::topology::weld::Bounds;
 use crate::exec::simd::Width;
 use crate::exec::threads::{self, split_range, split_slice};
 use crate::exec::windows::WINDOW;
-use crate::tangents::fast::hash_table::{ChainedTable, HashFilter, mark_collisions};
+use crate::tangents::fast::hash_table::{ChainedTable, SeenHashes};
 use crate::tangents::fast::triangle_list::WeldMap;
 use crate::tangents::fast::vertex_hash::{HashVertices, ValueRange};
 use crate::tangents::fast::vertex_record::{VertexSlices, record_of, same_bits};
@@ -32,8 +32,6 @@ pub(crate) struct HashWeld {
     /// The bounds of all positions, unused ones included.
     pub bounds: Bounds,
     hashes: Vec<u32>,
-    seen: HashFilter,
-    repeated: HashFilter,
     /// The vertices with a hash that occurs more than once, by their number in `table`.
     candidates: Vec<u32>,
     table: ChainedTable,
@@ -55,8 +53,10 @@ impl HashWeld {
             return self.weld_corners(mesh, width, workers);
         }
         self.count = mesh.vertex_count();
-        let collisions = self.find_collisions(mesh, width, workers)?;
-        if collisions > 0 { self.weld_collisions(mesh, collisions) } else { Some(()) }
+        match self.find_collisions(mesh, width, workers)? {
+            0 => Some(()),
+            collisions => self.weld_collisions(mesh, &workers[0].seen_hashes, collisions),
+        }
     }
 
     /// Sets the welded vertex of each vertex of an indexed mesh.
@@ -78,36 +78,32 @@ impl HashWeld {
     ///
     /// Few meshes have equal vertices: with two bits per hash, which stay in the cache, few vertices have to be compared.
     fn find_collisions(&mut self, mesh: &Mesh<'_>, width: Width, workers: &mut [Worker]) -> Option<usize> {
-        self.seen.clear(self.count);
-        self.repeated.clear(self.count);
         self.hashes.resize(self.count, 0);
         let ranges = split_range(0..self.count, workers.len(), 1);
         let jobs = ranges.clone().zip(split_slice(&mut self.hashes, 0, ranges));
+        let count = self.count;
         threads::run(workers, jobs, |worker, (range, hashes)| {
-            let Worker { value_range, slices: buffer, .. } = worker;
+            let Worker { value_range, seen_hashes, slices: buffer, .. } = worker;
             *value_range = ValueRange::default();
+            seen_hashes.clear(count);
             for (first, hashes) in range.step_by(WINDOW).zip(hashes.chunks_mut(WINDOW)) {
                 let slices = VertexSlices::of_vertices(mesh, first..first + hashes.len(), buffer);
                 width.run(HashVertices { slices, hashes, value_range });
+                seen_hashes.add(hashes);
             }
         });
-        let (hashes, bits) = (&self.hashes[..], self.seen.bits);
-        let ranges = split_range(0..self.seen.words.len(), workers.len(), 1);
-        let seen = split_slice(&mut self.seen.words, 0, ranges.clone());
-        let repeated = split_slice(&mut self.repeated.words, 0, ranges.clone());
-        threads::run(workers, ranges.zip(seen.zip(repeated)), |worker, (range, (seen, repeated))| {
-            worker.collisions = mark_collisions(hashes, bits, range.start, seen, repeated);
-        });
+        let (first, others) = workers.split_first_mut()?;
+        others.iter().for_each(|other| first.seen_hashes.merge(&other.seen_hashes));
         self.bounds = ValueRange::bounds(workers.iter().map(|worker| &worker.value_range))?;
-        Some(workers.iter().map(|worker| worker.collisions).sum())
+        Some(workers[0].seen_hashes.collisions)
     }
 
     /// Compares the vertices whose hashes occur more than once.
-    fn weld_collisions(&mut self, mesh: &Mesh<'_>, collisions: usize) -> Option<()> {
+    fn weld_collisions(&mut self, mesh: &Mesh<'_>, seen: &SeenHashes, collisions: usize) -> Option<()> {
         self.table.clear(2 * collisions);
         self.candidates.clear();
         let mut differ_in_zeros = false;
-        for (vertex, &hash) in (0..).zip(&self.hashes).filter(|(_, hash)| self.repeated.contains(**hash)) {
+        for (vertex, &hash) in (0..).zip(&self.hashes).filter(|(_, hash)| seen.occurs_twice(**hash)) {
             let record = || record_of(mesh, vertex as usize);
             let candidate = |at: u32| self.candidates[at as usize] as usize;
             let is_equal = |at: u32| record_of(mesh, candidate(at)) == record();

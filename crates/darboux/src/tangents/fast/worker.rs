@@ -6,6 +6,7 @@ use crate::topology::weld::Bounds;
 
 use crate::tangents::fast::accumulator::VertexAccumulator;
 use crate::tangents::fast::exceptions::Exceptions;
+use crate::tangents::fast::hash_table::SeenHashes;
 use crate::tangents::fast::kernel::TriangleBlock;
 use crate::tangents::fast::triangle_list::TriangleBuffer;
 use crate::tangents::fast::vertex_hash::ValueRange;
@@ -31,8 +32,8 @@ pub(crate) struct Worker {
     pub findings: Findings,
     /// The range of the values that the thread has hashed.
     pub value_range: ValueRange,
-    /// How many of the thread's hashes had been seen before.
-    pub collisions: usize,
+    /// The hashes of the thread's vertices. The first worker's are merged with those of all.
+    pub seen_hashes: SeenHashes,
     /// The bits in which corners differ from the record that they were welded to.
     pub differing_bits: u32,
 }

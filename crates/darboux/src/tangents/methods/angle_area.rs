@@ -49,13 +49,7 @@ pub(crate) fn run<O: Output>(
     buffers: &mut GroupBuffers,
     corners: &mut [O],
 ) -> Report {
-    on_pool(mesh, limits, || plan_and_report(mesh, weight, limits, buffers, corners))
-        .map_or_else(Report::default, |(_, report)| report)
-}
-
-/// Runs all stages in one visit of the thread pool.
-fn on_pool<R: Send>(mesh: &Mesh<'_>, limits: RunLimits<'_>, work: impl FnOnce() -> R + Send) -> R {
-    threads::on_pool(limits.thread_count(mesh.face_count()), work)
+    plan_and_report(mesh, weight, limits, buffers, corners).map_or_else(Report::default, |(_, report)| report)
 }
 
 /// Computes the plan, the tangents and the report of a mesh. `None` after cancellation.
@@ -66,8 +60,7 @@ pub(crate) fn plan(
 ) -> Option<(AngleAreaPlan, Vec<[f32; 4]>, Report)> {
     let mut corners = vec![Output::EMPTY; mesh.corner_count()];
     let buffers = &mut GroupBuffers::default();
-    let (plan, report) =
-        on_pool(mesh, limits, || plan_and_report(mesh, weight, limits, buffers, &mut corners))?;
+    let (plan, report) = plan_and_report(mesh, weight, limits, buffers, &mut corners)?;
     Some((plan, corners, report))
 }
 
@@ -138,14 +131,12 @@ impl AngleAreaPlan {
         corners: &mut [O],
     ) {
         let welded = WeldedMesh::moved(mesh);
-        on_pool(mesh, limits, || {
-            derivatives_into(&self.triangulation.good, &welded, limits, &mut buffers.derivatives);
-            threads::update(limits, &mut buffers.derivatives, |t, derivative| {
-                skip_unless_finite(derivative);
-                derivative.joins_any |= self.is_skipped[t];
-            });
-            self.frames(&MeshSlices::new(mesh), &welded, limits, buffers, corners);
+        derivatives_into(&self.triangulation.good, &welded, limits, &mut buffers.derivatives);
+        threads::update(limits, &mut buffers.derivatives, |t, derivative| {
+            skip_unless_finite(derivative);
+            derivative.joins_any |= self.is_skipped[t];
         });
+        self.frames(&MeshSlices::new(mesh), &welded, limits, buffers, corners);
     }
 
     /// Writes the frames of all corners from the derivatives in `buffers`. Returns the number of repaired corners. Both are unspecified after

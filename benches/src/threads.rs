@@ -1,0 +1,101 @@
+//! Times all threads of the machine against one, in turns, on meshes of all sizes: from which size on do threads pay?
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use comfy_table::Table;
+use cpu_time::ProcessTime;
+use darboux::{Context, MikkTSpaceOptions, Mode, TangentOptions, write_tangents};
+
+use crate::judging::spread;
+use crate::meshes::{SHAPES, shape};
+use crate::run::Tangent;
+use crate::table::{align_right, empty};
+
+/// The sizes of the meshes, in triangles.
+const SIZES: [usize; 12] =
+    [500, 2_000, 5_000, 8_000, 12_000, 16_000, 24_000, 32_000, 50_000, 100_000, 200_000, 1_000_000];
+
+/// A round takes at least so many triangles.
+const TRIANGLES_PER_ROUND: usize = 400_000;
+
+/// The measurements of one mesh.
+pub struct Row {
+    shape: &'static str,
+    triangles: usize,
+    /// Nanoseconds of wall time per triangle, one entry per round: on one thread, and on all.
+    wall: [Vec<f64>; 2],
+    /// As `wall`, of processor time.
+    cpu: [Vec<f64>; 2],
+}
+
+/// Measures the shapes with these names, or all of them. Errors: unknown names.
+pub fn measure(names: &[String], quick: bool) -> Result<Vec<Row>, String> {
+    if let Some(unknown) = names.iter().find(|name| !SHAPES.contains(&name.as_str())) {
+        return Err(format!("there is no shape {unknown}; there are {}", SHAPES.join(", ")));
+    }
+    let shapes =
+        SHAPES.into_iter().filter(|shape| names.is_empty() || names.iter().any(|name| name == shape));
+    let rounds = if quick { 7 } else { 31 };
+    Ok(shapes.flat_map(|shape| SIZES.map(|size| of_shape(shape, size, rounds))).collect())
+}
+
+fn of_shape(shape_name: &'static str, size: usize, rounds: usize) -> Row {
+    let mesh = shape(shape_name, size);
+    let view = mesh.view();
+    let triangles = mesh.corner_count() - 2 * mesh.face_sizes().len();
+    let triangles = if mesh.face_sizes().is_empty() { mesh.corner_count() / 3 } else { triangles };
+    let options: TangentOptions = MikkTSpaceOptions::new().with_mode(Mode::Reference).into();
+    let mut out: Vec<Tangent> = vec![[0.0; 4]; mesh.corner_count()];
+    let calls = (TRIANGLES_PER_ROUND / triangles).max(1);
+    let mut contexts = [Context::new().with_max_threads(1), Context::new()];
+    let mut row = Row { shape: shape_name, triangles, wall: Default::default(), cpu: Default::default() };
+    for round in 0..=rounds {
+        for (at, context) in contexts.iter_mut().enumerate() {
+            let (wall, cpu) = (Instant::now(), ProcessTime::now());
+            for _ in 0..calls {
+                _ = write_tangents(&view, &options, context, black_box(&mut out))
+                    .expect("one tangent per corner");
+            }
+            // The first round fills the memory of the contexts.
+            if round > 0 {
+                let per_triangle = 1e9 / (calls * triangles) as f64;
+                row.wall[at].push(wall.elapsed().as_secs_f64() * per_triangle);
+                row.cpu[at].push(cpu.elapsed().as_secs_f64() * per_triangle);
+            }
+        }
+    }
+    row
+}
+
+/// One line per mesh: minimum and median of wall times, the ratios of the rounds, and of processor times.
+pub fn table(rows: &[Row]) -> Table {
+    let header = [
+        "shape",
+        "triangles",
+        "one thread min",
+        "median",
+        "all threads min",
+        "median",
+        "times as fast min",
+        "median",
+        "max",
+        "processor time",
+    ];
+    let mut table = empty(&header);
+    for row in rows {
+        let ratios = |[one, all]: &[Vec<f64>; 2]| {
+            let ratios: Vec<f64> = one.iter().zip(all).map(|(one, all)| one / all).collect();
+            spread(&ratios)
+        };
+        let [[one_min, one, _], [all_min, all, _]] = [0, 1].map(|at| spread(&row.wall[at]));
+        let [min, median, max] = ratios(&row.wall);
+        let processor = 1.0 / ratios(&row.cpu)[1];
+        let times = [one_min, one, all_min, all].map(|time| format!("{time:.1}"));
+        let ratios = [min, median, max, processor].map(|ratio| format!("{ratio:.2}"));
+        let names = [row.shape.to_owned(), row.triangles.to_string()];
+        table.add_row(names.into_iter().chain(times).chain(ratios));
+    }
+    (1..header.len()).for_each(|column| align_right(&mut table, column));
+    table
+}
