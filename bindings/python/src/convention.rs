@@ -1,19 +1,18 @@
-//! Converts vertex data between the conventions of programs.
+//! Converts vertex data and normal maps between conventions.
 
-use darboux::{Convention, Conversion};
-use numpy::PyArray1;
+use darboux::{Channel, Convention, Conversion, TexelLayout};
 use numpy::prelude::*;
-use pyo3::exceptions::PyValueError;
+use numpy::{Element, PyArray1, PyUntypedArray};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::arrays::{Rows, rows_array};
-use crate::choices::choice;
+use crate::arrays::{Rows, array_of, packed, rows_array, shape_text};
 use crate::mesh::{FaceSizes, IndexArray, owned};
 use crate::results::named;
 
-/// The convention of that name.
-pub fn convention(what: &str, name: &str) -> PyResult<Convention> {
-    choice(what, name, &Convention::PRESETS)
+/// The convention that a text describes: a preset, and changes after commas. `what` is the argument.
+pub fn convention(what: &str, text: &str) -> PyResult<Convention> {
+    text.parse().map_err(|error| PyValueError::new_err(format!("{what}: {error}")))
 }
 
 /// Convert vertex data from one convention to another. The surface, its texture and its lighting do not change.
@@ -24,7 +23,8 @@ pub fn convention(what: &str, name: &str) -> PyResult<Convention> {
 /// Parameters
 /// ----------
 /// source, target : str
-///     One of CONVENTIONS.
+///     One of CONVENTIONS, optionally with changes: 'gltf,green=down'. The changes are axes=-x/y/z (right, up, front), fronts=ccw or cw, v0=bottom
+///     or top, red=right or left, green=up or down, w=n-cross-t or t-cross-n.
 /// positions, normals : (V, 3) array_like, optional
 ///     Vectors; offsets of morph targets are converted in the same way.
 /// uvs : (V, 2) array_like, optional
@@ -76,6 +76,67 @@ pub fn convert<'py>(
         change.inverts_green(),
     );
     named(py, "Converted", fields)
+}
+
+/// Convert the texels of a normal map from one convention to another: red and green are inverted where the conventions differ.
+///
+/// The conversion is exact, so that converting back restores the texels. The image is not flipped.
+///
+/// Parameters
+/// ----------
+/// texels : (H, W, 2), (H, W, 3) or (H, W, 4) array_like of uint8 or uint16
+///     x and y in the first channels. The other channels do not change.
+/// source, target : str
+///     As in convert.
+///
+/// Returns
+/// -------
+/// ndarray
+///     A new array of the same shape and type.
+///
+/// Raises
+/// ------
+/// TypeError, ValueError
+///     Another type or shape, an unknown convention.
+#[pyfunction]
+pub fn convert_texels<'py>(
+    texels: &Bound<'py, PyAny>,
+    source: &str,
+    target: &str,
+) -> PyResult<Bound<'py, PyAny>> {
+    let change = convention("source", source)?.to(convention("target", target)?);
+    let array = array_of("texels", texels)?;
+    if !matches!(array.shape(), [_, _, 2..=4]) {
+        let shape = shape_text(array.shape());
+        return Err(PyValueError::new_err(format!("texels must have shape (H, W, 2 to 4), not {shape}")));
+    }
+    match (array.dtype().kind(), array.dtype().itemsize()) {
+        (b'u', 1) => converted_texels::<u8>(&array, &change),
+        (b'u', 2) => converted_texels::<u16>(&array, &change),
+        _ => {
+            let kind = array.dtype();
+            Err(PyTypeError::new_err(format!("texels must hold uint8 or uint16, not {kind}")))
+        }
+    }
+}
+
+fn converted_texels<'py, C: Channel + Element + Send + Sync>(
+    texels: &Bound<'py, PyUntypedArray>,
+    change: &Conversion,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (py, shape) = (texels.py(), texels.shape().to_vec());
+    let channels = packed::<C>(texels)?;
+    let channels = channels.as_slice()?;
+    let converted = py.detach(|| {
+        let mut channels = channels.to_vec();
+        match shape[2] {
+            2 => change.texels(TexelLayout::RG, channels.as_chunks_mut().0),
+            3 => change.texels(TexelLayout::RGB, channels.as_chunks_mut().0),
+            _ => change.texels(TexelLayout::RGBA, channels.as_chunks_mut().0),
+        }
+        channels
+    });
+    Ok(PyArray1::from_vec(py, converted).reshape(shape)?.into_any())
 }
 
 fn mapped<'py, const N: usize>(

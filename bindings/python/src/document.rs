@@ -333,7 +333,7 @@ impl Document {
     /// Parameters
     /// ----------
     /// source, target : str
-    ///     One of CONVENTIONS.
+    ///     As in convert.
     /// progress : callable, optional
     ///     Called with the number of processed primitives and their total.
     ///

@@ -21,6 +21,7 @@ mod results;
 mod split;
 mod tangents;
 mod threads;
+mod transform;
 
 #[pyo3::pymodule]
 mod _darboux {
@@ -33,7 +34,7 @@ mod _darboux {
     #[pymodule_export]
     use crate::command::run;
     #[pymodule_export]
-    use crate::convention::convert;
+    use crate::convention::{convert, convert_texels};
     #[pymodule_export]
     use crate::distributed::{DistributedBatch, failed_task, run_task};
     #[pymodule_export]
@@ -55,6 +56,8 @@ mod _darboux {
     use crate::split::{split_normals, split_vertices};
     #[pymodule_export]
     use crate::tangents::generate_tangents;
+    #[pymodule_export]
+    use crate::transform::{skin_frames, transform_frames};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

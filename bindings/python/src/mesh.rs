@@ -121,7 +121,7 @@ fn copied<T: Element + Copy + Send + Sync>(array: &Bound<'_, PyUntypedArray>) ->
 }
 
 /// The elements of an array of integers as 32-bit ones.
-fn unsigned(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Vec<u32>> {
+pub fn unsigned(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Vec<u32>> {
     let dtype = array.dtype();
     match (dtype.kind(), dtype.itemsize()) {
         (b'u', 8) => narrowed::<u64>(name, array, |number| number),

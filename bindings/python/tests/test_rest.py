@@ -52,6 +52,67 @@ def test_measures(sheet: Mesh) -> None:
         darboux.measure_uv_fidelity(FLAT, FLAT[:, :2], QUAD, np.zeros((5, 4)))
 
 
+def test_conventions_may_have_changes() -> None:
+    texels = np.arange(24, dtype=np.uint8).reshape(2, 3, 4)
+    inverted = darboux.convert_texels(texels, "gltf", "gltf,green=down")
+    assert np.array_equal(inverted[..., 1], 255 - texels[..., 1])
+    assert np.array_equal(inverted[..., [0, 2, 3]], texels[..., [0, 2, 3]])
+    wide = texels[..., :2].astype(np.uint16)
+    both = darboux.convert_texels(wide, "gltf", "directx,red=left")
+    assert both.dtype == np.uint16 and np.array_equal(both, 65535 - wide)
+    turned = darboux.convert("gltf", "gltf,axes=-x/z/-y", positions=[[1, 2, 3]])
+    assert turned.positions is not None and turned.positions.tolist() == [[1, -3, 2]]
+    assert darboux.convert("gltf", "gltf,axes=-x/y/z").inverts_green is False
+    with pytest.raises(ValueError, match='source: "metal" is not a convention; begin with one of gltf, '):
+        darboux.convert("metal", "gltf")
+    with pytest.raises(ValueError, match='target: green cannot be "left"; write up or down'):
+        darboux.convert("gltf", "gltf,green=left")
+    with pytest.raises(ValueError, match=r"texels must have shape \(H, W, 2 to 4\), not \(4, 4\)"):
+        darboux.convert_texels(np.zeros((4, 4), np.uint8), "gltf", "directx")
+    with pytest.raises(TypeError, match="texels must hold uint8 or uint16, not float64"):
+        darboux.convert_texels(np.zeros((4, 4, 3)), "gltf", "directx")
+
+
+def test_frames_under_matrices() -> None:
+    half = np.sqrt(0.5)
+    stretch = np.diag([2, 1, 1, 1])
+    moved = darboux.transform_frames(stretch, [[half, half, 0]], [[half, -half, 0, 1]])
+    assert np.allclose(moved.normals, np.array([[1, 2, 0]]) / np.sqrt(5), atol=1e-7)
+    assert np.allclose(moved.tangents, [[2 / np.sqrt(5), -1 / np.sqrt(5), 0, 1]], atol=1e-7)
+    assert moved.orientation == 1
+    mirror = darboux.transform_frames(np.diag([-1, 1, 1]), [[0, 0, 1]], [[1, 0, 0, 1]])
+    assert mirror.tangents.tolist() == [[-1, 0, 0, -1]] and mirror.orientation == -1
+    turn = [[0, -1, 0, 7], [1, 0, 0, 8], [0, 0, 1, 9]]
+    assert darboux.transform_frames(turn, [[0, 0, 1]], [[1, 0, 0, 1]]).tangents.tolist() == [[0, 1, 0, 1]]
+    with pytest.raises(ValueError, match=r"matrix must have shape \(3, 3\), \(3, 4\) or \(4, 4\), not \(4, 3\)"):
+        darboux.transform_frames(np.zeros((4, 3)), [[0, 0, 1]], [[1, 0, 0, 1]])
+    with pytest.raises(ValueError, match="tangents has 2 elements but there are 1 normals"):
+        darboux.transform_frames(stretch, [[0, 0, 1]], [[1, 0, 0, 1]] * 2)
+    with pytest.raises(TypeError, match="matrix must hold real numbers, not complex128"):
+        darboux.transform_frames(stretch * 1j, [[0, 0, 1]], [[1, 0, 0, 1]])
+
+
+def test_frames_under_skins() -> None:
+    turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    bones = np.stack([np.eye(3), turn])
+    normals, tangents = [[0, 0, 1]] * 3, [[1, 0, 0, -1]] * 3
+    joints, weights = [[0, 1], [1, 0], [0, 1]], [[1, 0], [1, 0], [0.5, 0.5]]
+    skinned = darboux.skin_frames(bones, joints, weights, normals, tangents)
+    assert skinned[0].tolist() == normals
+    half = np.sqrt(0.5)
+    assert np.allclose(skinned[1], [[1, 0, 0, -1], [0, 1, 0, -1], [half, half, 0, -1]], atol=1e-7)
+    for vertex in range(3):
+        matrix = np.tensordot(weights[vertex], bones[joints[vertex]], 1)
+        one = darboux.transform_frames(matrix, normals[:1], tangents[:1])
+        assert np.array_equal(bits(one.tangents[0]), bits(skinned[1][vertex]))
+    with pytest.raises(ValueError, match="joint 2 of vertex 1 is out of range: there are 2 bones"):
+        darboux.skin_frames(bones, [[0, 1], [1, 2], [0, 1]], weights, normals, tangents)
+    with pytest.raises(ValueError, match=r"weights has shape \(3, 1\) beside 3 normals and joints of shape \(3, 2\)"):
+        darboux.skin_frames(bones, joints, [[1]] * 3, normals, tangents)
+    with pytest.raises(ValueError, match=r"bones must have shape \(B, 3, 3\), .*, not \(3, 3\)"):
+        darboux.skin_frames(turn, joints, weights, normals, tangents)
+
+
 def test_conventions_come_back(sheet: Mesh) -> None:
     tangents = darboux.generate_tangents(*sheet.arrays)
     split = darboux.split_vertices(sheet.indices, tangents, len(sheet.positions))
@@ -80,7 +141,7 @@ def test_generated_tangents_become_those_of_programs() -> None:
 
 
 def test_bad_conversions() -> None:
-    with pytest.raises(ValueError, match="source is 'maya2'; it must be one of 'gltf', 'opengl', "):
+    with pytest.raises(ValueError, match='source: "maya2" is not a convention; begin with one of gltf, opengl, '):
         darboux.convert("maya2", "gltf")
     with pytest.raises(ValueError, match="4 corners do not make whole faces"):
         darboux.convert("gltf", "unity", indices=[0, 1, 2, 3])

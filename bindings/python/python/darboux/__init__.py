@@ -26,6 +26,7 @@ from ._darboux import (
     __version__,
     check,
     convert,
+    convert_texels,
     dumps,
     generate_normals,
     generate_tangents,
@@ -36,8 +37,10 @@ from ._darboux import (
     measure_uv_fidelity,
     recognise_recipe,
     save,
+    skin_frames,
     split_normals,
     split_vertices,
+    transform_frames,
 )
 from ._process import process
 from ._results import (
@@ -51,6 +54,7 @@ from ._results import (
     RecipeMatch,
     Report,
     TangentDifference,
+    TransformedFrames,
     UvFidelity,
     VertexSplit,
 )
@@ -69,12 +73,14 @@ __all__ = [
     "RecipeMatch",
     "Report",
     "TangentDifference",
+    "TransformedFrames",
     "UvFidelity",
     "VertexSplit",
     "__version__",
     "batch",
     "check",
     "convert",
+    "convert_texels",
     "dumps",
     "encode",
     "generate_normals",
@@ -87,6 +93,8 @@ __all__ = [
     "process",
     "recognise_recipe",
     "save",
+    "skin_frames",
     "split_normals",
     "split_vertices",
+    "transform_frames",
 ]

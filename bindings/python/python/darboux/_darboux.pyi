@@ -15,6 +15,7 @@ from ._results import (
     RecipeMatch,
     Report,
     TangentDifference,
+    TransformedFrames,
     UvFidelity,
     VertexSplit,
 )
@@ -38,6 +39,7 @@ __all__ = [
     "__version__",
     "check",
     "convert",
+    "convert_texels",
     "dumps",
     "failed_task",
     "frame_from_quaternion",
@@ -55,6 +57,7 @@ __all__ = [
     "run",
     "run_task",
     "save",
+    "skin_frames",
     "split_normals",
     "split_vertices",
     "tangent_from_diamond",
@@ -67,6 +70,7 @@ __all__ = [
     "tangent_to_snorm10",
     "tangent_to_snorm16",
     "tangent_to_snorm8",
+    "transform_frames",
 ]
 __version__: str
 CONVENTIONS: Tuple[str, ...]
@@ -182,6 +186,15 @@ def convert(
     faces: Optional[npt.ArrayLike] = None,
     generated: bool = False,
 ) -> Converted: ...
+def convert_texels(texels: npt.ArrayLike, source: str, target: str) -> npt.NDArray[Any]: ...
+def transform_frames(matrix: npt.ArrayLike, normals: npt.ArrayLike, tangents: npt.ArrayLike) -> TransformedFrames: ...
+def skin_frames(
+    bones: npt.ArrayLike,
+    joints: npt.ArrayLike,
+    weights: npt.ArrayLike,
+    normals: npt.ArrayLike,
+    tangents: npt.ArrayLike,
+) -> Tuple[_Floats, _Floats]: ...
 @final
 class Plan:
     def __new__(

@@ -229,3 +229,14 @@ class Converted(NamedTuple):
     """Whether red of normal maps leans the other way and must be inverted."""
     inverts_green: bool
     """Whether green does."""
+
+
+class TransformedFrames(NamedTuple):
+    """Normals and tangents under a matrix."""
+
+    normals: Floats
+    """(V, 3): unit length."""
+    tangents: Floats
+    """(V, 4): unit xyz, perpendicular to the normals, and the sign w."""
+    orientation: float
+    """-1 where the matrix mirrors, which also reverses the winding of faces; else 1."""
