@@ -1,7 +1,7 @@
 // Darboux for C++17: a wrapper of darboux.h with array views that carry their size, objects that free themselves, and exceptions.
 //
 // MIT or Apache-2.0, as you choose. Functions have the names of darboux.h, where they are documented; comments here give the differences.
-// Encodings and skins have no wrapper: call the functions of darboux.h.
+// Encodings have no wrapper: call the functions of darboux.h.
 // Output arrays come before options and contexts, because these have defaults.
 // Every function can throw darboux::error; functions that return a vector can throw std::bad_alloc.
 
@@ -11,7 +11,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <type_traits>
@@ -117,18 +119,34 @@ auto field(Container &&structs, Member Struct::*member) {
   return strided<Float, sizeof(Member) / sizeof(float)>(data, std::size(structs), sizeof(Element));
 }
 
+namespace detail {
+/// The number that a row consists of: of T[K], and of a class that names it as value_type or Scalar. Other types are their own row.
+template <class Row, class = void>
+struct scalar {
+  using type = std::remove_cv_t<std::remove_all_extents_t<Row>>;
+};
+template <class Row>
+struct scalar<Row, std::void_t<typename Row::value_type>> {
+  using type = std::remove_cv_t<typename Row::value_type>;
+};
+template <class Container>
+using row_of = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std::declval<Container &>()))>>;
+}  // namespace detail
+
 /// A view of 16-bit or 32-bit indices: the vertex of each corner. Default-constructed: an unindexed mesh, whose corner i is vertex i.
 class index_list {
  public:
   index_list() = default;
 
-  template <class Container,
-            class Index = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std::declval<Container &>()))>>,
-            class = std::enable_if_t<std::is_same_v<Index, std::uint32_t> || std::is_same_v<Index, std::uint16_t>>>
-  index_list(Container &&list) : size_(std::size(list)) {
+  /// A contiguous container of indices, or of triples of them: Index[3], std::array<Index, 3>, or an engine's vector type with a value_type.
+  template <class Container, class Row = detail::row_of<Container>, class Index = typename detail::scalar<Row>::type,
+            class = std::enable_if_t<(std::is_same_v<Index, std::uint32_t> || std::is_same_v<Index, std::uint16_t>) &&
+                                     (sizeof(Row) == sizeof(Index) || sizeof(Row) == 3 * sizeof(Index)) &&
+                                     std::is_trivially_copyable_v<Row>>>
+  index_list(Container &&list) : size_(std::size(list) * (sizeof(Row) / sizeof(Index))) {
     // An empty index list differs from no index list, so its pointer must not be null.
     static const Index none = 0;
-    const Index *data = size_ == 0 ? &none : std::data(list);
+    const Index *data = size_ == 0 ? &none : reinterpret_cast<const Index *>(std::data(list));
     if constexpr (sizeof(Index) == sizeof *u32_) {
       u32_ = data;
     } else {
@@ -300,6 +318,38 @@ inline vertex_split split_vertices(const mesh &mesh, floats<4> tangents, const c
   return vertex_split(made);
 }
 
+/// Computes the tangents of indexed triangles and writes them into the caller's vertices. Vertices that need several tangents are copied: copies are
+/// appended to `vertices`, and `indices` changes. The sign w is MikkTSpace's; conversion::tangents changes it for a program.
+///
+/// `vertices`: a std::vector of structs, or a container like it. Their members: position, normal, uv and tangent, of 3, 3, 2 and 4 floats.
+/// `indices`: as for index_list, 32 or 16 bits. Errors: those of generate_tangents; DARBOUX_STATUS_TOO_LARGE where 16 bits are too few for the new
+/// vertices. After an error nothing has changed.
+template <class Vertices, class Struct, class Position, class Normal, class Uv, class Indices, class Tangent>
+darboux_report add_tangents(Vertices &vertices, Position Struct::*position_member, Normal Struct::*normal_member, Uv Struct::*uv_member, Indices &indices,
+                            Tangent Struct::*tangent_member, const darboux_tangent_options &options = {}, const context *context = nullptr) {
+  using Index = typename detail::scalar<detail::row_of<Indices>>::type;
+  const Vertices &read = vertices;
+  const mesh mesh = {field(read, position_member), field(read, normal_member), field(read, uv_member), index_list(indices)};
+  const tangents made = generate_tangents(mesh, options, context);
+  const vertex_split split = split_vertices(mesh, made.corners, context);
+  const std::size_t old_count = vertices.size(), new_count = split.vertex_count();
+  if (new_count - (new_count > 0) > std::numeric_limits<Index>::max()) {
+    throw error(DARBOUX_STATUS_TOO_LARGE, "the split vertices are too many for the type of the indices; use 32 bits");
+  }
+  vertices.reserve(new_count);
+  for (std::size_t vertex = old_count; vertex < new_count; vertex++) {
+    Struct copy = vertices[split.source_of_vertex()[vertex]];
+    vertices.push_back(std::move(copy));
+  }
+  const strided<float, 4> out = field(vertices, tangent_member);
+  for (std::size_t vertex = 0; vertex < new_count; vertex++) {
+    std::memcpy(reinterpret_cast<char *>(out.data()) + vertex * out.stride(), split.tangent_of_vertex()[vertex].data(), sizeof(darboux::tangent));
+  }
+  Index *new_indices = reinterpret_cast<Index *>(std::data(indices));
+  for (const std::uint32_t index : split.indices()) *new_indices++ = Index(index);
+  return made.report;
+}
+
 /// The vertices of an indexed mesh after splitting by normals. The old vertices come first and keep their numbers.
 class normal_split {
  public:
@@ -457,6 +507,68 @@ inline float transform_frames(const std::array<float, 16> &matrix, strided<float
   float orientation = 1;
   check(darboux_transform_frames(matrix.data(), 16, &arrays, &orientation));
   return orientation;
+}
+
+/// A strided view of rows of as many numbers each: the joints or the weights of vertices.
+template <class Number>
+class rows {
+ public:
+  /// `size` rows of `width` numbers, the first at `data`, `stride` bytes apart.
+  rows(const Number *data, std::size_t size, std::size_t width, std::size_t stride)
+      : data_(data), size_(size), width_(width), stride_(stride) {}
+
+  /// A contiguous container of rows: Number[K], std::array<Number, K>, or an engine's vector type with a value_type.
+  template <class Container, class Row = detail::row_of<Container>,
+            class = std::enable_if_t<std::is_same_v<typename detail::scalar<Row>::type, Number> && std::is_trivially_copyable_v<Row>>>
+  rows(Container &&list)
+      : rows(reinterpret_cast<const Number *>(std::data(list)), std::size(list), sizeof(Row) / sizeof(Number), sizeof(Row)) {}
+
+  /// One member of an array of structs.
+  template <class Container, class Struct, class Member,
+            class = std::enable_if_t<std::is_same_v<typename detail::scalar<Member>::type, Number> && std::is_trivially_copyable_v<Member>>>
+  rows(Container &&structs, Member Struct::*member)
+      : rows(std::size(structs) == 0 ? nullptr : reinterpret_cast<const Number *>(&(std::data(structs)->*member)), std::size(structs),
+             sizeof(Member) / sizeof(Number), sizeof(Struct)) {}
+
+  const Number *data() const { return data_; }
+  std::size_t size() const { return size_; }
+  /// The numbers of each row.
+  std::size_t width() const { return width_; }
+  /// Bytes from one row to the next.
+  std::size_t stride() const { return stride_; }
+
+ private:
+  const Number *data_;
+  std::size_t size_;
+  std::size_t width_;
+  std::size_t stride_;
+};
+
+/// Transforms normals and tangents by a skin, in place. `bones`: the matrix of each bone, 4 by 4, column-major, from the pose of the arrays to the
+/// current pose. `joints`, `weights`: those of each vertex, as many joints as weights.
+inline void skin_frames(floats<16> bones, const rows<std::uint16_t> &joints, const rows<float> &weights, strided<float, 3> normals,
+                        strided<float, 4> tangents) {
+  const std::size_t count = normals.size();
+  if (tangents.size() != count || joints.size() != count || weights.size() != count) {
+    throw error(DARBOUX_STATUS_LENGTH, "tangents, joints and weights must be as many as normals");
+  }
+  if (joints.width() != weights.width()) throw error(DARBOUX_STATUS_LENGTH, "a vertex must have as many weights as joints");
+  auto skin = detail::sized<darboux_skin>();
+  skin.bones = bones.data();
+  skin.bone_count = bones.size();
+  skin.bone_stride = bones.stride();
+  skin.influence_count = joints.width();
+  skin.joints = joints.data();
+  skin.joint_stride = joints.stride();
+  skin.weights = weights.data();
+  skin.weight_stride = weights.stride();
+  auto arrays = detail::sized<darboux_frame_arrays>();
+  arrays.count = count;
+  arrays.normals = arrays.out_normals = normals.data();
+  arrays.normal_stride = arrays.out_normal_stride = normals.stride();
+  arrays.tangents = arrays.out_tangents = tangents.data();
+  arrays.tangent_stride = arrays.out_tangent_stride = tangents.stride();
+  check(darboux_skin_frames(&skin, &arrays));
 }
 
 }  // namespace darboux

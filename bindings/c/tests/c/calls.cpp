@@ -124,6 +124,70 @@ static void normals() {
   expect(darboux::split_normals(mesh, made.corners).vertex_count() == 6, "split by normals");
 }
 
+/// The tangents, splits and indices of the functions called one by one.
+static void added_tangents() {
+  auto vertices = make_vertices();
+  const auto mesh = make_mesh(vertices);
+  const auto split = darboux::split_vertices(mesh, darboux::generate_tangents(mesh).corners);
+  std::vector<std::array<std::uint32_t, 3>> triples(4);
+  std::copy(std::begin(INDICES), std::end(INDICES), triples.front().data());
+  std::vector<std::uint16_t> flat(std::begin(INDICES), std::end(INDICES));
+  auto others = vertices;
+  const auto add = [](auto &given, auto &indices) {
+    return darboux::add_tangents(given, &Vertex::position, &Vertex::normal, &Vertex::uv, indices, &Vertex::tangent);
+  };
+  expect(add(vertices, triples).split_vertices == 2 && add(others, flat).triangles == 4, "report of added tangents");
+  expect(vertices.size() == 8 && others.size() == 8, "added vertices");
+  for (std::size_t v = 0; v < 8; v++) {
+    const auto &source = vertices[split.source_of_vertex()[v]];
+    expect(std::memcmp(vertices[v].tangent, split.tangent_of_vertex()[v].data(), 16) == 0, "tangents in vertices");
+    expect(std::memcmp(&vertices[v].position, &source.position, 12) == 0 && std::memcmp(others[v].tangent, vertices[v].tangent, 16) == 0, "copies");
+  }
+  for (std::size_t corner = 0; corner < 12; corner++) {
+    expect(triples[corner / 3][corner % 3] == split.indices()[corner] && flat[corner] == split.indices()[corner], "new indices");
+  }
+  std::vector<std::uint16_t> beyond = {0, 1, 9};
+  expect_error(DARBOUX_STATUS_INDEX, "index 9 at place 2", [&] { add(vertices, beyond); });
+  expect(vertices.size() == 8 && beyond[2] == 9, "nothing changed");
+  // Every second triangle mirrors its UVs at vertex 0, and 65,536 vertices leave no room for a copy of it.
+  vertices.resize(65536, vertices[0]);
+  flat.assign(std::begin(INDICES), std::end(INDICES));
+  for (auto &vertex : vertices) vertex.normal = {0, 0, 1};
+  expect_error(DARBOUX_STATUS_TOO_LARGE, "use 32 bits", [&] { add(vertices, flat); });
+  expect(vertices.size() == 65536 && std::equal(flat.begin(), flat.end(), std::begin(INDICES)), "nothing changed by too many");
+}
+
+static void skins() {
+  struct Skinned {
+    darboux::normal normal;
+    std::uint16_t joints[2];
+    std::array<float, 2> weights;
+    float tangent[4];
+  };
+  const std::vector<std::array<float, 16>> bones = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+  std::vector<Skinned> vertices(3, {{0, 0, 1}, {0, 1}, {1, 0}, {1, 0, 0, -1}});
+  vertices[1].weights = {0, 1};
+  vertices[2].weights = {0.5f, 0.5f};
+  const auto skin = [&] {
+    darboux::skin_frames(bones, {vertices, &Skinned::joints}, {vertices, &Skinned::weights}, darboux::field(vertices, &Skinned::normal),
+                         darboux::field(vertices, &Skinned::tangent));
+  };
+  skin();
+  expect(vertices[0].tangent[0] == 1 && vertices[1].tangent[1] == 1 && vertices[1].tangent[3] == -1, "skinned tangents");
+  expect(std::fabs(vertices[2].tangent[0] - vertices[2].tangent[1]) < 1e-6f && vertices[2].normal[2] == 1, "blended");
+  std::vector<darboux::normal> normals = {{0, 0, 1}};
+  std::vector<darboux::tangent> tangents = {{1, 0, 0, 1}};
+  const std::vector<std::array<std::uint16_t, 2>> joints = {{1, 0}};
+  const std::vector<std::array<float, 2>> weights = {{1, 0}};
+  darboux::skin_frames(bones, joints, weights, normals, tangents);
+  expect((tangents[0] == darboux::tangent{0, 1, 0, 1}), "packed rows");
+  vertices[1].joints[1] = 2;
+  expect_error(DARBOUX_STATUS_INDEX, "joint 2", skin);
+  expect_error(DARBOUX_STATUS_LENGTH, "as many as normals", [&] { darboux::skin_frames(bones, joints, weights, normals, {}); });
+  const std::vector<std::array<float, 1>> one = {{1}};
+  expect_error(DARBOUX_STATUS_LENGTH, "as many weights as joints", [&] { darboux::skin_frames(bones, joints, one, normals, tangents); });
+}
+
 static void plans() {
   auto vertices = make_vertices();
   const auto mesh = make_mesh(vertices);
@@ -221,6 +285,9 @@ static void threads() {
 
 static_assert(std::is_constructible_v<darboux::floats<1>, std::vector<float> &>, "floats");
 static_assert(!std::is_constructible_v<darboux::floats<1>, std::vector<std::int32_t> &>, "integers are not floats");
+static_assert(std::is_constructible_v<darboux::index_list, std::uint32_t (&)[2][3]>, "triples");
+static_assert(!std::is_constructible_v<darboux::index_list, std::vector<std::array<std::uint32_t, 4>> &>, "quads are not triples");
+static_assert(!std::is_constructible_v<darboux::index_list, std::vector<std::array<float, 3>> &>, "floats are not indices");
 static_assert(!darboux::may_be_floats<std::uint32_t[3]> && darboux::may_be_floats<const float[3]>, "members");
 static_assert(std::is_nothrow_move_constructible_v<darboux::plan> && !std::is_copy_constructible_v<darboux::plan>, "RAII");
 
@@ -229,6 +296,8 @@ int main() {
     tangents();
     faces();
     normals();
+    added_tangents();
+    skins();
     plans();
     encodings();
     conventions();
