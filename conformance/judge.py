@@ -166,6 +166,8 @@ class Measures:
         self.corners = self.equal = self.angled = 0
         self.largest_angle = self.angle_sum = self.seconds = 0.0
         self.wrong_signs = self.wrong_angles = self.non_finite = self.zero = self.missing_splits = 0
+        # Zero or not finite, also where the reference is so.
+        self.unusable = 0
 
     def add(self, other):
         for key, value in vars(other).items():
@@ -182,6 +184,7 @@ class Measures:
         """Counts one corner. `others`: what modes that repair the reference's defects give there."""
         self.corners += 1
         self.equal += bits(found) == bits(expected)
+        self.unusable += not (any(found[:3]) and all(map(math.isfinite, found)))
         if any(bits(found) == bits(other) for other in (expected, *others)):
             self.zero += not any(found[:3])
             return
@@ -200,7 +203,7 @@ class Measures:
         self.wrong_angles += not angle <= DEGREES
 
     def passes(self, level, usable):
-        if usable and (self.zero or self.non_finite):
+        if usable and self.unusable:
             return False
         if level == "bits":
             return self.equal == self.corners
@@ -299,11 +302,11 @@ def by_class(verdicts):
 
 
 def print_failures(failed):
-    """A sentence per failing case. A case named like another failing one with a suffix varies it, and its sentence holds only where that one passes."""
+    """One possible cause per failing case. A case named like another failing one with a suffix varies it, and its sentence holds only where that one passes."""
     bases = [v for v in failed if not any(v["name"].startswith(other["name"] + "-") for other in failed)]
     for base in bases:
         variants = [v["name"] for v in failed if v["name"].startswith(base["name"] + "-")]
-        print(f"{base['name']} ({base['class']}): {base['failure']}\n  {summary(base['measures'])}")
+        print(f"{base['name']} ({base['class']}). One possible cause: {base['failure']}\n  {summary(base['measures'])}")
         if variants:
             print(f"  variants of it fail too, which says more only once it passes: {', '.join(variants)}")
         print()
@@ -346,7 +349,7 @@ def write_junit(path, verdicts, level):
             if verdict["skipped"] is not None:
                 body = f"<skipped message={quoteattr(printable(verdict['skipped']))}/>"
             elif not verdict["passed"]:
-                body = f"<failure message={quoteattr(verdict['failure'])}>{escape(summary(verdict['measures']))}</failure>"
+                body = f"<failure message={quoteattr("One possible cause: " + verdict['failure'])}>{escape(summary(verdict['measures']))}</failure>"
             seconds = verdict["measures"].seconds if verdict["skipped"] is None else 0.0
             cases.append(f'    <testcase classname={quoteattr(name)} name={quoteattr(verdict["name"])} time="{seconds:.6f}">{body}</testcase>')
         failures = sum(verdict.get("passed") is False for verdict in own)
