@@ -92,7 +92,7 @@ fn findings(pictures: &Path) -> String {
         .iter()
         .map(|code| format!("| [`{code}`](#{code}) | {} | {} |\n", code.severity(), code.meaning()));
     let sections = Code::ALL.iter().map(|code| finding(*code, pictures));
-    include_str!("check.md").to_owned() + &table.chain(sections).collect::<String>()
+    include_str!("check_page.txt").to_owned() + &table.chain(sections).collect::<String>()
 }
 
 /// The section of a finding, with its picture if there is one.
