@@ -1,9 +1,9 @@
-// `darboux/check`: what is wrong with models and normal maps, and how tangents were computed. It has a WebAssembly module of its own.
+// `darboux/check`: what is wrong with models and normal maps, their repair and conversion, and how tangents were computed. It has a WebAssembly module of its own.
 
 import { checkType, optionsOf, rowCount } from './core/checks.js';
-import { checkedMesh, indexError, writeArrays, writeMesh } from './core/mesh.js';
+import { checkedMesh, indexError, writeArrays, writeMesh, writeTexts } from './core/mesh.js';
 import { load, type Exports } from './core/wasm-module.js';
-import type { Faces, Indices, Method, Mode } from './types.js';
+import type { Convention, Faces, Indices, Method, Mode } from './types.js';
 import simd from './wasm/check.simd.wasm';
 
 /** The functions of the module; bindings/js/src/check.rs documents them. */
@@ -14,6 +14,8 @@ interface CheckExports extends Exports {
   judge_normal_map(isWide: number, channels: number, width: number, height: number): number;
   recognise_recipe(): number;
   json_length(): number;
+  conversion_text(bytes: number): number;
+  convert_file(): number;
   repaired_file(): number;
   repaired_length(): number;
 }
@@ -144,10 +146,51 @@ export function fix(
 ): { file: Uint8Array<ArrayBuffer> | null; findings: Finding[] } {
   return checkModule.call((exports) => {
     const found = findings(exports, file, false, options, true);
-    const length = exports.repaired_length() >>> 0;
-    const repaired = new Uint8Array(exports.memory.buffer, exports.repaired_file() >>> 0, length).slice();
-    return { file: length ? repaired : null, findings: found };
+    const repaired = newFile(exports);
+    return { file: repaired.length ? repaired : null, findings: found };
   });
+}
+
+/** Options of {@link convertFile}, for normal maps. */
+export interface FileConversionOptions {
+  /** The channels of x, y and, if stored, z: 'rgb', 'rg', 'ag', ... Default: 'rgb'. */
+  layout?: string | null;
+  /** The channels in the new map. Default: those of `layout`. A z that is not stored is computed from x and y. */
+  toLayout?: string | null;
+}
+
+/**
+ * Converts a model or a normal map from one convention to another, as `darboux convert` does.
+ *
+ * Models: positions, normals, tangents, UVs, morph targets and winding; nodes, skins and animations if the axes differ. A correct glTF file is in
+ * glTF's convention, so this repairs files whose writer copied the numbers of another one. Any other target than 'gltf' is for programs that use the
+ * numbers as they are; a warning says so. Maps: red and green are inverted where the conventions differ, which is exact.
+ *
+ * @param file The bytes of a PNG image of 8 or 16 bits, or of a model as for {@link check}.
+ * @returns The new PNG or GLB, and warnings about what was not converted, such as cameras.
+ * @throws TypeError for another type. Error for a file that cannot be read, an unknown convention, or channels that the image does not have.
+ */
+export function convertFile(
+  file: Uint8Array,
+  source: Convention,
+  target: Convention,
+  options?: FileConversionOptions | null,
+): { file: Uint8Array<ArrayBuffer>; warnings: string[] } {
+  checkType('file', file, ['Uint8Array']);
+  const { layout, toLayout } = optionsOf(options);
+  const from = layout ?? 'rgb';
+  return checkModule.call((exports) => {
+    writeBytes(exports, file);
+    writeTexts(exports, [[source, target, from, toLayout ?? from].join('\n')], exports.conversion_text);
+    const converted = readJson<{ warnings?: string[]; error?: string }>(exports, exports.convert_file());
+    if (converted.error !== undefined) throw new Error(converted.error);
+    return { file: newFile(exports), warnings: converted.warnings! };
+  });
+}
+
+/** A copy of the file that a call made; empty where it made none. */
+function newFile(exports: CheckExports): Uint8Array<ArrayBuffer> {
+  return new Uint8Array(exports.memory.buffer, exports.repaired_file() >>> 0, exports.repaired_length() >>> 0).slice();
 }
 
 function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, options: CheckOptions | null | undefined, repairs: boolean): Finding[] {

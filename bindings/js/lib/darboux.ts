@@ -6,8 +6,10 @@ import { checkedMesh, indexError, readFloats, writeArrays, writeMesh, type Copy 
 import type * as types from './types.js';
 
 export * as gpuResume from './core/gpu-resume.js';
+export { CONVENTIONS, convert, convertTexels } from './core/convert.js';
 export { Plan } from './core/plan.js';
 export { planTopology } from './core/gpu-plan.js';
+export { skinFrames, transformFrames } from './core/transform.js';
 export type * from './types.js';
 
 // The position of a name in its list is the code that WebAssembly takes.

@@ -94,6 +94,67 @@ export interface VertexSplit {
   sourceOfVertex: Uint32Array<ArrayBuffer>;
 }
 
+/** The name of a program's convention, optionally with changes after commas: 'gltf,green=down'. docs/conventions.md lists them. */
+export type Convention = ConventionName | `${ConventionName},${string}`;
+
+/** A convention with a name. */
+export type ConventionName =
+  | 'gltf'
+  | 'opengl'
+  | 'directx'
+  | 'blender'
+  | 'unity'
+  | 'unreal'
+  | 'godot'
+  | 'threejs'
+  | 'maya'
+  | '3dsmax';
+
+/** Vertex data to convert. Everything may be left out. */
+export interface VertexData {
+  /** 3 each: positions, or offsets of morph targets. */
+  positions?: Float32Array | null;
+  /** 3 each. */
+  normals?: Float32Array | null;
+  /** 2 each. */
+  uvs?: Float32Array | null;
+  /** 4 each: xyz and the sign w. */
+  tangents?: Float32Array | null;
+  /** The vertex of each corner, or any other number of each corner. All corners of a face but the first are reversed if front faces differ. */
+  indices?: Indices | null;
+  /** Default: 3. */
+  faces?: Faces | null;
+  /** True if the tangents come from `generateTangents` on a mesh in the source convention. Default: false. */
+  generated?: boolean | null;
+}
+
+/** New arrays; null for those that were left out. */
+export interface ConvertedVertexData {
+  positions: Float32Array<ArrayBuffer> | null;
+  normals: Float32Array<ArrayBuffer> | null;
+  uvs: Float32Array<ArrayBuffer> | null;
+  tangents: Float32Array<ArrayBuffer> | null;
+  indices: Uint32Array<ArrayBuffer> | null;
+  /** Whether the red channel of normal maps must be inverted, as `convertTexels` does. */
+  invertsRed: boolean;
+  /** Whether the green channel must be inverted. */
+  invertsGreen: boolean;
+}
+
+/** Normals and tangents under a matrix or a skin. */
+export interface MovedFrames {
+  /** 3 per vertex, of unit length. */
+  normals: Float32Array<ArrayBuffer>;
+  /** 4 per vertex: unit xyz, perpendicular to the normal, and the sign w. */
+  tangents: Float32Array<ArrayBuffer>;
+}
+
+/** Normals and tangents under one matrix. */
+export interface TransformedFrames extends MovedFrames {
+  /** -1 where the matrix mirrors, which also reverses the winding of faces; else 1. */
+  orientation: 1 | -1;
+}
+
 /** Options of `generateNormals`. */
 export interface NormalOptions {
   /** Default: 'smooth'. */

@@ -11,7 +11,9 @@ pub struct CheckArrays {
     pub tangents: Vec<f32>,
     /// The result, as JSON.
     pub json: String,
-    /// The repaired file; empty where nothing was repaired.
+    /// The conventions and layouts of a conversion, one per line.
+    pub conversion_text: Vec<u8>,
+    /// The repaired or converted file; empty where nothing was repaired.
     pub repaired: Vec<u8>,
 }
 

@@ -10,7 +10,16 @@ pub struct Extras {
     pub given_tangents: Vec<f32>,
     /// The tangents that the given ones are compared with.
     pub other_tangents: Vec<f32>,
+    /// Encoded tangents, or texels.
     pub encoded_bytes: Vec<u8>,
+    /// Two conventions, one behind the other.
+    pub convention_texts: Vec<u8>,
+    /// Nine floats per matrix.
+    pub matrices: Vec<f32>,
+    /// For each vertex, the matrices that move it.
+    pub joints: Vec<u32>,
+    /// The weight of each joint.
+    pub weights: Vec<f32>,
     /// For each vertex, the first vertex that equals it.
     pub welded_vertices: Vec<u32>,
     /// The result of `generate_normals` (three per corner) and of `decode_tangents` (four per tangent).

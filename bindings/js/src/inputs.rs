@@ -54,7 +54,7 @@ pub extern "C" fn face_sizes(faces: usize) -> *mut u32 {
     with_arena(|arena| resized(&mut arena.surface.face_sizes, faces))
 }
 
-/// Tangents to split, compare, encode or complete: four floats each.
+/// Tangents to split, compare, encode, complete, convert or transform: four floats each.
 #[cfg(feature = "full")]
 #[unsafe(no_mangle)]
 pub extern "C" fn given_tangents(tangents: usize) -> *mut f32 {
@@ -68,7 +68,7 @@ pub extern "C" fn other_tangents(tangents: usize) -> *mut f32 {
     with_arena(|arena| resized(&mut arena.extras.other_tangents, 4 * tangents))
 }
 
-/// Encoded tangents, in bytes.
+/// The bytes of encoded tangents or of texels.
 #[cfg(feature = "full")]
 #[unsafe(no_mangle)]
 pub extern "C" fn encoded_bytes(bytes: usize) -> *mut u8 {

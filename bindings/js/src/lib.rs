@@ -16,6 +16,10 @@ mod check;
 #[cfg(feature = "check")]
 mod check_arrays;
 #[cfg(feature = "full")]
+mod convert;
+#[cfg(feature = "check")]
+mod convert_file;
+#[cfg(feature = "full")]
 mod encode;
 #[cfg(feature = "full")]
 mod extras;
@@ -35,3 +39,5 @@ mod plan;
 mod report;
 #[cfg(feature = "full")]
 mod split;
+#[cfg(feature = "full")]
+mod transform;

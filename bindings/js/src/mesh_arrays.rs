@@ -47,3 +47,9 @@ impl Surface {
 pub fn rows<const N: usize>(floats: &[f32]) -> &[[f32; N]] {
     floats.as_chunks().0
 }
+
+/// As [`rows`], for writing.
+#[cfg(feature = "full")]
+pub fn rows_mut<const N: usize>(floats: &mut [f32]) -> &mut [[f32; N]] {
+    floats.as_chunks_mut().0
+}

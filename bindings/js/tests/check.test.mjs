@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { crc32, deflateSync } from 'node:zlib';
 import * as darboux from 'darboux';
 import { formsOf } from './forms.mjs';
 import { grid, square } from './meshes.mjs';
@@ -23,7 +24,21 @@ function bumps(side, up) {
   return Uint8ClampedArray.from(Array.from({ length: side * side }, texel).flat());
 }
 
-for (const [name, { check, fix, judgeNormalMap, recogniseRecipe }] of Object.entries(forms)) {
+/** A square image of 4 channels as PNG. */
+function png(side, texels) {
+  const rows = Array.from({ length: side }, (_, row) => [0, ...texels.subarray(4 * side * row, 4 * side * (row + 1))]);
+  const number = (value) => [24, 16, 8, 0].map((shift) => (value >>> shift) & 255);
+  const chunk = (name, content) => {
+    const body = [...Buffer.from(name), ...content];
+    return [...number(content.length), ...body, ...number(crc32(Uint8Array.from(body)))];
+  };
+  const head = [...number(side), ...number(side), 8, 6, 0, 0, 0];
+  const data = deflateSync(Uint8Array.from(rows.flat()));
+  const signature = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
+  return Uint8Array.from([...signature, ...chunk('IHDR', head), ...chunk('IDAT', data), ...chunk('IEND', [])]);
+}
+
+for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] of Object.entries(forms)) {
   test(`${name}: a broken model is named and repaired`, () => {
     const shield = asset('made/shield.glb');
     assert.deepEqual(errors(check(shield)), ['tangent-shared-across-mirror']);
@@ -58,11 +73,30 @@ for (const [name, { check, fix, judgeNormalMap, recogniseRecipe }] of Object.ent
     }
   });
 
+  test(`${name}: models and maps are converted, and come back`, () => {
+    const shield = asset('made/shield.glb');
+    const there = convertFile(shield, 'gltf', 'unreal');
+    assert.match(there.warnings.at(-1), /^the file is in the convention unreal: /);
+    const back = convertFile(there.file, 'unreal', 'gltf');
+    assert.deepEqual(back.warnings, ['the normal maps of materials[0] were not converted; convert these images too']);
+    assert.deepEqual(errors(check(back.file)), errors(check(shield)));
+    assert.throws(() => convertFile(there.file, 'unity', 'gltf'), /unreal/);
+    const map = png(128, bumps(128, -1));
+    assert.deepEqual(errors(check(map)), ['map-green-flipped']);
+    const converted = convertFile(map, 'directx', 'gltf').file;
+    assert.deepEqual(errors(check(converted)), []);
+    assert.deepEqual(convertFile(convertFile(converted, 'gltf', 'directx').file, 'directx', 'gltf').file, converted);
+    assert.notDeepEqual(convertFile(map, 'gltf', 'gltf', { toLayout: 'ag' }).file, map);
+  });
+
   test(`${name}: wrong input is refused`, () => {
     assert.throws(() => check(new Uint8Array([1, 2, 3])), /the model/);
     assert.throws(() => check('model.glb'), TypeError);
     assert.throws(() => check(asset('made/shield.glb'), { green: 'left' }), RangeError);
     assert.deepEqual(errors(check(new Uint8Array([0x89, 0x50, 0x4e, 0x47]))), ['map-unreadable']);
+    assert.throws(() => convertFile(asset('made/shield.glb'), 'metal', 'gltf'), /^Error: source: "metal" is not a convention/);
+    assert.throws(() => convertFile(asset('made/shield.glb'), 'gltf', 'gltf', { layout: 'xyz' }), /^Error: layout: /);
+    assert.throws(() => convertFile('model.glb', 'gltf', 'gltf'), TypeError);
     assert.throws(() => judgeNormalMap(new Uint8Array(7), 1, 2), RangeError);
     const [positions, normals, uvs] = square();
     assert.throws(() => recogniseRecipe(positions, normals, uvs, null, new Float32Array(4)), RangeError);

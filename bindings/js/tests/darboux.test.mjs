@@ -98,6 +98,53 @@ for (const [name, darboux] of Object.entries(forms)) {
     assert.deepEqual(found.worst, [{ corner: 1, angle: found.max }]);
   });
 
+  test(`${name}: vertex data in other conventions comes back`, () => {
+    const [positions, normals, uvs, indices] = square();
+    const tangents = darboux.splitVertices(indices, generateTangents(...square()), 4).tangentOfVertex;
+    for (const source of darboux.CONVENTIONS) {
+      for (const target of [...darboux.CONVENTIONS, 'gltf,axes=z/-y/x,fronts=cw,v0=bottom,red=left,green=down,w=t-cross-n']) {
+        const there = darboux.convert(source, target, { positions, normals, uvs, indices, tangents });
+        const back = darboux.convert(target, source, there);
+        for (const [name, array] of Object.entries({ positions, normals, uvs, tangents })) {
+          assert.deepEqual(values(back[name]), values(array), `${source}, ${target}, ${name}`);
+        }
+        assert.deepEqual(Array.from(back.indices), Array.from(indices));
+        assert.equal(there.invertsGreen, back.invertsGreen);
+      }
+    }
+    const generated = darboux.convert('gltf', 'gltf', { tangents, generated: true });
+    assert.deepEqual([generated.positions, generated.indices, generated.tangents[3]], [null, null, -tangents[3]]);
+    const quads = darboux.convert('gltf', 'unity', { indices: Uint16Array.of(0, 1, 2, 3), faces: 4 }).indices;
+    assert.deepEqual(Array.from(quads), [0, 3, 2, 1]);
+  });
+
+  test(`${name}: texels are inverted where conventions differ`, () => {
+    const texels = Uint8ClampedArray.of(1, 2, 3, 4, 250, 251, 252, 253);
+    assert.deepEqual(darboux.convertTexels(texels, 'gltf', 'directx'), Uint8ClampedArray.of(1, 253, 3, 4, 250, 4, 252, 253));
+    const wide = Uint16Array.of(1, 2, 65535, 0);
+    assert.deepEqual(darboux.convertTexels(wide, 'gltf', 'gltf,red=left', 2), Uint16Array.of(65534, 2, 0, 0));
+    assert.deepEqual(Array.from(texels.slice(0, 2)), [1, 2]);
+  });
+
+  test(`${name}: frames follow matrices and skins`, () => {
+    const [normals, tangents] = [Float32Array.of(0.6, 0.8, 0), Float32Array.of(0.8, -0.6, 0, 1)];
+    const isClose = (found, expected) => expected.every((x, at) => Math.abs(found[at] - x) < 1e-6);
+    const stretched = darboux.transformFrames([2, 0, 0, 0, 1, 0, 0, 0, 1], normals, tangents);
+    assert.ok(isClose(stretched.normals, [0.3 / Math.hypot(0.3, 0.8), 0.8 / Math.hypot(0.3, 0.8), 0]));
+    assert.ok(isClose(stretched.tangents, [1.6 / Math.hypot(1.6, 0.6), -0.6 / Math.hypot(1.6, 0.6), 0, 1]));
+    assert.equal(stretched.orientation, 1);
+    const mirror = darboux.transformFrames([-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1], normals, tangents);
+    assert.ok(isClose(mirror.tangents, [-0.8, -0.6, 0, -1]) && mirror.orientation === -1);
+    const turn = [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+    const bones = Float32Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, ...turn);
+    const three = (array) => Float32Array.from([0, 1, 2].flatMap(() => [...array]));
+    const skinned = darboux.skinFrames(bones, Uint8Array.of(0, 1, 1, 0, 0, 1), Float32Array.of(1, 0, 1, 0, 0.5, 0.5), three(normals), three(tangents));
+    const [half, turned] = [Math.SQRT1_2, [-0.8, 0.6, 0]];
+    const mean = normals.subarray(0, 3).map((x, at) => half * (x + turned[at]));
+    assert.ok(isClose(skinned.normals, [...normals, ...turned, ...mean]), `${skinned.normals}`);
+    assert.deepEqual([3, 7, 11].map((at) => skinned.tangents[at]), [1, 1, 1]);
+  });
+
   test(`${name}: encodings turn tangents by no more than they say`, () => {
     const { tangents, normals } = directions(1000);
     const bounds = { snorm8: 0.4, snorm10: 0.098, snorm16: 0.0016, octahedral: 0.0057, diamond: 0.0071 };
@@ -137,6 +184,17 @@ const wrong = [
   [() => esm.splitVertices(indices, tangents, 3), RangeError, /^index 3 at place 5 is out of range: there are 3 vertices$/],
   [() => esm.splitVertices(indices, tangents, -1), RangeError, /^vertexCount is -1; /],
   [() => esm.measureTangents(tangents, tangents.slice(4)), RangeError, /^b has 5 tangents but a has 6; /],
+  [() => esm.convert('metal', 'gltf', {}), RangeError, /^source is 'metal'; it must be one of 'gltf', /],
+  [() => esm.convert('gltf', 'gltf,green=left', {}), RangeError, /^target is 'gltf,green=left'; /],
+  [() => esm.convert('gltf', 'unity', { indices: Uint16Array.of(0, 1) }), RangeError, /^2 corners are not a multiple of 3/],
+  [() => esm.convert('gltf', 'unity', { uvs: new Float32Array(3) }), RangeError, /^uvs has a length of 3, /],
+  [() => esm.convertTexels(new Uint8Array(7), 'gltf', 'unity'), RangeError, /^texels has a length of 7, /],
+  [() => esm.convertTexels(new Float32Array(4), 'gltf', 'unity'), TypeError, /^texels must be a Uint8Array or /],
+  [() => esm.transformFrames([1, 0, 0], normals, tangents.slice(0, 16)), RangeError, /^matrix has 3 numbers; it must have 9 or 16$/],
+  [() => esm.transformFrames(new Float32Array(9), normals, tangents), RangeError, /^there are 6 tangents but 4 normals; /],
+  [() => esm.skinFrames(new Float32Array(16), Uint8Array.of(0, 0, 0, 1), new Float32Array(4), normals, tangents.slice(0, 16)), RangeError, /^joint 1 of vertex 3 is out of range: there are 1 bones$/],
+  [() => esm.skinFrames(new Float32Array(16), Uint8Array.of(0, 0, 0), new Float32Array(3), normals, tangents.slice(0, 16)), RangeError, /^there are 3 joints but 4 vertices; /],
+  [() => esm.skinFrames(new Float32Array(16), Uint8Array.of(0), new Float32Array(2), normals, tangents.slice(0, 16)), RangeError, /^there are 2 weights but 1 joints$/],
   [() => esm.encodeTangents(tangents, 'snorm4'), RangeError, /^encoding is 'snorm4'; /],
   [() => esm.encodeTangents(tangents, 'diamond'), TypeError, /^normals must be a Float32Array, not Undefined$/],
   [() => esm.encodeTangents(tangents, 'diamond', normals), RangeError, /^normals has 4 elements but there are 6 tangents; /],

@@ -3,14 +3,21 @@
 import type { Faces, Indices } from '../types.js';
 
 /** Errors: an array of another type. */
-export function checkIndices(indices: Indices): void {
-  checkType('indices', indices, ['Uint32Array', 'Uint16Array', 'Uint8Array']);
+export function checkIndices(indices: Indices, name = 'indices'): void {
+  checkType(name, indices, ['Uint32Array', 'Uint16Array', 'Uint8Array']);
 }
 
 /** The number of rows of `width` floats. Errors: an array of another type, or part of a row. */
 export function rowCount(name: string, array: Float32Array, width: number): number {
   checkType(name, array, ['Float32Array']);
   return wholeRows(name, array, width);
+}
+
+/** Errors: another number of tangents than normals. */
+export function checkFrames(normals: Float32Array, tangents: Float32Array): number {
+  const [count, rows] = [rowCount('normals', normals, 3), rowCount('tangents', tangents, 4)];
+  if (rows === count) return count;
+  throw new RangeError(`there are ${rows} tangents but ${count} normals; give one of each per vertex`);
 }
 
 /** The number of rows of `width` elements. Errors: part of a row. */

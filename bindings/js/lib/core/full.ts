@@ -34,6 +34,14 @@ export interface FullExports extends Exports {
   split_indices(): number;
   split_sources(): number;
   measure_tangents(): number;
+  convention_texts(bytes: number): number;
+  convert(sourceBytes: number, generated: number): number;
+  convert_texels(sourceBytes: number, isWide: number, channels: number): number;
+  matrices(count: number): number;
+  joints(joints: number): number;
+  weights(joints: number): number;
+  transform_frames(): number;
+  skin_frames(influences: number): void;
   encode_tangents(encoding: number): number;
   decode_tangents(encoding: number): number;
 }

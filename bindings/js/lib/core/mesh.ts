@@ -69,6 +69,17 @@ export function writeArrays(exports: Exports, floats: readonly Copy<Float32Array
   for (const [array, address] of integers) new Uint32Array(buffer, address >>> 0, array.length).set(array);
 }
 
+/** Copies texts into the memory of an instance, one behind the other. Returns the number of bytes of the first. */
+export function writeTexts(exports: Exports, texts: readonly string[], reserve: (bytes: number) => number): number {
+  const encoded = texts.map((text) => new TextEncoder().encode(text));
+  let address = reserve(encoded.reduce((sum, { length }) => sum + length, 0)) >>> 0;
+  for (const bytes of encoded) {
+    new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes);
+    address += bytes.length;
+  }
+  return encoded[0]!.length;
+}
+
 /** A copy of floats in the memory of an instance, in `out` where there is one. */
 export function readFloats<A extends Float32Array = Float32Array<ArrayBuffer>>(
   exports: Exports,
