@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::api;
 use crate::figures;
+use crate::functions;
 use crate::run::{Outcome, files_below, program, root, run};
 use crate::shaders;
 
@@ -20,6 +21,7 @@ const GENERATED_PATHS: &[&str] = &[
     shaders::RENDER_COPIES,
     "docs/api",
     figures::FOLDER,
+    functions::PAGE,
 ];
 
 /// Packages and the examples in them that write generated files below a given folder.
@@ -57,7 +59,8 @@ fn generate(into: &Path) -> Outcome {
     figures::write(into)?;
     WRITERS.iter().try_for_each(|(package, example)| {
         run(program("cargo run --quiet").args(["--package", package, "--example", example, "--"]).arg(into))
-    })
+    })?;
+    functions::write(into)
 }
 
 fn remove(path: &Path) -> Outcome {

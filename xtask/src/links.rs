@@ -38,19 +38,20 @@ pub fn check() -> Outcome {
     Err(format!("{} links lead nowhere:\n{}", dead.len(), dead.join("\n")))
 }
 
-/// All Markdown files that git knows or would add.
-fn pages() -> Result<BTreeMap<PathBuf, Page>, String> {
+/// The paths of all Markdown files that git knows or would add.
+pub fn page_paths() -> Result<Vec<PathBuf>, String> {
     let listed = output_of(&mut program("git ls-files --cached --others --exclude-standard *.md"))?;
-    let mut pages = BTreeMap::new();
-    for name in String::from_utf8_lossy(&listed).lines() {
-        let path = root().join(name);
-        if path.is_file() {
-            let text =
-                fs::read_to_string(&path).map_err(|error| format!("{name} cannot be read: {error}"))?;
-            pages.insert(PathBuf::from(name), parse(&text));
-        }
-    }
-    Ok(pages)
+    let listed = String::from_utf8_lossy(&listed);
+    Ok(listed.lines().filter(|name| root().join(name).is_file()).map(PathBuf::from).collect())
+}
+
+fn pages() -> Result<BTreeMap<PathBuf, Page>, String> {
+    let read = |path: PathBuf| {
+        let text = fs::read_to_string(root().join(&path));
+        let text = text.map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
+        Ok((path, parse(&text)))
+    };
+    page_paths()?.into_iter().map(read).collect()
 }
 
 fn parse(text: &str) -> Page {
@@ -85,7 +86,7 @@ fn is_numbered(other: &str, name: &str) -> bool {
 }
 
 /// The identifier that GitHub gives a heading: lower case, spaces as hyphens, no other punctuation.
-fn identifier(heading: &str) -> String {
+pub fn identifier(heading: &str) -> String {
     let kept = |letter: &char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_');
     heading
         .to_lowercase()
@@ -95,7 +96,7 @@ fn identifier(heading: &str) -> String {
         .collect()
 }
 
-fn is_elsewhere(link: &str) -> bool {
+pub fn is_elsewhere(link: &str) -> bool {
     link.contains("://") || link.starts_with("mailto:")
 }
 
@@ -113,7 +114,7 @@ fn problem(page: &Path, link: &str, pages: &BTreeMap<PathBuf, Page>) -> Option<S
 }
 
 /// The path with `..` resolved by its words alone.
-fn without_dots(path: &Path) -> PathBuf {
+pub fn without_dots(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for part in path.components() {
         match part {

@@ -10,6 +10,7 @@ mod dist_js;
 mod dist_viewer;
 mod doc_blocks;
 mod figures;
+mod functions;
 mod generated;
 mod gpu;
 mod layers;
@@ -22,6 +23,7 @@ mod release;
 mod run;
 mod rust_code;
 mod shaders;
+mod site;
 #[cfg(unix)]
 mod soak;
 mod validate;
@@ -59,6 +61,9 @@ measurements
                    [pack] [--out FOLDER] [devices] [tests] [command] [report] [times] [long] [options of bench --gpu]
 
 packages (the path is the last line of the output)
+  site [--check | --test]
+                   make the documentation's site (needs what dist-js needs); --check: only its pages and their links;
+                   --test: and test it in Chromium
   dist-c           make the folder for users of C and C++ (Linux: needs ld, objcopy, nm and ar)
   dist-js          make the folder of the npm package (needs node, npm and rustup)
   dist-viewer      make the viewer's page, which darboux view serves (needs what dist-js needs)
@@ -78,6 +83,9 @@ fn main() -> ExitCode {
         ["ci", "--full"] => ci::full(),
         ["gen"] => generated::write(),
         ["figures"] => figures::write(run::root()),
+        ["site"] => site::make(),
+        ["site", "--check"] => site::check(),
+        ["site", "--test"] => site::test(),
         ["layers"] => layers::check(),
         ["links"] => links::check(),
         ["release", "--check", ref words @ ..] => release::check(words),

@@ -9,6 +9,7 @@ use super::plane::{Vec2, vec2};
 
 /// Colours by class. Text and lines reach a contrast of 4.5 on the panel in both themes.
 const STYLE: &str = "
+:root { color-scheme: light dark; }
 text { font: 15px system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif; fill: #24242a; }
 .title { font-weight: 600; } .small { font-size: 13px; } .code { font-family: ui-monospace, 'DejaVu Sans Mono', monospace; }
 .symbol, .index { font-style: italic; font-weight: 600; } .index { font-size: 11px; }

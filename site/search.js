@@ -1,0 +1,75 @@
+// Search over all sections of the site, the menu's state, and answers that open when the page is printed.
+
+'use strict';
+
+{
+  const base = document.documentElement.dataset.base;
+  const field = document.querySelector('input[type=search]');
+  const found = document.querySelector('.found');
+  const MOST = 12;
+
+  /** Loads the texts of all sections, once. */
+  let loading;
+  const load = () =>
+    (loading ??= new Promise((resolve, reject) => {
+      const script = document.createElement('script');
+      script.src = `${base}search-index.js`;
+      script.onload = () => resolve(globalThis.searchIndex.map(([path, page, id, title, text]) => ({ path, page, id, title, text, low: text.toLowerCase(), lowTitle: title.toLowerCase() })));
+      script.onerror = () => reject(new Error('the index of the search cannot be loaded'));
+      document.head.append(script);
+    }));
+
+  /** How well a section fits the words; 0 unless it has all of them. */
+  function score({ low, lowTitle, page }, words) {
+    let sum = 0;
+    for (const word of words) {
+      const inTitle = lowTitle.includes(word) ? 20 : 0;
+      const inPage = page.toLowerCase().includes(word) ? 5 : 0;
+      const times = low.split(word).length - 1;
+      if (!inTitle && !inPage && !times) return 0;
+      sum += inTitle + inPage + Math.min(times, 5);
+    }
+    return sum;
+  }
+
+  /** The text around the first of the words. */
+  function excerpt({ text, low }, words) {
+    const at = Math.max(0, ...words.map((word) => low.indexOf(word)).filter((at) => at >= 0).slice(0, 1));
+    return `${at > 40 ? '… ' : ''}${text.slice(Math.max(0, at - 40), at + 120)} …`;
+  }
+
+  async function search() {
+    const words = field.value.toLowerCase().split(/\s+/).filter((word) => word.length > 1);
+    const sections = words.length ? await load() : [];
+    const best = sections
+      .map((section) => ({ section, score: score(section, words) }))
+      .filter(({ score }) => score > 0)
+      .sort((a, b) => b.score - a.score)
+      .slice(0, MOST);
+    found.replaceChildren(...best.map(({ section }) => item(section, words)));
+    if (words.length && !best.length) found.append(Object.assign(document.createElement('li'), { textContent: 'Nothing found.' }));
+    found.hidden = !words.length;
+  }
+
+  function item(section, words) {
+    const link = Object.assign(document.createElement('a'), {
+      href: `${base}${section.path}${section.id ? `#${section.id}` : ''}`,
+      textContent: section.title && section.title !== section.page ? `${section.page}: ${section.title}` : section.page,
+    });
+    const entry = document.createElement('li');
+    entry.append(link, Object.assign(document.createElement('small'), { textContent: excerpt(section, words) }));
+    return entry;
+  }
+
+  field.addEventListener('input', search);
+  field.form.addEventListener('submit', (event) => event.preventDefault());
+
+  // The menu lies beside the page where there is room for it.
+  const menu = document.querySelector('.menu');
+  const isWide = matchMedia('(min-width: 64rem)');
+  const setMenu = () => (menu.open = isWide.matches);
+  isWide.addEventListener('change', setMenu);
+  setMenu();
+
+  addEventListener('beforeprint', () => document.querySelectorAll('main details').forEach((details) => (details.open = true)));
+}
