@@ -282,7 +282,7 @@ impl Document {
             .with_strict(strict)
             .with_apply_texture_transform(apply_texture_transform);
         self.edit(py, progress, |document, context, report| {
-            gltf::add_tangents_with(document, &options, context, &mut gltf::generate_on_cpu, report)
+            gltf::add_tangents_with(document, &options, context, gltf::Generate::OnCpu, report)
         })
     }
 

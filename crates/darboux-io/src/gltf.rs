@@ -63,7 +63,7 @@ pub use progress::Progress;
 pub use scene::{PlacedMesh, PlacedMeshes};
 pub use stored_elements::IndexList;
 pub use tangents::{
-    AddTangentsOptions, Generate, PrimitiveTangents, ReportCounts, TangentEncoding, TangentsOutcome,
-    TangentsSummary, TangentsTotals, WrittenTangents, add_tangents, add_tangents_to, add_tangents_with,
-    generate_on_cpu,
+    AddTangentsOptions, Generate, GenerateFn, PrimitiveTangents, ReportCounts, TangentEncoding,
+    TangentsOutcome, TangentsSummary, TangentsTotals, WrittenTangents, add_tangents, add_tangents_to,
+    add_tangents_with,
 };

@@ -2,9 +2,11 @@
 
 mod support;
 
-use darboux::{MikkTSpaceOptions, Mode, TangentOptions};
+use darboux::{Context, Mesh, MikkTSpaceOptions, Mode, TangentOptions, generate_tangents_with};
 use darboux_io::LoadOptions;
-use darboux_io::gltf::{AddTangentsOptions, Progress, add_tangents, inspect};
+use darboux_io::gltf::{
+    AddTangentsOptions, Document, Generate, Progress, add_tangents, add_tangents_with, inspect,
+};
 use gltf::Semantic;
 use gltf::mesh::Mode as Topology;
 use serde_json::json;
@@ -547,4 +549,65 @@ fn inspect_counts_without_changing_anything() {
     assert_eq!(lines.ineligible.as_deref(), Some("its mode is LINES; only triangles have tangents"));
     assert!(all.ineligible.is_none() && !all.has_tangents && !all.needs_tangents);
     assert_eq!(all.attributes, ["NORMAL", "POSITION", "TEXCOORD_0"]);
+}
+
+/// A document of small primitives, a large one, and one with a morph target. `spoilt`: primitives whose normals are too short a list.
+fn scene(spoilt: &[usize]) -> Document {
+    let mut builder = Builder::new();
+    let large: Vec<u16> = BOTH.iter().copied().cycle().take(12 * 5_000).collect();
+    for place in 0..40 {
+        let mut vertices = butterfly();
+        vertices.positions.iter_mut().for_each(|position| position[2] = position[0] * place as f32);
+        vertices.normals.truncate(if spoilt.contains(&place) { 5 } else { 6 });
+        let attributes = vertices.attributes(&mut builder);
+        let indices = builder.indices(if place == 17 { &large } else { &BOTH });
+        let mut primitive = json!({"attributes": attributes, "indices": indices});
+        if place == 23 {
+            let offsets = vertices.positions.iter().map(|p| [0.0, p[0] * p[0], 0.0]).collect::<Vec<_>>();
+            primitive["targets"] = json!([{"POSITION": builder.vectors(&offsets)}]);
+        }
+        builder.mesh(&[primitive]);
+    }
+    builder.build()
+}
+
+#[test]
+fn small_primitives_on_many_threads_give_the_same_file() {
+    let add = |context: &mut Context| {
+        let (mut document, mut steps) = (scene(&[]), Vec::new());
+        let mut progress = |step: Progress| steps.push(step);
+        let options = AddTangentsOptions::default();
+        let summary = add_tangents_with(&mut document, &options, context, Generate::OnCpu, &mut progress);
+        let summary = summary.expect("valid data");
+        assert_eq!(steps.last().map(|step| step.done), Some(39 * 4 + 20_000));
+        (document.to_glb().expect("a document can be saved"), format!("{summary:?}"))
+    };
+    let alone = add(&mut Context::new().with_max_threads(1));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("a thread pool");
+    assert!(pool.install(|| add(&mut Context::new())) == alone);
+    let one_by_one = {
+        let (mut document, mut on_cpu) =
+            (scene(&[]), |mesh: &Mesh<'_>, options: &TangentOptions, context: &mut Context| {
+                generate_tangents_with(mesh, options, context).map_err(|error| error.to_string())
+            });
+        let generate = Generate::With(&mut on_cpu);
+        let (options, context) = (AddTangentsOptions::default(), &mut Context::new());
+        let summary = add_tangents_with(&mut document, &options, context, generate, &mut |_| {});
+        (document.to_glb().expect("a document can be saved"), format!("{:?}", summary.expect("valid data")))
+    };
+    assert!(one_by_one == alone);
+}
+
+#[test]
+fn the_first_of_several_faulty_primitives_is_the_error() {
+    let error = |context: &mut Context| {
+        let options = AddTangentsOptions::default();
+        let added =
+            add_tangents_with(&mut scene(&[30, 9, 12]), &options, context, Generate::OnCpu, &mut |_| {});
+        added.expect_err("normals are missing").to_string()
+    };
+    let alone = error(&mut Context::new().with_max_threads(1));
+    assert!(alone.contains("meshes[9]"), "{alone}");
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("a thread pool");
+    assert_eq!(pool.install(|| error(&mut Context::new())), alone);
 }

@@ -69,6 +69,17 @@ impl Context {
         self.memory = TangentMemory::default();
     }
 
+    /// A context for one thread, without memory yet; all else is as here.
+    pub(crate) fn of_one_thread(&self) -> Self {
+        Self {
+            memory: TangentMemory::default(),
+            cancel: self.cancel.clone(),
+            max_threads: 1,
+            width_limit: self.width_limit,
+            progress: self.progress.clone(),
+        }
+    }
+
     /// The vector width never changes a result: this is for tests and benchmarks.
     pub(crate) fn set_width_limit(&mut self, limit: WidthLimit) {
         self.width_limit = limit;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use darboux::Context;
 use darboux_io::Error;
-use darboux_io::gltf::{AddTangentsOptions, Document, PrimitiveName, add_tangents_to, generate_on_cpu};
+use darboux_io::gltf::{AddTangentsOptions, Document, Generate, PrimitiveName, add_tangents_to};
 
 use super::options::FixOptions;
 use crate::check::primitives_of;
@@ -26,5 +26,5 @@ pub fn make(document: &mut Document, names: &[PrimitiveName], options: &FixOptio
     let is_wanted = |name: &PrimitiveName| places.contains(&(name.mesh, name.primitive));
     let adding = AddTangentsOptions::default().with_tangents(options.tangents).with_overwrite(true);
     let context = &mut Context::new();
-    add_tangents_to(document, &adding, &is_wanted, context, &mut generate_on_cpu, &mut |_| {}).map(drop)
+    add_tangents_to(document, &adding, &is_wanted, context, Generate::OnCpu, &mut |_| {}).map(drop)
 }

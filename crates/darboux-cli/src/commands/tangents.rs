@@ -7,8 +7,8 @@ pub mod summary;
 use darboux::internal::vertex_progress::set_vertex_progress;
 use darboux::{Context, Mesh, Method, MikkTSpaceOptions, TangentOptions};
 use darboux_io::gltf::{
-    AddNormalsOptions, AddTangentsOptions, Progress, TangentsOutcome, TangentsTotals, WrittenTangents,
-    add_normals, add_tangents_with,
+    AddNormalsOptions, AddTangentsOptions, Generate, Progress, TangentsOutcome, TangentsTotals,
+    WrittenTangents, add_normals, add_tangents_with,
 };
 use indicatif::HumanCount;
 
@@ -87,12 +87,14 @@ impl FileCommand for TangentsArguments {
             normals = Some(made.primitives);
         }
         let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
+        let may_use_gpu = device.may_use_gpu();
         let mut generate = |mesh: &Mesh<'_>, options: &TangentOptions, context: &mut Context| {
             device.generate(mesh, options, context)
         };
         let context = &mut Context::new();
         set_vertex_progress(context, progress.vertex);
-        let made = add_tangents_with(&mut document, &options(self), context, &mut generate, &mut on_progress);
+        let generate = if may_use_gpu { Generate::With(&mut generate) } else { Generate::OnCpu };
+        let made = add_tangents_with(&mut document, &options(self), context, generate, &mut on_progress);
         let mut tangents = made.map_err(sentence)?;
         tangents.warnings.splice(0..0, warnings);
         tangents.warnings.extend(advice(tangents.totals.without_normals));

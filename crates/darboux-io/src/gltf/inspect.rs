@@ -61,9 +61,8 @@ pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
         let mut found = Vec::with_capacity(group.jobs.len());
         for job in &group.jobs {
             let at = infos[job.first].name.path();
-            let generate_on_cpu = (&mut compute::generate_on_cpu as &mut Generate<'_>, &mut context);
-            let result =
-                compute::compute_job(document, &at, &mut vertices, job, false, &options, generate_on_cpu)?;
+            let generate = (&mut Generate::OnCpu, &mut context);
+            let result = compute::compute_job(document, &at, &mut vertices, job, false, &options, generate)?;
             found.push((result.report.into(), mirrored_triangles(&result.tangents)));
         }
         for member in &group.members {

@@ -3,7 +3,7 @@
 //! ```text
 //! select    which primitives get tangents, and from which accessors
 //! groups    primitives over the same vertices are processed together, and equal index lists once
-//! compute   tangents per corner
+//! compute   tangents per corner; small groups side by side, each on one thread
 //! split     vertices whose corners have different tangents are duplicated
 //! morph     tangent offsets of morph targets
 //! write     new accessors, and primitives that refer to them
@@ -11,6 +11,7 @@
 
 pub(super) mod compute;
 mod encoding;
+mod group_computation;
 pub(super) mod groups;
 mod morph;
 mod options;
@@ -20,27 +21,27 @@ mod summary;
 pub(super) mod uv;
 mod write;
 
-pub use compute::{Generate, generate_on_cpu};
+pub use compute::{Generate, GenerateFn};
 pub use encoding::TangentEncoding;
 pub use options::AddTangentsOptions;
 pub use summary::{
     PrimitiveTangents, ReportCounts, TangentsOutcome, TangentsSummary, TangentsTotals, WrittenTangents,
 };
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
-use darboux::{Context, Method, Mode, Report};
+use darboux::Context;
+use darboux::internal::jobs;
 
 use super::primitives::append::{lacks_buffer_view, push_vectors};
 use super::primitives::canonical::CanonicalAccessors;
 use super::primitives::{foreign_extensions, limits};
 use super::{Document, ElementType, PrimitiveName, Progress};
 use crate::Error;
-use compute::{JobResult, Vertices};
-use groups::{Group, Job};
-use morph::{Morph, Movement, Offsets, StaleCorners};
+use group_computation::{GroupComputation, GroupTangents};
+use groups::Group;
+use morph::{Morph, Movement, StaleCorners};
 use select::{TangentSelection, TangentVerdict};
-use split::Split;
 use write::{GroupAccessors, TangentWriter};
 
 /// Adds tangents to every triangle primitive that has positions, normals and UVs.
@@ -52,18 +53,18 @@ pub fn add_tangents(
     options: &AddTangentsOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<TangentsSummary, Error> {
-    add_tangents_with(document, options, &mut Context::new(), &mut compute::generate_on_cpu, progress)
+    add_tangents_with(document, options, &mut Context::new(), Generate::OnCpu, progress)
 }
 
 /// As [`add_tangents`], with a context, and with tangents that `generate` computes, for example on a GPU. Tangents of morph targets are
-/// computed here.
+/// computed on the CPU.
 ///
 /// Further errors: those of `generate`; the context's token was cancelled.
 pub fn add_tangents_with(
     document: &mut Document,
     options: &AddTangentsOptions,
     context: &mut Context,
-    generate: &mut Generate<'_>,
+    generate: Generate<'_>,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<TangentsSummary, Error> {
     add_tangents_to(document, options, &|_| true, context, generate, progress)
@@ -75,7 +76,7 @@ pub fn add_tangents_to(
     options: &AddTangentsOptions,
     is_wanted: &dyn Fn(&PrimitiveName) -> bool,
     context: &mut Context,
-    generate: &mut Generate<'_>,
+    generate: Generate<'_>,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<TangentsSummary, Error> {
     let selection = select_readable(document, options, is_wanted)?;
@@ -85,11 +86,21 @@ pub fn add_tangents_to(
     let total = groups::triangle_counts(&groups).sum();
     let at = Progress { done: 0, total };
     let summary = TangentsSummary::default();
-    let mut run = Run { selection, accessors, options, generate, progress, at, context, summary };
+    let batches = match generate {
+        Generate::OnCpu => groups::batches(&groups),
+        Generate::With(_) => groups.chunks(1).collect(),
+    };
+    let contexts = Vec::new();
+    let mut run = Run { selection, accessors, options, generate, progress, at, context, contexts, summary };
     let mut written = HashMap::new();
-    for group in &groups {
-        let tangents = run.group_tangents(document, group)?;
-        written.extend(run.write(document, group, tangents)?);
+    for batch in batches {
+        let computed = run.compute(document, batch)?;
+        if run.at.done == total {
+            run.free_memory();
+        }
+        for (group, tangents) in batch.iter().zip(computed) {
+            written.extend(run.write(document, group, tangents)?);
+        }
     }
     run.summary.warnings.extend(document.unused_data_warning());
     Ok(run.summarize(written))
@@ -109,127 +120,47 @@ pub(super) fn select_readable(
     select::select(document, options, is_wanted)
 }
 
-/// The tangents of a group before they are written. They borrow nothing from the document.
-struct GroupTangents {
-    reports: Vec<Report>,
-    split: Split,
-    /// The new index list of each job; none if the old one is kept.
-    lists: Vec<Option<Vec<u32>>>,
-    offsets: Vec<(Morph, Offsets)>,
-}
-
 /// One run of [`add_tangents`].
 struct Run<'a, 'g> {
     selection: TangentSelection,
     accessors: CanonicalAccessors,
     options: &'a AddTangentsOptions,
-    generate: &'a mut Generate<'g>,
+    generate: Generate<'g>,
     progress: &'a mut dyn FnMut(Progress),
     at: Progress,
     context: &'a mut Context,
+    /// The contexts of the threads that compute small groups; empty before the first of these.
+    contexts: Vec<Context>,
     summary: TangentsSummary,
 }
 
 impl Run<'_, '_> {
-    fn group_tangents(&mut self, document: &Document, group: &Group) -> Result<GroupTangents, Error> {
-        let mut vertices = Vertices::read(document, group)?;
-        let morphs = morph::morphs(document, &self.accessors, group, &self.selection, self.options);
-        let results = self.compute(document, group, &mut vertices, &morphs)?;
-        let mut split = self.split(document, group, &mut vertices, &results)?;
-        let offsets = self.morph(document, group, &mut vertices, morphs, &results, &split)?;
-        let lists = split.take_lists(group, &results);
-        let reports = results.iter().map(|result| result.report).collect();
-        Ok(GroupTangents { reports, split, lists, offsets })
-    }
-
-    /// The JSON path of the first primitive with this job.
-    fn path(&self, job: &Job) -> String {
-        self.selection.candidates[job.first].name.path()
-    }
-
-    fn compute<'a>(
-        &mut self,
-        document: &'a Document,
-        group: &Group,
-        vertices: &mut Vertices<'_>,
-        morphs: &[Morph],
-    ) -> Result<Vec<JobResult<'a>>, Error> {
-        let moved: HashSet<_> = morphs.iter().flat_map(|morph| &morph.jobs).copied().collect();
-        let mut results = Vec::with_capacity(group.jobs.len());
-        for (index, job) in group.jobs.iter().enumerate() {
-            let (at, moves) = (self.path(job), moved.contains(&index));
-            let compute = (&mut *self.generate, &mut *self.context);
-            let result = compute::compute_job(document, &at, vertices, job, moves, self.options, compute)?;
-            self.warn_unusable(job, &result);
-            self.warn_merged(job, &result);
-            self.at.done += job.triangle_count;
-            (self.progress)(self.at);
-            results.push(result);
+    /// Computes groups of one batch.
+    fn compute(&mut self, document: &Document, batch: &[Group]) -> Result<Vec<GroupTangents>, Error> {
+        let Self { selection, accessors, options, generate, at, .. } = self;
+        let computation = GroupComputation { document, selection, accessors, options };
+        if let [group] = batch {
+            let mut on_job = |triangles| {
+                at.done += triangles;
+                (self.progress)(*at);
+            };
+            return Ok(vec![computation.run(group, generate, self.context, &mut on_job)?]);
         }
-        if self.at.done == self.at.total {
-            self.context.free_memory();
+        if self.contexts.is_empty() {
+            self.contexts = jobs::contexts(self.context, batch.len());
         }
-        Ok(results)
+        let computed = jobs::map_with(&mut self.contexts, batch, |group, context| {
+            computation.run(group, &mut Generate::OnCpu, context, &mut |_| {})
+        });
+        at.done += groups::triangle_counts(batch).sum::<usize>();
+        (self.progress)(*at);
+        computed.into_iter().collect()
     }
 
-    fn warn_unusable(&mut self, job: &Job, result: &JobResult<'_>) {
-        let unusable = result.report.repaired_corners;
-        let keeps_them = matches!(self.options.tangents.method, Method::MikkTSpace(options) if options.mode == Mode::Reference);
-        if keeps_them && unusable > 0 {
-            let name = &self.selection.candidates[job.first].name;
-            self.summary.warnings.push(format!(
-                "{name}: {unusable} corners have an unusable tangent, as in the reference implementation; validators will report them"
-            ));
-        }
-    }
-
-    fn warn_merged(&mut self, job: &Job, result: &JobResult<'_>) {
-        let merged = result.report.merged_vertices;
-        if merged > 0 {
-            let name = &self.selection.candidates[job.first].name;
-            self.summary.warnings.push(format!(
-                "{name}: {merged} vertices on mirrored seams have one tangent for both sides with this method; \
-                 normal maps are wrong there"
-            ));
-        }
-    }
-
-    fn split(
-        &mut self,
-        document: &Document,
-        group: &Group,
-        vertices: &mut Vertices<'_>,
-        results: &[JobResult<'_>],
-    ) -> Result<Split, Error> {
-        let split = split::split(document, &self.path(&group.jobs[0]), group, vertices, results)?;
-        let totals = &mut self.summary.totals;
-        totals.triangles += group.jobs.iter().map(|job| job.triangle_count).sum::<usize>();
-        totals.vertices_before += split.old_vertex_count();
-        totals.vertices_after += split.vertex_count();
-        Ok(split)
-    }
-
-    fn morph(
-        &mut self,
-        document: &Document,
-        group: &Group,
-        vertices: &mut Vertices<'_>,
-        morphs: Vec<Morph>,
-        results: &[JobResult<'_>],
-        split: &Split,
-    ) -> Result<Vec<(Morph, Offsets)>, Error> {
-        let mut offsets = Vec::with_capacity(morphs.len());
-        for morph in morphs {
-            let computed = (results, split);
-            let moved =
-                morph::offsets(document, &morph, group, vertices, computed, self.options, self.context)?;
-            offsets.push((morph, moved));
-            limits::check_more_output(
-                document,
-                offsets.len() * split.vertex_count() * size_of::<[f32; 3]>(),
-            )?;
-        }
-        Ok(offsets)
+    /// Frees the memory of the computation, before the document is saved.
+    fn free_memory(&mut self) {
+        self.context.free_memory();
+        self.contexts.clear();
     }
 
     /// Writes the tangents of a group. Returns a report for each candidate.
@@ -237,9 +168,14 @@ impl Run<'_, '_> {
         &mut self,
         document: &mut Document,
         group: &Group,
-        field: GroupTangents,
+        computed: GroupTangents,
     ) -> Result<Vec<(usize, WrittenTangents)>, Error> {
-        let GroupTangents { reports, split, lists, offsets } = field;
+        let GroupTangents { reports, split, lists, offsets, warnings } = computed;
+        self.summary.warnings.extend(warnings);
+        let totals = &mut self.summary.totals;
+        totals.triangles += groups::triangle_counts(std::slice::from_ref(group)).sum::<usize>();
+        totals.vertices_before += split.old_vertex_count();
+        totals.vertices_after += split.vertex_count();
         let first = &self.selection.candidates[group.members[0].candidate].name;
         let old =
             document.meshes()[first.mesh].primitives[first.primitive].attributes.get("TANGENT").copied();

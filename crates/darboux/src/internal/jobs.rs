@@ -20,3 +20,28 @@ pub fn for_each<T: Send>(
     });
     limits.check()
 }
+
+/// The values of a function for every element of a list, each of which one thread computes.
+///
+/// `contexts`: one per thread, of one thread each, whose memory is reused; [`contexts`] makes them.
+pub fn map_with<T: Sync, R: Send>(
+    contexts: &mut [Context],
+    list: &[T],
+    of: impl Fn(&T, &mut Context) -> R + Sync,
+) -> Vec<R> {
+    let mut results: Vec<(&T, Option<R>)> = list.iter().map(|element| (element, None)).collect();
+    let rest = std::sync::Mutex::new(results.iter_mut());
+    let threads = contexts.len();
+    threads::run(contexts, std::iter::repeat_n((), threads), |context, ()| {
+        while let Some((element, result)) = rest.lock().ok().and_then(|mut rest| rest.next()) {
+            *result = Some(of(element, context));
+        }
+    });
+    results.into_iter().filter_map(|(_, result)| result).collect()
+}
+
+/// As many contexts as threads that `context` permits for so many jobs, each of one thread, with its token and its progress.
+pub fn contexts(context: &Context, jobs: usize) -> Vec<Context> {
+    let threads = context.limits().thread_count_of_jobs(jobs);
+    (0..threads).map(|_| context.of_one_thread()).collect()
+}

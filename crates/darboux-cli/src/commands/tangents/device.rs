@@ -36,6 +36,11 @@ impl TangentDevice {
         Ok(Self { device, opened, gpu_threshold: gpu_threshold()?, corners_of_gpu: 0, gpu_error: None })
     }
 
+    /// True if [`TangentDevice::generate`] can use the GPU for a mesh of any size.
+    pub fn may_use_gpu(&self) -> bool {
+        self.device == Device::Gpu || (self.device == Device::Auto && self.gpu_threshold < usize::MAX)
+    }
+
     /// As [`generate_tangents_with`]. Errors: the GPU fails and `device` is [`Device::Gpu`]; otherwise the CPU takes over.
     pub fn generate(
         &mut self,

@@ -1,7 +1,7 @@
 //! Computes the tangents of one group. Its vertices are read once; each job takes time proportional to its corners.
 
 use std::borrow::Cow;
-use std::mem;
+use std::{fmt, mem};
 
 use darboux::{
     Context, CornerTangents, Mesh, Plan, Report, TangentOptions, Tangents, generate_tangents_with,
@@ -85,16 +85,39 @@ pub struct JobResult<'a> {
     pub plan: Option<Plan>,
 }
 
-/// What computes the tangents of a mesh without morph targets, as [`darboux::generate_tangents_with`] does; a failure is one sentence.
-pub type Generate<'a> = dyn FnMut(&Mesh<'_>, &TangentOptions, &mut Context) -> Result<Tangents, String> + 'a;
+/// What computes the tangents of meshes without morph targets.
+pub enum Generate<'a> {
+    /// [`darboux::generate_tangents_with`]. Threads share large meshes, and take small ones each for itself.
+    OnCpu,
+    /// Another function, one mesh after the other; a failure is one sentence.
+    With(&'a mut GenerateFn<'a>),
+}
 
-/// [`Generate`] on the CPU.
-pub fn generate_on_cpu(
-    mesh: &Mesh<'_>,
-    options: &TangentOptions,
-    context: &mut Context,
-) -> Result<Tangents, String> {
-    generate_tangents_with(mesh, options, context).map_err(|error| error.to_string())
+/// A function that computes the tangents of a mesh, as [`darboux::generate_tangents_with`] does; a failure is one sentence.
+pub type GenerateFn<'a> =
+    dyn FnMut(&Mesh<'_>, &TangentOptions, &mut Context) -> Result<Tangents, String> + 'a;
+
+impl fmt::Debug for Generate<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::OnCpu => "OnCpu",
+            Self::With(_) => "With(..)",
+        })
+    }
+}
+
+impl Generate<'_> {
+    fn call(
+        &mut self,
+        mesh: &Mesh<'_>,
+        options: &TangentOptions,
+        context: &mut Context,
+    ) -> Result<Tangents, String> {
+        match self {
+            Self::OnCpu => generate_tangents_with(mesh, options, context).map_err(|error| error.to_string()),
+            Self::With(function) => function(mesh, options, context),
+        }
+    }
 }
 
 /// Computes a job. `at` is the JSON path of its first primitive. With `morphs`, the result has a plan for morph targets.
@@ -121,7 +144,7 @@ pub fn compute_job<'a>(
             .map_err(|error| document.mesh_error(at, error))?;
         (plan.base().clone(), Some(plan))
     } else {
-        let tangents = generate(&mesh, &options.tangents, context);
+        let tangents = generate.call(&mesh, &options.tangents, context);
         (tangents.map_err(|sentence| document.invalid(at, sentence))?, None)
     };
     if options.strict {

@@ -71,6 +71,31 @@ pub fn group<'a>(
     groups
 }
 
+/// Groups with at least so many triangles are computed on all threads, one after the other.
+const LARGE_GROUP: usize = 1 << 14;
+
+/// Small groups are computed side by side, so many triangles before they are written.
+const BATCH_TRIANGLES: usize = 1 << 18;
+
+/// Divides groups into batches of consecutive ones: a large group, or several small ones.
+pub fn batches(groups: &[Group]) -> Vec<&[Group]> {
+    let mut batches = Vec::new();
+    let (mut start, mut triangles, mut was_large) = (0, 0, false);
+    for (at, group) in groups.iter().enumerate() {
+        let more = triangle_counts(std::slice::from_ref(group)).sum::<usize>();
+        let is_large = more >= LARGE_GROUP;
+        if at > start && (was_large || is_large || triangles + more > BATCH_TRIANGLES) {
+            batches.push(&groups[start..at]);
+            (start, triangles) = (at, 0);
+        }
+        (triangles, was_large) = (triangles + more, is_large);
+    }
+    if start < groups.len() {
+        batches.push(&groups[start..]);
+    }
+    batches
+}
+
 /// The number of triangles of every job.
 pub fn triangle_counts(groups: &[Group]) -> impl Iterator<Item = usize> {
     groups.iter().flat_map(|group| &group.jobs).map(|job| job.triangle_count)
