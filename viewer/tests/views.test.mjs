@@ -39,6 +39,36 @@ test('the page opens with a sample and reports its faults', async () => {
   assert.equal(await viewer.page.inputValue('#left'), 'file');
 });
 
+test('white stays below white, so that its shading is seen', async () => {
+  // A white ball without a material.
+  const [count, lines] = [24, []];
+  for (let j = 0; j <= count; j++) {
+    for (let i = 0; i <= 2 * count; i++) {
+      const [a, b] = [(Math.PI * j) / count, (Math.PI * i) / count];
+      const place = [Math.sin(a) * Math.sin(b), Math.cos(a), Math.sin(a) * Math.cos(b)].join(' ');
+      lines.push(`v ${place}`, `vn ${place}`, `vt ${i / (2 * count)} ${1 - j / count}`);
+    }
+  }
+  for (let j = 0; j < count; j++) {
+    for (let i = 0; i < 2 * count; i++) {
+      const row = 2 * count + 1;
+      lines.push(`f ${[j * row + i, (j + 1) * row + i, (j + 1) * row + i + 1, j * row + i + 1].map((at) => `${at + 1}/${at + 1}/${at + 1}`).join(' ')}`);
+    }
+  }
+  await viewer.page.setInputFiles('#files', { name: 'ball.obj', mimeType: 'text/plain', buffer: Buffer.from(lines.join('\n')) });
+  await viewer.settled();
+  await viewer.page.uncheck('#pattern');
+  await viewer.settled();
+  const picture = await viewer.picture();
+  const isLit = (limit) => (r, g, b) => Math.min(r, g, b) > limit;
+  const ball = picture.share(isLit(90));
+  assert.ok(ball > 0.1, 'most of the ball is bright');
+  assert.ok(picture.share(isLit(235)) < 0.02 * ball, 'and not washed out');
+  assert.ok(picture.share(isLit(200)) > 0.3 * ball, 'and it is white');
+  await viewer.page.check('#pattern');
+  await viewer.click('#open-sample');
+});
+
 test('the slider separates two sources', async () => {
   await viewer.slide('split', 100);
   const left = await viewer.picture();

@@ -98,16 +98,27 @@ export class App {
       await call('open', 'given', parts.map((part) => part.surface));
       if (isOutdated()) return;
       this.setModel(model, parts);
+      await this.present(model, isOutdated);
+    } catch (error) {
+      if (!isOutdated()) throw error;
+    }
+  }
+
+  /** Shows the open model, then what costs time: the report and the findings of the check. */
+  private async present(model: Model, isOutdated: () => boolean): Promise<void> {
+    try {
       await this.compare();
       if (isOutdated()) return;
       this.viewport.lookAtAll();
       this.light();
+      await nextPicture();
       showReport(await this.findings(isOutdated), (finding, place) => this.visit(finding, place));
       showDone(this.summary());
-      await this.examination.examine(model);
     } catch (error) {
-      if (!isOutdated()) throw error;
+      if (!isOutdated()) this.examination.fail(error);
+      throw error;
     }
+    await this.examination.examine(model);
   }
 
   /** Replaces the model. */
@@ -118,6 +129,7 @@ export class App {
     offerSources(parts.some((part) => part.surface.tangents));
     element('name').textContent = model.name;
     clearReport();
+    this.examination.announce(model);
   }
 
   /** Collects the findings of all parts. */
@@ -262,4 +274,9 @@ function ownSources([left, right]: readonly [Shown, Shown]): [Source, Source] {
 /** Coordinates as text. Single precision has about seven decimal digits. */
 function rounded(at: number[]): string {
   return at.map((x) => Number(x.toPrecision(7))).join(', ');
+}
+
+/** Resolves when what was asked for is on screen. */
+async function nextPicture(): Promise<void> {
+  for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
 }

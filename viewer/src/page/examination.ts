@@ -31,11 +31,20 @@ export class Examination {
     element('save-repaired').addEventListener('click', () => this.save());
   }
 
-  /** Checks a model. An error of the check is shown in place of the findings: the model stays usable. */
-  async examine(model: Model): Promise<void> {
+  /** Announces that a model will be checked, in place of the findings on the model before. */
+  announce(model: Model): void {
     [this.model, this.maps, this.repaired] = [model, [], null];
     showChecking();
     showMaps([]);
+  }
+
+  /** Says why the announced model is not checked. */
+  fail(error: unknown): void {
+    showCheckFailed(error instanceof Error ? error.message : String(error));
+  }
+
+  /** Checks the announced model. An error of the check is shown in place of the findings: the model stays usable. */
+  async examine(model: Model): Promise<void> {
     try {
       const file = await documentOf(model);
       const findings = await checker('check', file);
@@ -46,7 +55,7 @@ export class Examination {
       this.maps = maps.map((map) => ({ ...map, isRepaired: false }));
       showMaps(this.maps);
     } catch (error) {
-      if (this.model === model) showCheckFailed(error instanceof Error ? error.message : String(error));
+      if (this.model === model) this.fail(error);
     }
   }
 

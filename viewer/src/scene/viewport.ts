@@ -9,7 +9,6 @@ import {
   type Object3D,
   OrthographicCamera,
   PerspectiveCamera,
-  PMREMGenerator,
   Scene,
   Sphere,
   Spherical,
@@ -17,10 +16,10 @@ import {
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
 
 import { fly, type View } from './camera-flight';
 import type { Side } from './model-view';
+import { studio } from './studio';
 
 /** The vertical field of view in degrees. */
 const FIELD_OF_VIEW = 35;
@@ -57,9 +56,7 @@ export class Viewport {
     this.controls.addEventListener('change', () => this.draw());
     this.controls.addEventListener('start', () => this.stopFlight());
     this.scene.add(this.light, this.light.target);
-    const generator = new PMREMGenerator(this.renderer);
-    this.scene.environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
-    generator.dispose();
+    this.scene.environment = studio();
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
