@@ -279,7 +279,7 @@ test('darboux view shows its model', { skip: !DARBOUX && 'DARBOUX names no comma
   }
   const path = join(place, 'TwoSidedPlane.gltf');
   await viewed(path, async (served) => {
-    assert.equal(await served.text('name'), 'TwoSidedPlane.glb');
+    assert.equal(await served.text('name'), 'TwoSidedPlane.gltf');
     writeFileSync(path, '{}');
     await served.page.reload();
     await served.settled();

@@ -128,7 +128,7 @@ fn a_gltf_comes_whole_and_as_a_sentence_once_it_is_broken() {
     let model = folder.path().join("TwoSidedPlane.gltf");
     let viewer = Viewer::start(folder.path(), &model);
     let (host, secret) = viewer.parts();
-    assert!(viewer.address.ends_with("/?model=TwoSidedPlane.glb"), "{}", viewer.address);
+    assert!(viewer.address.ends_with("/?model=TwoSidedPlane.gltf"), "{}", viewer.address);
     let address = format!("/{secret}/model/0");
     let (status, body) = viewer.get(host, &address);
     assert_eq!((status, body.get(..4)), (200, Some(&b"glTF"[..])));

@@ -5,6 +5,7 @@ import { MTLLoader } from 'three/addons/loaders/MTLLoader.js';
 import { OBJLoader } from 'three/addons/loaders/OBJLoader.js';
 
 import { counted } from '../plural';
+import { index } from './indexing';
 import { isColored } from './image-colours';
 import { resolvePath, type FileBundle } from './file-bundle';
 import { setExportedOrigins } from './origin';
@@ -38,10 +39,12 @@ export async function openObj(name: string, bytes: Uint8Array<ArrayBuffer>, bund
   const standardOf = (material: Material) => standardMaterial(material, () => heights.add(material.name));
   scene.traverse((object) => {
     if (!(object instanceof Mesh)) return;
+    index(object.geometry);
     object.material = Array.isArray(object.material) ? object.material.map(standardOf) : standardOf(object.material);
   });
   setExportedOrigins(scene);
   const warnings = missing.map((library) => `${library} is not among the files, and its materials are missing`);
+  if (!/^\s*vn\s/m.test(text)) warnings.push('the file has no normals, so every triangle is shown and saved flat');
   if (lost) warnings.push(`${counted(lost, 'texture', 'textures')} missing or not decodable`);
   for (const material of heights) warnings.push(`the bump map of ${material} is grey, so it is a height map, which is not shown`);
   return { scene, warnings };

@@ -6,6 +6,7 @@ import { Box3, Matrix3, Sphere, Vector3 } from 'three';
 import { openGltf } from '../files/gltf';
 import { openModel, type Model } from '../files/model';
 import { withTangents } from '../files/export-glb';
+import { oddities } from '../scene/oddities';
 import { PlaceMarker } from '../scene/place-marker';
 import { partsOf, placesOf, uvSquare, type Part } from '../scene/model-parts';
 import { dispose, empty, ModelView, type Side } from '../scene/model-view';
@@ -124,6 +125,7 @@ export class App {
   /** Replaces the model. */
   private setModel(model: Model, parts: Part[]): void {
     [this.model, this.parts] = [model, parts];
+    model.warnings.push(...oddities(parts.map((part) => part.surface)));
     this.viewport.setLayoutSquare(...uvSquare(parts));
     this.marker.hide();
     offerSources(parts.some((part) => part.surface.tangents));
@@ -253,8 +255,9 @@ export class App {
     if (!this.model) throw new Error('There is no model to save.');
     showProgress('Writing tangents', null);
     const { bytes, description } = await withTangents(this.model);
-    save(nameLike(this.model.name, '.tangents.glb'), new Blob([bytes], { type: 'model/gltf-binary' }));
     const { written, skipped } = description.totals;
+    if (!written) throw new Error(`No part of ${this.model.name} can have tangents, so nothing is saved; tangents need texture coordinates and normals.`);
+    save(nameLike(this.model.name, '.tangents.glb'), new Blob([bytes], { type: 'model/gltf-binary' }));
     const lines = [`Tangents written to ${counted(written, 'primitive', 'primitives')}, ${skipped} skipped`, ...description.warnings];
     showDone(lines.join('. '));
   }

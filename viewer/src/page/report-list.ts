@@ -64,7 +64,7 @@ function row(finding: Found, visit: Visit): HTMLElement {
   button.addEventListener('click', () => {
     // Single precision has about seven decimal digits.
     const at = visit(finding, next).map((x) => Number(x.toPrecision(7)));
-    element('status').textContent = `${text}, place ${next + 1} of ${places}, at (${at.join(', ')})`;
+    element('status').textContent = `${text}, place ${next + 1} of ${places < finding.count ? `the first ${places} of ${finding.count}` : places}, at (${at.join(', ')})`;
     next = (next + 1) % places;
   });
   item.append(button);

@@ -1,6 +1,6 @@
 // Builds the three.js objects of the model: both sides of the slider, lines over them, and their UV layouts.
 
-import { Box3, BufferAttribute, Group, InstancedMesh, LineSegments, Mesh, type BufferGeometry, type Material, Vector3 } from 'three';
+import { Box3, BufferAttribute, Group, InstancedMesh, LineSegments, Mesh, Sphere, type BufferGeometry, type Material, Vector3 } from 'three';
 
 import type { Mistakes, Settings } from '../settings';
 import type { Comparison } from '../surface/comparison';
@@ -99,7 +99,10 @@ function geometriesOf(part: ComparedPart, settings: Settings): [BufferGeometry, 
   const zeros = () => new Float32Array(comparison.sourceOfVertex.length * 4);
   const make = (at: 0 | 1) => {
     const frames = comparison.tangents[at] ?? zeros();
-    return sideGeometry(shared, indices, frames, isVertexData(part, settings, at), at ? mistakes : NONE);
+    const geometry = sideGeometry(shared, indices, frames, isVertexData(part, settings, at), at ? mistakes : NONE);
+    // three.js would find none where a position is not finite.
+    geometry.boundingSphere = boundsOf(comparison.positions).getBoundingSphere(new Sphere());
+    return geometry;
   };
   part.mistakes = key;
   return (part.geometries = [make(0), make(1)]);

@@ -1,12 +1,26 @@
 // The sources of tangents that the page compares.
 
-import { generateTangents } from 'darboux';
+import { generateTangents, type Method, type Mode } from 'darboux';
 
 import { derivativeTangents } from './derivative-tangents';
 import { gathered, type Surface } from './surface';
 
 /** The sources that a side can show. */
-export const SOURCES = ['file', 'mikktspace', 'angle-area', 'lengyel', 'derivatives'] as const;
+export const SOURCES = [
+  'file',
+  'mikktspace',
+  'mikktspace-reference',
+  'mikktspace-corrected',
+  'angle-area',
+  'angle-edge',
+  'lengyel',
+  'lengyel-per-vertex',
+  'average',
+  'area',
+  'face',
+  'from-normal',
+  'derivatives',
+] as const;
 
 export type Source = (typeof SOURCES)[number];
 
@@ -17,8 +31,16 @@ export type Shown = Source | 'repaired';
 export const SOURCE_NAMES: Record<Shown, string> = {
   file: 'In the file',
   mikktspace: 'MikkTSpace',
+  'mikktspace-reference': 'MikkTSpace, reference mode',
+  'mikktspace-corrected': 'MikkTSpace, corrected mode',
   'angle-area': 'Angle and area',
+  'angle-edge': 'Angle and edges (meshoptimizer)',
   lengyel: 'Lengyel',
+  'lengyel-per-vertex': 'Lengyel per vertex (three.js)',
+  average: 'Average',
+  area: 'Area',
+  face: 'Per face',
+  'from-normal': 'From the normal',
   derivatives: 'Shader derivatives',
   repaired: 'Repaired file',
 };
@@ -27,14 +49,15 @@ export const SOURCE_NAMES: Record<Shown, string> = {
 export function tangentsFrom(surface: Surface, source: Source): Float32Array | null {
   if (source === 'file') return surface.tangents && gathered(surface.tangents, 4, surface.indices);
   if (source === 'derivatives') return derivativeTangents(surface);
-  return computedTangents(surface, source);
+  const [, method = source, mode] = /^(mikktspace)-(.*)$/.exec(source) ?? [];
+  return computedTangents(surface, method as Method, mode as Mode | undefined);
 }
 
 /** The tangents of a method, likewise. */
 export function computedTangents(
   { positions, normals, uvs, indices, vDown }: Surface,
-  method: 'mikktspace' | 'angle-area' | 'lengyel',
-  mode: 'repaired' | 'reference' = 'repaired',
+  method: Method,
+  mode?: Mode,
 ): Float32Array<ArrayBuffer> {
   const tangents = generateTangents(positions, normals, uvs, indices, { method, mode });
   if (vDown) for (let w = 3; w < tangents.length; w += 4) tangents[w] = -tangents[w];

@@ -50,16 +50,14 @@ impl ServedModel {
         Ok(model)
     }
 
-    /// The names of the files that are sent: the model with the extension that it is sent as, then the companions of an OBJ.
+    /// The names of the files that are sent: the model, then the companions of an OBJ.
     pub fn names(&self) -> Vec<String> {
-        let name = self.path.file_name().unwrap_or_default();
-        match &self.kind {
-            ModelKind::Gltf => vec![Path::new(name).with_extension("glb").to_string_lossy().into_owned()],
-            ModelKind::Obj(companions) => {
-                let names = companions.iter().map(|companion| companion.name.clone());
-                [name.to_string_lossy().into_owned()].into_iter().chain(names).collect()
-            }
-        }
+        let name = self.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let companions = match &self.kind {
+            ModelKind::Gltf => &[][..],
+            ModelKind::Obj(companions) => companions,
+        };
+        [name].into_iter().chain(companions.iter().map(|companion| companion.name.clone())).collect()
     }
 
     /// The content of the file with an index in [`ServedModel::names`]; `None` for an index past the end. An OBJ and its companions are sent
