@@ -31,6 +31,10 @@ export interface Settings {
   length: number;
   /** Whether mirrored edges are drawn. */
   seams: boolean;
+  /** Whether the edges of triangles are drawn. */
+  wireframe: boolean;
+  /** The numbers of the parts that are not shown. */
+  hidden: Set<number>;
   /** Whether the UV layout is drawn. */
   layout: boolean;
   /** Whether models without a normal map get a pattern. */

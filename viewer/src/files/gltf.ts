@@ -1,6 +1,6 @@
 // Opens glTF and GLB with three.js, after the worker has made the file self-contained and has checked it.
 
-import { LoadingManager, Mesh, type Object3D, type Texture } from 'three';
+import { type AnimationClip, type Camera, LoadingManager, Mesh, type Object3D, type Texture } from 'three';
 import { type GLTF, GLTFLoader, type GLTFLoaderPlugin, type GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 
 import { counted } from '../plural';
@@ -12,6 +12,8 @@ import { setOrigin } from './origin';
 /** An opened .gltf or .glb. */
 export interface Gltf {
   scene: Object3D;
+  animations: AnimationClip[];
+  cameras: Camera[];
   /** The model with everything that it refers to, as one file. */
   bytes: Uint8Array<ArrayBuffer>;
   /** Faults that are not errors, one sentence each. */
@@ -70,7 +72,7 @@ export async function openGltf(name: string, bytes: Uint8Array<ArrayBuffer>, bun
     if (ktx2) warnings.push(`${counted(ktx2, 'texture in KTX 2 is', 'textures in KTX 2 are')} left out, because this page has no decoder for it`);
     if (lost) warnings.push(`${counted(lost, 'texture', 'textures')} missing or not decodable`);
     if (hasMoreJoints(gltf.scene)) warnings.push('vertices have more than 4 joints, and only the first 4 are used');
-    return { scene: gltf.scene, bytes: file, warnings };
+    return { scene: gltf.scene, animations: gltf.animations, cameras: gltf.cameras, bytes: file, warnings };
   } catch (error) {
     throw new Error(`${name} cannot be shown: ${error instanceof Error ? error.message : error}.`, { cause: error });
   }

@@ -1,6 +1,6 @@
 // Opens the model in a set of files: glTF, GLB, VRM or OBJ.
 
-import type { Object3D } from 'three';
+import type { AnimationClip, Camera, Object3D } from 'three';
 
 import type { FileBundle } from './file-bundle';
 import { openGltf } from './gltf';
@@ -11,6 +11,8 @@ export interface Model {
   /** The path of the model's file. */
   name: string;
   scene: Object3D;
+  animations: AnimationClip[];
+  cameras: Camera[];
   kind: 'gltf' | 'obj';
   /** The self-contained glTF that an export starts from. Null for other formats. */
   bytes: Uint8Array<ArrayBuffer> | null;
@@ -38,7 +40,7 @@ export async function openModel(bundle: FileBundle, progress: Progress): Promise
   progress(`Opening ${name}`, null);
   const isObj = /\.obj$/i.test(name);
   return isObj
-    ? { name, kind: 'obj', bytes: null, ...(await openObj(name, bytes, bundle)) }
+    ? { name, kind: 'obj', bytes: null, animations: [], cameras: [], ...(await openObj(name, bytes, bundle)) }
     : { name, kind: 'gltf', ...(await openGltf(name, bytes, bundle)) };
 }
 

@@ -10,7 +10,7 @@ import { oddities } from '../scene/oddities';
 import { PlaceMarker } from '../scene/place-marker';
 import { partsOf, placesOf, uvSquare, type Part } from '../scene/model-parts';
 import { dispose, empty, ModelView, type Side } from '../scene/model-view';
-import { Viewport } from '../scene/viewport';
+import { type Picked, Viewport } from '../scene/viewport';
 import type { Comparison } from '../surface/comparison';
 import { SOURCE_NAMES, type Shown, type Source } from '../surface/sources';
 import { call } from '../worker/surfaces';
@@ -20,14 +20,24 @@ import { Examination } from './examination';
 import { placeOf } from './findings-panel';
 import { connectKeys, connectLightDrag } from './keyboard';
 import { showLegend } from './legend';
+import { readControls, readView, resetControls, writeLink } from './link';
 import { connectSheet, connectSplit } from './layout';
 import { connectOpening, type FindFiles } from './opening';
+import { listParts } from './parts-list';
+import { offerPoses } from './pose';
 import { clearReport, showReport, type Found } from './report-list';
 import { nameLike, save } from './download';
 import { clearError, showDone, showError, showProgress } from './status';
 import { connectTheme } from './theme';
+import { ValuesPanel } from './values-panel';
 import { counted } from '../plural';
 import type { Place } from '../surface/places';
+
+/** The most triangles that are searched while the pointer moves over the model. */
+const QUICK_TRIANGLES = 200_000;
+
+/** The time in milliseconds after the last change until the address is written. */
+const LINK_DELAY = 300;
 
 /** The radius around a place of the report that is in view, relative to the model's radius. */
 const CLOSE_UP = 0.12;
@@ -46,8 +56,20 @@ export class App {
     attempt: (work) => this.attempt(work),
   });
   private readonly marker = new PlaceMarker();
+  private readonly values = new ValuesPanel({
+    viewport: this.viewport,
+    valuesAt: ({ hit, side }) => ({ values: this.viewOf(settings().sources[side]).valuesAt(hit, side), shown: settings().sources[side] }),
+    mark: (picked) => this.mark(picked),
+    isQuick: () => this.triangleCount() <= QUICK_TRIANGLES,
+  });
   private model: Model | null = null;
   private parts: Part[] = [];
+  /** Whether the state in the address was applied to the first model. */
+  private isLinkRead = false;
+  private linkTimer = 0;
+  /** Whether the model moved while its surfaces were read. */
+  private isMoved = false;
+  private isPosing = false;
   /** The number of the current opening. Results of older openings are dropped. */
   private opening = 0;
   /** The number of the current comparison. Results of older comparisons are dropped. */
@@ -60,6 +82,8 @@ export class App {
     connectKeys(this.viewport);
     connectLightDrag();
     connectControls({ sources: () => this.attempt(() => this.compare()), look: () => this.build(), light: () => this.light() });
+    this.viewport.controls.addEventListener('change', () => this.changed());
+    element('reset').addEventListener('click', () => this.attempt(() => this.reset()));
     connectSplit(() => this.moveSplit());
     connectSheet();
     element('save-picture').addEventListener('click', () => this.attempt(() => this.savePicture()));
@@ -74,6 +98,42 @@ export class App {
     const [left, right] = settings().sources.map((source) => SOURCE_NAMES[source]);
     input.ariaValueText = `${Math.round(input.valueAsNumber)} percent: ${left} on the left, ${right} on the right`;
     this.viewport.draw();
+    this.changed();
+  }
+
+  /** Writes the state into the address, once a model is open and nothing changes any more. */
+  private changed(): void {
+    clearTimeout(this.linkTimer);
+    if (this.isLinkRead) this.linkTimer = setTimeout(() => writeLink(this.viewport), LINK_DELAY);
+  }
+
+  /** Sets all controls and the camera back. */
+  private async reset(): Promise<void> {
+    resetControls();
+    offerSources(this.hasTangents());
+    listParts(this.parts.map(({ name }) => name), () => this.build());
+    await this.compare();
+    this.viewport.lookAtAll();
+    this.light();
+  }
+
+  /** Marks the corner whose values are pinned, at the place that was hit. */
+  private mark(picked: Picked | null): void {
+    if (picked) this.marker.showAt(picked.hit.point);
+    else this.marker.hide();
+    this.viewport.draw();
+  }
+
+  private hasTangents(): boolean {
+    return this.parts.some((part) => part.surface.tangents);
+  }
+
+  private triangleCount(): number {
+    return this.parts.reduce((sum, { surface }) => sum + surface.indices.length / 3, 0);
+  }
+
+  private viewOf(shown: Shown): ModelView {
+    return shown === 'repaired' ? this.repairedView : this.view;
   }
 
   /** Runs a task and shows its error, if any. */
@@ -111,6 +171,8 @@ export class App {
       await this.compare();
       if (isOutdated()) return;
       this.viewport.lookAtAll();
+      if (!this.isLinkRead) readView(this.viewport);
+      this.isLinkRead = true;
       this.light();
       await nextPicture();
       showReport(await this.findings(isOutdated), (finding, place) => this.visit(finding, place));
@@ -128,10 +190,31 @@ export class App {
     model.warnings.push(...oddities(parts.map((part) => part.surface)));
     this.viewport.setLayoutSquare(...uvSquare(parts));
     this.marker.hide();
-    offerSources(parts.some((part) => part.surface.tangents));
+    offerSources(this.hasTangents());
+    listParts(parts.map(({ name }) => name), () => this.build());
+    offerPoses(model, { posed: () => this.attempt(() => this.pose()), look: (camera) => this.viewport.lookFrom(camera) });
+    if (!this.isLinkRead) readControls();
+    this.values.free();
     element('name').textContent = model.name;
     clearReport();
     this.examination.announce(model);
+  }
+
+  /** Reads the surfaces again after the model moved; while it moves, one after the other. */
+  private async pose(): Promise<void> {
+    this.isMoved = true;
+    if (this.isPosing) return;
+    this.isPosing = true;
+    try {
+      while (this.isMoved && this.model) {
+        this.isMoved = false;
+        this.parts = partsOf(this.model.scene, this.model.kind);
+        await call('open', 'given', this.parts.map((part) => part.surface));
+        await this.compare();
+      }
+    } finally {
+      this.isPosing = false;
+    }
   }
 
   /** Collects the findings of all parts. */
@@ -165,8 +248,7 @@ export class App {
 
   /** The size of the model and the warnings about its file, in one line. */
   private summary(): string {
-    const triangles = this.parts.reduce((sum, { surface }) => sum + surface.indices.length / 3, 0);
-    const size = `${counted(triangles, 'triangle', 'triangles')} in ${counted(this.parts.length, 'part', 'parts')}`;
+    const size = `${counted(this.triangleCount(), 'triangle', 'triangles')} in ${counted(this.parts.length, 'part', 'parts')}`;
     return [size, ...(this.model?.warnings ?? [])].join('; ');
   }
 
@@ -179,8 +261,8 @@ export class App {
   private build(): void {
     const now = settings();
     this.sides.forEach(dispose);
-    const viewOf = (shown: Shown) => (shown === 'repaired' ? this.repairedView : this.view);
-    this.sides = [viewOf(now.sources[0]).side(0, now, this.viewport.radius), viewOf(now.sources[1]).side(1, now, this.viewport.radius)];
+    this.sides = [this.viewOf(now.sources[0]).side(0, now, this.viewport.radius), this.viewOf(now.sources[1]).side(1, now, this.viewport.radius)];
+    this.changed();
     this.viewport.show(this.sides, now.layout);
     showLegend(now);
   }
@@ -195,7 +277,7 @@ export class App {
     const comparisons = await Promise.all(parts.map((_, at) => call('compare', 'repaired', at, ['file', 'file'])));
     if (turn !== this.opening) return;
     this.repairedView.setParts(parts, comparisons);
-    chooseRepaired(this.parts.some((part) => part.surface.tangents));
+    chooseRepaired(this.hasTangents());
     await this.compare();
   }
 

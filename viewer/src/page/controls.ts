@@ -1,6 +1,7 @@
 // The controls of the page: fills them, reads them, and reports changes.
 
 import { SOURCES, SOURCE_NAMES, type Shown } from '../surface/sources';
+import { hiddenParts } from './parts-list';
 import { element, isOn, numberOf } from './elements';
 import { PAINTS, VECTORS, type Paint, type Settings } from '../settings';
 
@@ -45,7 +46,7 @@ export function connectControls(changes: Changes): void {
   }
   element('paints').append(...PAINTS.map(paintButton));
   element('paints').addEventListener('change', changes.look);
-  for (const id of [...VECTORS.map((name) => `lines-${name}`), 'seams', 'layout', 'pattern']) {
+  for (const id of [...VECTORS.map((name) => `lines-${name}`), 'seams', 'wireframe', 'layout', 'pattern']) {
     element(id).addEventListener('change', changes.look);
   }
   element('length').addEventListener('input', changes.look);
@@ -122,6 +123,8 @@ export function settings(): Settings {
     vectors: { tangent: isOn('lines-tangent'), bitangent: isOn('lines-bitangent'), normal: isOn('lines-normal') },
     length: numberOf('length') / 100,
     seams: isOn('seams'),
+    wireframe: isOn('wireframe'),
+    hidden: hiddenParts(),
     layout: isOn('layout'),
     pattern: isOn('pattern'),
     mistakes: { green: isPressed('green'), w: isPressed('w'), v: isPressed('v') },

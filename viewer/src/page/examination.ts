@@ -7,7 +7,7 @@ import { documentOf } from '../files/export-glb';
 import type { Model } from '../files/model';
 import { nameLike, save } from './download';
 import { element } from './elements';
-import { showChecking, showCheckFailed, showFindings, type Visit } from './findings-panel';
+import { setBusy, showChecking, showCheckFailed, showFindings, type Visit } from './findings-panel';
 import { connectMaps, showMaps, visitMap, type ShownMap } from './map-panel';
 
 /** What the application does for an examination. */
@@ -41,6 +41,7 @@ export class Examination {
   /** Says why the announced model is not checked. */
   fail(error: unknown): void {
     showCheckFailed(error instanceof Error ? error.message : String(error));
+    setBusy(false);
   }
 
   /** Checks the announced model. An error of the check is shown in place of the findings: the model stays usable. */
@@ -54,6 +55,7 @@ export class Examination {
       if (this.model !== model) return;
       this.maps = maps.map((map) => ({ ...map, isRepaired: false }));
       showMaps(this.maps);
+      setBusy(false);
     } catch (error) {
       if (this.model === model) this.fail(error);
     }
@@ -62,11 +64,15 @@ export class Examination {
   /** Repairs the model and shows what became of each finding. */
   private async repair(): Promise<void> {
     const model = this.model!;
-    element('findings').ariaBusy = 'true';
-    const { file, findings } = await checker('repair', await documentOf(model));
-    if (this.model !== model) return;
-    if (file) await this.show(file, findings);
-    showFindings(findings, this.visit);
+    setBusy(true);
+    try {
+      const { file, findings } = await checker('repair', await documentOf(model));
+      if (this.model !== model) return;
+      if (file) await this.show(file, findings);
+      showFindings(findings, this.visit);
+    } finally {
+      if (this.model === model) setBusy(false);
+    }
   }
 
   private async show(file: Uint8Array<ArrayBuffer>, findings: Finding[]): Promise<void> {

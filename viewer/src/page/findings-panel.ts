@@ -18,10 +18,15 @@ export function isRepairable({ leftBecause }: Finding): boolean {
   return leftBecause === null;
 }
 
-/** Says that the check runs; screen readers and tests wait for its end. */
+/** Says whether the check, the judgement of maps or a repair runs; screen readers and tests wait for its end. */
+export function setBusy(isBusy: boolean): void {
+  element('findings').ariaBusy = String(isBusy);
+}
+
+/** Clears the list and says that the check runs. */
 export function showChecking(): void {
   element('findings').replaceChildren();
-  element('findings').ariaBusy = 'true';
+  setBusy(true);
   element('findings-summary').textContent = 'Checking the model and its normal maps …';
   element('repair').hidden = element('save-repaired').hidden = true;
 }
@@ -30,7 +35,6 @@ export function showChecking(): void {
 export function showFindings(findings: Finding[], visit: Visit): void {
   const sorted = [...findings].sort((a, b) => SEVERITIES.indexOf(a.severity) - SEVERITIES.indexOf(b.severity));
   element('findings').replaceChildren(...sorted.map((finding) => row(finding, visit)));
-  element('findings').ariaBusy = 'false';
   element('findings-summary').textContent = summary(findings);
   const repairable = findings.filter(isRepairable).length;
   const isDone = findings.some(({ repaired }) => repaired !== undefined);
@@ -41,7 +45,6 @@ export function showFindings(findings: Finding[], visit: Visit): void {
 
 /** Says why there are no findings. */
 export function showCheckFailed(reason: string): void {
-  element('findings').ariaBusy = 'false';
   element('findings-summary').textContent = `The check ended early: ${reason}`;
 }
 

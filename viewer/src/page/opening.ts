@@ -1,6 +1,6 @@
 // Opens models from buttons, drops and the page's address.
 
-import { fromDrop, fromList, type FileBundle } from '../files/file-bundle';
+import { fromDrop, fromList, resolvePath, type FileBundle } from '../files/file-bundle';
 import { element } from './elements';
 
 /** The model that the page opens without an address. */
@@ -28,8 +28,28 @@ export function connectOpening(open: (find: FindFiles) => void): void {
     const bundle = event.dataTransfer && fromDrop(event.dataTransfer);
     if (bundle) open(() => bundle);
   });
-  const named = new URLSearchParams(location.search).get('model');
-  open(named === null ? sample : () => served(named));
+  const query = new URLSearchParams(location.search);
+  const [named, file] = ['model', 'file'].map((name) => query.get(name));
+  if (named !== null) open(() => served(named));
+  else open(file === null ? sample : () => fromFolder(file));
+}
+
+/** A model below the page's folder or beside it, with the files that a glTF refers to. Errors: it is on another machine. */
+async function fromFolder(path: string): Promise<FileBundle> {
+  if (new URL(path, location.href).origin !== location.origin) throw new Error(`${path} is on another machine; only files beside this page are opened.`);
+  const model = await (await fetched(path, path)).blob();
+  const bundle: FileBundle = new Map([[path, model]]);
+  const references: string[] = /\.gltf$/i.test(path) ? urisOf(await model.text()) : [];
+  for (const uri of references) {
+    const beside = resolvePath(uri, path);
+    if (beside !== null) bundle.set(beside, await (await fetched(beside, beside)).blob());
+  }
+  return bundle;
+}
+
+/** The files that the text of a glTF refers to; none where it is no JSON, which gets a better sentence later. */
+function urisOf(text: string): string[] {
+  return Array.from(text.matchAll(/"uri"\s*:\s*"([^"]*)"/g), ([, uri]) => uri).filter((uri) => !uri.startsWith('data:'));
 }
 
 async function sample(): Promise<FileBundle> {

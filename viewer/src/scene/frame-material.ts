@@ -86,7 +86,11 @@ void main() {
   if (paint == 4) color = vSign > 0.0 ? ${color(COLORS.plus)} : vSign < 0.0 ? ${color(COLORS.minus)} : ${color(COLORS.none)};
   if (paint == 5) color = heat(vAngle);
   #ifdef LAYOUT
-    gl_FragColor = vec4(color, 0.6);
+    #ifdef EDGES
+      gl_FragColor = vec4(0.06, 0.07, 0.09, 0.7);
+    #else
+      gl_FragColor = vec4(color, 0.6);
+    #endif
   #else
     // A weak light from the camera makes the shape visible.
     float facing = abs(dot(normalize(cross(dFdx(vEye), dFdy(vEye))), normalize(vEye)));

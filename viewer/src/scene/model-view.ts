@@ -1,8 +1,9 @@
 // Builds the three.js objects of the model: both sides of the slider, lines over them, and their UV layouts.
 
-import { Box3, BufferAttribute, Group, InstancedMesh, LineSegments, Mesh, Sphere, type BufferGeometry, type Material, Vector3 } from 'three';
+import { Box3, BufferAttribute, Group, InstancedMesh, type Intersection, LineSegments, Mesh, MeshBasicMaterial, PlaneGeometry, Sphere, SRGBColorSpace, type BufferGeometry, type Material, type Texture, Vector3 } from 'three';
 
 import type { Mistakes, Settings } from '../settings';
+import { cornerAngles, NO_ANGLE } from '../surface/angles';
 import type { Comparison } from '../surface/comparison';
 import { frameMaterial } from './frame-material';
 import { seamLines, vectorLines } from './frame-lines';
@@ -26,6 +27,22 @@ export interface Side {
   model: Group;
   /** The triangles of the UV layout. */
   layout: Group;
+}
+
+/** What is known at a corner of the model, in the coordinates of its mesh. */
+export interface Values {
+  partName: string;
+  triangle: number;
+  corner: number;
+  /** The number of the vertex in the file. */
+  vertex: number;
+  position: number[];
+  normal: number[];
+  /** xyz and w; null without a tangent. */
+  tangent: number[] | null;
+  uv: number[] | null;
+  /** To the tangent of the other side, in degrees; null where there is none. */
+  angle: number | null;
 }
 
 /** A model, and the objects that show it. */
@@ -55,20 +72,48 @@ export class ModelView {
     return all;
   }
 
+  /** The values at the corner that is nearest to a hit on one of the meshes. */
+  valuesAt({ object, face, faceIndex, barycoord }: Intersection<Mesh>, side: 0 | 1): Values {
+    const { part, comparison } = this.parts[object.userData.part];
+    const { sourceOfVertex, positions, normals, uvs, tangents } = comparison;
+    const weights = barycoord!.toArray();
+    const corner = weights.indexOf(Math.max(...weights));
+    const vertex = [face!.a, face!.b, face!.c][corner];
+    const at = (array: Float32Array, width: number) => array.subarray(vertex * width, (vertex + 1) * width);
+    const own = tangents[side];
+    const [left, right] = tangents.map((field) => field && at(field, 4));
+    const angle = left && right ? cornerAngles(left, right)[0] : NO_ANGLE;
+    return {
+      partName: part.name,
+      triangle: faceIndex!,
+      corner: 3 * faceIndex! + corner,
+      vertex: sourceOfVertex[vertex],
+      position: [...at(positions, 3)],
+      normal: [...at(normals, 3)],
+      tangent: own && [...at(own, 4)],
+      uv: part.surface.uvs && [...at(uvs, 2)],
+      angle: angle === NO_ANGLE ? null : angle,
+    };
+  }
+
   /** Builds a side: 0 is the left one. `radius` is that of the model. */
   side(at: 0 | 1, settings: Settings, radius: number): Side {
     const side = empty();
     const mistakes = at === 1 ? settings.mistakes : NONE;
-    for (const compared of this.parts) {
+    for (const [number, compared] of this.parts.entries()) {
+      if (settings.hidden.has(number)) continue;
       const { part } = compared;
       const hasTangents = isVertexData(compared, settings, at);
       const geometry = geometriesOf(compared, settings)[at];
       const isShaded = settings.paint === 'shaded';
       for (const copy of part.copies) {
         const material = isShaded ? sideMaterial(part, hasTangents, settings.pattern, mistakes) : frameMaterial(settings.paint, copy.place, false);
-        side.model.add(placedMesh(copy, geometry, material));
+        const mesh = placedMesh(copy, geometry, material);
+        mesh.userData.part = number;
+        side.model.add(mesh);
+        if (settings.wireframe) side.model.add(placedMesh(copy, geometry, new MeshBasicMaterial(WIRES)));
       }
-      if (settings.layout) side.layout.add(layoutMesh(geometry, frameMaterial(isShaded ? 'sign' : settings.paint, part.copies[0].place, true)));
+      if (settings.layout) addLayout(side, part, geometry, isShaded ? 'sign' : settings.paint);
       this.addLines(side, at, compared, geometry, settings, radius);
     }
     return side;
@@ -85,6 +130,39 @@ export class ModelView {
     const seams = comparison.seams[at];
     if (settings.seams && seams.length) side.model.add(seamLines(seams, places));
   }
+}
+
+/** The look of edges, on the surface and in the UV layout. */
+const WIRES = { color: 0x101216, wireframe: true, transparent: true, opacity: 0.55, toneMapped: false } as const;
+
+/** Adds a part to the UV layout: its texture once, its triangles and their edges. */
+function addLayout(side: Side, part: Part, geometry: BufferGeometry, paint: Settings['paint']): void {
+  const texture = part.material.map ?? (part.material.normalMap && asColors(part.material.normalMap));
+  if (texture && !side.layout.children.length) {
+    const square = new Mesh(new PlaneGeometry().translate(0.5, 0.5, 0), new MeshBasicMaterial({ map: texture, toneMapped: false, depthTest: false }));
+    // Rows of images count downwards in glTF.
+    if (part.surface.vDown) square.geometry.getAttribute('uv').array.forEach((x, at, uvs) => at % 2 && (uvs[at] = 1 - x));
+    side.layout.add(square);
+  }
+  const { place } = part.copies[0];
+  side.layout.add(layoutMesh(geometry, frameMaterial(paint, place, true)), layoutMesh(geometry, layoutEdges(frameMaterial(paint, place, true))));
+}
+
+const colored = new WeakMap<Texture, Texture>();
+
+/** A normal map whose texels are shown as the colours that they are in its file. */
+function asColors(texture: Texture): Texture {
+  const found = colored.get(texture) ?? texture.clone();
+  found.colorSpace = SRGBColorSpace;
+  colored.set(texture, found);
+  return found;
+}
+
+/** The material of edges in the UV layout. */
+function layoutEdges(material: ReturnType<typeof frameMaterial>): ReturnType<typeof frameMaterial> {
+  material.wireframe = true;
+  material.defines.EDGES = '';
+  return material;
 }
 
 const NONE: Mistakes = { green: false, w: false, v: false };

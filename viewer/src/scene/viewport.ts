@@ -6,12 +6,16 @@ import {
   Color,
   DirectionalLight,
   NeutralToneMapping,
+  type Intersection,
+  Mesh,
   type Object3D,
   OrthographicCamera,
   PerspectiveCamera,
+  Raycaster,
   Scene,
   Sphere,
   Spherical,
+  Vector2,
   Vector3,
   WebGLRenderer,
 } from 'three';
@@ -30,6 +34,13 @@ const LAYOUT_SIZE = 0.5;
 const LAYOUT_RIGHT = 12;
 /** The distance of the UV layout from the bottom edge in pixels. */
 const LAYOUT_BOTTOM = 36;
+
+/** What lies under a place of the picture. */
+export interface Picked {
+  /** 0 for the left side, 1 for the right one. */
+  side: 0 | 1;
+  hit: Intersection<Mesh>;
+}
 
 export class Viewport {
   readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
@@ -146,6 +157,42 @@ export class Viewport {
     this.camera.position.setFromSpherical(turned).add(this.controls.target);
     this.controls.update();
     this.draw();
+  }
+
+  /** The first surface under a place of the canvas, in CSS pixels; null where there is none. */
+  pick(x: number, y: number): Picked | null {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const side = x < this.split * width ? 0 : 1;
+    const caster = new Raycaster();
+    caster.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.camera);
+    const meshes = this.sides[side]?.model.children.filter((object) => object instanceof Mesh && object.userData.part !== undefined) ?? [];
+    const [hit] = caster.intersectObjects<Mesh>(meshes as Mesh[], false);
+    return hit ? { side, hit } : null;
+  }
+
+  /** The position of the camera and the point that it looks at, 6 numbers. */
+  view(): number[] {
+    return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
+  }
+
+  /** Sets what {@link view} returns. */
+  setView(view: number[]): void {
+    this.stopFlight();
+    this.camera.position.fromArray(view);
+    this.controls.target.fromArray(view, 3);
+    this.camera.near = this.sphere.radius / 1000;
+    this.camera.far = this.sphere.radius * 20 + this.camera.position.distanceTo(this.sphere.center);
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Looks from a camera of the file to where the model is. */
+  lookFrom(camera: Camera): void {
+    camera.updateWorldMatrix(true, false);
+    const eye = new Vector3().setFromMatrixPosition(camera.matrixWorld);
+    const ahead = new Vector3(0, 0, -1).transformDirection(camera.matrixWorld);
+    const distance = Math.max(ahead.dot(this.sphere.center.clone().sub(eye)), 0.1 * this.sphere.radius);
+    this.setView([...eye.toArray(), ...eye.clone().addScaledVector(ahead, distance).toArray()]);
   }
 
   /** Requests a frame. Several calls before the next frame draw once. */

@@ -1,0 +1,82 @@
+// The pose of a model: its animation clips, its morph targets, and the cameras of its file.
+
+import { AnimationMixer, type Camera, Mesh, type Object3D } from 'three';
+
+import type { Model } from '../files/model';
+import { element } from './elements';
+
+/** What the application does after a change. */
+export interface PoseHost {
+  /** The model moved: its surfaces must be read again. */
+  posed(): void;
+  /** Shows the model as a camera of the file does. */
+  look(camera: Camera): void;
+}
+
+/** Offers the clips, morph targets and cameras of a new model; nothing is shown where it has none. */
+export function offerPoses({ scene, animations, cameras }: Model, host: PoseHost): void {
+  const morphs = morphsOf(scene);
+  const mixer = new AnimationMixer(scene);
+  const [clip, time] = [element<HTMLSelectElement>('clip'), element<HTMLInputElement>('clip-time')];
+  element('pose').hidden = !animations.length && !morphs.length && !cameras.length;
+  element('clips').hidden = !animations.length;
+  clip.replaceChildren(new Option('As in the file', ''), ...animations.map(({ name }, at) => new Option(name || `Clip ${at}`, String(at))));
+  const play = () => {
+    mixer.stopAllAction();
+    const chosen = animations[clip.value === '' ? -1 : Number(clip.value)];
+    time.disabled = !chosen;
+    if (chosen) {
+      mixer.clipAction(chosen).play();
+      mixer.setTime(time.valueAsNumber * chosen.duration * (1 - 1e-6));
+      time.ariaValueText = `${(time.valueAsNumber * chosen.duration).toFixed(2)} seconds`;
+    }
+    host.posed();
+  };
+  clip.onchange = play;
+  time.oninput = play;
+  time.value = '0';
+  time.disabled = true;
+  element('morphs').replaceChildren(...morphs.map((morph) => slider(morph, () => host.posed())));
+  offerCameras(cameras, host);
+}
+
+function offerCameras(cameras: Camera[], host: PoseHost): void {
+  const select = element<HTMLSelectElement>('camera');
+  element('cameras').hidden = !cameras.length;
+  select.replaceChildren(new Option('Free', ''), ...cameras.map(({ name }, at) => new Option(name || `Camera ${at}`, String(at))));
+  select.onchange = () => select.value !== '' && host.look(cameras[Number(select.value)]);
+}
+
+/** A morph target of one or of several meshes with the same name. */
+interface Morph {
+  name: string;
+  meshes: { mesh: Mesh; target: number }[];
+}
+
+function morphsOf(scene: Object3D): Morph[] {
+  const found = new Map<string, Morph>();
+  scene.traverse((object) => {
+    if (!(object instanceof Mesh) || !object.morphTargetInfluences) return;
+    const names = Object.entries(object.morphTargetDictionary ?? {});
+    for (const target of object.morphTargetInfluences.keys()) {
+      const name = names.find(([, at]) => at === target)?.[0] ?? String(target);
+      const key = `${object.parent?.type === 'Group' ? object.parent.name : object.name}: ${name}`;
+      const morph = found.get(key) ?? { name: key, meshes: [] };
+      morph.meshes.push({ mesh: object, target });
+      found.set(key, morph);
+    }
+  });
+  return [...found.values()];
+}
+
+function slider({ name, meshes }: Morph, changed: () => void): HTMLElement {
+  const label = document.createElement('label');
+  const input = document.createElement('input');
+  Object.assign(input, { type: 'range', min: '0', max: '1', step: '0.01', value: String(meshes[0].mesh.morphTargetInfluences![meshes[0].target]) });
+  input.addEventListener('input', () => {
+    for (const { mesh, target } of meshes) mesh.morphTargetInfluences![target] = input.valueAsNumber;
+    changed();
+  });
+  label.append(`${name} `, input);
+  return label;
+}

@@ -1,0 +1,146 @@
+// Looking closely: values under the pointer, edges, parts, poses, cameras, links, and the way back.
+
+import assert from 'node:assert/strict';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+
+import { browser, root, serve, Viewer } from './page.mjs';
+import { gltf, QUAD, TANGENTS } from './quads.mjs';
+
+let server, chromium, viewer;
+
+before(async () => {
+  [server, chromium] = [await serve(), await browser()];
+  viewer = await Viewer.open(chromium, server.address, { viewport: { width: 1000, height: 600 } });
+});
+
+after(async () => {
+  await chromium?.close();
+  server?.close();
+  assert.deepEqual(viewer?.faults, []);
+});
+
+async function open(name, text) {
+  await viewer.page.setInputFiles('#files', { name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+  await viewer.settled();
+}
+
+/** The values on the page, by their names. */
+const values = () => viewer.page.$$eval('#values-list dt', (all) => Object.fromEntries(all.map((dt) => [dt.textContent, dt.nextSibling.textContent])));
+
+/** A place of the picture, from 0 to 1 each way. */
+async function place(x, y) {
+  const box = await viewer.page.locator('#view').boundingBox();
+  return [box.x + x * box.width, box.y + y * box.height];
+}
+
+test('the values under the pointer are those of the file, and a click pins them', async () => {
+  await open('quad.gltf', gltf({ attributes: { ...QUAD, TANGENT: TANGENTS } }));
+  await viewer.page.mouse.move(...(await place(0.3, 0.5)));
+  await viewer.settled();
+  const left = await values();
+  assert.deepEqual([left['In the file'], left.Normal, left.Tangent], ['mesh_0', '0, 0, 1', '-1, 0, 0']);
+  const [, , vertex] = left['Triangle, corner, vertex'].split(', ').map(Number);
+  assert.equal(left.Position, [...QUAD.POSITION[0].subarray(3 * vertex, 3 * vertex + 3)].join(', '));
+  assert.equal(left.UV, [...QUAD.TEXCOORD_0[0].subarray(2 * vertex, 2 * vertex + 2)].join(', '));
+  assert.equal(left.w, '-1');
+  assert.match(left['Angle to the other side'], /^[\d.e-]+°$/);
+  await viewer.page.mouse.click(...(await place(0.7, 0.5)));
+  await viewer.page.mouse.move(...(await place(0.3, 0.5)));
+  await viewer.settled();
+  const right = await values();
+  assert.deepEqual([right.MikkTSpace, right.w], ['mesh_0', '1'], 'they stay pinned');
+  await viewer.click('#unpin');
+  assert.equal(await viewer.page.isVisible('#values'), false);
+  await viewer.page.focus('#view');
+  await viewer.page.keyboard.press('Enter');
+  assert.equal(await viewer.page.isVisible('#values'), true, 'the keyboard pins the middle');
+  await viewer.page.keyboard.press('Escape');
+  assert.equal(await viewer.page.isVisible('#values'), false);
+});
+
+test('edges are drawn, on the model and in the UV layout with its texture', async () => {
+  await viewer.click('#open-sample');
+  const before = await viewer.picture();
+  await viewer.click('#wireframe');
+  assert.ok((await viewer.picture()).differs(before) > 0.02);
+  await viewer.click('#wireframe');
+  await viewer.click('#layout');
+  const layout = await viewer.picture();
+  assert.ok(layout.share((r, g, b) => Math.abs(r - 128) < 40 && Math.abs(g - 128) < 40 && b > 220, 0.6) > 0.005, 'the normal map is seen');
+  await viewer.click('#layout');
+});
+
+test('parts can be hidden', async () => {
+  await viewer.give('folder', join(root, 'assets/Morphing'));
+  const name = await viewer.text('name');
+  await viewer.click('#open-sample');
+  assert.equal(await viewer.page.isVisible('#parts'), false, 'one part is not listed');
+  const { json } = { json: JSON.parse(gltf()) };
+  json.meshes.push({ ...json.meshes[0], name: 'Other' });
+  json.nodes.push({ mesh: 1, translation: [0, 1.2, 0] });
+  json.scenes[0].nodes.push(1);
+  await open('two.gltf', JSON.stringify(json));
+  const both = await viewer.picture();
+  await viewer.click('#parts-list input[value="1"]');
+  const one = await viewer.picture();
+  assert.ok(one.differs(both) > 0.03, `hidden after ${name}`);
+  await viewer.click('#reset');
+  assert.ok((await viewer.picture()).differs(both) < 0.002, 'and shown again');
+});
+
+test('clips, morph targets and cameras of the file pose the model', async () => {
+  await viewer.give('files', [join(root, 'assets/Fox/Fox.glb')]);
+  const rest = await viewer.picture();
+  assert.ok((await viewer.page.locator('#clip option').count()) > 1);
+  await viewer.choose('clip', '1');
+  await viewer.slide('clip-time', 0.4);
+  assert.ok((await viewer.picture()).differs(rest) > 0.01, 'it moved');
+  await viewer.choose('clip', '');
+  assert.ok((await viewer.picture()).differs(rest) < 0.002, 'and back');
+  const up = QUAD.POSITION[0].map((_, at) => (at % 3 === 2 && at < 6 ? 1 : 0));
+  const look = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 6, 1];
+  await open('morph.gltf', gltf({ targets: [{ POSITION: [up, 3] }], mesh: { weights: [0] }, json: () => ({ cameras: [{ type: 'perspective', name: 'Front', perspective: { yfov: 0.6, znear: 0.1 } }], nodes: [{ mesh: 0 }, { camera: 0, matrix: look }], scenes: [{ nodes: [0, 1] }] }) }));
+  const flat = await viewer.picture();
+  await viewer.slide('morphs input', 1);
+  assert.ok((await viewer.picture()).differs(flat) > 0.02, 'the morph target moved it');
+  await viewer.slide('morphs input', 0);
+  await viewer.choose('camera', '0');
+  await viewer.page.waitForFunction(() => {
+    const view = new URLSearchParams(location.hash.slice(1)).get('view').split(',').map(Number);
+    return [0, 0, 6, 0, 0, 0].every((x, at) => Math.abs(x - view[at]) < 1e-3);
+  });
+});
+
+test('a link shows the same', async () => {
+  await viewer.click('#open-sample');
+  await viewer.click('#reset');
+  await viewer.choose('right', 'lengyel');
+  await viewer.click('input[value=tangent]');
+  await viewer.click('#flip-w');
+  await viewer.slide('split', 40);
+  await viewer.page.focus('#view');
+  for (const key of ['ArrowLeft', 'ArrowUp', '+']) await viewer.page.keyboard.press(key);
+  await viewer.page.waitForFunction(() => /right=lengyel.*split=40.*flip-w=1.*paint=tangent.*view=/.test(location.hash));
+  await viewer.page.waitForTimeout(500);
+  await viewer.page.$eval('#view', (view) => view.blur());
+  const expected = await viewer.picture();
+  const other = await Viewer.open(chromium, viewer.page.url());
+  const same = (await other.picture()).differs(expected);
+  assert.ok(same < 0.01, `${same} differs`);
+  assert.equal(await other.page.inputValue('#right'), 'lengyel');
+  assert.deepEqual(other.faults, []);
+  await other.close();
+  await viewer.click('#reset');
+  assert.deepEqual([await viewer.page.inputValue('#right'), await viewer.page.inputValue('#split')], ['mikktspace', '50']);
+});
+
+test('a page that lies in a folder opens the model that its address names', async () => {
+  const page = await Viewer.open(chromium, `${server.address}?file=shield.glb`);
+  assert.deepEqual([await page.text('name'), await page.text('error')], ['shield.glb', '']);
+  await page.close();
+  const foreign = await Viewer.open(chromium, `${server.address}?file=${encodeURIComponent('https://example.com/a.glb')}`);
+  assert.match(await foreign.text('error'), /^https:\/\/example\.com\/a\.glb is on another machine/);
+  assert.deepEqual(foreign.faults, []);
+  await foreign.close();
+});
