@@ -10,7 +10,6 @@ use darboux_io::image::RgbaImage;
 use crate::code::Code;
 use crate::facets::FacetVotes;
 use crate::finding::{Finding, Place};
-use crate::fit;
 use crate::map::Map;
 use crate::obstacles;
 use crate::rule::Measured;
@@ -133,13 +132,13 @@ pub struct CheckedMap {
 }
 
 fn check_surface(surface: &Surface) -> Vec<Finding> {
-    let measured = Measured { surface, fit: fit::measure(surface) };
+    let measured = Measured::new(surface);
     let rules = SURFACE_RULES.iter().flat_map(|family| family.iter());
     let findings = rules.flat_map(|rule| rule(&measured));
     let placed = |finding: Finding| {
         let severity = finding.severity.min(worst_severity(finding.code, surface));
         let finding = Finding { place: surface.place.clone(), severity, ..finding };
-        let obstacle = obstacles::of_surface(&finding, surface);
+        let obstacle = obstacles::of_surface(&finding, &measured);
         finding.with_obstacle(obstacle)
     };
     findings.map(placed).collect()

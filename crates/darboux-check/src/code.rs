@@ -179,8 +179,8 @@ codes! {
         "Tangents were computed in another way than MikkTSpace."
         "Smooth shading differs a little from the bake: faint gradients and seams on low-poly models."
         "meshoptimizer's and gltfpack's default weights, three.js computeTangents, averages of an own importer (glTF-Blender-IO 2226)."
-        "If the map was baked with MikkTSpace: `darboux tangents --overwrite`. If it was made for these tangents, keep them."
-        Repair "the tangents are computed again by MikkTSpace, or by the method that `--method` names"
+        "`darboux tangents --overwrite`, as nearly all maps are baked with MikkTSpace. A map that was baked for these tangents needs them: `--allow tangent-other-recipe`."
+        Repair "the tangents are computed again by MikkTSpace, or by the method that `--method` names; those that MikkTSpace gives to quads before they are cut are kept, because maps are baked on quads"
     }
     TangentMissing "tangent-missing" Info {
         "The material has a normal map and the primitive has no tangents."
@@ -229,7 +229,7 @@ codes! {
         "The surface, or a part of it, is dark where it faces the light, or is culled."
         "The model or a part of it was mirrored without reversing its faces, or its faces were reversed without its normals."
         "Recompute normals outside in the modelling program and export again."
-        Repair "the faces or the normals are turned over, whichever are reversed"
+        Repair "what is reversed is turned over, the faces or the normals"
     }
     UvMissing "uv-missing" Error {
         "The normal texture uses a UV set that the primitive does not have."

@@ -2,8 +2,11 @@
 //!
 //! The rules about tangents that follow other directions or signs exclude each other, so one measurement decides among them.
 
+use std::borrow::Cow;
+
 use darboux::CornerDifference;
 
+use crate::orientation::Reversal;
 use crate::surface::{Surface, cross, dot, indices_where, length, sub, uv_area, xyz};
 
 /// How the tangents of a file differ from MikkTSpace's.
@@ -47,6 +50,9 @@ const MIN_SHARE: f64 = 0.9;
 /// The largest share of corners whose sign may contradict the others.
 const MAX_SIGN_ERRORS: f64 = 0.01;
 
+/// A smaller w is no sign: there is a rule about such values.
+const MIN_SIGN: f32 = 0.1;
+
 /// Corners by the direction that is nearest to the file's tangent, and by sign.
 #[derive(Default)]
 struct Counts {
@@ -63,10 +69,10 @@ struct Counts {
     flipped_triangles: Vec<usize>,
 }
 
-/// Measures; none where the surface has no tangents, normals or UVs.
-pub fn measure(surface: &Surface) -> Option<Fit> {
+/// Measures; none where the surface has no tangents, normals or UVs. `expected`: MikkTSpace's tangents of all corners.
+pub fn measure(surface: &Surface, expected: &[[f32; 4]], reversal: Option<Reversal>) -> Option<Fit> {
     let tangents = surface.corner_tangents()?;
-    let own = count(surface, &tangents, surface.uv_set)?;
+    let own = count(surface, &tangents, surface.uv_set, Cow::Borrowed(expected), reversal)?;
     let share = |part: usize| part as f64 / own.corners.max(1) as f64;
     let flips = own.signs[0][1] + own.signs[1][1];
     let fit =
@@ -76,7 +82,9 @@ pub fn measure(surface: &Surface) -> Option<Fit> {
     }
     let others = surface.uv_sets.keys().filter(|&&set| set != surface.uv_set && share(own.close) < MIN_SHARE);
     for &set in others {
-        if let Some(other) = count(surface, &tangents, set).filter(|other| share(other.close) >= MIN_SHARE) {
+        let Some(expected) = surface.expected_tangents(set) else { continue };
+        let other = count(surface, &tangents, set, Cow::Owned(expected), reversal);
+        if let Some(other) = other.filter(|other| share(other.close) >= MIN_SHARE) {
             return Some(fit(Difference::OtherUvSet(set), other.close));
         }
     }
@@ -151,35 +159,43 @@ fn u_direction(surface: &Surface, uvs: &[[f32; 2]], triangle: [usize; 3]) -> Opt
 }
 
 fn by_signs(counts: &Counts) -> Difference {
-    let is_flipped = |[corners, flips]: [usize; 2]| {
-        corners > 0 && flips as f64 >= (1.0 - MAX_SIGN_ERRORS) * corners as f64
-    };
-    let is_kept =
-        |[corners, flips]: [usize; 2]| corners > 0 && flips as f64 <= MAX_SIGN_ERRORS * corners as f64;
+    let all = counts.signs[0][0] + counts.signs[1][0];
+    // An orientation with no more corners than may contradict the others decides nothing.
+    let is_few = |[corners, _]: [usize; 2]| corners as f64 <= MAX_SIGN_ERRORS * all as f64;
+    let is_flipped = |of: [usize; 2]| !is_few(of) && of[1] as f64 >= (1.0 - MAX_SIGN_ERRORS) * of[0] as f64;
+    let is_kept = |of: [usize; 2]| !is_few(of) && of[1] as f64 <= MAX_SIGN_ERRORS * of[0] as f64;
     let [unmirrored, mirrored] = counts.signs;
-    let is_absent = |[corners, _]: [usize; 2]| corners == 0;
+    let is_flipped_or_few = |of: [usize; 2]| is_flipped(of) || is_few(of);
     match () {
-        () if (is_flipped(unmirrored) || is_absent(unmirrored))
-            && (is_flipped(mirrored) || is_absent(mirrored)) =>
-        {
-            Difference::SignFlipped
-        }
+        () if all == 0 => Difference::None,
+        () if is_flipped_or_few(unmirrored) && is_flipped_or_few(mirrored) => Difference::SignFlipped,
         () if is_kept(unmirrored) && is_flipped(mirrored) => Difference::SignFlippedWhereMirrored,
         () if is_flipped(unmirrored) && is_kept(mirrored) => Difference::SignFlippedWhereMirrored,
         () => Difference::None,
     }
 }
 
-/// Compares with MikkTSpace's tangents of a UV set.
-fn count(surface: &Surface, tangents: &[[f32; 4]], uv_set: usize) -> Option<Counts> {
-    let (mut expected, normals) = (surface.expected_tangents(uv_set)?, surface.normals.as_ref()?);
-    // MikkTSpace's sign is that of the UV area, which changes with the order of the corners; what is lit depends on the normal alone.
-    let turned = surface.is_wound_against_normals();
-    let mut turned = vec![turned; expected.len() / 3];
-    surface.triangles_against_normals().into_iter().for_each(|triangle| turned[triangle] = true);
-    for (corners, _) in expected.as_chunks_mut::<3>().0.iter_mut().zip(&turned).filter(|(_, turned)| **turned)
-    {
-        corners.iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
+/// Compares with MikkTSpace's tangents of a UV set, which are given.
+fn count(
+    surface: &Surface,
+    tangents: &[[f32; 4]],
+    uv_set: usize,
+    mut expected: Cow<'_, [[f32; 4]]>,
+    reversal: Option<Reversal>,
+) -> Option<Counts> {
+    let normals = surface.normals.as_ref()?;
+    // MikkTSpace's sign is that of the UV area, which changes with the order of the corners; what is lit depends on the normal alone. So
+    // signs are those of faces that are wound along their normals, unless it is the normals that are known to be reversed.
+    let turned = match reversal {
+        Some(Reversal::Normals) => Vec::new(),
+        Some(_) => (0..expected.len() / 3).collect(),
+        None => surface.triangles_against_normals(),
+    };
+    if !turned.is_empty() {
+        let triangles = expected.to_mut().as_chunks_mut::<3>().0;
+        for triangle in turned {
+            triangles[triangle].iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
+        }
     }
     let is_shared = on_mirrored_seams(surface, uv_set, &expected);
     let uvs = surface.uv_sets.get(&uv_set)?;
@@ -205,6 +221,9 @@ fn count(surface: &Surface, tangents: &[[f32; 4]], uv_set: usize) -> Option<Coun
             () => counts.against += 1,
         }
         counts.close += usize::from(angle < 1.0 && !difference.flips_sign);
+        if theirs[3].abs() < MIN_SIGN {
+            continue;
+        }
         let of_orientation = &mut counts.signs[usize::from(ours[3] < 0.0)];
         of_orientation[0] += 1;
         of_orientation[1] += usize::from(difference.flips_sign);

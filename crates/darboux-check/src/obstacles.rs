@@ -4,12 +4,14 @@ use darboux_io::image::PngImage;
 
 use crate::code::Code;
 use crate::finding::Finding;
-use crate::orientation::{Reversed, reversed};
+use crate::orientation::Reversal;
+use crate::rule::Measured;
 use crate::severity::Severity;
 use crate::surface::Surface;
 
 /// Obstacles to the repair of a finding about a surface.
-pub fn of_surface(finding: &Finding, surface: &Surface) -> Option<String> {
+pub fn of_surface(finding: &Finding, measured: &Measured<'_>) -> Option<String> {
+    let surface = measured.surface;
     match finding.code {
         Code::NormalMissing if !surface.needs_tangents => {
             Some("flat shading may be wanted; `darboux normals` makes smooth ones".to_owned())
@@ -21,20 +23,13 @@ pub fn of_surface(finding: &Finding, surface: &Surface) -> Option<String> {
             "only a part of the surface is reversed, and nothing says whether its faces or its normals are"
                 .to_owned(),
         ),
-        Code::NormalAgainstWinding => match reversed(surface) {
-            Reversed::Faces => None,
-            Reversed::Normals if surface.moves_normals => Some("morph targets move these normals".to_owned()),
-            Reversed::Normals => None,
-            Reversed::Unknown => {
-                Some("nothing in the file says whether the faces or the normals are reversed".to_owned())
+        Code::NormalAgainstWinding => match measured.reversal? {
+            Reversal::Faces => None,
+            Reversal::Normals | Reversal::NormalsByTangents => {
+                surface.moves_normals.then(|| "morph targets move these normals".to_owned())
             }
+            Reversal::Unknown(reason) => Some(reason.to_owned()),
         },
-        Code::TangentOtherRecipe if finding.severity == Severity::Info => {
-            Some("the difference cannot be seen".to_owned())
-        }
-        Code::TangentSignMixed if is_mixed_by_mikktspace(surface) => {
-            Some("MikkTSpace gives these faces both signs, because their UVs have no area".to_owned())
-        }
         code if code.name().starts_with("tangent-") => no_tangents(surface),
         _ => None,
     }
@@ -45,12 +40,6 @@ fn no_tangents(surface: &Surface) -> Option<String> {
     let reason = surface.ineligible.as_ref()?;
     let lacks_normals = surface.normals.is_none() && surface.uv_sets.contains_key(&surface.uv_set);
     (!lacks_normals || !surface.needs_tangents).then(|| format!("tangents cannot be computed: {reason}"))
-}
-
-fn is_mixed_by_mikktspace(surface: &Surface) -> bool {
-    let expected = surface.expected_tangents(surface.uv_set).unwrap_or_default();
-    let mut faces = expected.as_chunks::<3>().0.iter();
-    faces.any(|[first, rest @ ..]| rest.iter().any(|corner| (corner[3] < 0.0) != (first[3] < 0.0)))
 }
 
 /// Obstacles to the repair of the texels of an image.

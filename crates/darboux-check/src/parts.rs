@@ -3,8 +3,6 @@
 //! Two triangles are connected if they share a vertex: the same position and the same normal. So a part ends at hard edges, and where a
 //! mirrored half with reversed normals meets the other half.
 
-use std::collections::HashMap;
-
 use crate::surface::{Surface, cross, dot, length, sub};
 
 /// The parts that are wound against their normals.
@@ -29,7 +27,9 @@ const THIN: f64 = 1e-4;
 pub fn reversed_parts(surface: &Surface) -> ReversedParts {
     let mut found = ReversedParts { parts: 0, all_parts: 0, triangles: Vec::new() };
     let Some(normals) = &surface.normals else { return found };
-    let part_of_vertex = parts(surface, normals);
+    // Adding 0.0 makes both zeros one.
+    let bits = |vector: [f32; 3]| vector.map(|x| (x + 0.0).to_bits());
+    let part_of_vertex = surface.parts(|vertex| [surface.positions[vertex], normals[vertex]].map(bits));
     // Per part: the sum of the areas, and of the areas times the cosine, both doubled.
     let mut sums = vec![[0.0; 2]; surface.positions.len()];
     for triangle in surface.triangles() {
@@ -49,34 +49,4 @@ pub fn reversed_parts(surface: &Surface) -> ReversedParts {
     found.parts = (0..sums.len()).filter(|&part| is_reversed(part)).count();
     found.triangles = surface.triangles_where(|triangle| is_reversed(part_of_vertex[triangle[0]]));
     found
-}
-
-/// The part of every vertex, named by one of its vertices.
-fn parts(surface: &Surface, normals: &[[f32; 3]]) -> Vec<usize> {
-    let mut first = HashMap::new();
-    let mut parents: Vec<usize> = Vec::with_capacity(surface.positions.len());
-    for (vertex, (position, normal)) in surface.positions.iter().zip(normals).enumerate() {
-        // Adding 0.0 makes both zeros one.
-        let bits = [*position, *normal].map(|vector| vector.map(|x| (x + 0.0).to_bits()));
-        parents.push(*first.entry(bits).or_insert(vertex));
-    }
-    for [a, b, c] in surface.triangles() {
-        join(&mut parents, a, b);
-        join(&mut parents, a, c);
-    }
-    (0..parents.len()).map(|vertex| root(&mut parents, vertex)).collect()
-}
-
-fn join(parents: &mut [usize], a: usize, b: usize) {
-    let (a, b) = (root(parents, a), root(parents, b));
-    parents[a.max(b)] = a.min(b);
-}
-
-fn root(parents: &mut [usize], mut vertex: usize) -> usize {
-    while parents[vertex] != vertex {
-        // Every second link is shortened, so that later searches are short.
-        parents[vertex] = parents[parents[vertex]];
-        vertex = parents[vertex];
-    }
-    vertex
 }

@@ -3,14 +3,29 @@
 use darboux_io::gltf::TextureUse;
 
 use crate::finding::Finding;
-use crate::fit::Fit;
+use crate::fit::{self, Fit};
 use crate::map::Map;
+use crate::orientation::Reversal;
 use crate::surface::Surface;
 
-/// A surface and how its tangents differ from MikkTSpace's.
+/// A surface and what several rules ask about it.
 pub struct Measured<'a> {
     pub surface: &'a Surface,
+    /// MikkTSpace's tangents of all corners; none where the surface has no tangents, or they cannot be computed.
+    pub expected: Option<Vec<[f32; 4]>>,
+    /// What is reversed; none where the faces agree with the normals.
+    pub reversal: Option<Reversal>,
+    /// How its tangents differ from MikkTSpace's.
     pub fit: Option<Fit>,
+}
+
+impl<'a> Measured<'a> {
+    pub fn new(surface: &'a Surface) -> Self {
+        let expected = surface.tangents.as_ref().and_then(|_| surface.expected_tangents(surface.uv_set));
+        let reversal = Reversal::of(surface);
+        let fit = expected.as_ref().and_then(|expected| fit::measure(surface, expected, reversal));
+        Self { surface, expected, reversal, fit }
+    }
 }
 
 /// A rule about surfaces.

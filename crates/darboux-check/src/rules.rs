@@ -3,6 +3,7 @@
 mod maps;
 mod normals;
 mod positions;
+mod recipes;
 mod tangents;
 mod transforms;
 mod uvs;
@@ -11,8 +12,9 @@ pub use normals::UNIT as UNIT_NORMAL;
 
 use crate::rule::{MapRule, SurfaceRule, TextureRule};
 
-/// All rules about surfaces.
-pub const SURFACE_RULES: &[&[SurfaceRule]] = &[tangents::RULES, positions::RULES, normals::RULES, uvs::RULES];
+/// All rules about surfaces: causes before what follows from them.
+pub const SURFACE_RULES: &[&[SurfaceRule]] =
+    &[positions::RULES, normals::RULES, uvs::RULES, tangents::RULES, recipes::RULES, uvs::REMARKS];
 
 /// All rules about normal maps.
 pub const MAP_RULES: &[MapRule] = maps::RULES;

@@ -1,6 +1,7 @@
 //! [`Surface`]: the data of one primitive, as the rules read it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
+use std::hash::Hash;
 
 use darboux::{Convention, Mesh, TangentOptions, generate_tangents};
 use darboux_io::Error;
@@ -87,14 +88,43 @@ impl Surface {
         self.vertex_of_corner.as_chunks::<3>().0.iter().map(|triangle| triangle.map(|vertex| vertex as usize))
     }
 
+    /// Whether a triangle has an area in space.
+    pub fn has_area(&self, triangle: [usize; 3]) -> bool {
+        let [a, b, c] = triangle.map(|vertex| self.positions[vertex]);
+        length(cross(sub(b, a), sub(c, a))) > 0.0
+    }
+
     /// The triangles whose corners all have normals that point to their back.
     pub fn triangles_against_normals(&self) -> Vec<usize> {
+        self.triangles_by_normals(|cosine| cosine < 0.0)
+    }
+
+    /// The triangles whose corners all have normals that point to their front.
+    pub fn triangles_along_normals(&self) -> Vec<usize> {
+        self.triangles_by_normals(|cosine| cosine > 0.0)
+    }
+
+    /// The triangles all of whose normals fulfil a condition on their product with the normal of the front.
+    fn triangles_by_normals(&self, condition: impl Fn(f64) -> bool) -> Vec<usize> {
         let Some(normals) = &self.normals else { return Vec::new() };
         self.triangles_where(|triangle| {
             let [a, b, c] = triangle.map(|vertex| self.positions[vertex]);
             let front = cross(sub(b, a), sub(c, a));
-            triangle.iter().all(|&vertex| dot(front, normals[vertex]) < 0.0)
+            triangle.iter().all(|&vertex| condition(dot(front, normals[vertex])))
         })
+    }
+
+    /// The connected part of every vertex, named by one of its vertices. Vertices with the same key are one vertex.
+    pub fn parts<K: Eq + Hash>(&self, key: impl Fn(usize) -> K) -> Vec<usize> {
+        let mut first = HashMap::new();
+        let vertices = 0..self.positions.len();
+        let mut parents: Vec<usize> =
+            vertices.map(|vertex| *first.entry(key(vertex)).or_insert(vertex)).collect();
+        for [a, b, c] in self.triangles() {
+            join(&mut parents, a, b);
+            join(&mut parents, a, c);
+        }
+        (0..parents.len()).map(|vertex| root(&mut parents, vertex)).collect()
     }
 
     /// Whether that is so for most triangles.
@@ -117,6 +147,20 @@ impl Surface {
         let numbered = self.triangles().enumerate();
         numbered.filter(|(_, triangle)| condition(*triangle)).map(|(number, _)| number).collect()
     }
+}
+
+fn join(parents: &mut [usize], a: usize, b: usize) {
+    let (a, b) = (root(parents, a), root(parents, b));
+    parents[a.max(b)] = a.min(b);
+}
+
+fn root(parents: &mut [usize], mut vertex: usize) -> usize {
+    while parents[vertex] != vertex {
+        // Every second link is shortened, so that later searches are short.
+        parents[vertex] = parents[parents[vertex]];
+        vertex = parents[vertex];
+    }
+    vertex
 }
 
 /// The values of an attribute at all vertices. Errors: invalid data; an index of a corner that is out of range.

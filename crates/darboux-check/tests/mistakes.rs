@@ -10,7 +10,7 @@ use darboux_check::{CheckOptions, Code, Finding, Severity, check_document, check
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
 use support::baked::{self, BAKED_MISTAKES, baked_models};
-use support::flips::{FLIPS, errors};
+use support::flips::{FLIPS, named};
 use support::maps::MAP_MISTAKES;
 use support::mistakes::MISTAKES;
 use support::models::{Model, healthy_models};
@@ -68,7 +68,7 @@ fn flips_of_handedness_are_told_apart() {
     for healthy in healthy_models().iter().step_by(5) {
         for flip in FLIPS {
             let expected: BTreeSet<Code> = flip.codes.iter().copied().collect();
-            assert_eq!(errors(flip, healthy), expected, "{} on {}", flip.name, healthy.name);
+            assert_eq!(named(flip, healthy), expected, "{} on {}", flip.name, healthy.name);
         }
     }
     let mut distinct: Vec<&[Code]> = FLIPS.iter().map(|flip| flip.codes).collect();

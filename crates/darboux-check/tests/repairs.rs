@@ -31,7 +31,7 @@ fn image(document: &Document) -> Vec<u8> {
 
 fn spoilt() -> Model {
     let mut model = healthy_models().remove(3);
-    model.tangents().iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
+    model.negate_signs();
     model
 }
 
@@ -311,12 +311,97 @@ fn repairs_add_no_errors() {
     }
 }
 
+/// Both leave the same file, and its tangents side with the normals.
+#[test]
+fn reversed_faces_of_open_surfaces_are_left() {
+    let healthy =
+        healthy_models().into_iter().find(|model| model.name == "wavy grid").expect("an open model");
+    let spoil: [fn(&mut Model); 2] = [Model::turn_faces, |model| {
+        model.negate_normals();
+        model.negate_signs();
+    }];
+    for spoil in spoil {
+        let mut model = healthy.clone();
+        spoil(&mut model);
+        let mut document = model.document();
+        let findings = fixed(&mut document, &mut model.document(), &FixOptions::default());
+        let left = findings.iter().find(|fixed| fixed.finding.code == Code::NormalAgainstWinding);
+        let left = left.expect("the finding");
+        let reason = left.finding.left_because.as_deref().unwrap_or_default();
+        assert!(!left.repaired && reason.contains("both its normals and the signs w"), "{reason}");
+        assert!(!document.is_changed());
+    }
+}
+
+/// The volume decides, also where faces are missing, and the text says what is turned over and why.
+#[test]
+fn the_volume_of_a_nearly_closed_surface_decides() {
+    let mut healthy =
+        healthy_models().into_iter().find(|model| model.name == "fine sphere").expect("a closed model");
+    healthy.indices.truncate(healthy.indices.len() / 3 * 98 / 100 * 3);
+    let normals_and_signs = |model: &mut Model| {
+        model.negate_normals();
+        model.negate_signs();
+    };
+    let mistakes: [(fn(&mut Model), &str); 3] = [
+        (Model::turn_faces, "its faces are reversed, because they enclose a negative volume"),
+        (Model::negate_normals, "its normals are reversed, because its faces enclose a positive volume"),
+        (normals_and_signs, "its normals are reversed, because its faces enclose a positive volume"),
+    ];
+    for (spoil, clause) in mistakes {
+        let mut model = healthy.clone();
+        spoil(&mut model);
+        let mut document = model.document();
+        let findings = fixed(&mut document, &mut model.document(), &FixOptions::default());
+        let first = &findings[0];
+        assert_eq!((first.finding.code, first.repaired), (Code::NormalAgainstWinding, true), "{findings:?}");
+        assert!(first.finding.text.ends_with(clause), "{}", first.finding.text);
+        let vectors = |document: &Document, name| {
+            let corners = document.corners().expect("valid indices");
+            let all = corners.iter().flat_map(|corners| corners.vectors::<3>(name).expect("vectors"));
+            all.flatten().collect::<Vec<[f32; 3]>>()
+        };
+        let mut healthy = healthy.document();
+        for name in ["POSITION", "NORMAL"] {
+            assert_eq!(vectors(&document, name), vectors(&healthy, name), "{clause}");
+        }
+        let [left, before] = [&mut document, &mut healthy].map(|document| {
+            let findings = check_document(document, &CheckOptions::default()).expect("a valid document");
+            codes(&findings, |_| true)
+        });
+        assert_eq!(left, before);
+    }
+}
+
+/// Causes come first, and what follows from them is left out or is no error.
+#[test]
+fn what_follows_from_a_mistake_is_no_further_mistake() {
+    for healthy in healthy_models().iter().filter(|model| model.positions.len() > 100) {
+        let named = |model: &Model| {
+            let findings = check_document(&mut model.document(), &support::table::without_maps());
+            let findings = findings.expect("a valid document");
+            let named = findings.iter().filter(|finding| finding.severity > Severity::Info);
+            named.map(|finding| (finding.code, finding.severity)).collect::<Vec<_>>()
+        };
+        let mut model = healthy.clone();
+        model.negate_normals();
+        let mut expected = vec![(Code::NormalAgainstWinding, Severity::Error)];
+        if !model.is_closed() {
+            expected.push((Code::TangentSignFlipped, Severity::Warning));
+        }
+        assert_eq!(named(&model), expected, "{}", model.name);
+        let mut model = healthy.clone();
+        model.tangents().iter_mut().for_each(|tangent| tangent[3] = 0.0);
+        assert_eq!(named(&model), [(Code::TangentSignNotOne, Severity::Error)], "{}", model.name);
+    }
+}
+
 /// Primitives that shared their indices share those of the faces that were turned over.
 #[test]
 fn turned_faces_stay_shared() {
     let mut model =
         healthy_models().into_iter().find(|model| model.name == "sphere").expect("a closed model");
-    model.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+    model.turn_faces();
     model.copies = 3;
     let mut document = model.document();
     let findings = fixed(&mut document, &mut model.document(), &FixOptions::default());

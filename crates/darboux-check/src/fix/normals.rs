@@ -13,7 +13,7 @@ use super::options::FixOptions;
 use crate::check::{for_each_surface, primitives_of};
 use crate::code::Code;
 use crate::finding::Finding;
-use crate::orientation::{Reversed, reversed};
+use crate::orientation::Reversal;
 use crate::rules::UNIT_NORMAL;
 use crate::surface::length;
 
@@ -138,7 +138,7 @@ fn turn_over(document: &mut Document, findings: &[&Finding]) -> Result<(), Error
         if let Some(finding) =
             findings.iter().find(|finding| finding.place.primitive == surface.place.primitive)
         {
-            verdicts.push((*finding, reversed(&surface), surface.vertex_of_corner));
+            verdicts.push((*finding, Reversal::of(&surface), surface.vertex_of_corner));
         }
     })?;
     let mut with_reversed_normals = Vec::new();
@@ -146,12 +146,12 @@ fn turn_over(document: &mut Document, findings: &[&Finding]) -> Result<(), Error
     for (finding, verdict, mut corners) in verdicts {
         let names = primitives_of(document, finding);
         match verdict {
-            Reversed::Faces => {
+            Some(Reversal::Faces) => {
                 corners.as_chunks_mut::<3>().0.iter_mut().for_each(|[_, b, c]| std::mem::swap(b, c));
                 turn_faces(document, &names, &corners, &mut turned)?;
             }
-            Reversed::Normals => with_reversed_normals.extend(names),
-            Reversed::Unknown => {}
+            Some(Reversal::Normals | Reversal::NormalsByTangents) => with_reversed_normals.extend(names),
+            Some(Reversal::Unknown(_)) | None => {}
         }
     }
     for (accessor, users) in users_of_normals(document, &with_reversed_normals) {

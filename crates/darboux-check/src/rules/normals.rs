@@ -68,8 +68,10 @@ fn against_winding(measured: &Measured<'_>) -> Vec<Finding> {
         let finding = Finding::new(Code::NormalAgainstWinding, text).with_items(triangles);
         finding.with_evidence("part of all triangles", share, "%")
     };
-    if surface.is_wound_against_normals() {
-        return vec![finding(&found, String::new())];
+    if let Some(reversal) = measured.reversal {
+        let mut finding = finding(&found, String::new());
+        finding.text += &reversal.explanation().map_or(String::new(), |clause| format!(": {clause}"));
+        return vec![finding];
     }
     let reversed = reversed_parts(surface);
     if reversed.triangles.is_empty() {

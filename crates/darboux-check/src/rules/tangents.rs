@@ -1,13 +1,14 @@
-//! Rules about tangents: values, signs, directions, and how they were computed.
+//! Rules about tangents: values, signs and directions.
 
-use darboux::{Convention, Method, Recipe, RecipeMatch, RecipeRounding, recognise_recipe};
+use darboux::CornerDifference;
 
 use crate::code::Code;
 use crate::finding::Finding;
 use crate::fit::{Difference, Fit, on_mirrored_seams};
+use crate::orientation::Reversal;
 use crate::rule::{Measured, SurfaceRule};
 use crate::severity::Severity;
-use crate::surface::{Surface, dot, indices_where, length, xyz};
+use crate::surface::{Surface, dot, indices_where, length, uv_area, xyz};
 use crate::text::counted;
 
 pub const RULES: &[SurfaceRule] = &[
@@ -21,7 +22,6 @@ pub const RULES: &[SurfaceRule] = &[
     shared_across_mirror,
     sign_mixed,
     direction_or_sign,
-    other_recipe,
 ];
 
 /// How far lengths of tangents may be from 1: 8-bit tangents are up to 0.007 off.
@@ -31,6 +31,10 @@ const UNIT: f64 = 0.02;
 /// bumps, and one in a hundred is seen on a model that fills the screen. Fewer may be slivers, whose UV area is rounding, so that programs
 /// differ in their sign.
 const MAX_PERCENT_OF_PART: f64 = 1.0;
+
+/// Degrees between tangents that are equal up to rounding: of floats, after sums in another order; of 8 bits.
+const ROUNDING: f64 = 0.1;
+const ROUNDING_OF_8_BITS: f64 = 1.0;
 
 /// Degrees from the plane of the normal.
 const MAX_DEGREES_FROM_PLANE: [f64; 2] = [2.0, 15.0];
@@ -105,14 +109,37 @@ fn sign_not_one(measured: &Measured<'_>) -> Vec<Finding> {
     vertices(measured.surface, Code::TangentSignNotOne, is_other, text)
 }
 
+/// Per vertex whether MikkTSpace gives its tangent, up to rounding, to one of its corners that lie in faces without an area in space or in
+/// UV space. There MikkTSpace takes the tangent of another vertex at the same place, which may lean or have another sign than its neighbours.
+/// Computing it again does not help, and the UVs have a finding of their own.
+fn vertices_with_own_tangents(measured: &Measured<'_>) -> Vec<bool> {
+    let surface = measured.surface;
+    let mut is_own = vec![false; surface.positions.len()];
+    let (Some(expected), Some(tangents)) = (&measured.expected, &surface.tangents) else { return is_own };
+    let Some(uvs) = surface.uv_sets.get(&surface.uv_set) else { return is_own };
+    let tolerance = if surface.tangent_size == 4 { ROUNDING_OF_8_BITS } else { ROUNDING };
+    for (triangle, expected) in surface.triangles().zip(expected.as_chunks::<3>().0) {
+        if surface.has_area(triangle) && uv_area(uvs, triangle) != 0.0 {
+            continue;
+        }
+        for (vertex, expected) in triangle.into_iter().zip(expected) {
+            let difference = CornerDifference::between(*expected, tangents[vertex]);
+            let is_close = difference.angle.is_some_and(|angle| angle <= tolerance);
+            is_own[vertex] |= is_close && !difference.flips_sign;
+        }
+    }
+    is_own
+}
+
 fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
     let (Some(tangents), Some(normals)) = (&measured.surface.tangents, &measured.surface.normals) else {
         return Vec::new();
     };
+    let is_own = vertices_with_own_tangents(measured);
     let angle = |vertex: usize| {
         let (tangent, normal) = (xyz(tangents[vertex]), normals[vertex]);
         let sine = dot(tangent, normal) / (length(tangent) * length(normal));
-        if has_length(tangents[vertex]) && sine.is_finite() {
+        if has_length(tangents[vertex]) && sine.is_finite() && !is_own[vertex] {
             sine.abs().min(1.0).asin().to_degrees()
         } else {
             0.0
@@ -141,9 +168,8 @@ fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
 
 fn shared_across_mirror(measured: &Measured<'_>) -> Vec<Finding> {
     let surface = measured.surface;
-    let expected = surface.tangents.as_ref().and_then(|_| surface.expected_tangents(surface.uv_set));
-    let Some(expected) = expected else { return Vec::new() };
-    let found = indices_where(&on_mirrored_seams(surface, surface.uv_set, &expected), |is_shared| *is_shared);
+    let Some(expected) = &measured.expected else { return Vec::new() };
+    let found = indices_where(&on_mirrored_seams(surface, surface.uv_set, expected), |is_shared| *is_shared);
     if found.is_empty() {
         return Vec::new();
     }
@@ -155,9 +181,10 @@ fn shared_across_mirror(measured: &Measured<'_>) -> Vec<Finding> {
 fn sign_mixed(measured: &Measured<'_>) -> Vec<Finding> {
     let surface = measured.surface;
     let Some(tangents) = &surface.tangents else { return Vec::new() };
+    let is_own = vertices_with_own_tangents(measured);
     let found = surface.triangles_where(|triangle| {
         let signs = triangle.map(|vertex| tangents[vertex][3] < 0.0);
-        signs != [signs[0]; 3]
+        signs != [signs[0]; 3] && !triangle.iter().all(|&vertex| is_own[vertex])
     });
     if found.is_empty() {
         return Vec::new();
@@ -171,9 +198,19 @@ fn sign_mixed(measured: &Measured<'_>) -> Vec<Finding> {
 fn direction_or_sign(measured: &Measured<'_>) -> Vec<Finding> {
     let Some(Fit { difference, supporting, measured: all, items }) = &measured.fit else { return Vec::new() };
     let set = measured.surface.uv_set;
+    let follows_from_normals =
+        *difference == Difference::SignFlipped && measured.reversal == Some(Reversal::NormalsByTangents);
     let (code, text) = match *difference {
         Difference::None | Difference::Unknown => return Vec::new(),
-        Difference::SignFlipped => (Code::TangentSignFlipped, "all signs w are flipped".to_owned()),
+        Difference::SignFlipped => {
+            let which = if supporting == all { "all" } else { "nearly all" };
+            let follows = if follows_from_normals {
+                "; they are right again once the normals are turned over, unless space was mirrored, which reverses faces and signs"
+            } else {
+                ""
+            };
+            (Code::TangentSignFlipped, format!("{which} signs w are flipped{follows}"))
+        }
         Difference::SignFlippedWhereMirrored => {
             let text = "the signs w are right on one side of the mirrored UVs and flipped on the other";
             (Code::TangentSignFlippedWhereMirrored, text.to_owned())
@@ -201,79 +238,7 @@ fn direction_or_sign(measured: &Measured<'_>) -> Vec<Finding> {
     let share = 100.0 * *supporting as f64 / (*all).max(1) as f64;
     let is_partly = matches!(difference, Difference::SignPartlyFlipped | Difference::PartlyNegated);
     let is_small = is_partly && share <= MAX_PERCENT_OF_PART;
-    let severity = if is_small { Severity::Warning } else { code.severity() };
+    let severity = if is_small || follows_from_normals { Severity::Warning } else { code.severity() };
     let finding = Finding::new(code, text).with_items(items).with_count(*supporting);
     vec![finding.with_severity(severity).with_evidence(part, share, "%")]
-}
-
-fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
-    let surface = measured.surface;
-    let is_fit = measured.fit.as_ref().is_some_and(|fit| {
-        matches!(fit.difference, Difference::None | Difference::Unknown) && fit.measured > 0
-    });
-    let (Some(mesh), Some(tangents)) = (surface.mesh(surface.uv_set), surface.corner_tangents()) else {
-        return Vec::new();
-    };
-    if !is_fit || surface.is_wound_against_normals() {
-        return Vec::new();
-    }
-    let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
-    let tangents: Vec<[f32; 4]> = tangents.iter().map(|tangent| to_generated.tangent(*tangent)).collect();
-    let Ok(matches) = recognise_recipe(&mesh, &tangents) else { return Vec::new() };
-    let is_mikktspace = |found: &&RecipeMatch| {
-        matches!(found.recipe.method, Method::MikkTSpace(_)) && !found.recipe.from_quads
-    };
-    let (Some(best), Some(mikktspace)) = (matches.first(), matches.iter().find(is_mikktspace)) else {
-        return Vec::new();
-    };
-    let close = |found: &RecipeMatch| 100.0 * found.close as f64 / found.corners.max(1) as f64;
-    if is_mikktspace(&best) && close(best) >= 99.0 || best.corners == 0 {
-        return Vec::new();
-    }
-    let differing = mikktspace.corners - mikktspace.close;
-    let (text, nearest) = match () {
-        () if is_mikktspace(&best) => {
-            let corners = counted(differing, "corner differs", "corners differ");
-            (format!("most tangents are those of MikkTSpace, but {corners}"), None)
-        }
-        () if close(best) >= 90.0 => {
-            let text = format!("the tangents were computed by {}", name(&best.recipe));
-            (text, Some("corners within 0.1 degrees (1 with 8 bits) of this method"))
-        }
-        () => {
-            let is_coarse = best.recipe.rounding == RecipeRounding::Bits8;
-            let coarse =
-                if is_coarse { ", or the file's numbers are rounded too coarsely to tell" } else { "" };
-            let text = format!("the tangents are not those of any method that Darboux knows{coarse}");
-            (text, Some("corners within 0.1 degrees (1 with 8 bits) of the nearest known method"))
-        }
-    };
-    let severity = if mikktspace.worst > 0.5 { Severity::Warning } else { Severity::Info };
-    let finding = Finding::new(Code::TangentOtherRecipe, text)
-        .with_severity(severity)
-        .with_count(differing)
-        .with_evidence("corners within 0.1 degrees (1 with 8 bits) of MikkTSpace", close(mikktspace), "%")
-        .with_evidence("largest angle to MikkTSpace", mikktspace.worst, "degrees");
-    vec![match nearest {
-        Some(what) => finding.with_evidence(what, close(best), "%"),
-        None => finding,
-    }]
-}
-
-/// A recipe by the programs that use it.
-fn name(recipe: &Recipe) -> &'static str {
-    match recipe.method {
-        Method::MikkTSpace(_) if recipe.from_quads => {
-            "MikkTSpace before quads were cut into triangles (Unity and other importers)"
-        }
-        Method::MikkTSpace(_) => "MikkTSpace",
-        Method::AngleArea => "sums weighted by angle and area",
-        Method::AngleEdge => "sums weighted by angle and edges (meshoptimizer, gltfpack, Godot 4.6)",
-        Method::Lengyel => "Lengyel's sums, split at mirrored seams",
-        Method::LengyelPerVertex => "Lengyel's sums per vertex (three.js and many tutorials)",
-        Method::Average => "averages of the triangles' tangents (Maya)",
-        Method::Area => "averages weighted by area",
-        Method::Face => "one tangent per face",
-        _ => "another method",
-    }
 }

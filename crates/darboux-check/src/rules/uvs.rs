@@ -5,10 +5,13 @@ use crate::finding::Finding;
 use crate::overlap;
 use crate::rule::{Measured, SurfaceRule};
 use crate::severity::Severity;
-use crate::surface::{Surface, cross, indices_where, length, sub, uv_area};
+use crate::surface::{Surface, indices_where, uv_area};
 use crate::text::counted;
 
-pub const RULES: &[SurfaceRule] = &[missing, not_finite, degenerate, mirrored, overlapping];
+pub const RULES: &[SurfaceRule] = &[missing, not_finite, degenerate];
+
+/// Rules about what is no mistake.
+pub const REMARKS: &[SurfaceRule] = &[mirrored, overlapping];
 
 fn missing(measured: &Measured<'_>) -> Vec<Finding> {
     let Surface { needs_tangents, uv_sets, uv_set, .. } = measured.surface;
@@ -42,10 +45,8 @@ fn degenerate(measured: &Measured<'_>) -> Vec<Finding> {
     let Some(uvs) = surface.uv_sets.get(&surface.uv_set).filter(|_| surface.needs_tangents) else {
         return Vec::new();
     };
-    let found = surface.triangles_where(|triangle| {
-        let [a, b, c] = triangle.map(|vertex| surface.positions[vertex]);
-        uv_area(uvs, triangle) == 0.0 && length(cross(sub(b, a), sub(c, a))) > 0.0
-    });
+    let found =
+        surface.triangles_where(|triangle| uv_area(uvs, triangle) == 0.0 && surface.has_area(triangle));
     if found.is_empty() {
         return Vec::new();
     }

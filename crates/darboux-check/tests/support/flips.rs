@@ -32,7 +32,7 @@ pub const FLIPS: &[Flip] = &[
     Flip {
         name: "sign w",
         how: "w of all tangents negated",
-        make: |model| model.tangents().iter_mut().for_each(|tangent| tangent[3] = -tangent[3]),
+        make: |model| model.negate_signs(),
         codes: &[Code::TangentSignFlipped],
     },
     Flip {
@@ -50,9 +50,7 @@ pub const FLIPS: &[Flip] = &[
     Flip {
         name: "front-face winding",
         how: "two corners of every face exchanged",
-        make: |model| {
-            model.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
-        },
+        make: Model::turn_faces,
         codes: &[Code::NormalAgainstWinding],
     },
     Flip {
@@ -67,10 +65,10 @@ pub const FLIPS: &[Flip] = &[
     },
 ];
 
-/// The errors that the check names after a flip.
-pub fn errors(flip: &Flip, healthy: &Model) -> BTreeSet<Code> {
+/// What the check names after a flip.
+pub fn named(flip: &Flip, healthy: &Model) -> BTreeSet<Code> {
     let mut model = healthy.clone();
     (flip.make)(&mut model);
     let findings = check_document(&mut model.document(), &CheckOptions::default());
-    codes(&findings.expect("a valid document"), |severity| severity == Severity::Error)
+    codes(&findings.expect("a valid document"), |severity| severity > Severity::Info)
 }

@@ -88,7 +88,7 @@ pub const MISTAKES: &[Mistake] = &[
         code: Code::TangentSignFlipped,
         how: "w negated",
         make: |model| {
-            model.tangents().iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
+            model.negate_signs();
             true
         },
     },
@@ -219,10 +219,26 @@ pub const MISTAKES: &[Mistake] = &[
     },
     Mistake {
         code: Code::NormalAgainstWinding,
-        how: "two corners of every face exchanged",
+        how: "two corners of every face exchanged on a closed model",
         make: |model| {
-            model.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
-            true
+            model.turn_faces();
+            model.is_closed()
+        },
+    },
+    Mistake {
+        code: Code::NormalAgainstWinding,
+        how: "normals negated on a closed model",
+        make: |model| {
+            model.negate_normals();
+            model.is_closed()
+        },
+    },
+    Mistake {
+        code: Code::NormalAgainstWinding,
+        how: "normals negated on an open model",
+        make: |model| {
+            model.negate_normals();
+            !model.is_closed()
         },
     },
     Mistake {

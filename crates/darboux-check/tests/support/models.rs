@@ -36,8 +36,7 @@ pub struct Model {
     pub map: Map,
 }
 
-/// Plain and mirrored models, ten or more of each: curved and flat, closed and open, skinned, with one to three UV sets. Each has a map
-/// of its own.
+/// Plain, mirrored and closed models, ten or more of each: curved and flat, skinned, with one to three UV sets. Each has a map of its own.
 pub fn healthy_models() -> Vec<Model> {
     let plain = [
         ("grid", families::grid(9, 7, false, false)),
@@ -66,7 +65,16 @@ pub fn healthy_models() -> Vec<Model> {
         ("mirrored flat grid", flat(families::grid(12, 8, false, true))),
         ("mirrored wide wavy grid", wavy(families::grid(20, 6, false, true))),
     ];
-    let models = plain.into_iter().chain(mirrored).enumerate();
+    let closed = [
+        ("coarse sphere", families::sphere(7, 9, false)),
+        ("fine sphere", families::sphere(16, 20, false)),
+        ("scaled sphere", scaled(families::sphere(9, 12, false), 250.0)),
+        ("small wavy sphere", scaled(wavy(families::sphere(10, 15, false)), 0.01)),
+        ("sheared sphere", sheared(families::sphere(8, 24, false))),
+        ("large wavy sphere", scaled(wavy(families::sphere(14, 10, false)), 40.0)),
+        ("scaled cube", scaled(families::cube(false), 3.0)),
+    ];
+    let models = plain.into_iter().chain(mirrored).chain(closed).enumerate();
     models.map(|(number, (name, mesh))| Model::new(number, name, mesh)).collect()
 }
 
@@ -161,6 +169,11 @@ impl Model {
         }
     }
 
+    /// Whether its faces enclose a volume, up to rounding.
+    pub fn is_closed(&self) -> bool {
+        ["cube", "sphere"].iter().any(|solid| self.name.contains(solid))
+    }
+
     /// The tangents.
     pub fn tangents(&mut self) -> &mut [[f32; 4]] {
         self.tangents.as_mut().expect("a healthy model has tangents")
@@ -193,6 +206,21 @@ impl Model {
         let new = [first, first + 1, first + 2];
         self.indices[..3].copy_from_slice(&new.map(|vertex| vertex as u32));
         new
+    }
+
+    /// Turns the normals over.
+    pub fn negate_normals(&mut self) {
+        self.normals.iter_mut().flatten().for_each(|normal| *normal = normal.map(|x| -x));
+    }
+
+    /// Negates the signs w.
+    pub fn negate_signs(&mut self) {
+        self.tangents().iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
+    }
+
+    /// Turns the faces over.
+    pub fn turn_faces(&mut self) {
+        self.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
     }
 
     /// Adds a copy of the surface beside it whose faces are turned over, as when a mirrored part was joined.

@@ -1,0 +1,151 @@
+//! The rule about how tangents were computed.
+
+use darboux::{Convention, Mesh, Method, Recipe, RecipeMatch, RecipeRounding, recognise_recipe};
+
+use super::normals::UNIT;
+use crate::code::Code;
+use crate::finding::Finding;
+use crate::fit::Difference;
+use crate::rule::{Measured, SurfaceRule};
+use crate::severity::Severity;
+use crate::surface::{Surface, length};
+use crate::text::counted;
+
+pub const RULES: &[SurfaceRule] = &[other_recipe];
+
+/// The percentage of close corners from which on tangents are those of MikkTSpace.
+const IS_MIKKTSPACE: f64 = 99.0;
+
+/// The percentage from which on they are called those of another method.
+const IS_KNOWN: f64 = 90.0;
+
+/// The best recipe and the best one of MikkTSpace on the triangles as they are.
+struct Recognised {
+    best: RecipeMatch,
+    mikktspace: RecipeMatch,
+    /// Whether the recipe shows only with normals of length 1, which the file does not have.
+    with_unit_normals: bool,
+}
+
+fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
+    let is_fit = measured.fit.as_ref().is_some_and(|fit| {
+        matches!(fit.difference, Difference::None | Difference::Unknown) && fit.measured > 0
+    });
+    if !is_fit || measured.reversal.is_some() {
+        return Vec::new();
+    }
+    let Some(recognised) = recognise(measured.surface) else { return Vec::new() };
+    let Recognised { best, mikktspace, with_unit_normals } = &recognised;
+    if is_mikktspace(best) && close(best) >= IS_MIKKTSPACE {
+        return Vec::new();
+    }
+    let (text, nearest) = description(best);
+    let text = if *with_unit_normals { format!("{text}, on normals of length 1") } else { text };
+    let severity = if mikktspace.worst > 0.5 { Severity::Warning } else { Severity::Info };
+    let finding = Finding::new(Code::TangentOtherRecipe, text)
+        .with_severity(severity)
+        .with_count(mikktspace.corners - mikktspace.close)
+        .with_evidence("corners within 0.1 degrees (1 with 8 bits) of MikkTSpace", close(mikktspace), "%")
+        .with_evidence("largest angle to MikkTSpace", mikktspace.worst, "degrees");
+    let finding = match nearest {
+        Some(what) => finding.with_evidence(what, close(best), "%"),
+        None => finding,
+    };
+    vec![finding.with_obstacle(obstacle(best, severity))]
+}
+
+/// What is said of the best recipe, and the name of the evidence for it unless it is MikkTSpace.
+fn description(best: &RecipeMatch) -> (String, Option<&'static str>) {
+    let is_coarse = best.recipe.rounding == RecipeRounding::Bits8;
+    let coarse = if is_coarse { ", or the file's numbers are rounded too coarsely to tell" } else { "" };
+    match () {
+        () if is_mikktspace(best) && close(best) >= 50.0 => {
+            let corners = counted(best.corners - best.close, "corner differs", "corners differ");
+            (format!("most tangents are those of MikkTSpace, but {corners}"), None)
+        }
+        () if close(best) >= IS_KNOWN => {
+            let text = format!("the tangents were computed by {}", name(&best.recipe));
+            (text, Some("corners within 0.1 degrees (1 with 8 bits) of this method"))
+        }
+        () => {
+            let text = format!("the tangents are not those of any method that Darboux knows{coarse}");
+            let what = "corners within 0.1 degrees (1 with 8 bits) of the nearest known method";
+            (text, Some(what).filter(|_| !is_mikktspace(best)))
+        }
+    }
+}
+
+/// Why a repair leaves the tangents.
+fn obstacle(best: &RecipeMatch, severity: Severity) -> Option<String> {
+    match () {
+        () if severity == Severity::Info => Some("the difference cannot be seen".to_owned()),
+        () if best.recipe.from_quads && close(best) >= IS_KNOWN => {
+            Some("the map was probably baked on the quads, for these tangents".to_owned())
+        }
+        () => None,
+    }
+}
+
+/// None where there are no tangents or none can be computed.
+fn recognise(surface: &Surface) -> Option<Recognised> {
+    let tangents = surface.corner_tangents()?;
+    let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
+    let tangents: Vec<[f32; 4]> = tangents.iter().map(|tangent| to_generated.tangent(*tangent)).collect();
+    let as_they_are = recognise_on(&surface.mesh(surface.uv_set)?, &tangents)?;
+    if close(&as_they_are.best) >= IS_MIKKTSPACE {
+        return Some(as_they_are);
+    }
+    // Normals that were scaled after the tangents were computed hide how they were.
+    let Some(unit) = unit_normals(surface) else { return Some(as_they_are) };
+    let uvs = surface.uv_sets.get(&surface.uv_set)?;
+    let mesh = Mesh::triangles(&surface.positions, &unit, uvs, &surface.vertex_of_corner).ok()?;
+    let on_unit = recognise_on(&mesh, &tangents)?;
+    let is_better = on_unit.best.close > as_they_are.best.close;
+    Some(if is_better { Recognised { with_unit_normals: true, ..on_unit } } else { as_they_are })
+}
+
+fn recognise_on(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Option<Recognised> {
+    let matches = recognise_recipe(mesh, tangents).ok()?;
+    let best = *matches.first().filter(|best| best.corners > 0)?;
+    let mikktspace = *matches.iter().find(|found| is_mikktspace(found))?;
+    Some(Recognised { best, mikktspace, with_unit_normals: false })
+}
+
+/// The normals with length 1; none where all have it already. Normals without a direction stay as they are.
+fn unit_normals(surface: &Surface) -> Option<Vec<[f32; 3]>> {
+    let normals = surface.normals.as_ref()?;
+    let is_scalable = |normal: [f32; 3]| length(normal).is_finite() && length(normal) > 0.0;
+    let is_scaled = |normal: &[f32; 3]| is_scalable(*normal) && (length(*normal) - 1.0).abs() > UNIT;
+    let unit = |normal: [f32; 3]| {
+        let length = length(normal);
+        if is_scalable(normal) { normal.map(|x| (f64::from(x) / length) as f32) } else { normal }
+    };
+    normals.iter().any(is_scaled).then(|| normals.iter().copied().map(unit).collect())
+}
+
+fn is_mikktspace(found: &RecipeMatch) -> bool {
+    matches!(found.recipe.method, Method::MikkTSpace(_)) && !found.recipe.from_quads
+}
+
+/// Close corners in percent.
+fn close(found: &RecipeMatch) -> f64 {
+    100.0 * found.close as f64 / found.corners.max(1) as f64
+}
+
+/// A recipe by the programs that use it.
+fn name(recipe: &Recipe) -> &'static str {
+    match recipe.method {
+        Method::MikkTSpace(_) if recipe.from_quads => {
+            "MikkTSpace before quads were cut into triangles (Unity and other importers)"
+        }
+        Method::MikkTSpace(_) => "MikkTSpace",
+        Method::AngleArea => "sums weighted by angle and area",
+        Method::AngleEdge => "sums weighted by angle and edges (meshoptimizer, gltfpack, Godot 4.6)",
+        Method::Lengyel => "Lengyel's sums, split at mirrored seams",
+        Method::LengyelPerVertex => "Lengyel's sums per vertex (three.js and many tutorials)",
+        Method::Average => "averages of the triangles' tangents (Maya)",
+        Method::Area => "averages weighted by area",
+        Method::Face => "one tangent per face",
+        _ => "another method",
+    }
+}
