@@ -179,8 +179,8 @@ codes! {
         "Tangents were computed in another way than MikkTSpace."
         "Smooth shading differs a little from the bake: faint gradients and seams on low-poly models."
         "meshoptimizer's and gltfpack's default weights, three.js computeTangents, averages of an own importer (glTF-Blender-IO 2226)."
-        "`darboux tangents --overwrite`, as nearly all maps are baked with MikkTSpace. A map that was baked for these tangents needs them: `--allow tangent-other-recipe`."
-        Repair "the tangents are computed again by MikkTSpace, or by the method that `--method` names; those that MikkTSpace gives to quads before they are cut are kept, because maps are baked on quads"
+        "Keep them if the map was baked for them, as is likely for those of MikkTSpace on quads (`--allow tangent-other-recipe`); otherwise `darboux tangents --overwrite`."
+        Repair "the tangents are computed again by MikkTSpace, or by the method that `--method` names; those of MikkTSpace on quads are kept"
     }
     TangentMissing "tangent-missing" Info {
         "The material has a normal map and the primitive has no tangents."

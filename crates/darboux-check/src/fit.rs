@@ -186,16 +186,13 @@ fn count(
     let normals = surface.normals.as_ref()?;
     // MikkTSpace's sign is that of the UV area, which changes with the order of the corners; what is lit depends on the normal alone. So
     // signs are those of faces that are wound along their normals, unless it is the normals that are known to be reversed.
-    let turned = match reversal {
-        Some(Reversal::Normals) => Vec::new(),
-        Some(_) => (0..expected.len() / 3).collect(),
-        None => surface.triangles_against_normals(),
-    };
-    if !turned.is_empty() {
-        let triangles = expected.to_mut().as_chunks_mut::<3>().0;
-        for triangle in turned {
-            triangles[triangle].iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
-        }
+    if reversal.is_some_and(|reversal| reversal != Reversal::Normals) {
+        expected.to_mut().iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
+    }
+    // Where a part of the surface is reversed, which sign is right depends on what is to be turned over.
+    let mut has_sign = vec![true; expected.len() / 3];
+    if reversal.is_none() {
+        surface.triangles_against_normals().into_iter().for_each(|triangle| has_sign[triangle] = false);
     }
     let is_shared = on_mirrored_seams(surface, uv_set, &expected);
     let uvs = surface.uv_sets.get(&uv_set)?;
@@ -221,7 +218,7 @@ fn count(
             () => counts.against += 1,
         }
         counts.close += usize::from(angle < 1.0 && !difference.flips_sign);
-        if theirs[3].abs() < MIN_SIGN {
+        if theirs[3].abs() < MIN_SIGN || !has_sign[corner / 3] {
             continue;
         }
         let of_orientation = &mut counts.signs[usize::from(ours[3] < 0.0)];

@@ -1,7 +1,7 @@
 //! [`Map`]: a decoded normal map, the judgement on it and the votes of the meshes that use it, as the rules read them.
 
-use darboux::{BitangentDirection, MapJudgement, TexelLayout, judge_normal_map};
-use darboux_io::image::{DecodeLimits, RgbaImage};
+use darboux::{BitangentDirection, MapJudgement, NormalMapJudge, SrgbMistake, TexelLayout, judge_normal_map};
+use darboux_io::image::{DecodeLimits, RgbaImage, linear_to_srgb, srgb_to_linear};
 
 use crate::facets::FacetVotes;
 
@@ -9,6 +9,8 @@ use crate::facets::FacetVotes;
 pub struct Map {
     /// The judgement, or why the image could not be decoded.
     pub judgement: Result<MapJudgement, String>,
+    /// Where the texels look as if they had gone through the transfer function of sRGB once too often: the judgement on them as they were before.
+    pub before_srgb: Option<MapJudgement>,
     /// Where green should point.
     pub wanted: BitangentDirection,
     /// What the facets of the meshes that use the map say; no votes for a map that is checked alone.
@@ -26,7 +28,10 @@ impl Map {
             Ok(image) => {
                 let size = [image.width, image.height].map(|side| side as usize);
                 let judgement = judge_normal_map(&image.texels, size, TexelLayout::RGBA);
-                Self { judgement: judgement.map_err(|error| error.to_string()), wanted, facets: vote(&image) }
+                let judgement = judgement.map_err(|error| error.to_string());
+                let mistake = judgement.as_ref().ok().and_then(MapJudgement::srgb_mistake);
+                let before_srgb = mistake.and_then(|mistake| judge_without(mistake, &image));
+                Self { judgement, before_srgb, wanted, facets: vote(&image) }
             }
             Err(error) => Self::unreadable(error.to_string(), wanted),
         }
@@ -34,6 +39,26 @@ impl Map {
 
     /// A map that cannot be read, and why, as a clause.
     pub fn unreadable(problem: String, wanted: BitangentDirection) -> Self {
-        Self { judgement: Err(problem), wanted, facets: FacetVotes::default() }
+        Self { judgement: Err(problem), before_srgb: None, wanted, facets: FacetVotes::default() }
     }
+}
+
+/// Judges an image after undoing a mistake; none for a mistake that is not known here.
+fn judge_without(mistake: SrgbMistake, image: &RgbaImage) -> Option<MapJudgement> {
+    let undo = match mistake {
+        SrgbMistake::Encoded => srgb_to_linear,
+        SrgbMistake::Decoded => linear_to_srgb,
+        _ => return None,
+    };
+    let code_of: [u8; 256] =
+        std::array::from_fn(|code| (255.0 * undo(code as f64 / 255.0)).round().clamp(0.0, 255.0) as u8);
+    let width = image.width as usize;
+    let mut judge = NormalMapJudge::new(width, TexelLayout::RGB);
+    let mut undone = Vec::with_capacity(width);
+    for row in image.texels.chunks_exact(width.max(1)) {
+        undone.clear();
+        undone.extend(row.iter().map(|[r, g, b, _]| [*r, *g, *b].map(|code| code_of[usize::from(code)])));
+        judge.push_row(&undone);
+    }
+    Some(judge.judgement())
 }

@@ -48,16 +48,36 @@ enum Kind {
     Normals,
 }
 
-fn kind(judgement: &MapJudgement) -> Kind {
+fn kind(map: &Map, judgement: &MapJudgement) -> Kind {
     match () {
         () if judgement.is_grey() => Kind::Grey,
+        // The commonest colour of a colour texture may be near that of a flat map that was encoded. Decoding it does not give normals.
+        () if map.before_srgb.is_some_and(|before| !is_map(&before)) => Kind::Other,
         // The encoding turns a nearly flat map's blue into 255 everywhere, as in a map of two channels, and flat texels tell them apart.
         () if judgement.srgb_mistake().is_some() => Kind::Srgb,
         () if judgement.is_two_channel() => Kind::TwoChannel,
         () if judgement.is_object_space() => Kind::ObjectSpace,
-        () if judgement.holds_no_normals() && judgement.verdict == MapVerdict::NoGradient => Kind::Other,
+        () if is_no_map(judgement) => Kind::Other,
         () => Kind::Normals,
     }
+}
+
+/// The share of texels, in percent, from which on vectors of other lengths that point below the surface, too, are no normals.
+const NO_NORMALS: [f64; 2] = [50.0, 10.0];
+
+/// Whether texels are slopes of a surface, or most of them are unit vectors.
+fn is_map(judgement: &MapJudgement) -> bool {
+    let is_gradient =
+        matches!(judgement.verdict, MapVerdict::OpenGl | MapVerdict::DirectX | MapVerdict::Flat);
+    is_gradient || percent(judgement, judgement.not_unit) <= NO_NORMALS[0]
+}
+
+/// Whether texels are no slopes of a surface, and most of them cannot be normals or many of them are neither unit nor above the surface.
+fn is_no_map(judgement: &MapJudgement) -> bool {
+    let are_no_normals = [judgement.not_unit, judgement.negative_z].map(|count| percent(judgement, count));
+    let are_colours =
+        (0..2).all(|i| are_no_normals[i] > NO_NORMALS[i]) && !judgement.has_exchanged_channels();
+    judgement.verdict == MapVerdict::NoGradient && (judgement.holds_no_normals() || are_colours)
 }
 
 fn percent(judgement: &MapJudgement, count: usize) -> f64 {
@@ -65,7 +85,7 @@ fn percent(judgement: &MapJudgement, count: usize) -> f64 {
 }
 
 fn height(map: &Map) -> Option<Finding> {
-    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Grey)?;
+    let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Grey)?;
     let share = percent(judgement, judgement.grey);
     Some(Finding::new(Code::MapHeight, "it is grey").with_count(judgement.grey).with_evidence(
         "grey texels",
@@ -75,14 +95,14 @@ fn height(map: &Map) -> Option<Finding> {
 }
 
 fn object_space(map: &Map) -> Option<Finding> {
-    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::ObjectSpace)?;
+    let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::ObjectSpace)?;
     let share = percent(judgement, judgement.negative_z);
     let finding = Finding::new(Code::MapObjectSpace, "its unit vectors point in all directions");
     Some(finding.with_count(judgement.negative_z).with_evidence("texels with negative z", share, "%"))
 }
 
 fn srgb(map: &Map) -> Option<Finding> {
-    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Srgb)?;
+    let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Srgb)?;
     let [red, green] = judgement.commonest;
     let what = match judgement.srgb_mistake()? {
         SrgbMistake::Encoded => "encoded",
@@ -96,14 +116,18 @@ fn srgb(map: &Map) -> Option<Finding> {
 }
 
 fn not_normal(map: &Map) -> Option<Finding> {
-    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Other)?;
+    let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Other)?;
     let share = percent(judgement, judgement.not_normal);
-    let finding = Finding::new(Code::MapNotNormal, "most of its texels cannot be normals");
+    let text = match judgement.holds_no_normals() {
+        true => "most of its texels cannot be normals",
+        false => "its texels are no slopes of a surface, and most are no unit vectors",
+    };
+    let finding = Finding::new(Code::MapNotNormal, text);
     Some(finding.with_count(judgement.not_normal).with_evidence("texels that are no normals", share, "%"))
 }
 
 fn two_channel(map: &Map) -> Option<Finding> {
-    judged(map).filter(|judgement| kind(judgement) == Kind::TwoChannel)?;
+    judged(map).filter(|judgement| kind(map, judgement) == Kind::TwoChannel)?;
     Some(Finding::new(Code::MapTwoChannel, "its blue channel has one value only"))
 }
 
@@ -148,7 +172,7 @@ fn with_directions(finding: Finding, judgement: &MapJudgement, map: &Map) -> Fin
 /// The judgement on a map whose channels have directions, unless red and green are exchanged.
 fn directed(map: &Map) -> Option<&MapJudgement> {
     let judgement =
-        judged(map).filter(|judgement| matches!(kind(judgement), Kind::Normals | Kind::TwoChannel))?;
+        judged(map).filter(|judgement| matches!(kind(map, judgement), Kind::Normals | Kind::TwoChannel))?;
     (!facets_show_exchange(judgement, map)).then_some(judgement)
 }
 
@@ -192,7 +216,7 @@ fn facets_show_exchange(judgement: &MapJudgement, map: &Map) -> bool {
 }
 
 fn channels_swapped(map: &Map) -> Option<Finding> {
-    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Normals)?;
+    let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Normals)?;
     let by_derivatives = judgement.has_exchanged_channels();
     let by_facets = facets_show_exchange(judgement, map);
     let text = match (by_derivatives, by_facets) {
@@ -213,7 +237,7 @@ fn channels_swapped(map: &Map) -> Option<Finding> {
 }
 
 fn not_unit(map: &Map) -> Option<Finding> {
-    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Normals)?;
+    let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Normals)?;
     let share = percent(judgement, judgement.not_unit);
     (share > MAX_PERCENT).then(|| {
         Finding::new(Code::MapNotUnit, format!("{} texels are no unit vectors", judgement.not_unit))
@@ -224,7 +248,7 @@ fn not_unit(map: &Map) -> Option<Finding> {
 }
 
 fn negative_z(map: &Map) -> Option<Finding> {
-    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Normals)?;
+    let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Normals)?;
     let share = percent(judgement, judgement.negative_z);
     (share > 0.01).then(|| {
         Finding::new(Code::MapNegativeZ, format!("{} texels point below the surface", judgement.negative_z))
@@ -234,7 +258,7 @@ fn negative_z(map: &Map) -> Option<Finding> {
 }
 
 fn flat_off(map: &Map) -> Option<Finding> {
-    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Normals)?;
+    let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Normals)?;
     let code = judgement.commonest;
     // Another commonest texel belongs to the surface; 127 is the other nearest code of zero.
     let is_flat = code.iter().all(|code| (120..=136).contains(code));
@@ -253,6 +277,6 @@ fn flat_off(map: &Map) -> Option<Finding> {
 
 fn flat(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| judgement.verdict == MapVerdict::Flat)?;
-    let is_plain = kind(judgement) == Kind::Normals;
+    let is_plain = kind(map, judgement) == Kind::Normals;
     is_plain.then(|| Finding::new(Code::MapFlat, "all its texels are the same"))
 }

@@ -110,8 +110,8 @@ fn sign_not_one(measured: &Measured<'_>) -> Vec<Finding> {
 }
 
 /// Per vertex whether MikkTSpace gives its tangent, up to rounding, to one of its corners that lie in faces without an area in space or in
-/// UV space. There MikkTSpace takes the tangent of another vertex at the same place, which may lean or have another sign than its neighbours.
-/// Computing it again does not help, and the UVs have a finding of their own.
+/// UV space. There MikkTSpace takes the tangent of another vertex at the same place or the x axis, which may lean or have another sign than its
+/// neighbours. Computing it again does not help, and the UVs have a finding of their own.
 fn vertices_with_own_tangents(measured: &Measured<'_>) -> Vec<bool> {
     let surface = measured.surface;
     let mut is_own = vec![false; surface.positions.len()];

@@ -192,6 +192,34 @@ impl Model {
         of_vertex
     }
 
+    /// MikkTSpace's tangents of a grid's quads, two triangles each, which follow each other in the indices.
+    pub fn computed_on_quads(&self) -> Vec<[f32; 4]> {
+        let normals = self.normals.as_ref().expect("a healthy model has normals");
+        let mut quads = Vec::new();
+        for six in self.indices.as_chunks::<6>().0 {
+            let (first, second) = (&six[..3], &six[3..]);
+            let is_first = |vertex: &u32| first.contains(vertex);
+            let at = (0..3).find(|&i| !second.contains(&first[i])).expect("two triangles of a quad");
+            let apex = second.iter().find(|vertex| !is_first(vertex)).expect("two triangles of a quad");
+            quads.push([first[at], first[(at + 1) % 3], *apex, first[(at + 2) % 3]]);
+        }
+        let corners = quads.as_flattened();
+        let mesh = darboux::Mesh::with_faces(
+            &self.positions,
+            normals,
+            &self.uvs[self.uv_set],
+            corners,
+            Faces::Quads,
+        );
+        let tangents = generate_tangents(&mesh.expect("a valid mesh"), &TangentOptions::default()).corners;
+        let tangents = tangents.converted(Convention::GLTF.generated(), Convention::GLTF);
+        let mut of_vertex = vec![[1.0, 0.0, 0.0, 1.0]; self.positions.len()];
+        for (&vertex, tangent) in corners.iter().zip(tangents.per_corner()) {
+            of_vertex[vertex as usize] = *tangent;
+        }
+        of_vertex
+    }
+
     /// Gives the first face vertices of its own, copies of the old ones, and returns them.
     pub fn detach_first_face(&mut self) -> [usize; 3] {
         fn copy<T: Clone>(array: &mut Vec<T>, vertices: [usize; 3]) {

@@ -1,0 +1,144 @@
+//! What findings say, and what is no finding.
+
+mod support;
+
+use darboux::Method;
+use darboux_check::{
+    CheckOptions, Code, Finding, FixOptions, Severity, check_document, check_map, fix_document,
+};
+use support::models::{Model, healthy_models};
+use support::table::without_maps;
+
+fn check(model: &Model) -> Vec<Finding> {
+    check_document(&mut model.document(), &without_maps()).expect("a valid document")
+}
+
+fn find(findings: &[Finding], code: Code) -> Option<&Finding> {
+    findings.iter().find(|finding| finding.code == code)
+}
+
+fn model(name: &str) -> Model {
+    healthy_models().into_iter().find(|model| model.name == name).expect("a healthy model")
+}
+
+/// Where UVs have no area, MikkTSpace gives tangents that lean or whose signs differ. Only the UVs are named.
+#[test]
+fn tangents_that_mikktspace_itself_gives_are_no_mistake() {
+    let mut model = model("wavy grid");
+    let vertices = model.detach_first_face();
+    let uv = model.uvs[model.uv_set][vertices[0]];
+    vertices.into_iter().for_each(|vertex| model.uvs[model.uv_set][vertex] = uv);
+    model.tangents = Some(model.computed(Method::default(), model.uv_set));
+    // The tangent of a face without a direction is the x axis; this normal leans away from it by 60 degrees.
+    let lean = [0.866_025_4, 0.0, 0.5];
+    model.normals.iter_mut().for_each(|normals| normals[vertices[1]] = lean);
+    model.tangents = Some(model.computed(Method::default(), model.uv_set));
+    let [x, y, z, _] = model.tangents()[vertices[1]];
+    let cosine = x * lean[0] + y * lean[1] + z * lean[2];
+    assert!(cosine.abs() > 0.1, "MikkTSpace gives a tangent that is perpendicular: {cosine}");
+    let findings = check(&model);
+    assert!(find(&findings, Code::TangentNotPerpendicular).is_none(), "{findings:#?}");
+    assert!(find(&findings, Code::UvDegenerate).is_some(), "{findings:#?}");
+
+    // Another tangent that leans is one.
+    let tangents = model.tangents();
+    tangents[vertices[2]] = [0.0, 0.6, 0.8, 1.0];
+    let findings = check(&model);
+    assert_eq!(find(&findings, Code::TangentNotPerpendicular).map(|finding| finding.count), Some(1));
+}
+
+/// The sentence does not contradict the share of the corners.
+#[test]
+fn tangents_of_no_known_method_are_not_most_of_mikktspace() {
+    for (noisy, is_most) in [(0.3, true), (0.8, false)] {
+        let mut model = model("large wavy grid");
+        let normals = model.normals.clone().expect("normals");
+        let count = (noisy * normals.len() as f32) as usize;
+        for (vertex, (tangent, n)) in model.tangents().iter_mut().zip(&normals).enumerate().take(count) {
+            let [x, y, z, w] = *tangent;
+            let across = [n[1] * z - n[2] * y, n[2] * x - n[0] * z, n[0] * y - n[1] * x];
+            let (sin, cos) = (0.05 + 0.02 * (vertex % 7) as f32).sin_cos();
+            *tangent = [cos * x + sin * across[0], cos * y + sin * across[1], cos * z + sin * across[2], w];
+        }
+        let findings = check(&model);
+        let finding = find(&findings, Code::TangentOtherRecipe).expect("the finding");
+        assert_eq!(finding.text.starts_with("most tangents are those of MikkTSpace"), is_most, "{finding:?}");
+        assert!((finding.evidence[0].value > 50.0) == is_most, "{finding:?}");
+    }
+}
+
+/// Scaled normals do not hide how the tangents were computed.
+#[test]
+fn recipes_show_through_scaled_normals() {
+    for (method, name) in [(Method::default(), None), (Method::Area, Some("averages weighted by area"))] {
+        let mut model = model("wavy grid");
+        model.tangents = Some(model.computed(method, model.uv_set));
+        for (vertex, normal) in model.normals.iter_mut().flatten().enumerate() {
+            *normal = normal.map(|x| x * (1.0 + 0.3 * (vertex % 5) as f32));
+        }
+        let findings = check(&model);
+        assert!(find(&findings, Code::NormalNotUnit).is_some());
+        let found = find(&findings, Code::TangentOtherRecipe).map(|finding| finding.text.as_str());
+        assert_eq!(found.is_some(), name.is_some(), "{found:?}");
+        assert!(name.is_none_or(|name| found.is_some_and(|text| text.contains(name))), "{found:?}");
+    }
+}
+
+/// What the cure says to keep, the repair keeps.
+#[test]
+fn tangents_of_quads_are_kept() {
+    let mut model = model("wavy grid");
+    model.tangents = Some(model.computed_on_quads());
+    let findings = check(&model);
+    let finding = find(&findings, Code::TangentOtherRecipe).expect("the finding");
+    assert!(finding.text.contains("before quads were cut") && !finding.is_fixable(), "{finding:?}");
+    assert!(finding.code.cure().contains("on quads"));
+    let mut document = model.document();
+    let options = FixOptions::default().with_check(without_maps());
+    fix_document(&mut document, findings, &options).expect("a valid document");
+    assert!(!document.is_changed());
+}
+
+/// So few mirrored corners may be slivers, and say nothing about the signs of the rest.
+#[test]
+fn a_few_mirrored_corners_decide_nothing() {
+    let mut model = model("large wavy grid");
+    let vertices = model.detach_first_face();
+    let set = model.uv_set;
+    vertices.into_iter().for_each(|vertex| model.uvs[set][vertex][0] *= -1.0);
+    model.tangents = Some(model.computed(Method::default(), set));
+    let sign = model.tangents()[0][3];
+    assert_eq!(model.tangents()[vertices[0]][3], -sign, "the face is mirrored");
+    assert!(check(&model).iter().all(|finding| finding.severity == Severity::Info));
+
+    model.tangents().iter_mut().for_each(|tangent| tangent[3] = sign);
+    let findings = check(&model);
+    let partly = find(&findings, Code::TangentSignPartlyFlipped).expect("the finding");
+    assert_eq!((partly.count, partly.severity), (1, Severity::Warning), "{findings:?}");
+
+    model.tangents().iter_mut().for_each(|tangent| tangent[3] = -sign);
+    let findings = check(&model);
+    assert!(find(&findings, Code::TangentSignFlipped).is_some(), "{findings:?}");
+}
+
+/// The commonest colour of a texture may be that of a flat map that was encoded as sRGB.
+#[test]
+fn colour_textures_are_no_normal_maps() {
+    for [red, green, blue] in [[188, 187, 180], [189, 186, 120], [54, 55, 60], [54, 55, 200]] {
+        let side = 128;
+        let texel = |i: usize| {
+            let (x, y) = (i % side, i / side);
+            // Planks: every fifth row of tiles has the one colour, the others are painted with it and noise.
+            let noise = (i as u32).wrapping_mul(2_654_435_761) >> 24;
+            let stripe = (x / 9 + y / 13) % 5;
+            match stripe {
+                0 => [red, green, blue],
+                _ => [noise as u8 / 2 + 40 * stripe as u8 / 2, noise as u8 / 3, (255 - noise) as u8 / 3],
+            }
+        };
+        let file = support::maps::png(&(0..side * side).map(texel).collect::<Vec<[u8; 3]>>());
+        let findings = check_map(&file, &CheckOptions::default()).findings;
+        let codes: Vec<Code> = findings.iter().map(|finding| finding.code).collect();
+        assert_eq!(codes, [Code::MapNotNormal], "{red}, {green}, {blue}");
+    }
+}
