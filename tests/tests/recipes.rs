@@ -96,6 +96,39 @@ fn every_recipe_is_recognised_on_further_models() {
     }
 }
 
+/// Large meshes are sampled: the best recipe is compared on all corners, and recipes that are clearly worse on a few.
+#[test]
+fn recipes_of_large_meshes_are_recognised() {
+    let mut grid = families::grid(400, 320, false, true);
+    for (position, uv) in grid.positions.iter_mut().zip(&mut grid.uvs) {
+        position[2] += 0.02 * (40.0 * position[0] + 9.0 * position[1]).sin();
+        uv[1] += 0.01 * (50.0 * position[0]).sin();
+    }
+    for mesh in [grid.clone(), grid.unindexed()] {
+        let view = mesh.view();
+        for method in [Method::default(), Method::LengyelPerVertex, Method::Face] {
+            let made = tangents(&view, method);
+            let matches = recognise_recipe(&view, &made).expect("one tangent per corner");
+            let best = matches[0];
+            assert_eq!(best.recipe.method, method, "{best:?}");
+            assert_eq!((best.corners, best.identical), (made.len(), made.len()), "{best:?}");
+            let is_whole = |found: &&RecipeMatch| found.corners == made.len();
+            assert!(matches.iter().filter(is_whole).any(|found| found.recipe.method == Method::default()));
+            assert!(matches.iter().any(|found| found.corners < made.len() / 8), "{matches:?}");
+            assert!(recipes().all(|method| matches.iter().any(|found| found.recipe.method == method)));
+        }
+    }
+    // Tangents of no recipe: the shares in the sample are those in the whole mesh, up to chance.
+    let mut made = tangents(&grid.view(), Method::Area);
+    made.iter_mut()
+        .enumerate()
+        .filter(|(corner, _)| corner % 3 == 0)
+        .for_each(|(_, tangent)| *tangent = [1.0; 4]);
+    let matches = recognise_recipe(&grid.view(), &made).expect("one tangent per corner");
+    let share = matches[0].identical as f64 / matches[0].corners as f64;
+    assert!(matches[0].recipe.method == Method::Area && (share - 2.0 / 3.0).abs() < 0.01, "{:?}", matches[0]);
+}
+
 #[test]
 fn a_mirrored_seam_that_was_written_through_the_index_list_is_recognised() {
     let mesh = families::grid(8, 7, false, true);

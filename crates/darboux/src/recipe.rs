@@ -3,18 +3,20 @@
 mod compare;
 mod definition;
 mod recovered_quads;
+mod sample;
 
 use self::compare::{bits, compare, rounded};
 pub use self::definition::{Recipe, RecipeMatch, RecipeRounding, RecipeWriting};
 use self::recovered_quads::QuadMesh;
+use self::sample::Sample;
 use crate::Context;
 use crate::Error;
 use crate::Mesh;
 use crate::exec::limits::RunLimits;
 use crate::mesh::Strided;
-use crate::tangents::TangentOptions;
 use crate::tangents::generate::run;
 use crate::tangents::memory::TangentMemory;
+use crate::tangents::{MikkTSpaceOptions, Mode, Report, TangentOptions};
 
 /// The share of close corners from which on quads are not tried: another recipe explains the tangents.
 const EXPLAINED: f64 = 0.99;
@@ -23,6 +25,8 @@ const EXPLAINED: f64 = 0.99;
 ///
 /// The order is by the sum of identical and close corners, then by the largest angle; then simpler recipes come first. Every method is listed;
 /// a writing to vertices only where it changes the tangents of corners, and quads only where no other recipe is close at 99 % of the corners.
+/// Meshes of 250,000 triangles and more are sampled first, and what cannot be the best recipe is compared on the corners of the sample only, as
+/// [`RecipeMatch::corners`] says; MikkTSpace's default mode is always compared on all.
 /// For several UV sets, call it once per set and compare the best matches. `tangents`: one per corner, unit xyz and sign as MikkTSpace has it for
 /// the UVs as given ([`Convention::generated`](crate::Convention::generated)). Errors: another number of tangents than corners.
 ///
@@ -51,64 +55,167 @@ pub fn recognise_recipe_with(
 ) -> Result<Vec<RecipeMatch>, Error> {
     Error::check_input("tangents", mesh.corner_count(), tangents.len())?;
     let (limits, memory) = context.limits_and_memory();
-    let rounding = rounding_of(tangents);
-    let mut ranking = Ranking::new(mesh, tangents, limits);
-    let mut candidate = vec![[0.0; 4]; tangents.len()];
-    for recipe in Recipe::all(rounding) {
-        compute(mesh, &recipe, limits, memory, &mut candidate)?;
-        ranking.add(recipe, &candidate)?;
+    let recipes = Recipe::all(rounding_of(tangents));
+    let mut whole = Trial::new(mesh, tangents, None, limits);
+    let sample = Sample::new(mesh, tangents);
+    let sampled = sample.as_ref().and_then(Sample::mesh);
+    let (Some(sample), Some(part)) = (&sample, &sampled) else {
+        whole.add_all(&recipes, memory)?;
+        return Ok(whole.sorted());
+    };
+    let mut sampled = Trial::new(part, &sample.tangents, Some(&sample.measured), limits);
+    sampled.add_all(&recipes, memory)?;
+    whole.add(&recipes[0], memory)?;
+    // The best recipes of the sample are computed for the whole mesh, until the rest is clearly worse.
+    while let Some(next) = whole.next_of(&sampled.matches) {
+        whole.add(&next, memory)?;
     }
-    if !ranking.is_explained()
-        && let Some(quads) = QuadMesh::recover(mesh, limits)?
-    {
-        compute_on_quads(mesh, &quads, limits, memory, &mut candidate)?;
-        ranking.add(Recipe::quads(rounding), &candidate)?;
-    }
-    Ok(ranking.sorted())
+    let rest = sampled.matches.iter().filter(|found| !whole.has(&found.recipe));
+    let rest: Vec<RecipeMatch> = rest.copied().collect();
+    whole.matches.extend(rest);
+    Ok(whole.sorted())
 }
 
-/// The matches found so far.
-struct Ranking<'a> {
+/// A recipe is computed for the whole mesh if its score in the sample is at least this part of the best score.
+const SAMPLE_MARGIN: f64 = 0.95;
+
+/// The share of close corners of a sample below which a recipe is not computed for the whole mesh: it did not make the tangents.
+const LIKELY: f64 = 0.5;
+
+/// The comparison of recipes with the tangents of one mesh.
+struct Trial<'a> {
     mesh: &'a Mesh<'a>,
+    /// Those of the measured corners.
     tangents: &'a [[f32; 4]],
+    /// The corners that are compared; none: all.
+    measured: Option<&'a [u32]>,
     limits: RunLimits<'a>,
     writers: Option<Writers>,
     matches: Vec<RecipeMatch>,
-    /// Reused: the tangents of a recipe after they were written to vertices.
+    /// Reused: the tangents of a recipe, and after they were written to vertices.
+    candidate: Vec<[f32; 4]>,
     written: Vec<[f32; 4]>,
+    /// Whether [`Mode::Repaired`] repaired nothing, so that [`Mode::Reference`] gives the same.
+    is_unrepaired: bool,
 }
 
-impl<'a> Ranking<'a> {
-    fn new(mesh: &'a Mesh<'a>, tangents: &'a [[f32; 4]], limits: RunLimits<'a>) -> Self {
-        let writers = Writers::new(mesh);
-        let written = vec![[0.0; 4]; if writers.is_some() { tangents.len() } else { 0 }];
-        Self { mesh, tangents, limits, writers, matches: Vec::new(), written }
+impl<'a> Trial<'a> {
+    fn new(
+        mesh: &'a Mesh<'a>,
+        tangents: &'a [[f32; 4]],
+        measured: Option<&'a [u32]>,
+        limits: RunLimits<'a>,
+    ) -> Self {
+        Self {
+            mesh,
+            tangents,
+            measured,
+            limits,
+            writers: None,
+            matches: Vec::new(),
+            candidate: vec![[0.0; 4]; mesh.corner_count()],
+            written: Vec::new(),
+            is_unrepaired: false,
+        }
     }
 
-    /// Adds a recipe, and what becomes of its tangents when they are written to vertices.
-    fn add(&mut self, recipe: Recipe, candidate: &[[f32; 4]]) -> Result<(), Error> {
-        let Self { mesh, tangents, limits, writers, matches, written } = self;
-        matches.push(compare(recipe, candidate, tangents, limits.width));
-        for writing in [RecipeWriting::LastCorner, RecipeWriting::FirstCorner] {
-            limits.check()?;
-            if writers.as_ref().is_some_and(|writers| writers.write(mesh, candidate, writing, written)) {
-                matches.push(compare(Recipe { writing, ..recipe }, written, tangents, limits.width));
+    /// Adds recipes, and MikkTSpace on quads unless one of them explains the tangents.
+    fn add_all(&mut self, recipes: &[Recipe], memory: &mut TangentMemory) -> Result<(), Error> {
+        recipes.iter().try_for_each(|recipe| self.add(recipe, memory))?;
+        let is_explained = self.matches.iter().any(|found| close_share(found) >= EXPLAINED);
+        let quads = recipes.first().map(|first| Recipe::quads(first.rounding));
+        quads.filter(|_| !is_explained).map_or(Ok(()), |quads| self.add(&quads, memory))
+    }
+
+    /// Computes a recipe, and what becomes of its tangents when they are written to vertices. Quads are left out where there are none.
+    fn add(&mut self, recipe: &Recipe, memory: &mut TangentMemory) -> Result<(), Error> {
+        let reference = MikkTSpaceOptions::new().with_mode(Mode::Reference).into();
+        if self.is_unrepaired && recipe.method == reference && !recipe.flips_v {
+            let same: Vec<RecipeMatch> =
+                self.matches.iter().filter(|found| found.recipe.is_default()).copied().collect();
+            let renamed = |found: RecipeMatch| RecipeMatch {
+                recipe: Recipe { method: recipe.method, ..found.recipe },
+                ..found
+            };
+            self.matches.extend(same.into_iter().map(renamed));
+            return Ok(());
+        }
+        let mut candidate = std::mem::take(&mut self.candidate);
+        let report = match recipe.from_quads {
+            false => Some(compute(self.mesh, recipe, self.limits, memory, &mut candidate)?),
+            true => compute_on_quads(self.mesh, self.limits, memory, &mut candidate)?,
+        };
+        if let Some(report) = report {
+            self.is_unrepaired |= recipe.is_default() && report.repaired_corners == 0;
+            self.compare(*recipe, &candidate);
+            // Quads share vertices, which the count of the report does not know of the triangles.
+            if report.split_vertices > 0 || recipe.from_quads {
+                self.compare_written(recipe, &candidate)?;
             }
         }
+        self.candidate = candidate;
+        self.limits.check()
+    }
+
+    fn compare(&mut self, recipe: Recipe, candidate: &[[f32; 4]]) {
+        let width = self.limits.width;
+        let found = match self.measured {
+            None => compare(recipe, candidate, self.tangents, width),
+            Some(measured) => {
+                let measured: Vec<[f32; 4]> =
+                    measured.iter().map(|&corner| candidate[corner as usize]).collect();
+                compare(recipe, &measured, self.tangents, width)
+            }
+        };
+        self.matches.push(found);
+    }
+
+    fn compare_written(&mut self, recipe: &Recipe, candidate: &[[f32; 4]]) -> Result<(), Error> {
+        let writers = self.writers.take().unwrap_or_else(|| Writers::new(self.mesh));
+        let mut written = std::mem::take(&mut self.written);
+        written.resize(candidate.len(), [0.0; 4]);
+        for writing in [RecipeWriting::LastCorner, RecipeWriting::FirstCorner] {
+            self.limits.check()?;
+            if writers.write(self.mesh, candidate, writing, &mut written) {
+                self.compare(Recipe { writing, ..*recipe }, &written);
+            }
+        }
+        (self.writers, self.written) = (Some(writers), written);
         Ok(())
     }
 
-    fn is_explained(&self) -> bool {
-        self.matches.iter().any(|found| found.close as f64 >= EXPLAINED * found.corners as f64)
+    fn has(&self, recipe: &Recipe) -> bool {
+        let of = |recipe: &Recipe| (recipe.method, recipe.flips_v, recipe.from_quads);
+        self.matches.iter().any(|found| of(&found.recipe) == of(recipe))
+    }
+
+    /// The best recipe of a sample that is not in the matches and may be better than they are; none if there is none.
+    fn next_of(&self, sampled: &[RecipeMatch]) -> Option<Recipe> {
+        let known = self.matches.iter().map(score).fold(0.0, f64::max);
+        let rest = sampled.iter().filter(|found| !self.has(&found.recipe));
+        let best = rest.max_by(|a, b| score(a).total_cmp(&score(b)))?;
+        let is_near = score(best) >= SAMPLE_MARGIN * known && close_share(best) >= LIKELY;
+        is_near.then_some(Recipe { writing: RecipeWriting::Corners, ..best.recipe })
     }
 
     fn sorted(mut self) -> Vec<RecipeMatch> {
-        // A few identical corners are chance, and many are worth more than many close ones.
-        let score = |found: &RecipeMatch| (found.identical + found.close, found.identical);
-        // The sort is stable.
-        self.matches.sort_by(|a, b| score(b).cmp(&score(a)).then(a.worst.total_cmp(&b.worst)));
+        // Among recipes that were computed on the same corners, shares are in the order of counts. The sort is stable.
+        let share = |found: &RecipeMatch| found.identical as f64 / found.corners.max(1) as f64;
+        self.matches.sort_by(|a, b| {
+            let by_score = score(b).total_cmp(&score(a));
+            by_score.then(share(b).total_cmp(&share(a))).then(a.worst.total_cmp(&b.worst))
+        });
         self.matches
     }
+}
+
+fn close_share(found: &RecipeMatch) -> f64 {
+    found.close as f64 / found.corners.max(1) as f64
+}
+
+/// The share of identical corners plus that of close ones: a few identical corners are chance, and many are worth more than many close ones.
+fn score(found: &RecipeMatch) -> f64 {
+    (found.identical + found.close) as f64 / found.corners.max(1) as f64
 }
 
 /// Computes the tangents of all corners by a recipe, as floats and without writing to vertices.
@@ -118,43 +225,33 @@ fn compute(
     limits: RunLimits<'_>,
     memory: &mut TangentMemory,
     out: &mut [[f32; 4]],
-) -> Result<(), Error> {
+) -> Result<Report, Error> {
     let options = TangentOptions::from(recipe.method);
-    if recipe.flips_v {
-        let uvs: Vec<[f32; 2]> = (0..mesh.vertex_count())
-            .map(|vertex| {
-                let [u, v] = mesh.uvs().get(vertex);
-                [u, 1.0 - v]
-            })
-            .collect();
-        let flipped = Mesh::with_faces(
-            mesh.positions(),
-            mesh.normals(),
-            Strided::from(&uvs),
-            mesh.indices(),
-            mesh.faces(),
-        )?;
-        run(&flipped, &options, limits, memory, out);
-        out.iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
-    } else {
-        run(mesh, &options, limits, memory, out);
+    if !recipe.flips_v {
+        return Ok(run(mesh, &options, limits, memory, out));
     }
-    limits.check()
+    let vertices = 0..mesh.vertex_count();
+    let uvs: Vec<[f32; 2]> =
+        vertices.map(|vertex| mesh.uvs().get(vertex)).map(|[u, v]| [u, 1.0 - v]).collect();
+    let uvs = Strided::from(&uvs);
+    let flipped = Mesh::with_faces(mesh.positions(), mesh.normals(), uvs, mesh.indices(), mesh.faces())?;
+    let report = run(&flipped, &options, limits, memory, out);
+    out.iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
+    Ok(report)
 }
 
-/// Computes MikkTSpace's tangents on quads. `out`: the tangents of the corners of the triangles.
+/// Computes MikkTSpace's tangents on quads; none where there are none. `out`: the tangents of the corners of the triangles.
 fn compute_on_quads(
     mesh: &Mesh<'_>,
-    quads: &QuadMesh,
     limits: RunLimits<'_>,
     memory: &mut TangentMemory,
     out: &mut [[f32; 4]],
-) -> Result<(), Error> {
+) -> Result<Option<Report>, Error> {
+    let Some(quads) = QuadMesh::recover(mesh, limits)? else { return Ok(None) };
     let mut tangents = vec![[0.0; 4]; quads.corner_count()];
-    run(&quads.mesh(mesh)?, &TangentOptions::default(), limits, memory, &mut tangents);
-    limits.check()?;
+    let report = run(&quads.mesh(mesh)?, &TangentOptions::default(), limits, memory, &mut tangents);
     out.iter_mut().zip(&quads.corner_of_corner).for_each(|(out, &corner)| *out = tangents[corner as usize]);
-    Ok(())
+    Ok(Some(report))
 }
 
 /// The corners whose tangents vertices get when tangents are written through the index list.
@@ -164,20 +261,17 @@ struct Writers {
 }
 
 impl Writers {
-    /// None where every vertex has one corner at most, so that nothing is shared.
-    fn new(mesh: &Mesh<'_>) -> Option<Self> {
+    fn new(mesh: &Mesh<'_>) -> Self {
         const NONE: u32 = u32::MAX;
         let none = || vec![NONE; mesh.vertex_count()];
         let mut writers = Self { first_corner: none(), last_corner: none() };
-        let mut is_shared = false;
         for corner in 0..mesh.corner_count() {
             let vertex = mesh.vertex_of_corner(corner);
             let first = &mut writers.first_corner[vertex];
-            is_shared |= *first != NONE;
             *first = if *first == NONE { corner as u32 } else { *first };
             writers.last_corner[vertex] = corner as u32;
         }
-        is_shared.then_some(writers)
+        writers
     }
 
     /// Writes the tangents of corners to vertices and back; false where that changes nothing.

@@ -107,7 +107,9 @@ fn recognise(surface: &Surface) -> Option<Recognised> {
 fn recognise_on(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Option<Recognised> {
     let matches = recognise_recipe(mesh, tangents).ok()?;
     let best = *matches.first().filter(|best| best.corners > 0)?;
-    let mikktspace = *matches.iter().find(|found| is_mikktspace(found))?;
+    // Of large meshes, some recipes are compared on a sample only.
+    let all_corners = mesh.corner_count();
+    let mikktspace = *matches.iter().find(|found| is_mikktspace(found) && found.corners == all_corners)?;
     Some(Recognised { best, mikktspace, with_unit_normals: false })
 }
 

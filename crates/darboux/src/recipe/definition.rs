@@ -49,7 +49,7 @@ pub enum RecipeRounding {
 pub struct RecipeMatch {
     /// The recipe.
     pub recipe: Recipe,
-    /// The number of corners.
+    /// The number of corners that were compared: all, or those of a sample of a large mesh.
     pub corners: usize,
     /// Corners whose four components are equal, after the recipe's rounding.
     pub identical: usize,
@@ -85,6 +85,11 @@ impl Recipe {
             of(Method::Area),
             of(Method::Face),
         ]
+    }
+
+    /// Whether this is MikkTSpace with its default mode on the mesh as it is.
+    pub(super) fn is_default(&self) -> bool {
+        self.method == Method::default() && !self.flips_v && !self.from_quads
     }
 
     /// MikkTSpace on quads.
