@@ -67,7 +67,7 @@ export interface Finding {
 /** The verdict on a normal map. Counts leave out black, white and middle grey texels. */
 export interface MapJudgement {
   /** Green points up ('opengl') or down ('directx'). */
-  verdict: 'opengl' | 'directx' | 'no-gradient' | 'flat' | 'cannot-tell';
+  verdict: 'opengl' | 'directx' | 'no_gradient' | 'flat' | 'cannot_tell';
   /** For 'opengl' and 'directx' an estimate of the probability that the verdict is right, 0.5 to 0.999. */
   confidence: number;
   /** From -1 (DirectX) to 1 (OpenGL). */

@@ -188,9 +188,9 @@ impl Judged {
         let verdict = match judgement.verdict {
             MapVerdict::OpenGl => "opengl",
             MapVerdict::DirectX => "directx",
-            MapVerdict::NoGradient => "no-gradient",
+            MapVerdict::NoGradient => "no_gradient",
             MapVerdict::Flat => "flat",
-            _ => "cannot-tell",
+            _ => "cannot_tell",
         };
         let MapJudgement { confidence, correlation, z_score, log_energy_ratio, texels, background, .. } =
             judgement;

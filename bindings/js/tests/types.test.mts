@@ -54,6 +54,6 @@ export async function tangentsOnGpu(buffer: GPUBuffer): Promise<number> {
 const findings: Finding[] = check(new Uint8Array(), { green: 'down' });
 // @ts-expect-error: another direction
 check(new Uint8Array(), { green: 'left' });
-const verdict: 'opengl' | 'directx' | 'no-gradient' | 'flat' | 'cannot-tell' = judgeNormalMap(new Uint8ClampedArray(16), 2, 2).verdict;
+const verdict: 'opengl' | 'directx' | 'no_gradient' | 'flat' | 'cannot_tell' = judgeNormalMap(new Uint8ClampedArray(16), 2, 2).verdict;
 
 export { diamond, findings, largest, loaded, octahedral, sources, tangents, verdict };

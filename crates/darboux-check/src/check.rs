@@ -95,29 +95,48 @@ fn check_map_with(
     CheckedMap { judgement: map.judgement.ok(), findings }
 }
 
-/// Checks the tangents, normals and UVs of a model that normal maps are to be put on, whatever maps it has itself. Errors: invalid data of the
-/// document.
-pub fn check_model_of_maps(document: &mut Document) -> Result<Vec<Finding>, Error> {
-    let mut findings = Vec::new();
-    for_each_surface(document, |mut surface| {
-        surface.needs_tangents = true;
-        findings.extend(check_surface(&surface));
-    })?;
-    Ok(findings)
+/// A model that normal maps are to be put on, and what is wrong with it: the result of [`check_model_of_maps`].
+#[derive(Debug)]
+pub struct ModelOfMaps {
+    surfaces: Vec<Surface>,
+    findings: Vec<Finding>,
 }
 
-/// Checks the file of an image as the normal map of a model. `on_model`: the result of [`check_model_of_maps`].
+impl ModelOfMaps {
+    /// The findings on its tangents, normals and UVs.
+    pub fn findings(&self) -> &[Finding] {
+        &self.findings
+    }
+}
+
+/// Checks the tangents, normals and UVs of a model that normal maps are to be put on, whatever maps it has itself. Errors: invalid data of the
+/// document.
+pub fn check_model_of_maps(document: &mut Document) -> Result<ModelOfMaps, Error> {
+    let mut model = ModelOfMaps { surfaces: Vec::new(), findings: Vec::new() };
+    for_each_surface(document, |mut surface| {
+        surface.needs_tangents = true;
+        model.findings.extend(check_surface(&surface));
+        model.surfaces.push(surface);
+    })?;
+    Ok(model)
+}
+
+/// Checks the file of an image as the normal map of a model, whose faces tell inverted red from inverted green where the map was baked for them.
 ///
 /// The findings on the map come first, then those on the model. A finding about green says where the signs of the model's tangents are flipped,
 /// too, so that both mistakes cancel.
-pub fn check_map_on_model(file: &[u8], on_model: &[Finding], options: &CheckOptions) -> CheckedMap {
-    let mut checked = check_map(file, options);
-    if on_model.iter().any(|finding| finding.code == Code::TangentSignFlipped) {
+pub fn check_map_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptions) -> CheckedMap {
+    let mut checked = check_map_with(file, options, |image| {
+        let mut votes = FacetVotes::default();
+        model.surfaces.iter().for_each(|surface| votes.add(surface, None, image));
+        votes
+    });
+    if model.findings.iter().any(|finding| finding.code == Code::TangentSignFlipped) {
         for finding in checked.findings.iter_mut().filter(|finding| finding.code == Code::MapGreenFlipped) {
             finding.text += "; the signs w of the model are flipped, too, so that bumps look right until one of the two mistakes is repaired";
         }
     }
-    checked.findings.extend(on_model.iter().cloned());
+    checked.findings.extend(model.findings.iter().cloned());
     checked
 }
 

@@ -36,7 +36,7 @@ mod surface;
 mod text;
 
 pub use check::{
-    CheckOptions, CheckedMap, check_document, check_map, check_map_on_model, check_model_of_maps,
+    CheckOptions, CheckedMap, ModelOfMaps, check_document, check_map, check_map_on_model, check_model_of_maps,
 };
 pub use code::Code;
 pub use finding::{Evidence, Finding, Place};

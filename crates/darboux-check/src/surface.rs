@@ -10,6 +10,7 @@ use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveInfo};
 use crate::finding::Place;
 
 /// A primitive with triangles.
+#[derive(Debug)]
 pub struct Surface {
     /// Where it is.
     pub place: Place,

@@ -4,8 +4,10 @@ mod support;
 
 use darboux::Method;
 use darboux_check::{
-    CheckOptions, Code, Finding, FixOptions, Severity, check_document, check_map, fix_document,
+    CheckOptions, Code, Finding, FixOptions, Severity, check_document, check_map, check_map_on_model,
+    check_model_of_maps, fix_document,
 };
+use support::baked::baked_models;
 use support::models::{Model, healthy_models};
 use support::table::without_maps;
 
@@ -140,5 +142,23 @@ fn colour_textures_are_no_normal_maps() {
         let findings = check_map(&file, &CheckOptions::default()).findings;
         let codes: Vec<Code> = findings.iter().map(|finding| finding.code).collect();
         assert_eq!(codes, [Code::MapNotNormal], "{red}, {green}, {blue}");
+    }
+}
+
+/// With the model of a bare map, its faces tell inverted red from inverted green.
+#[test]
+fn bare_maps_are_compared_with_the_faces_of_their_model() {
+    let options = CheckOptions::default();
+    for model in baked_models().iter().take(4) {
+        let on_model = check_model_of_maps(&mut model.document()).expect("a valid document");
+        let errors = |texel: fn(&[u8; 3]) -> [u8; 3]| -> Vec<Code> {
+            let file = model.map.with_texels(model.map.texels.iter().map(texel).collect()).file;
+            let findings = check_map_on_model(&file, &on_model, &options).findings;
+            let errors = findings.iter().filter(|finding| finding.severity == Severity::Error);
+            errors.map(|finding| finding.code).collect()
+        };
+        assert_eq!(errors(|texel| *texel), [], "{}", model.name);
+        assert_eq!(errors(|[r, g, b]| [255 - r, *g, *b]), [Code::MapRedFlipped], "{}", model.name);
+        assert_eq!(errors(|[r, g, b]| [*r, 255 - g, *b]), [Code::MapGreenFlipped], "{}", model.name);
     }
 }

@@ -11,7 +11,7 @@ pub mod plan;
 pub mod report;
 
 use std::num::NonZero;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
@@ -19,6 +19,7 @@ use std::time::Instant;
 
 use crate::inputs::{SearchMode, UsageError, find_inputs};
 use crate::json::print_report;
+use crate::paths::canonical;
 use crate::terminal::{Messages, stdout_is_terminal};
 use crate::text::{counted, nonzero_counts};
 use crate::{exit, interrupt};
@@ -207,8 +208,9 @@ fn print_file<W: FileCommand>(report: &FileReport<W::Summary>, brief: bool, mess
         return messages.say(&format!("{outcome}{separator}{total}{warnings}"));
     }
     messages.say(&outcome);
-    let further: Vec<&str> =
-        report.files_written.iter().map(String::as_str).filter(|file| file != output).collect();
+    let is_output = |file: &str| canonical(Path::new(file)) == canonical(Path::new(output));
+    let written = report.files_written.iter().map(String::as_str);
+    let further: Vec<&str> = written.filter(|file| !is_output(file)).collect();
     if !further.is_empty() {
         messages.say(&format!("  also written: {}", further.join(", ")));
     }

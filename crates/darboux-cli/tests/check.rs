@@ -321,6 +321,20 @@ fn findings_that_an_earlier_run_left_count() {
     darboux(&[&run[..], &["--fail-on", "never"]].concat()).exits(0);
 }
 
+/// A model that takes its own place is no further file, however its path is written.
+#[test]
+fn a_replaced_input_is_not_also_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::create_dir(folder.path().join("sub")).expect("a folder");
+    let model = folder.path().join("shield.glb");
+    for path in [model.clone(), folder.path().join("sub/../shield.glb")] {
+        fs::copy(asset("made/shield.glb"), &model).expect("a copy");
+        let repair = darboux(&["check", text(&path), "--fix", "--in-place"]).exits(0);
+        assert!(repair.stderr.contains("repaired"), "{}", repair.stderr);
+        assert!(!repair.stderr.contains("also written"), "{}", repair.stderr);
+    }
+}
+
 /// A line names the repair, and the files that were written beside the output.
 #[test]
 fn repairs_and_files_are_named() {

@@ -77,7 +77,7 @@ function verdictOf(judgement: MapJudgement | null): string {
       return `OpenGL: green points up, as glTF wants it (${sure}).`;
     case 'directx':
       return `DirectX: green points down, so bumps look like dents in glTF (${sure}).`;
-    case 'no-gradient':
+    case 'no_gradient':
       return 'No gradient: its texels are not the slopes of a surface.';
     case 'flat':
       return 'Flat: all texels are the same, so it changes nothing.';

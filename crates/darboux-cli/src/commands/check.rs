@@ -11,7 +11,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{fs, thread};
 
 use darboux_check::{
-    CheckOptions, CheckedMap, Finding, check_document, check_map, check_map_on_model, check_model_of_maps,
+    CheckOptions, CheckedMap, Finding, ModelOfMaps, check_document, check_map, check_map_on_model,
+    check_model_of_maps,
 };
 
 use crate::batch;
@@ -141,7 +142,7 @@ fn check_file(input: &Input, arguments: &CheckArguments, model: &Model) -> Check
 }
 
 /// The model that images are checked on: its findings, or why it cannot be read; none without `--model`.
-struct Model(Option<Result<Vec<Finding>, String>>);
+struct Model(Option<Result<ModelOfMaps, String>>);
 
 impl Model {
     /// Reads and checks the model once for all images. Errors: an input is no image.
