@@ -162,7 +162,10 @@ fn doubled_area([a, b, c]: &Triangle) -> f64 {
 fn share_area(a: &Triangle, b: &Triangle) -> bool {
     let largest = a.iter().chain(b).flatten().fold(0.0f64, |largest, x| largest.max(x.abs()));
     let tolerance = ROUNDING * largest;
-    !has_separating_edge(a, b, tolerance) && !has_separating_edge(b, a, tolerance)
+    let ([a_low, a_high], [b_low, b_high]) = (bounds(a), bounds(b));
+    // Most pairs are neighbours, whose bounding boxes touch.
+    let are_apart = (0..2).any(|i| a_high[i] <= b_low[i] || b_high[i] <= a_low[i]);
+    !are_apart && !has_separating_edge(a, b, tolerance) && !has_separating_edge(b, a, tolerance)
 }
 
 /// Whether all of `b` lies on the outer side of an edge of `a`.
@@ -171,7 +174,7 @@ fn has_separating_edge(a: &Triangle, b: &Triangle, tolerance: f64) -> bool {
     (0..3).any(|i| {
         let (start, end) = (a[i], a[(i + 1) % 3]);
         let [x, y] = [end[0] - start[0], end[1] - start[1]];
-        let reach = tolerance * x.hypot(y);
+        let reach = tolerance * (x * x + y * y).sqrt();
         b.iter().all(|at| inner * (x * (at[1] - start[1]) - y * (at[0] - start[0])) <= reach)
     })
 }

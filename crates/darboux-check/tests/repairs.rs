@@ -29,6 +29,9 @@ fn image(document: &Document) -> Vec<u8> {
     document.image_bytes(0).expect("an image").into_owned()
 }
 
+/// Makes a mistake.
+type Spoil = fn(&mut Model);
+
 fn spoilt() -> Model {
     let mut model = healthy_models().remove(3);
     model.negate_signs();
@@ -316,7 +319,7 @@ fn repairs_add_no_errors() {
 fn reversed_faces_of_open_surfaces_are_left() {
     let healthy =
         healthy_models().into_iter().find(|model| model.name == "wavy grid").expect("an open model");
-    let spoil: [fn(&mut Model); 2] = [Model::turn_faces, |model| {
+    let spoil: [Spoil; 2] = [Model::turn_faces, |model| {
         model.negate_normals();
         model.negate_signs();
     }];
@@ -343,7 +346,7 @@ fn the_volume_of_a_nearly_closed_surface_decides() {
         model.negate_normals();
         model.negate_signs();
     };
-    let mistakes: [(fn(&mut Model), &str); 3] = [
+    let mistakes: [(Spoil, &str); 3] = [
         (Model::turn_faces, "its faces are reversed, because they enclose a negative volume"),
         (Model::negate_normals, "its normals are reversed, because its faces enclose a positive volume"),
         (normals_and_signs, "its normals are reversed, because its faces enclose a positive volume"),
