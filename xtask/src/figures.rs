@@ -4,6 +4,7 @@
 //! bitangents and normals have colours that colour-blind readers can tell apart, and each arrow is labelled as well.
 
 mod averaging;
+mod beyond;
 mod colours;
 mod derivatives;
 mod drawing;
@@ -41,6 +42,11 @@ const FIGURES: &[FigureFile] = &[
     ("non-uniform-scale", shading::non_uniform_scale),
     ("scatter-gather", memory::scatter_gather),
     ("vertex-layout", memory::vertex_layout),
+    ("anisotropy", beyond::anisotropy),
+    ("triplanar", beyond::triplanar),
+    ("detail-normals", beyond::detail_normals),
+    ("displacement", beyond::displacement),
+    ("parallax", beyond::parallax),
 ];
 
 /// Writes all figures below `into`.

@@ -97,6 +97,31 @@ fn a_split_shows_two_sources_and_mistakes_on_the_right() {
         let beside = draw(&["--tangents", "mikktspace", "--mistakes", mistake, "--split", "25"]);
         assert_eq!((differing(&beside, &fresh, 0..60), differing(&beside, &wrong, 60..240)), (0, 0));
     }
+    let of_frames = [
+        "columns",
+        "sign-noise",
+        "no-guard",
+        "both-negated",
+        "uv-not-inverted",
+        "edge-twice",
+        "without-w",
+        "normal-matrix",
+        "race",
+        "no-bounds-check",
+        "adjacency-offsets",
+        "long-normals",
+        "one-tangent",
+        "last-corner",
+    ];
+    let mut pictures = vec![fresh.clone()];
+    for mistake in of_frames {
+        let wrong = draw(&["--tangents", "mikktspace", "--mistakes", mistake]);
+        assert!(pictures.iter().all(|other| differing(&wrong, other, 0..240) > 20), "{mistake}");
+        pictures.push(wrong);
+    }
+    let beside = draw(&["--tangents", "mikktspace", "--mistakes", "last-corner", "--split", "25"]);
+    let wrong = pictures.last().expect("a picture");
+    assert_eq!((differing(&beside, &fresh, 0..60), differing(&beside, wrong, 60..240)), (0, 0));
     let derived = draw(&["--tangents", "derivatives"]);
     assert!(differing(&derived, &fresh, 0..240) > 1000);
 }

@@ -13,6 +13,12 @@ pub fn direction_columns(matrix: &Matrix) -> [[f32; 3]; 3] {
     [0, 1, 2].map(|i| [0, 1, 2].map(|k| (matrix[i][k] * scale) as f32))
 }
 
-pub fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+pub type V3 = [f32; 3];
+
+pub fn dot(a: V3, b: V3) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub fn cross(a: V3, b: V3) -> V3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -4,9 +4,7 @@
 //! Source: C. Schueler, "Normal Mapping without Precomputed Tangents", 2013. The tangent is the gradient of u in the plane of the
 //! interpolated normal.
 
-use crate::algebra::cross;
-
-type V3 = [f32; 3];
+use crate::algebra::{V3, cross, dot};
 
 /// The tangents of a triangle's corners, with the signs of glTF; (0, 0, 0, 1) if the UVs are degenerate.
 pub fn tangents(positions: [V3; 3], normals: [V3; 3], uvs: [[f32; 2]; 3]) -> [[f32; 4]; 3] {
@@ -24,8 +22,4 @@ pub fn tangents(positions: [V3; 3], normals: [V3; 3], uvs: [[f32; 2]; 3]) -> [[f
         let is_against_v = side * dot(cross(normal, [x, y, z]), along_v) <= 0.0;
         [x, y, z, if is_against_v { 1.0 } else { -1.0 }]
     })
-}
-
-fn dot(a: V3, b: V3) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -18,6 +18,7 @@
 //! ```text
 //! options, subject, vertex, part    plain types
 //! pose, model, derivatives, heat    from a document to triangles with tangents and colours
+//! mistakes                          tangents as wrong code computes them
 //! camera, mirrored_edges, lines     what is in view, and lines over the surface
 //! uniforms, textures, pipelines     data for the shaders surface.wgsl and lines.wgsl
 //! drawing, painter, target          one pass over a picture or a UV layout, and reading it back
@@ -33,6 +34,7 @@ mod heat;
 mod lines;
 mod mipmaps;
 mod mirrored_edges;
+mod mistakes;
 mod model;
 mod options;
 mod painter;
@@ -51,6 +53,7 @@ pub use camera::Camera;
 pub use drawing::Side;
 pub use error::RenderError;
 pub use heat::HeatScale;
+pub use mistakes::FrameMistake;
 pub use model::Model;
 pub use options::{
     LINE_COLORS, LayoutPlacement, Lines, Mistakes, RenderOptions, SEAM_COLOR, SIGN_COLORS, View,

@@ -12,6 +12,7 @@ use crate::algebra::Matrix;
 use crate::camera::Bounds;
 use crate::derivatives;
 use crate::heat;
+use crate::mistakes::{self, FrameMistake};
 use crate::part::{Part, layout_position};
 use crate::pose::{self, MAX_INFLUENCE_SETS, Vertices};
 use crate::subject::Subject;
@@ -82,6 +83,18 @@ impl<'a> Model<'a> {
             }
         }
         self
+    }
+
+    /// The model with the tangents that code with a mistake computes.
+    #[must_use]
+    pub fn with_mistake(&self, mistake: FrameMistake) -> Model<'a> {
+        let mut parts = self.parts.clone();
+        for part in parts.iter_mut().filter(|part| part.has_tangents && !part.tangent_uvs.is_empty()) {
+            let wrong = mistakes::tangents(mistake, &part.corners, &part.tangent_uvs);
+            part.corners.iter_mut().zip(wrong).for_each(|(corner, tangent)| corner.tangent = tangent);
+        }
+        let Self { document, is_derived, skipped_primitives, .. } = *self;
+        Model { document, appearances: self.appearances.clone(), parts, is_derived, skipped_primitives }
     }
 
     /// The model with the angles to the tangents of another model of the same file, for [`View::Angle`](crate::View::Angle).

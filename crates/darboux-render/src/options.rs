@@ -40,6 +40,8 @@ pub struct Mistakes {
     pub w: bool,
     /// Samples images at 1 - v.
     pub v: bool,
+    /// Takes the columns of the matrix in the order tangent, normal, bitangent.
+    pub columns: bool,
 }
 
 impl Mistakes {
@@ -59,6 +61,12 @@ impl Mistakes {
     #[must_use]
     pub fn with_v(self, v: bool) -> Self {
         Self { v, ..self }
+    }
+
+    /// These mistakes, with the columns of the matrix in the order tangent, normal, bitangent, or not.
+    #[must_use]
+    pub fn with_columns(self, columns: bool) -> Self {
+        Self { columns, ..self }
     }
 }
 

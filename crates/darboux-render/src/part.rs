@@ -6,6 +6,7 @@ use crate::algebra::Matrix;
 use crate::vertex::SurfaceVertex;
 
 /// A primitive in one pose, with all places where the scene has it.
+#[derive(Clone)]
 pub struct Part {
     /// The index of the mesh.
     pub mesh: usize,

@@ -26,6 +26,8 @@ struct Picture {
     is_derived: u32,
     // 1 for a UV layout, which is drawn without shading.
     is_layout: u32,
+    // 1 if the mistake is made to exchange the columns of bitangent and normal.
+    has_wrong_columns: u32,
 }
 
 struct Material {
@@ -138,6 +140,9 @@ fn surface_normal(in: Varyings, texel: vec3f) -> vec3f {
         normal = dome(in.uvs.zw);
     }
     normal.y *= picture.green_factor;
+    if (picture.has_wrong_columns != 0u) {
+        normal = normal.xzy;
+    }
     return picture.rotation * normal_to_surface(frame, normal);
 }
 

@@ -31,7 +31,8 @@ pub struct PictureUniforms {
     is_v_flipped: u32,
     is_derived: u32,
     is_layout: u32,
-    padding: [u32; 3],
+    has_wrong_columns: u32,
+    padding: [u32; 2],
 }
 
 /// `Lines` of lines.wgsl.
@@ -90,7 +91,8 @@ impl PictureUniforms {
             is_v_flipped: side.mistakes.v.into(),
             is_derived: side.model.is_derived.into(),
             is_layout: (drawing.subject == Subject::UvLayout).into(),
-            padding: [0; 3],
+            has_wrong_columns: side.mistakes.columns.into(),
+            padding: [0; 2],
         }
     }
 }

@@ -27,8 +27,8 @@ pub fn uv_to_surface() -> Figure {
     }
     figure.polygon(&uvs.map(|uv| map.at(uv)), "face line");
     figure.polygon(&positions.map(|position| surface.at(position)), "face line");
-    edges(&mut figure, map, uvs, ["(du1, dv1)", "(du2, dv2)"]);
-    edges(&mut figure, surface, positions, ["e1", "e2"]);
+    edges(&mut figure, map, uvs, "uv", ["(du1, dv1)", "(du2, dv2)"]);
+    edges(&mut figure, surface, positions, "p", ["e1", "e2"]);
     let start = on_surface(uvs[0]);
     for (derivative, name, class) in [(along_u, "u", "tangent"), (along_v, "v", "bitangent")] {
         let end = start + derivative * 0.42;
@@ -45,18 +45,20 @@ pub fn uv_to_surface() -> Figure {
     figure
 }
 
-/// The names of a triangle's two edges from corner 0, and the numbers of its corners.
-fn edges(figure: &mut Figure, view: View, corners: [Vec2; 3], names: [&str; 2]) {
+/// The two edges of a triangle from corner 0 as arrows, with their names outside, and the names of its corners.
+fn edges(figure: &mut Figure, view: View, corners: [Vec2; 3], corner: &str, names: [&str; 2]) {
     let middle = (corners[0] + corners[1] + corners[2]) * (1.0 / 3.0);
-    for (number, corner) in corners.into_iter().enumerate() {
-        figure.point(view.at(corner));
-        let outwards = (corner - middle).unit() * (17.0 / view.scale);
-        figure.label(view.at(corner + outwards), &number.to_string(), "small", Side::Centre);
+    for (number, at) in corners.into_iter().enumerate() {
+        figure.point(view.at(at));
+        let outwards = (at - middle).unit() * (19.0 / view.scale);
+        figure.label(view.at(at + outwards), &format!("{corner}{number}"), "small", Side::Centre);
     }
-    for (end, name) in [(corners[1], names[0]), (corners[2], names[1])] {
-        let inwards = (middle - corners[0].towards(end, 0.62)).unit() * (20.0 / view.scale);
-        let side = if name.len() > 2 && end == corners[1] { Side::Centre } else { Side::Right };
-        figure.label(view.at(corners[0].towards(end, 0.62) + inwards), name, "small", side);
+    for (end, name, side) in [(corners[1], names[0], Side::Right), (corners[2], names[1], Side::Left)] {
+        figure.arrow(view.at(corners[0]), view.at(end), "dark");
+        let at = corners[0].towards(end, 0.76);
+        let across = (end - corners[0]).unit().turned();
+        let outwards = if across.dot(middle - at) > 0.0 { -across } else { across };
+        figure.label(view.at(at + outwards * (16.0 / view.scale)), name, "small", side);
     }
 }
 

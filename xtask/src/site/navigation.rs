@@ -32,6 +32,7 @@ const PARTS: [(&str, &[&str]); 4] = [
             "docs/learn/8-shaders.md",
             "docs/learn/9-moving.md",
             "docs/learn/10-parallel.md",
+            "docs/learn/beyond.md",
             "docs/learn/questions.md",
             "docs/learn/glossary.md",
         ],

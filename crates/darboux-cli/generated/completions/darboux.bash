@@ -466,7 +466,7 @@ _darboux() {
                     return 0
                     ;;
                 --mistakes)
-                    COMPREPLY=($(compgen -W "green w v" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "green w v columns sign-noise no-guard both-negated uv-not-inverted edge-twice without-w normal-matrix race no-bounds-check adjacency-offsets long-normals one-tangent last-corner" -- "${cur}"))
                     return 0
                     ;;
                 --mesh)

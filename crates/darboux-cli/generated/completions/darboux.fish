@@ -367,7 +367,21 @@ complete -c darboux -n "__fish_darboux_using_subcommand render" -l layout -d 'Dr
 alone\t'Instead of the model'"
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l mistakes -d 'Make these mistakes, on the right of --split or in the whole picture' -r -f -a "green\t'Invert the green channel of normal maps'
 w\t'Invert the sign w of tangents'
-v\t'Sample images at 1 - v'"
+v\t'Sample images at 1 - v'
+columns\t'Take the columns of the matrix as tangent, normal, bitangent'
+sign-noise\t'Test the sign against the tangent\'s sum'
+no-guard\t'Divide by the UV area of triangles without one'
+both-negated\t'Negate tangent and bitangent'
+uv-not-inverted\t'Use the UV matrix instead of its inverse'
+edge-twice\t'Use one edge twice in the bitangent'
+without-w\t'Leave w out of the bitangent'
+normal-matrix\t'Transform tangents by the normal matrix'
+race\t'Let threads lose each other\'s additions'
+no-bounds-check\t'Let threads beyond the last vertex write'
+adjacency-offsets\t'Use vertex numbers as offsets of adjacency lists'
+long-normals\t'Apply Gram-Schmidt with normals of length 10'
+one-tangent\t'Give vertices at mirrored seams one tangent'
+last-corner\t'Write corners through the old index list'"
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l mesh -d 'Draw only this mesh, given by its name or index; can be repeated' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l size -d 'Width and height in pixels, at least 1x1' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l camera -d 'Degrees around the model (0 is its front), degrees above the horizon, and the magnification (1 shows the whole model)' -r

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use darboux_render::FrameMistake;
 
 use crate::options::messages::MessageOptions;
 use crate::options::method::MethodName;
@@ -162,6 +163,56 @@ pub enum MistakeChoice {
     W,
     /// Sample images at 1 - v
     V,
+    /// Take the columns of the matrix as tangent, normal, bitangent
+    Columns,
+    /// Test the sign against the tangent's sum
+    SignNoise,
+    /// Divide by the UV area of triangles without one
+    NoGuard,
+    /// Negate tangent and bitangent
+    BothNegated,
+    /// Use the UV matrix instead of its inverse
+    UvNotInverted,
+    /// Use one edge twice in the bitangent
+    EdgeTwice,
+    /// Leave w out of the bitangent
+    WithoutW,
+    /// Transform tangents by the normal matrix
+    NormalMatrix,
+    /// Let threads lose each other's additions
+    Race,
+    /// Let threads beyond the last vertex write
+    NoBoundsCheck,
+    /// Use vertex numbers as offsets of adjacency lists
+    AdjacencyOffsets,
+    /// Apply Gram-Schmidt with normals of length 10
+    LongNormals,
+    /// Give vertices at mirrored seams one tangent
+    OneTangent,
+    /// Write corners through the old index list
+    LastCorner,
+}
+
+impl MistakeChoice {
+    /// The mistake in the computation of tangents; none for a mistake of the shader.
+    pub fn of_frames(self) -> Option<FrameMistake> {
+        Some(match self {
+            Self::Green | Self::W | Self::V | Self::Columns => return None,
+            Self::SignNoise => FrameMistake::SignNoise,
+            Self::NoGuard => FrameMistake::NoGuard,
+            Self::BothNegated => FrameMistake::BothNegated,
+            Self::UvNotInverted => FrameMistake::UvNotInverted,
+            Self::EdgeTwice => FrameMistake::EdgeTwice,
+            Self::WithoutW => FrameMistake::WithoutW,
+            Self::NormalMatrix => FrameMistake::NormalMatrix,
+            Self::Race => FrameMistake::Race,
+            Self::NoBoundsCheck => FrameMistake::NoBoundsCheck,
+            Self::AdjacencyOffsets => FrameMistake::AdjacencyOffsets,
+            Self::LongNormals => FrameMistake::LongNormals,
+            Self::OneTangent => FrameMistake::OneTangent,
+            Self::LastCorner => FrameMistake::LastCorner,
+        })
+    }
 }
 
 /// `--tangents` and `--against`.

@@ -158,12 +158,18 @@ fn picture(
     let mistakes = Mistakes::default()
         .with_green(has(MistakeChoice::Green))
         .with_w(has(MistakeChoice::W))
-        .with_v(has(MistakeChoice::V));
+        .with_v(has(MistakeChoice::V))
+        .with_columns(has(MistakeChoice::Columns));
+    let of_frames = arguments.mistakes.iter().filter_map(|mistake| mistake.of_frames());
+    let wrong = of_frames.fold(None, |wrong: Option<Model<'_>>, mistake| {
+        Some(wrong.as_ref().or(other).unwrap_or(model).with_mistake(mistake))
+    });
     let right = arguments.split.map(|part| {
-        let side = Side { model: other.unwrap_or(model), mistakes };
+        let side = Side { model: wrong.as_ref().or(other).unwrap_or(model), mistakes };
         (side, part / 100.0)
     });
     let mistakes = if right.is_some() { Mistakes::default() } else { mistakes };
+    let model = wrong.as_ref().filter(|_| right.is_none()).unwrap_or(model);
     let mut picture = darboux_render::render(gpu, Side { model, mistakes }, right, &legend.above(&options))?;
     legend.add(&mut picture);
     Ok(picture)

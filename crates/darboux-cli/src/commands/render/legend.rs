@@ -147,11 +147,13 @@ fn colors_of(options: &RenderOptions) -> Vec<Key> {
 
 /// The names of the sides of `--split`.
 fn names_of(arguments: &RenderArguments, source: TangentSource) -> Option<([String; 2], f64)> {
-    let flipped =
-        |mistake: &MistakeChoice| Some(format!("{} flipped", mistake.to_possible_value()?.get_name()));
+    let made = |mistake: &MistakeChoice| {
+        let value = mistake.to_possible_value()?;
+        let flips = matches!(mistake, MistakeChoice::Green | MistakeChoice::W | MistakeChoice::V);
+        Some(format!("{}{}", value.get_name(), if flips { " flipped" } else { "" }))
+    };
     let against = arguments.against.map(|source| source.name());
-    let right: Vec<String> =
-        against.into_iter().chain(arguments.mistakes.iter().filter_map(flipped)).collect();
+    let right: Vec<String> = against.into_iter().chain(arguments.mistakes.iter().filter_map(made)).collect();
     Some(([source.name(), right.join(", ")], arguments.split? / 100.0))
 }
 
