@@ -42,6 +42,7 @@ const FIGURES: &[FigureFile] = &[
     ("non-uniform-scale", shading::non_uniform_scale),
     ("scatter-gather", memory::scatter_gather),
     ("vertex-layout", memory::vertex_layout),
+    ("brute-force", memory::brute_force),
     ("anisotropy", beyond::anisotropy),
     ("triplanar", beyond::triplanar),
     ("detail-normals", beyond::detail_normals),

@@ -108,3 +108,49 @@ pub fn vertex_layout() -> Figure {
     figure.label(vec2(30.0, 246.0), "dashed: unused bytes", "small quiet", Side::Right);
     figure
 }
+
+/// Vertices, milliseconds of brute force, milliseconds of reading adjacency lists: measured on a software adapter (docs/learn/10-parallel.md).
+const MEASURED: [(f64, f64, f64); 4] =
+    [(121.0, 0.609, 0.086), (441.0, 7.335, 0.160), (1681.0, 209.437, 0.466), (5041.0, 2524.276, 1.251)];
+
+/// The measured times of both ways, with logarithmic axes.
+pub fn brute_force() -> Figure {
+    let mut figure = Figure::new(
+        720,
+        330,
+        "Brute force against adjacency lists",
+        "Times over the number of vertices, both logarithmic. Brute force grows with the square, from 0.6 to 2524 milliseconds between 121 and 5041 vertices; \
+         reading adjacency lists grows from 0.09 to 1.25 milliseconds.",
+    );
+    let at =
+        |vertices: f64, ms: f64| vec2(90.0 + 270.0 * (vertices.log10() - 2.0), 210.0 - 48.0 * ms.log10());
+    for (ms, words) in [(0.1, "0.1 ms"), (1.0, "1 ms"), (10.0, "10 ms"), (100.0, "100 ms"), (1000.0, "1 s")] {
+        figure.line(at(100.0, ms), at(10_000.0, ms), "guide");
+        figure.label(at(100.0, ms) + vec2(-10.0, 0.0), words, "small quiet", Side::Left);
+    }
+    for (name, class, value) in
+        [("every vertex searches all triangles", "tangent", 1), ("every vertex reads its list", "normal", 2)]
+    {
+        let points =
+            MEASURED.map(|(vertices, brute, lists)| at(vertices, if value == 1 { brute } else { lists }));
+        figure.curve(&points, class);
+        points.into_iter().for_each(|point| figure.point(point));
+        let above = if value == 1 { vec2(-14.0, -14.0) } else { vec2(-14.0, 20.0) };
+        figure.label(
+            points[2] + above,
+            name,
+            &format!("small {class}"),
+            if value == 1 { Side::Left } else { Side::Right },
+        );
+    }
+    for (vertices, _, _) in MEASURED {
+        figure.label(vec2(at(vertices, 1.0).x, 284.0), &format!("{vertices:.0}"), "small", Side::Centre);
+    }
+    figure.label(
+        vec2(360.0, 308.0),
+        "vertices, with about twice as many triangles",
+        "small quiet",
+        Side::Centre,
+    );
+    figure
+}
