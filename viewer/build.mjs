@@ -1,7 +1,8 @@
 // `node build.mjs DARBOUX MODULE`: builds the page into `dist`, from the npm package in the folder DARBOUX and the compiled module of `wasm`.
 
 import { spawnSync } from 'node:child_process';
-import { copyFileSync, mkdirSync, rmSync, symlinkSync } from 'node:fs';
+import { createHash } from 'node:crypto';
+import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -22,9 +23,18 @@ const link = join(here, 'node_modules/darboux');
 rmSync(link, { recursive: true, force: true });
 symlinkSync(darboux, link);
 
-const features = FEATURES.map((name) => `--enable-${name}`);
-const stripped = ['debug', 'producers', 'target-features'].map((name) => `--strip-${name}`);
-run('wasm-opt', ...features, '-O3', ...stripped, module, '-o', join(here, 'src/files/darboux_viewer.wasm'));
+/** Shrinks the module, unless the same module was shrunk before: that takes most of the time. */
+function shrink() {
+  const shrunk = join(here, 'src/files/darboux_viewer.wasm');
+  const passes = [...FEATURES.map((name) => `--enable-${name}`), '-O3', ...['debug', 'producers', 'target-features'].map((name) => `--strip-${name}`)];
+  const key = createHash('sha256').update(readFileSync(module)).update(passes.join()).digest('hex');
+  const keyPath = `${shrunk}.key`;
+  if (existsSync(shrunk) && existsSync(keyPath) && readFileSync(keyPath, 'utf8') === key) return;
+  run('wasm-opt', ...passes, module, '-o', shrunk);
+  writeFileSync(keyPath, key);
+}
+
+shrink();
 mkdirSync(join(here, 'public'), { recursive: true });
 copyFileSync(join(here, '../assets/made/shield.glb'), join(here, 'public/shield.glb'));
 

@@ -10,8 +10,8 @@ import { after, before, test } from 'node:test';
 import { browser, serve, Viewer } from './page.mjs';
 import { gltf, grid, QUAD } from './quads.mjs';
 
-/** Quads along a side: 200,000 triangles. */
-const SIDE = 316;
+/** Quads along a side: 204,800 triangles. */
+const SIDE = 320;
 
 let server, folder;
 
@@ -33,8 +33,10 @@ test('a large model shows progress, and the page answers meanwhile', async () =>
     // All status texts, and those during which a button worked while the progress bar was shown.
     await viewer.page.evaluate(() => {
       const [status, bar, theme] = ['status', 'progress', 'theme'].map((id) => document.getElementById(id));
-      globalThis.log = { said: [], answered: [] };
-      const { said, answered } = globalThis.log;
+      globalThis.log = { said: [], answered: [], captions: [] };
+      const { said, answered, captions } = globalThis.log;
+      const caption = document.getElementById('caption-left');
+      new MutationObserver(() => captions.push(caption.textContent)).observe(caption, { childList: true });
       new MutationObserver((changes) => changes.forEach(({ addedNodes: [text] }) => text && said.push(text.textContent))).observe(status, { childList: true });
       setInterval(() => {
         if (bar.hidden || answered.includes(status.textContent)) return;
@@ -44,12 +46,14 @@ test('a large model shows progress, and the page answers meanwhile', async () =>
       }, 10);
     });
     await viewer.give('files', [join(folder, 'grid.gltf')]);
-    assert.deepEqual([await viewer.text('error'), await viewer.text('status')], ['', '199,712 triangles in 1 part']);
+    assert.deepEqual([await viewer.text('error'), await viewer.text('status')], ['', '204,800 triangles in 1 part']);
     const { said, answered } = await viewer.page.evaluate(() => globalThis.log);
+    const captions = await viewer.page.evaluate(() => globalThis.log.captions);
+    assert.ok(captions.includes('Coarse preview'), captions.join());
     const work = ['Reading grid.gltf', 'Opening grid.gltf', 'Computing tangents of mesh_0', 'Checking mesh_0'];
     assert.deepEqual(said.filter((text) => work.includes(text)), work);
     for (const long of ['Opening grid.gltf', 'Computing tangents of mesh_0']) assert.ok(answered.includes(long), `${long} in ${answered}`);
-    assert.match((await viewer.report()).seams, /^316 mirrored edges: /);
+    assert.match((await viewer.report()).seams, /^320 mirrored edges: /);
     assert.deepEqual(viewer.faults, []);
   } finally {
     await chromium.close();

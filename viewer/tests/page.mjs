@@ -140,7 +140,7 @@ export class Viewer {
 
   /** The picture, without what lies over it. */
   async picture() {
-    const show = (visibility) => this.page.$$eval('#divider, .caption, .split, #legend', (over, visibility) => over.forEach((one) => (one.style.visibility = visibility)), visibility);
+    const show = (visibility) => this.page.$$eval('#divider, .caption, .split, #legend, #values', (over, visibility) => over.forEach((one) => (one.style.visibility = visibility)), visibility);
     await show('hidden');
     const shot = await this.page.locator('#view').screenshot();
     await show('');

@@ -1,6 +1,8 @@
 // The page on a phone, a tablet and a desktop, dark and light: the model is in view, nothing is cut off, and the rules for accessible pages hold.
+// The environment variable SCREENS names a folder for screenshots to look at.
 
 import assert from 'node:assert/strict';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
 import { browser, serve, Viewer } from './page.mjs';
@@ -27,11 +29,20 @@ for (const [name, [width, height, isTouched]] of Object.entries(SCREENS)) {
       assert.ok(panel.y >= view.y + view.height - 1, 'the panel is below');
     }
     assert.ok(panel.height > 200 && panel.y + panel.height <= height + 1);
-    assert.equal(await viewer.page.evaluate(() => document.documentElement.scrollWidth), width, 'nothing is wider than the screen');
+    // Everything that can be shown at once.
+    await viewer.page.locator('#findings summary').first().click();
+    await viewer.click('#repair');
+    for (const id of ['wireframe', 'layout']) await viewer.page.check(`#${id}`);
+    await viewer.page.focus('#view');
+    await viewer.page.keyboard.press('Enter');
+    assert.ok(await viewer.page.isVisible('#values'));
     for (const colorScheme of ['light', 'dark']) {
       await viewer.page.emulateMedia({ colorScheme });
       assert.deepEqual(await viewer.violations(), [], colorScheme);
+      assert.equal(await viewer.page.evaluate(() => document.documentElement.scrollWidth), width, 'nothing is wider than the screen');
+      if (process.env.SCREENS) await viewer.page.screenshot({ path: join(process.env.SCREENS, `${name}-${colorScheme}.png`) });
     }
+    await viewer.click('#reset');
     if (isTouched) await touches(viewer, view);
     assert.deepEqual(viewer.faults, []);
     await viewer.close();

@@ -8,8 +8,9 @@ import { openModel, type Model } from '../files/model';
 import { withTangents } from '../files/export-glb';
 import { oddities } from '../scene/oddities';
 import { PlaceMarker } from '../scene/place-marker';
-import { partsOf, placesOf, uvSquare, type Part } from '../scene/model-parts';
-import { dispose, empty, ModelView, type Side } from '../scene/model-view';
+import { coarseCopy } from '../scene/coarse';
+import { boundsOfCopies, partsOf, placesOf, uvSquare, type Part } from '../scene/model-parts';
+import { dispose, empty, ModelView, type Side, type Values } from '../scene/model-view';
 import { type Picked, Viewport } from '../scene/viewport';
 import type { Comparison } from '../surface/comparison';
 import { SOURCE_NAMES, type Shown, type Source } from '../surface/sources';
@@ -36,6 +37,9 @@ import type { Place } from '../surface/places';
 /** The most triangles that are searched while the pointer moves over the model. */
 const QUICK_TRIANGLES = 200_000;
 
+/** The most triangles that are shown only once their tangents are computed. */
+const PREVIEW_TRIANGLES = 200_000;
+
 /** The time in milliseconds after the last change until the address is written. */
 const LINK_DELAY = 300;
 
@@ -58,9 +62,9 @@ export class App {
   private readonly marker = new PlaceMarker();
   private readonly values = new ValuesPanel({
     viewport: this.viewport,
-    valuesAt: ({ hit, side }) => ({ values: this.viewOf(settings().sources[side]).valuesAt(hit, side), shown: settings().sources[side] }),
+    valuesAt: (picked) => this.valuesAt(picked),
     mark: (picked) => this.mark(picked),
-    isQuick: () => this.triangleCount() <= QUICK_TRIANGLES,
+    isQuick: () => trianglesOf(this.parts) <= QUICK_TRIANGLES,
   });
   private model: Model | null = null;
   private parts: Part[] = [];
@@ -109,12 +113,20 @@ export class App {
 
   /** Sets all controls and the camera back. */
   private async reset(): Promise<void> {
+    this.values.free();
     resetControls();
     offerSources(this.hasTangents());
     listParts(this.parts.map(({ name }) => name), () => this.build());
     await this.compare();
     this.viewport.lookAtAll();
     this.light();
+  }
+
+  /** The values at a corner, and what its side shows. The repaired model has other vertices than the open one, so that there is no angle. */
+  private valuesAt({ hit, side }: Picked): { values: Values; shown: Shown } {
+    const { sources } = settings();
+    const values = this.viewOf(sources[side]).valuesAt(hit, side);
+    return { values: sources.includes('repaired') ? { ...values, angle: null } : values, shown: sources[side] };
   }
 
   /** Marks the corner whose values are pinned, at the place that was hit. */
@@ -126,10 +138,6 @@ export class App {
 
   private hasTangents(): boolean {
     return this.parts.some((part) => part.surface.tangents);
-  }
-
-  private triangleCount(): number {
-    return this.parts.reduce((sum, { surface }) => sum + surface.indices.length / 3, 0);
   }
 
   private viewOf(shown: Shown): ModelView {
@@ -156,21 +164,24 @@ export class App {
       if (isOutdated()) return;
       // Stops the comparison of the model before.
       this.comparing++;
+      const isPreviewed = trianglesOf(parts) > PREVIEW_TRIANGLES;
+      if (isPreviewed) await this.preview(parts);
+      else this.viewport.setCoarse(null);
       await call('open', 'given', parts.map((part) => part.surface));
       if (isOutdated()) return;
       this.setModel(model, parts);
-      await this.present(model, isOutdated);
+      await this.present(model, isPreviewed, isOutdated);
     } catch (error) {
       if (!isOutdated()) throw error;
     }
   }
 
   /** Shows the open model, then what costs time: the report and the findings of the check. */
-  private async present(model: Model, isOutdated: () => boolean): Promise<void> {
+  private async present(model: Model, isPreviewed: boolean, isOutdated: () => boolean): Promise<void> {
     try {
       await this.compare();
       if (isOutdated()) return;
-      this.viewport.lookAtAll();
+      if (!isPreviewed) this.viewport.lookAtAll();
       if (!this.isLinkRead) readView(this.viewport);
       this.isLinkRead = true;
       this.light();
@@ -182,6 +193,17 @@ export class App {
       throw error;
     }
     await this.examination.examine(model);
+  }
+
+  /** Shows a coarse copy of a large model while its tangents are computed. */
+  private async preview(parts: Part[]): Promise<void> {
+    const box = parts.reduce((all, part) => all.union(boundsOfCopies(part, part.surface.positions)), new Box3());
+    this.viewport.setBounds(box);
+    this.viewport.setCoarse(coarseCopy(parts, box));
+    this.viewport.lookAtAll();
+    this.light();
+    for (const [id, text] of [['caption-left', 'Coarse preview'], ['caption-right', '']]) element(id).textContent = text;
+    await nextPicture();
   }
 
   /** Replaces the model. */
@@ -248,7 +270,7 @@ export class App {
 
   /** The size of the model and the warnings about its file, in one line. */
   private summary(): string {
-    const size = `${counted(this.triangleCount(), 'triangle', 'triangles')} in ${counted(this.parts.length, 'part', 'parts')}`;
+    const size = `${counted(trianglesOf(this.parts), 'triangle', 'triangles')} in ${counted(this.parts.length, 'part', 'parts')}`;
     return [size, ...(this.model?.warnings ?? [])].join('; ');
   }
 
@@ -364,4 +386,8 @@ function rounded(at: number[]): string {
 /** Resolves when what was asked for is on screen. */
 async function nextPicture(): Promise<void> {
   for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
+}
+
+function trianglesOf(parts: Part[]): number {
+  return parts.reduce((sum, { surface }) => sum + surface.indices.length / 3, 0);
 }

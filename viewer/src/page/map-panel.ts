@@ -117,7 +117,7 @@ function draw(canvas: HTMLCanvasElement, { picture, width, height, judgement }: 
   for (const [at, vote] of correlations.entries()) {
     if (vote === null) continue;
     const [x, y] = [(at % columns) * step, Math.floor(at / columns) * step];
-    context.globalAlpha = 0.15 + 0.6 * Math.min(1, Math.abs(vote));
+    context.globalAlpha = 0.1 + 0.35 * Math.min(1, Math.abs(vote));
     context.fillStyle = vote > 0 ? VOTE_COLORS.up : VOTE_COLORS.down;
     context.fillRect(x, y, step, step);
     if (step >= MIN_TRIANGLE) triangle(context, x, y, step, vote > 0);

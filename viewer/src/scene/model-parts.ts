@@ -1,6 +1,7 @@
 // Divides a model into parts: its meshes, with one material each.
 
 import {
+  Box3,
   type BufferGeometry,
   InstancedBufferAttribute,
   InstancedMesh,
@@ -9,6 +10,7 @@ import {
   MeshStandardMaterial,
   type Object3D,
   SkinnedMesh,
+  Vector3,
 } from 'three';
 
 import { originOf, type Origin } from '../files/origin';
@@ -105,6 +107,17 @@ function matricesOf(instances: InstancedBufferAttribute): Matrix4[] {
 /** The world matrix of every copy and instance of a part. */
 export function placesOf({ copies }: Part): Matrix4[] {
   return copies.flatMap(({ place, instances }) => (instances ? matricesOf(instances).map((matrix) => matrix.premultiply(place)) : [place]));
+}
+
+/** The bounding box of all copies of a part whose vertices are at `positions`. */
+export function boundsOfCopies(part: Part, positions: Float32Array): Box3 {
+  const [all, own, point] = [new Box3(), new Box3(), new Vector3()];
+  for (let at = 0; at < positions.length; at += 3) {
+    point.fromArray(positions, at);
+    if (Number.isFinite(point.x + point.y + point.z)) own.expandByPoint(point);
+  }
+  if (!own.isEmpty()) placesOf(part).forEach((place) => all.union(own.clone().applyMatrix4(place)));
+  return all;
 }
 
 /** The smallest square that contains the unit square and all UVs: its left, its bottom and its side. */

@@ -7,7 +7,7 @@ import { cornerAngles, NO_ANGLE } from '../surface/angles';
 import type { Comparison } from '../surface/comparison';
 import { frameMaterial } from './frame-material';
 import { seamLines, vectorLines } from './frame-lines';
-import { type Copy, placesOf, type Part } from './model-parts';
+import { boundsOfCopies, type Copy, placesOf, type Part } from './model-parts';
 import { sharedAttributes, sideGeometry, sideMaterial, type SharedAttributes } from './side-geometry';
 
 /** A part with the data of both sides. */
@@ -67,9 +67,7 @@ export class ModelView {
   /** The bounding box of all copies of a part. */
   boundsOfPart(at: number): Box3 {
     const { part, comparison } = this.parts[at];
-    const [all, own] = [new Box3(), boundsOf(comparison.positions)];
-    if (!own.isEmpty()) placesOf(part).forEach((place) => all.union(own.clone().applyMatrix4(place)));
-    return all;
+    return boundsOfCopies(part, comparison.positions);
   }
 
   /** The values at the corner that is nearest to a hit on one of the meshes. */

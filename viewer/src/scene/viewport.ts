@@ -35,6 +35,9 @@ const LAYOUT_RIGHT = 12;
 /** The distance of the UV layout from the bottom edge in pixels. */
 const LAYOUT_BOTTOM = 36;
 
+/** The time in milliseconds without a move after which the camera rests. */
+const REST = 250;
+
 /** What lies under a place of the picture. */
 export interface Picked {
   /** 0 for the left side, 1 for the right one. */
@@ -55,6 +58,11 @@ export class Viewport {
   private readonly sphere = new Sphere(new Vector3(), 1);
   private sides: Side[] = [];
   private hasLayout = false;
+  private coarse: Mesh | null = null;
+  /** Whether the sides are those of the model, and not of the one before it. */
+  private hasSides = true;
+  private isMoving = false;
+  private restTimer = 0;
   /** The requested animation frame, or 0. */
   private requestedFrame = 0;
   private stopFlight = () => {};
@@ -64,7 +72,7 @@ export class Viewport {
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.renderer.toneMapping = NeutralToneMapping;
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener('change', () => this.draw());
+    this.controls.addEventListener('change', () => this.moved());
     this.controls.addEventListener('start', () => this.stopFlight());
     this.scene.add(this.light, this.light.target);
     this.scene.environment = studio();
@@ -76,8 +84,32 @@ export class Viewport {
     return this.sphere.radius;
   }
 
+  /** Sets the coarse copy of a large model, or null. It is shown until there are sides, and while the camera moves. */
+  setCoarse(copy: Mesh | null): void {
+    this.coarse?.removeFromParent();
+    this.coarse?.geometry.dispose();
+    this.coarse = copy;
+    if (copy) this.scene.add(copy);
+    this.hasSides = !copy;
+    this.draw();
+  }
+
+  /** Draws the coarse copy until the camera rests. */
+  private moved(): void {
+    if (this.coarse) {
+      clearTimeout(this.restTimer);
+      this.isMoving = true;
+      this.restTimer = setTimeout(() => {
+        this.isMoving = false;
+        this.draw();
+      }, REST);
+    }
+    this.draw();
+  }
+
   /** Replaces both sides. */
   show(sides: Side[], hasLayout: boolean): void {
+    this.hasSides = true;
     this.sides = sides;
     this.hasLayout = hasLayout;
     this.scene.add(...sides.map((side) => side.model));
@@ -202,6 +234,7 @@ export class Viewport {
 
   /** The picture as a file. */
   async picture(): Promise<Blob> {
+    this.isMoving = false;
     // The drawing buffer is valid until this task ends.
     this.drawNow();
     const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, 'image/png'));
@@ -220,20 +253,26 @@ export class Viewport {
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
     this.drawSplit(0, 0, width, height, this.scene, camera);
-    if (!this.hasLayout) return;
+    if (!this.hasLayout || this.isCoarse()) return;
     const size = Math.round(LAYOUT_SIZE * Math.min(width, height));
     this.drawSplit(width - size - LAYOUT_RIGHT, LAYOUT_BOTTOM, size, size, this.layouts, this.layoutCamera);
+  }
+
+  private isCoarse(): boolean {
+    return this.coarse !== null && (this.isMoving || !this.hasSides);
   }
 
   /** Draws a rectangle of the canvas: the left side left of the slider and the right side right of it. */
   private drawSplit(left: number, bottom: number, width: number, height: number, scene: Scene, camera: Camera): void {
     const { renderer } = this;
-    const middle = Math.round(width * this.split);
+    const isCoarse = this.isCoarse();
+    if (this.coarse) this.coarse.visible = isCoarse;
+    const middle = isCoarse ? width : Math.round(width * this.split);
     renderer.setViewport(left, bottom, width, height);
     renderer.setScissorTest(true);
     for (const [at, [from, to]] of [[0, middle], [middle, width]].entries()) {
       if (from === to) continue;
-      this.sides.forEach((side, other) => (side.model.visible = side.layout.visible = at === other));
+      this.sides.forEach((side, other) => (side.model.visible = side.layout.visible = at === other && !isCoarse));
       renderer.setScissor(left + from, bottom, to - from, height);
       renderer.render(scene, camera);
     }
