@@ -147,11 +147,8 @@ fn level(triangle: &Triangle) -> i32 {
     (high[0] - low[0]).max(high[1] - low[1]).log2().ceil() as i32
 }
 
-fn bounds(triangle: &Triangle) -> [[f64; 2]; 2] {
-    let by = |choose: fn(f64, f64) -> f64| {
-        [0, 1].map(|i| choose(choose(triangle[0][i], triangle[1][i]), triangle[2][i]))
-    };
-    [by(f64::min), by(f64::max)]
+fn bounds([a, b, c]: &Triangle) -> [[f64; 2]; 2] {
+    [[0, 1].map(|i| a[i].min(b[i]).min(c[i])), [0, 1].map(|i| a[i].max(b[i]).max(c[i]))]
 }
 
 fn doubled_area([a, b, c]: &Triangle) -> f64 {
@@ -162,10 +159,7 @@ fn doubled_area([a, b, c]: &Triangle) -> f64 {
 fn share_area(a: &Triangle, b: &Triangle) -> bool {
     let largest = a.iter().chain(b).flatten().fold(0.0f64, |largest, x| largest.max(x.abs()));
     let tolerance = ROUNDING * largest;
-    let ([a_low, a_high], [b_low, b_high]) = (bounds(a), bounds(b));
-    // Most pairs are neighbours, whose bounding boxes touch.
-    let are_apart = (0..2).any(|i| a_high[i] <= b_low[i] || b_high[i] <= a_low[i]);
-    !are_apart && !has_separating_edge(a, b, tolerance) && !has_separating_edge(b, a, tolerance)
+    !has_separating_edge(a, b, tolerance) && !has_separating_edge(b, a, tolerance)
 }
 
 /// Whether all of `b` lies on the outer side of an edge of `a`.
