@@ -3,7 +3,7 @@
 #![no_main]
 
 use darboux_io::LoadOptions;
-use darboux_io::gltf::{Document, AddTangentsOptions, add_tangents, inspect};
+use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents, inspect};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
