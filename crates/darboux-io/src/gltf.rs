@@ -3,7 +3,7 @@
 //! ```text
 //! load, parse, container, buffers, resources, references   reading: the file, the JSON, the buffers, checks
 //! document, edits, edit_document, edit_image,
-//! checkpoint, schema                                   a document, its edits, and the parts of its JSON
+//! edit_material, checkpoint, schema                                   a document, its edits, and the parts of its JSON
 //! accessors, stored_elements, elements                 accessors as arrays, and arrays as accessors
 //! tangents/, normals/, convert/, compression/          operations on documents; primitives/ is what they share
 //! inspect, compare, scene, materials, image_uses       descriptions of documents
@@ -20,6 +20,7 @@ mod convert;
 mod document;
 mod edit_document;
 mod edit_image;
+mod edit_material;
 mod edits;
 mod element_type;
 mod elements;

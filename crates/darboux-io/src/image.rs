@@ -9,7 +9,9 @@ mod rgba;
 mod srgb;
 
 pub use channels::{Channels, ChannelsError};
-pub use normal_map::{change_texels, convert_normal_map, count_invalid_normals};
+pub use normal_map::{
+    change_texels, convert_normal_map, count_invalid_normals, normal_vectors, set_normal_vectors,
+};
 pub use png_image::{PngImage, Sample};
 #[cfg(feature = "textures")]
 pub use rgba::{DecodeError, DecodeLimits, RgbaImage};

@@ -20,8 +20,10 @@ pub struct Edits {
     pub images: BTreeMap<usize, String>,
     /// The new content of images that are files.
     pub image_files: BTreeMap<usize, ImageFile>,
-    /// Edited elements of `nodes`, `skins` and `animations`.
+    /// Edited elements of `nodes`, `skins`, `animations` and `materials`.
     pub scene: BTreeMap<&'static str, BTreeMap<usize, String>>,
+    /// Elements that are appended to `materials`, `textures` and `images`.
+    pub appended: BTreeMap<&'static str, Vec<String>>,
     /// Accessors that primitives referred to before they were edited.
     pub formerly_referenced: BTreeSet<usize>,
     /// Whether a warning about unused data that stays has been given.
@@ -49,6 +51,16 @@ pub struct ImageFile {
 }
 
 impl Edits {
+    /// The edited and the appended elements of every array that has some.
+    pub fn edited_arrays(&self) -> impl Iterator<Item = (&'static str, &BTreeMap<usize, String>, &[String])> {
+        static NONE: BTreeMap<usize, String> = BTreeMap::new();
+        let keys: BTreeSet<&'static str> = self.scene.keys().chain(self.appended.keys()).copied().collect();
+        keys.into_iter().map(|key| {
+            let edited = self.scene.get(key).unwrap_or(&NONE);
+            (key, edited, self.appended.get(key).map_or(&[][..], Vec::as_slice))
+        })
+    }
+
     /// Whether there are no edits.
     pub fn is_empty(&self) -> bool {
         let Self {
@@ -62,6 +74,7 @@ impl Edits {
             images,
             image_files,
             scene,
+            appended,
             ..
         } = self;
         primitives.is_empty()
@@ -74,5 +87,6 @@ impl Edits {
             && images.is_empty()
             && image_files.is_empty()
             && scene.is_empty()
+            && appended.is_empty()
     }
 }

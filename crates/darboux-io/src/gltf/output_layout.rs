@@ -283,8 +283,8 @@ impl<'a> OutputLayout<'a> {
         (|| {
             set("asset", &|asset| Ok(edits.asset.clone().unwrap_or_else(|| asset.to_owned())))?;
             set("meshes", &|meshes| self.document.edited_meshes(meshes))?;
-            for (key, edited) in &edits.scene {
-                set(key, &|elements| edit_array(elements, edited, &[]))?;
+            for (key, edited, appended) in edits.edited_arrays() {
+                set(key, &|elements| edit_array(elements, edited, appended))?;
             }
             set("accessors", &|accessors| edit_array(accessors, &edits.accessors, &edits.new_accessors))?;
             set("bufferViews", &|views| self.views(views))?;

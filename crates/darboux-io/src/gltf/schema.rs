@@ -175,7 +175,7 @@ pub(super) struct Anisotropy {
 }
 
 /// A texture of a material.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct TextureInfo {
     /// The UV set n of `TEXCOORD_n`, unless the transform overrides it.

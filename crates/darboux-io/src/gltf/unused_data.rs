@@ -164,11 +164,9 @@ fn edited(document: &Document) -> serde_json::Result<String> {
         let meshes = document.edited_meshes(meshes)?;
         root = set_member(&root, "meshes", Some(&meshes))?;
     }
-    for (key, edited) in &edits.scene {
-        if let Some(elements) = member(&root, key)? {
-            let elements = edit_array(elements, edited, &[])?;
-            root = set_member(&root, key, Some(&elements))?;
-        }
+    for (key, edited, appended) in edits.edited_arrays() {
+        let elements = edit_array(member(&root, key)?.unwrap_or("[]"), edited, appended)?;
+        root = set_member(&root, key, Some(&elements))?;
     }
     if let Some(images) = member(&root, "images")? {
         let images = edit_array(images, &edits.images, &[])?;

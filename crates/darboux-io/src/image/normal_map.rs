@@ -18,13 +18,7 @@ pub fn convert_normal_map(
     from: Channels,
     to: Channels,
 ) -> Result<(), Error> {
-    let Some(indices) = from.indices(image.color) else {
-        let problem = format!(
-            "has the channels {}, not {from}; name the channels that hold the vector",
-            image.channels()
-        );
-        return Err(ContentError::invalid("", problem).in_file(image.name()));
-    };
+    let indices = from.indices(image.color).ok_or_else(|| lacks(image, from))?;
     let color = to.kind(image.color);
     let target = to.indices(color).unwrap_or(indices);
     let (before, after) = (image.color.samples(), color.samples());
@@ -39,6 +33,74 @@ pub fn convert_normal_map(
     image.is_changed |= color != image.color || texels != image.texels;
     (image.color, image.texels) = (color, texels);
     Ok(())
+}
+
+/// The vectors of all texels, row after row, as [`TexelLayout::vector`] decodes them: not normalised. A z that is not stored is reconstructed.
+///
+/// Errors: the image does not have the channels.
+pub fn normal_vectors(image: &PngImage, channels: Channels) -> Result<Vec<[f32; 3]>, Error> {
+    let indices = channels.indices(image.color).ok_or_else(|| lacks(image, channels))?;
+    let samples = image.color.samples();
+    Ok(match &image.texels {
+        Texels::Bytes(bytes) => decoded(bytes, samples, indices),
+        Texels::Words(words) => decoded(words, samples, indices),
+    })
+}
+
+/// Replaces the vectors of all texels; each component becomes the nearest code. Other channels keep their content.
+///
+/// `vectors`: one per texel, with components from -1 to 1. Errors: the image does not have the channels, or another number of texels.
+pub fn set_normal_vectors(
+    image: &mut PngImage,
+    channels: Channels,
+    vectors: &[[f32; 3]],
+) -> Result<(), Error> {
+    let indices = channels.indices(image.color).ok_or_else(|| lacks(image, channels))?;
+    if vectors.len() != image.width as usize * image.height as usize {
+        let problem = format!("has {} x {} texels, not {}", image.width, image.height, vectors.len());
+        return Err(ContentError::invalid("", problem).in_file(image.name()));
+    }
+    let samples = image.color.samples();
+    let texels = match &image.texels {
+        Texels::Bytes(bytes) => Texels::Bytes(encoded(bytes, samples, indices, vectors)),
+        Texels::Words(words) => Texels::Words(encoded(words, samples, indices, vectors)),
+    };
+    image.is_changed |= texels != image.texels;
+    image.texels = texels;
+    Ok(())
+}
+
+fn lacks(image: &PngImage, channels: Channels) -> Error {
+    let problem = format!(
+        "has the channels {}, not {channels}; name the channels that hold the vector",
+        image.channels()
+    );
+    ContentError::invalid("", problem).in_file(image.name())
+}
+
+fn decoded<C: Channel>(channels: &[C], samples: usize, (x, y, z): VectorChannels) -> Vec<[f32; 3]> {
+    let texels = channels.chunks_exact(samples);
+    match z {
+        Some(z) => texels.map(|texel| TexelLayout::RGB.vector([texel[x], texel[y], texel[z]])).collect(),
+        None => texels.map(|texel| TexelLayout::RG.vector([texel[x], texel[y]])).collect(),
+    }
+}
+
+fn encoded<C: Channel>(
+    channels: &[C],
+    samples: usize,
+    (x, y, z): VectorChannels,
+    vectors: &[[f32; 3]],
+) -> Vec<C> {
+    let mut channels = channels.to_vec();
+    for (texel, &vector) in channels.chunks_exact_mut(samples).zip(vectors) {
+        let codes: [C; 3] = TexelLayout::RGB.texel(vector);
+        (texel[x], texel[y]) = (codes[0], codes[1]);
+        if let Some(z) = z {
+            texel[z] = codes[2];
+        }
+    }
+    channels
 }
 
 /// Changes red, green and blue of every texel, each a number from 0 to 1, and rounds to the image's bit depth. Alpha is kept.
