@@ -90,7 +90,7 @@ pub fn bake(
     Ok(Baked { images, report })
 }
 
-fn check_options(options: &BakeOptions) -> Result<(), BakeError> {
+pub(crate) fn check_options(options: &BakeOptions) -> Result<(), BakeError> {
     let BakeOptions { size, samples_per_axis, distance, maps, .. } = *options;
     if size.iter().any(|&side| side == 0 || side > MAX_SIDE) {
         return Err(BakeError::Size { size });
@@ -105,7 +105,7 @@ fn check_options(options: &BakeOptions) -> Result<(), BakeError> {
     if maps.is_empty() { Err(BakeError::NoMaps) } else { Ok(()) }
 }
 
-fn check_surfaces(low: &[LowSurface<'_>], high: &[HighSurface<'_>]) -> Result<(), BakeError> {
+pub(crate) fn check_surfaces(low: &[LowSurface<'_>], high: &[HighSurface<'_>]) -> Result<(), BakeError> {
     if low.iter().all(|surface| surface.triangle_count() == 0) {
         return Err(BakeError::NoLowTriangles);
     }
@@ -116,7 +116,7 @@ fn check_surfaces(low: &[LowSurface<'_>], high: &[HighSurface<'_>]) -> Result<()
 }
 
 /// Returns the bytes that are left for lists whose length is not known yet. Errors: more memory than the limit.
-fn check_memory(needed: u64, limit: Option<u64>) -> Result<u64, BakeError> {
+pub(crate) fn check_memory(needed: u64, limit: Option<u64>) -> Result<u64, BakeError> {
     match limit {
         Some(limit) if needed > limit => Err(BakeError::Memory { needed, limit: Some(limit) }),
         Some(limit) => Ok(limit - needed),
@@ -125,7 +125,7 @@ fn check_memory(needed: u64, limit: Option<u64>) -> Result<u64, BakeError> {
 }
 
 /// The high surfaces by group, for every group of the low surfaces.
-fn group_surfaces<'a>(
+pub(crate) fn group_surfaces<'a>(
     low: &[LowSurface<'_>],
     high: &[HighSurface<'a>],
     context: &Context,
@@ -159,7 +159,9 @@ fn bake_bands(
 fn fill(images: &mut Images, padding: Option<u32>, context: &Context) -> Result<(), BakeError> {
     if images.states.contains(&TexelState::Baked) {
         let width = images.size[0] as usize;
-        images.copy_texels(&padding::sources(&images.states, width, padding, context)?);
+        let sources = padding::sources(&images.states, width, padding, context)?;
+        images.copy_texels(&sources);
+        images.continue_normals(&sources);
     }
     Ok(())
 }

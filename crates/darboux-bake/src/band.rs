@@ -4,12 +4,13 @@ use darboux::Conversion;
 
 use crate::bvh::{Hit, Sides, Stack};
 use crate::coverage::{Coverage, TEXELS};
-use crate::face::{Face, SurfacePoint};
+use crate::face::Face;
 use crate::frame::ShadingFrame;
 use crate::high::HighGroup;
-use crate::images::{Band, TexelState};
-use crate::layout::{BLOCK, Layout, steps};
+use crate::images::Band;
+use crate::layout::{BLOCK, Layout};
 use crate::occlusion::Opening;
+use crate::point::SurfacePoint;
 use crate::rays::{SampleRay, point_at, ray_of};
 use crate::samples::STEPS;
 use crate::texel::{Sample, TexelSums};
@@ -28,11 +29,11 @@ pub struct Bake<'a> {
 }
 
 /// The memory of one band.
-struct Scratch {
-    coverage: Coverage,
-    sums: Vec<TexelSums>,
-    stack: Stack,
-    rays: u64,
+pub struct Scratch {
+    pub coverage: Coverage,
+    pub sums: Vec<TexelSums>,
+    pub stack: Stack,
+    pub rays: u64,
 }
 
 impl Bake<'_> {
@@ -47,9 +48,11 @@ impl Bake<'_> {
         let mut report = BakeReport::default();
         for column in 0..self.layout.blocks_per_row() {
             scratch.sums.fill(TexelSums::default());
+            let mut skirt = None;
             for &sample in &self.samples {
                 self.cover([column, band.row / BLOCK], sample, &mut scratch.coverage);
                 self.sample([column * BLOCK, band.row], sample, &mut scratch);
+                self.sample_beyond([column, band.row / BLOCK], sample, &mut skirt, &mut scratch);
             }
             self.store(column * BLOCK, &scratch.sums, band, &mut report);
         }
@@ -60,10 +63,9 @@ impl Bake<'_> {
     /// Stage 2: finds the triangle of every sample of a block.
     fn cover(&self, [column, row]: [usize; 2], sample: [i64; 2], coverage: &mut Coverage) {
         coverage.clear();
-        let first = [column, row].map(|at| (at * BLOCK) as i64 * STEPS);
         for placed in self.layout.block(column, row) {
-            let corners = steps(self.layout.texels(&self.low[placed.surface as usize], placed));
-            coverage.add(*placed, corners.map(|corner| [corner[0] - first[0], corner[1] - first[1]]), sample);
+            let low = &self.low[placed.surface as usize];
+            coverage.add(*placed, self.layout.steps_in_block(low, placed, [column, row]), sample);
         }
     }
 
@@ -103,7 +105,7 @@ impl Bake<'_> {
     }
 
     /// What a hit adds to its texel.
-    fn found(
+    pub fn found(
         &self,
         group: &HighGroup<'_>,
         point: &SurfacePoint,
@@ -126,6 +128,7 @@ impl Bake<'_> {
             },
             position,
             is_inverted: high.is_inverted,
+            is_extended: false,
         })
     }
 
@@ -139,7 +142,7 @@ impl Bake<'_> {
                 let at = row * width + column;
                 band.states[at] = sums.state();
                 count(sums, report);
-                if sums.state() == TexelState::Baked {
+                if sums.state().has_content() {
                     self.store_texel(at, sums, band, report);
                 }
             }
@@ -171,7 +174,7 @@ impl Bake<'_> {
 }
 
 fn count(sums: &TexelSums, report: &mut BakeReport) {
-    let is_missed = sums.state() == TexelState::Missed;
+    let is_missed = sums.state().is_missed();
     report.texels += 1;
     report.charted_texels += u64::from(sums.is_charted);
     report.missed_texels += u64::from(is_missed);

@@ -30,25 +30,29 @@ impl Coverage {
 
     /// Adds a triangle. `corners`: in steps from the upper left corner of the block; `sample`: the place of the samples within their texels.
     pub fn add(&mut self, placed: Placed, corners: [[i64; 2]; 3], sample: [i64; 2]) {
-        let [a, b, c] = if area(corners) < 0 { [corners[0], corners[2], corners[1]] } else { corners };
-        let edges = [Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)];
-        let range = |i: usize| {
-            let least = corners.iter().map(|corner| corner[i]).fold(i64::MAX, i64::min) - sample[i];
-            let greatest = corners.iter().map(|corner| corner[i]).fold(i64::MIN, i64::max) - sample[i];
-            let first = (least + STEPS - 1).div_euclid(STEPS).clamp(0, BLOCK as i64);
-            let end = (greatest.div_euclid(STEPS) + 1).clamp(0, BLOCK as i64);
-            first..end
-        };
-        for y in range(1) {
-            for x in range(0) {
-                let at = [x * STEPS + sample[0], y * STEPS + sample[1]];
-                if edges.iter().all(|edge| edge.has_inside(at)) {
-                    let texel = y as usize * BLOCK + x as usize;
-                    match self.owners[texel] {
-                        None => self.owners[texel] = Some(placed),
-                        Some(_) => self.overlaps[texel] = true,
-                    }
-                }
+        visit_covered(corners, sample, |texel| match self.owners[texel] {
+            None => self.owners[texel] = Some(placed),
+            Some(_) => self.overlaps[texel] = true,
+        });
+    }
+}
+
+/// Visits the texels of a block whose sample a triangle covers. Arguments as of [`Coverage::add`].
+pub fn visit_covered(corners: [[i64; 2]; 3], sample: [i64; 2], mut visit: impl FnMut(usize)) {
+    let [a, b, c] = if area(corners) < 0 { [corners[0], corners[2], corners[1]] } else { corners };
+    let edges = [Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)];
+    let range = |i: usize| {
+        let least = corners.iter().map(|corner| corner[i]).fold(i64::MAX, i64::min) - sample[i];
+        let greatest = corners.iter().map(|corner| corner[i]).fold(i64::MIN, i64::max) - sample[i];
+        let first = (least + STEPS - 1).div_euclid(STEPS).clamp(0, BLOCK as i64);
+        let end = (greatest.div_euclid(STEPS) + 1).clamp(0, BLOCK as i64);
+        first..end
+    };
+    for y in range(1) {
+        for x in range(0) {
+            let at = [x * STEPS + sample[0], y * STEPS + sample[1]];
+            if edges.iter().all(|edge| edge.has_inside(at)) {
+                visit(y as usize * BLOCK + x as usize);
             }
         }
     }

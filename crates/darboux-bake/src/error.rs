@@ -19,6 +19,13 @@ pub enum BakeError {
         /// The number of positions found.
         found: usize,
     },
+    /// A normal map on a high surface has another number of UVs than the surface has vertices.
+    Uvs {
+        /// The number of vertices.
+        vertices: usize,
+        /// The number of UVs found.
+        found: usize,
+    },
     /// A side of the image is 0 or too large.
     Size {
         /// Texels per row, and rows.
@@ -36,6 +43,13 @@ pub enum BakeError {
     },
     /// The set of maps is empty.
     NoMaps,
+    /// A map has another number of texels than its size says, or none.
+    Texels {
+        /// The number of texels of its size.
+        expected: usize,
+        /// The number found.
+        found: usize,
+    },
     /// The low surfaces have no triangle.
     NoLowTriangles,
     /// The high surfaces have no triangle.
@@ -69,6 +83,10 @@ impl fmt::Display for BakeError {
                 f,
                 "the cage has {found} vertices but the low surface has {vertices}; make the cage by moving the vertices of the low surface only"
             ),
+            Self::Uvs { vertices, found } => write!(
+                f,
+                "the normal map has {found} UVs but the high surface has {vertices} vertices; pass one per vertex"
+            ),
             Self::Size { size: [width, height] } => {
                 write!(
                     f,
@@ -83,6 +101,10 @@ impl fmt::Display for BakeError {
                 "rays cannot begin {outwards} outside the low surface and end {inwards} inside it; give two finite distances of which none is negative and one is positive"
             ),
             Self::NoMaps => f.write_str("no map was chosen; choose at least one"),
+            Self::Texels { expected, found } => write!(
+                f,
+                "the map has {found} texels but its size needs {expected}; give one vector per texel, and at least one"
+            ),
             Self::NoLowTriangles => {
                 f.write_str("the low model has no triangles; check that it was exported with its meshes")
             }

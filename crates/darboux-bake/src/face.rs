@@ -2,6 +2,7 @@
 
 use crate::LowSurface;
 use crate::layout::{Layout, Placed};
+use crate::point::SurfacePoint;
 use crate::vector::{Vector, cross, scale, sub, unit, weighted, wide};
 
 /// A triangle of a low surface.
@@ -20,22 +21,6 @@ pub struct Face {
     area: f64,
     /// The unit normal of the plane, counter-clockwise; zero where the triangle has no area.
     face_normal: Vector,
-}
-
-/// A point on a low surface. The interpolated vectors are not normalised, as in a renderer's fragment shader.
-#[derive(Clone, Copy, Debug)]
-pub struct SurfacePoint {
-    pub position: Vector,
-    pub normal: Vector,
-    pub tangent: Vector,
-    /// The interpolated sign w.
-    pub sign: f64,
-    /// The interpolated bitangents of the corners.
-    pub bitangent: Vector,
-    /// The point of the cage, if there is one.
-    pub cage: Option<Vector>,
-    /// The unit normal of the triangle's plane, counter-clockwise; zero where the triangle has no area.
-    pub face_normal: Vector,
 }
 
 impl Face {
@@ -64,7 +49,18 @@ impl Face {
 
     /// The point at a place of the image, in texels. A place outside the triangle, where rounding has put it, moves to its edge.
     pub fn point(&self, at: [f64; 2]) -> SurfacePoint {
-        let weights = self.weights(at);
+        let weights = self.continued_weights(at).map(|weight| weight.max(0.0));
+        self.mixed(scale(1.0 / weights.iter().sum::<f64>(), weights))
+    }
+
+    /// The point at a place outside the triangle, where its plane, cage and frames are continued; `None` farther away than the triangle is large,
+    /// where errors would grow.
+    pub fn continued_point(&self, at: [f64; 2]) -> Option<SurfacePoint> {
+        let weights = self.continued_weights(at);
+        weights.iter().all(|weight| (-1.0..=2.0).contains(weight)).then(|| self.mixed(weights))
+    }
+
+    fn mixed(&self, weights: [f64; 3]) -> SurfacePoint {
         let [x, y, z, sign] = weighted(weights, self.tangents);
         SurfacePoint {
             position: weighted(weights, self.positions),
@@ -77,15 +73,14 @@ impl Face {
         }
     }
 
-    /// The barycentric coordinates of a place, none of them negative.
-    fn weights(&self, at: [f64; 2]) -> [f64; 3] {
+    /// The barycentric coordinates of a place; some are negative outside the triangle.
+    fn continued_weights(&self, at: [f64; 2]) -> [f64; 3] {
         let [a, b, c] = self.texels;
         if self.area == 0.0 {
             return [1.0 / 3.0; 3];
         }
         let parts = [area([at, b, c]), area([a, at, c]), area([a, b, at])];
-        let weights = parts.map(|part| (part / self.area).max(0.0));
-        scale(1.0 / weights.iter().sum::<f64>(), weights)
+        parts.map(|part| part / self.area)
     }
 }
 

@@ -5,7 +5,7 @@
 //! solution of that equation, normalised.
 
 use crate::Bitangent;
-use crate::face::SurfacePoint;
+use crate::point::SurfacePoint;
 use crate::vector::{Vector, cross, dot, length, scale, unit};
 
 /// Tangent, bitangent and normal at a point.
@@ -21,11 +21,27 @@ const LEAST_VOLUME: f64 = 1e-6;
 
 impl ShadingFrame {
     pub fn new(point: &SurfacePoint, bitangent: Bitangent) -> Self {
-        let bitangent = match bitangent {
-            Bitangent::PerPixel => scale(point.sign, cross(point.normal, point.tangent)),
-            Bitangent::PerVertex => point.bitangent,
-        };
-        Self { tangent: point.tangent, bitangent, normal: point.normal }
+        let per_pixel = Self::per_pixel(point.normal, point.tangent, point.sign);
+        match bitangent {
+            Bitangent::PerPixel => per_pixel,
+            Bitangent::PerVertex => Self { bitangent: point.bitangent, ..per_pixel },
+        }
+    }
+
+    /// The frame with B = w cross(N, T), for vectors that are not normalised.
+    pub fn per_pixel(normal: Vector, tangent: Vector, sign: f64) -> Self {
+        Self { tangent, bitangent: scale(sign, cross(normal, tangent)), normal }
+    }
+
+    /// The same frame with N and T normalised before B is made, as renderers do that normalise per pixel.
+    pub fn normalised(point: &SurfacePoint) -> Option<Self> {
+        Some(Self::per_pixel(unit(point.normal)?, unit(point.tangent)?, point.sign))
+    }
+
+    /// What a renderer shows: x T + y B + z N, normalised. `None` where that has no direction.
+    pub fn shade(self, [x, y, z]: Vector) -> Option<Vector> {
+        let Self { tangent: t, bitangent: b, normal: n } = self;
+        unit([0, 1, 2].map(|i| x * t[i] + y * b[i] + z * n[i]))
     }
 
     /// The unit vector m with x T + y B + z N along `normal`, by Cramer's rule; `None` where the frame is degenerate.
@@ -47,12 +63,6 @@ mod tests {
 
     use super::*;
     use crate::vector::sub;
-
-    /// The unit vector along x T + y B + z N: what a renderer computes.
-    fn rendered(frame: ShadingFrame, [x, y, z]: Vector) -> Vector {
-        let ShadingFrame { tangent: t, bitangent: b, normal: n } = frame;
-        unit([0, 1, 2].map(|i| x * t[i] + y * b[i] + z * n[i])).expect("not zero")
-    }
 
     fn point(dice: &mut Dice<'_>) -> SurfacePoint {
         let mut vector = || [0, 1, 2].map(|_| f64::from(dice.uniform()));
@@ -76,7 +86,7 @@ mod tests {
                 let frame = ShadingFrame::new(&point(&mut dice), bitangent);
                 let normal = unit([0, 1, 2].map(|_| f64::from(dice.uniform()))).expect("not zero");
                 let Some(texel) = frame.to_tangent_space(normal) else { continue };
-                let back = rendered(frame, texel);
+                let back = frame.shade(texel).expect("not zero");
                 // The condition of the frame is at most 1 / LEAST_VOLUME, and doubles have 16 digits.
                 assert!(length(sub(back, normal)) < 1e-8, "{normal:?} {texel:?} {back:?}");
             }

@@ -4,7 +4,7 @@ use darboux::Context;
 
 use crate::bvh::{Bvh, Hit};
 use crate::limits::MAX_TRIANGLES;
-use crate::vector::{Vector, cross, dot, sub, unit, weighted, wide};
+use crate::vector::{Vector, cross, dot, scale, sub, unit, weighted, wide};
 use crate::{BakeError, HighSurface};
 
 /// The high surfaces of one group.
@@ -20,7 +20,7 @@ pub struct HighGroup<'a> {
 /// The high surface at a hit.
 #[derive(Clone, Copy, Debug)]
 pub struct HighPoint {
-    /// The interpolated normal, or that of the triangle's plane where there is none; unit length.
+    /// The normal that the surface's map shows, or else the interpolated one, or that of the triangle's plane; unit length.
     pub normal: Vector,
     /// The normal of the triangle's plane, towards the ray's origin; unit length.
     pub face_normal: Vector,
@@ -58,9 +58,12 @@ impl<'a> HighGroup<'a> {
         let [a, b, c] = surface.corners(triangle).map(wide);
         let side = if hit.is_front { 1.0 } else { -1.0 };
         let face_normal = unit(cross(sub(b, a), sub(c, a)))?.map(|x| side * x);
-        let interpolated = unit(weighted(hit.weights.map(f64::from), surface.normals(triangle)));
-        let normal = interpolated.map_or(face_normal, |normal| normal.map(|x| side * x));
-        Some(HighPoint { normal, face_normal, is_inverted: dot(normal, face_normal) < 0.0 })
+        let weights = hit.weights.map(f64::from);
+        let interpolated = weighted(weights, surface.normals(triangle));
+        let outwards = unit(interpolated).map(|_| interpolated).unwrap_or(scale(side, face_normal));
+        let is_inverted = side * dot(outwards, face_normal) < 0.0;
+        let normal = surface.mapped_normal(triangle, weights, outwards).or_else(|| unit(outwards))?;
+        Some(HighPoint { normal: scale(side, normal), face_normal, is_inverted })
     }
 }
 

@@ -1,6 +1,10 @@
 //! The images of a run, while they are filled and when they are done.
 
+use crate::vector::{dot, narrow, scale, sub, unit, wide};
 use crate::{BakeError, BakeOptions, MapKind};
+
+/// The cosine of the largest angle between neighbouring texels that is continued beyond a chart: 11 degrees.
+const SMOOTH: f64 = 0.98;
 
 /// What is in a texel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -9,10 +13,26 @@ pub enum TexelState {
     /// Outside the charts: the background, or filled from the nearest chart.
     #[default]
     Outside,
+    /// Within a texel of a chart, where filters read it: baked on the surface, continued beyond the chart.
+    Extended,
     /// In a chart, but no ray hit: filled from the nearest texel with a hit.
     Missed,
+    /// As `Missed`, and rays hit triangles from behind: the high mesh is inside out there, or has a hole.
+    MissedBehind,
     /// Baked.
     Baked,
+}
+
+impl TexelState {
+    /// Whether the texel's content comes from rays, not from another texel.
+    pub fn has_content(self) -> bool {
+        matches!(self, Self::Extended | Self::Baked)
+    }
+
+    /// Whether the texel lies in a chart and no ray hit.
+    pub fn is_missed(self) -> bool {
+        matches!(self, Self::Missed | Self::MissedBehind)
+    }
 }
 
 /// The images that were chosen, row after row, the top row first; one element per texel.
@@ -83,6 +103,33 @@ impl Images {
         deal(&mut bands, &mut self.occlusion, texels, |band| &mut band.occlusion);
         deal(&mut bands, &mut self.position, texels, |band| &mut band.position);
         bands
+    }
+
+    /// Continues the normals of charts into the texels around them, where they are copies: a filter between a copy and the chart would flatten what
+    /// changes across the border. Sharp changes are not continued.
+    pub(crate) fn continue_normals(&mut self, source_of_texel: &[u32]) {
+        let [width, height] = self.size.map(|side| side as usize);
+        for image in [&mut self.normal, &mut self.object_normal].into_iter().flatten() {
+            for (texel, &source) in source_of_texel.iter().enumerate() {
+                let source = source as usize;
+                if source == texel {
+                    continue;
+                }
+                let place = |texel: usize| [texel % width, texel / width];
+                let (to, from) = (place(texel), place(source));
+                if to[0].abs_diff(from[0]) > 1 || to[1].abs_diff(from[1]) > 1 {
+                    continue;
+                }
+                let [x, y] = [0, 1].map(|i| (2 * from[i]).checked_sub(to[i]).unwrap_or(usize::MAX));
+                if x >= width || y >= height || self.states[y * width + x] != TexelState::Baked {
+                    continue;
+                }
+                let [near, far] = [image[source], image[y * width + x]].map(wide);
+                if let Some(normal) = unit(sub(scale(2.0, near), far)).filter(|_| dot(near, far) > SMOOTH) {
+                    image[texel] = narrow(normal);
+                }
+            }
+        }
     }
 
     /// Copies texels within every image. `source_of_texel`: for each texel the one that it copies, which copies itself.

@@ -11,6 +11,9 @@ pub const BLOCK: usize = 32;
 /// The most tiles of the UV plane that a triangle may touch along an axis. Places in steps then stay below 2^27, and their products below 2^55.
 const MAX_TILES: i64 = 16;
 
+/// The distance in texels up to which a block's list has triangles outside it.
+const MARGIN: f64 = 2.0;
+
 /// A triangle of a low surface in one tile of the UV plane. Triangles in other tiles than the first are moved into it, as a repeated texture
 /// shows them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,6 +106,12 @@ impl Layout {
         })
     }
 
+    /// The corners of a triangle in steps from the upper left corner of a block, given by its column and row.
+    pub fn steps_in_block(&self, low: &LowSurface<'_>, placed: &Placed, block: [usize; 2]) -> [[i64; 2]; 3] {
+        let first = block.map(|at| (at * BLOCK) as i64 * STEPS);
+        steps(self.texels(low, placed)).map(|corner| [corner[0] - first[0], corner[1] - first[1]])
+    }
+
     /// Sorts the triangles into blocks: counts, starts, lists.
     fn fill_blocks(&mut self, low: &[LowSurface<'_>], limit: u64) -> Result<(), BakeError> {
         let mut counts = vec![0u64; self.block_count() + 1];
@@ -129,13 +138,13 @@ impl Layout {
         Ok(())
     }
 
-    /// Visits the blocks that the bounding box of a triangle touches.
+    /// Visits the blocks that the bounding box of a triangle touches, with a margin for texels near charts.
     fn visit_blocks(&self, low: &LowSurface<'_>, placed: &Placed, mut visit: impl FnMut(usize)) {
         let [from, to] = bounds(self.texels(low, placed));
         let range = |i: usize| {
             let last = self.size[i] - 1;
             let texel = |x: f64| (x.max(0.0) as usize).min(last);
-            texel(from[i].floor()) / BLOCK..texel(to[i].ceil()) / BLOCK + 1
+            texel(from[i].floor() - MARGIN) / BLOCK..texel(to[i].ceil() + MARGIN) / BLOCK + 1
         };
         for y in range(1) {
             for x in range(0) {

@@ -16,6 +16,7 @@
 
 mod bake;
 mod band;
+mod beyond;
 mod bvh;
 mod coverage;
 mod error;
@@ -28,24 +29,32 @@ mod limits;
 mod memory;
 mod model;
 mod name_match;
+mod normal_texture;
 mod occlusion;
 mod options;
 mod padding;
+mod point;
 mod rays;
 mod report;
 mod samples;
+mod skirt;
+mod space;
 mod surface;
 mod texel;
 mod vector;
+mod verify;
 
 pub use bake::{BakeProgress, Baked, bake};
 pub use error::BakeError;
 pub use images::{Images, TexelState};
-pub use model::{HighModel, LowModel, LowModelOptions};
+pub use model::{HighModel, HighModelOptions, LowModel, LowModelOptions};
 pub use name_match::{NameMatch, match_names};
+pub use normal_texture::NormalTexture;
 pub use options::{BakeOptions, Bitangent, MapKind, MapSet};
 pub use report::BakeReport;
+pub use space::{ConvertedSpace, NormalSpace, SpaceOptions, convert_space};
 pub use surface::{HighSurface, LowSurface, inflated_cage};
+pub use verify::{ErrorStatistics, Mistake, Verification, VerifiedPlace, verify};
 
 /// The example of README.md compiles.
 #[cfg(doctest)]

@@ -2,7 +2,9 @@
 
 mod high;
 mod low;
+mod maps;
 mod placed;
+mod stored;
 
-pub use high::HighModel;
+pub use high::{HighModel, HighModelOptions};
 pub use low::{LowModel, LowModelOptions};

@@ -62,7 +62,7 @@ fn radical_inverse(index: u32) -> f64 {
 }
 
 /// A number in [0, 1) (the finaliser of splitmix64).
-fn turn_of(seed: u64) -> f64 {
+pub fn turn_of(seed: u64) -> f64 {
     let z = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

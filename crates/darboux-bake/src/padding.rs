@@ -18,9 +18,9 @@ const NONE: u32 = u32::MAX;
 /// Rows per job.
 const ROWS: usize = 16;
 
-/// For each texel the one whose content it gets: itself where it is baked, or where nothing is near enough.
+/// For each texel the one whose content it gets: itself where it has content, or where nothing is near enough.
 ///
-/// `padding`: how far texels outside the charts are filled, in texels; missed texels in charts are always filled. The nearest baked texel
+/// `padding`: how far texels outside the charts are filled, in texels; missed texels in charts are always filled. The nearest texel with content
 /// counts; of several, that in the leftmost column, and in it the upper one. Errors: the context's token was cancelled.
 pub fn sources(
     states: &[TexelState],
@@ -50,7 +50,7 @@ fn nearest_rows(states: &[TexelState], width: usize) -> Vec<u32> {
         for column in 0..width {
             let texel = row * width + column;
             nearest[texel] = match states[texel] {
-                TexelState::Baked => row as u32,
+                state if state.has_content() => row as u32,
                 _ if row > 0 => nearest[texel - width],
                 _ => NONE,
             };
@@ -100,8 +100,8 @@ impl Envelope {
             let Some(&(nearest, square, _)) = self.parts.get(part) else { return };
             let distance = (nearest - column as i64).pow(2) + square;
             let is_filled = match states[column] {
-                TexelState::Baked => false,
-                TexelState::Missed => true,
+                TexelState::Baked | TexelState::Extended => false,
+                TexelState::Missed | TexelState::MissedBehind => true,
                 TexelState::Outside => distance <= limit,
             };
             if is_filled {
@@ -143,7 +143,7 @@ mod tests {
             a.abs_diff(c).pow(2) as u64 + b.abs_diff(d).pow(2) as u64
         };
         (0..states.len())
-            .filter(|&other| states[other] == TexelState::Baked)
+            .filter(|&other| states[other].has_content())
             .map(|other| (other, distance(other)))
             .min_by_key(|&(other, distance)| (distance, place(other)))
     }
@@ -156,6 +156,7 @@ mod tests {
             let rare = [2, 9, 60, 700][round % 4];
             let states: Vec<TexelState> = (0..width * height)
                 .map(|_| match (dice.one_in(rare), dice.one_in(3)) {
+                    (true, true) => TexelState::Extended,
                     (true, _) => TexelState::Baked,
                     (_, true) => TexelState::Missed,
                     _ => TexelState::Outside,

@@ -1,7 +1,7 @@
 //! Stage 3: the ray of a sample, from outside the low surface through it.
 
 use crate::bvh::Ray;
-use crate::face::SurfacePoint;
+use crate::point::SurfacePoint;
 use crate::vector::{Vector, add_scaled, length, narrow, scale, sub, unit, wide};
 
 /// A ray, and where on it the low surface lies.

@@ -2,8 +2,9 @@
 
 use darboux::{Error, Faces, Indices, Mesh, NormalOptions, Strided, generate_normals};
 
-use crate::BakeError;
-use crate::vector::{add_scaled, narrow, wide};
+use crate::frame::ShadingFrame;
+use crate::vector::{Vector, add_scaled, narrow, weighted, wide};
+use crate::{BakeError, NormalTexture};
 
 /// A surface that receives the detail: triangles with normals, UVs and tangents.
 #[derive(Clone, Copy, Debug)]
@@ -64,6 +65,15 @@ pub struct HighSurface<'a> {
     /// Without UVs; normals are zeros where there are none.
     pub(crate) mesh: Mesh<'a>,
     pub(crate) group: usize,
+    normal_map: Option<SurfaceMap<'a>>,
+}
+
+/// A normal map on a high surface.
+#[derive(Clone, Copy, Debug)]
+struct SurfaceMap<'a> {
+    texture: &'a NormalTexture,
+    uvs: Strided<'a, 2>,
+    tangents: &'a [[f32; 4]],
 }
 
 impl<'a> HighSurface<'a> {
@@ -79,7 +89,39 @@ impl<'a> HighSurface<'a> {
         let positions = positions.into();
         let normals = normals.unwrap_or_else(|| Strided::repeated(&[0.0; 3], positions.len()));
         let uvs = Strided::repeated(&[0.0; 2], positions.len());
-        Ok(Self { mesh: Mesh::triangles(positions, normals, uvs, indices)?, group: 0 })
+        Ok(Self { mesh: Mesh::triangles(positions, normals, uvs, indices)?, group: 0, normal_map: None })
+    }
+
+    /// This surface with a normal map of its own: its normals are those that a renderer shows, with the bitangent per pixel.
+    ///
+    /// `uvs`: one per vertex, where the texture is read; `tangents`: one per corner, as of [`LowSurface::new`]. Errors: other lengths.
+    pub fn with_normal_map(
+        self,
+        texture: &'a NormalTexture,
+        uvs: impl Into<Strided<'a, 2>>,
+        tangents: &'a [[f32; 4]],
+    ) -> Result<Self, BakeError> {
+        let uvs = uvs.into();
+        let (vertices, corners) = (self.mesh.vertex_count(), self.mesh.corner_count());
+        if uvs.len() != vertices {
+            return Err(BakeError::Uvs { vertices, found: uvs.len() });
+        }
+        if tangents.len() != corners {
+            let found = tangents.len();
+            return Err(Error::InputLength { what: "tangents", expected: corners, found }.into());
+        }
+        Ok(Self { normal_map: Some(SurfaceMap { texture, uvs, tangents }), ..self })
+    }
+
+    /// The unit normal that the normal map shows at a point of a triangle whose interpolated normal is `normal`; `None` without a map, and where
+    /// the frame gives no direction.
+    pub(crate) fn mapped_normal(&self, triangle: usize, weights: [f64; 3], normal: Vector) -> Option<Vector> {
+        let map = self.normal_map?;
+        let corners = [0, 1, 2].map(|corner| 3 * triangle + corner);
+        let uv = weighted(weights, corners.map(|corner| map.uvs.get(self.mesh.vertex_of_corner(corner))));
+        let [x, y, z, sign] = weighted(weights, corners.map(|corner| map.tangents[corner]));
+        let frame = ShadingFrame::per_pixel(normal, [x, y, z], sign);
+        frame.shade(map.texture.at_uv(uv))
     }
 
     /// This surface in another group.

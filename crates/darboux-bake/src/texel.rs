@@ -13,6 +13,8 @@ pub struct Sample {
     pub occlusion: f64,
     pub position: Vector,
     pub is_inverted: bool,
+    /// Whether the sample lies beyond the chart, on the continued surface.
+    pub is_extended: bool,
 }
 
 /// The sums over the samples of a texel.
@@ -23,6 +25,9 @@ pub struct TexelSums {
     pub hits_back: bool,
     pub is_inverted: bool,
     pub is_frameless: bool,
+    /// Hits of samples in charts.
+    charted_hits: u32,
+    /// All hits.
     hits: u32,
     normal: Vector,
     object_normal: Vector,
@@ -44,7 +49,8 @@ pub struct Texel {
 impl TexelSums {
     pub fn add(&mut self, sample: &Sample) {
         self.hits += 1;
-        self.is_inverted |= sample.is_inverted;
+        self.charted_hits += u32::from(!sample.is_extended);
+        self.is_inverted |= sample.is_inverted && !sample.is_extended;
         self.is_frameless |= sample.normal.is_none();
         self.normal = add_scaled(self.normal, 1.0, sample.normal.unwrap_or([0.0, 0.0, 1.0]));
         self.object_normal = add_scaled(self.object_normal, 1.0, sample.object_normal);
@@ -54,10 +60,12 @@ impl TexelSums {
     }
 
     pub fn state(&self) -> TexelState {
-        match (self.is_charted, self.hits) {
-            (false, _) => TexelState::Outside,
-            (true, 0) => TexelState::Missed,
-            _ => TexelState::Baked,
+        match (self.is_charted, self.charted_hits, self.hits) {
+            (true, 0, _) if self.hits_back => TexelState::MissedBehind,
+            (true, 0, _) => TexelState::Missed,
+            (true, ..) => TexelState::Baked,
+            (false, _, 0) => TexelState::Outside,
+            (false, ..) => TexelState::Extended,
         }
     }
 

@@ -2,6 +2,9 @@
 
 pub type Vector = [f64; 3];
 
+/// A place in an image, in texels.
+pub type Place = [f64; 2];
+
 pub fn wide(v: [f32; 3]) -> Vector {
     v.map(f64::from)
 }

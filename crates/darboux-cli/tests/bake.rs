@@ -214,6 +214,246 @@ fn a_bake_that_misses_says_what_to_change() {
 }
 
 #[test]
+fn a_picture_shows_where_rays_missed() {
+    let pair = Pair::new();
+    let few = pair.bake(&["--json"]).exits(0).json();
+    assert!(few["misses"].is_null());
+    let [low, high, map] = ["low.glb", "high.glb", "map.png"].map(|name| pair.path(name));
+    let line = |high: &Path, more: &[&str]| {
+        let all = ["bake", text(&low), "--high", text(high), "-o", text(&map), "--size", "16", "--json"];
+        darboux(&[&all, more].concat()).exits(0)
+    };
+    let report = line(&high, &["--force", "--cage-offset", "0.2"]).json();
+    let picture = pair.path("map.misses.png");
+    assert_eq!(report["misses"], text(&picture));
+    assert!(report["warnings"].to_string().contains("map.misses.png shows where"), "{report}");
+    // The roof rises to the right: its left is hit, its right is not.
+    let pixel = |x: usize| rgb(&picture)[8 * 16 + x];
+    assert_eq!([pixel(0), pixel(15)], [[96, 96, 96], [230, 40, 40]]);
+    // Turned inside out by a mirroring scale of its node, all is hit from behind.
+    fs::write(&high, plate([0.0, 0.5], &["POSITION"], -1.0)).expect("a file");
+    let inside_out = line(&high, &["--force", "--distance", "2,2"]);
+    assert!(inside_out.stderr.contains("hit nothing"), "{}", inside_out.stderr);
+}
+
+/// The pixels of an RGB picture with 8 bits.
+fn rgb(path: &Path) -> Vec<[u8; 3]> {
+    image::open(path).expect("a picture").to_rgb8().pixels().map(|pixel| pixel.0).collect()
+}
+
+#[test]
+fn verification_prints_degrees_and_draws_them() {
+    let pair = Pair::new();
+    let heat = pair.path("heat.png");
+    let run = pair.bake(&["--verify", "--heat-map", text(&heat), "--json"]).exits(0);
+    for words in ["error in degrees", "by rounding to its bits", "inside charts", "with the other green"] {
+        assert!(run.stderr.contains(words), "{}", run.stderr);
+    }
+    let verification = run.json()["verification"].clone();
+    let number = |of: &Value, name: &str| of[name].as_f64().expect("a number");
+    // The roof has one normal, which 8 bits hold to half a code: below sqrt(3) / 255 radians.
+    let limit = (3f64.sqrt() / 255.0).to_degrees();
+    assert!(number(&verification["all"], "worst") < limit, "{verification}");
+    assert!(number(&verification["all"], "median") > 1e-4, "{verification}");
+    assert_eq!(number(&verification["all"], "points"), 256.0);
+    assert!(
+        (number(&verification["all"], "median") - number(&verification["rounding"], "median")).abs() < 1e-3
+    );
+    assert_eq!(verification["places"][0][0], "inside");
+    assert_eq!(verification["mistakes"][1][0], "other_green");
+    assert_eq!(image::image_dimensions(&heat).expect("a picture"), (16, 16 + 32));
+    // 16 bits are better by 2 to the 8th.
+    let fine = pair.bake(&["--verify", "--force", "--bits", "16", "--json"]).exits(0).json();
+    assert!(number(&fine["verification"]["all"], "worst") < limit / 200.0, "{fine}");
+    assert!(fine["verification"]["heat_map"].is_null());
+    assert!(pair.bake(&["--force", "--json"]).exits(0).json()["verification"].is_null());
+    let no_map = pair.bake(&["--force", "--verify", "--map", "height"]).exits(2).stderr;
+    assert!(no_map.contains("--verify needs a normal map"), "{no_map}");
+    assert!(pair.bake(&["--force", "--heat-map", text(&heat)]).exits(2).stderr.contains("--verify"));
+}
+
+#[test]
+fn a_model_is_written_that_bakes_to_the_same_map() {
+    let pair = Pair::new();
+    for (case, method) in [("mikktspace", None), ("lengyel", Some("lengyel"))] {
+        let model = pair.path(&format!("{case}.glb"));
+        let mut more = vec!["--force", "--bits", "16", "--write-model", text(&model), "--json"];
+        more.extend(method.iter().flat_map(|method| ["--method", *method]));
+        let report = pair.bake(&more).exits(0).json();
+        assert_eq!(report["model"], text(&model));
+        let map = fs::read(pair.path("map.png")).expect("a map");
+        let checked = darboux(&["check", text(&model), "--json"]);
+        assert!(checked.code == 0, "{} {}", String::from_utf8_lossy(&checked.stdout), checked.stderr);
+        let inspected = darboux(&["inspect", text(&model), "--json"]).exits(0).json().to_string();
+        assert!(inspected.contains("\"has_tangents\":true"), "{inspected}");
+        // Its own tangents give the same map.
+        let [high, again] = ["high.glb", "again.png"].map(|name| pair.path(name));
+        let line =
+            ["bake", text(&model), "--high", text(&high), "-o", text(&again), "--size", "16", "--bits", "16"];
+        darboux(&[&line[..], &["--cage-offset", "1", "--force"]].concat()).exits(0);
+        assert_eq!(fs::read(&again).expect("a map"), map, "{case}");
+        // The map lies in the model, byte for byte.
+        let bytes = fs::read(&model).expect("a model");
+        assert!(bytes.windows(map.len()).any(|window| window == map), "{case}");
+    }
+    let model = pair.path("model.glb");
+    let refused = |more: &[&str], what: &str| {
+        let all = ["--force", "--write-model", text(&model)];
+        let stderr = pair.bake(&[&all, more].concat()).exits(2).stderr;
+        assert!(stderr.contains(what), "{stderr}");
+    };
+    refused(&["--convention", "unreal"], "needs a map in glTF's convention");
+    refused(&["--map", "ao"], "--write-model needs a normal map");
+    let gltf = pair.path("model.gltf");
+    assert!(
+        pair.bake(&["--force", "--write-model", text(&gltf)]).exits(2).stderr.contains("must end in .glb")
+    );
+    assert!(!model.exists() && !gltf.exists());
+}
+
+#[test]
+fn object_space_maps_become_tangent_space_ones_and_back() {
+    let pair = Pair::new();
+    pair.bake(&["--bits", "16", "--map", "normal,object-normal", "--convention", "unreal"]).exits(0);
+    let [low, object, tangent] =
+        ["low.glb", "map.object-normal.png", "map.normal.png"].map(|name| pair.path(name));
+    let convert = |from: &Path, to: &str, space: &str, output: &str| {
+        let output = pair.path(output);
+        let all = ["convert", text(from), "--from", "unreal", "--to", to, "--space", space, "--force"];
+        darboux(&[&all[..], &["--model", text(&low), "-o", text(&output)]].concat()).exits(0)
+    };
+    let one_code = 1.0 / 65535.0 + 1e-9;
+    convert(&object, "unreal", "tangent", "t.png");
+    assert!(near(&pair.texel("t.png").0, &pair.texel("map.normal.png").0, one_code));
+    convert(&tangent, "unreal", "object", "o.png");
+    assert!(near(&pair.texel("o.png").0, &pair.texel("map.object-normal.png").0, one_code));
+    // The roof leans along red only, so green is the same up to its rounding in both conventions.
+    let run = convert(&object, "gltf", "tangent", "g.png");
+    assert!(run.stderr.contains("tangent space, 256 texels in charts"), "{}", run.stderr);
+    assert!(near(&pair.texel("g.png").0, &pair.texel("map.normal.png").0, one_code));
+    let refused = |more: &[&str], what: &str| {
+        let all = ["convert", text(&object), "--from", "gltf", "--to", "gltf"];
+        let stderr = darboux(&[&all, more].concat()).exits(2).stderr;
+        assert!(stderr.contains(what), "{stderr}");
+    };
+    refused(&["--space", "tangent"], "--model");
+    refused(&["--model", text(&low)], "--space");
+    refused(&["--space", "object", "--model", text(&low), "--layout", "rg"], "name three channels");
+    refused(
+        &["--space", "object", "--model", text(&low), "--to-layout", "rg"],
+        "cannot be used with --space",
+    );
+}
+
+#[test]
+fn an_obj_can_be_the_high_model() {
+    let pair = Pair::new();
+    let obj = "v 0 0 0\nv 1 0 0.5\nv 1 1 0.5\nv 0 1 0\nf 1 2 3 4\n";
+    fs::write(pair.path("high.obj"), obj).expect("a file");
+    pair.bake(&["--bits", "16"]).exits(0);
+    let expected = fs::read(pair.path("map.png")).expect("a map");
+    let [low, high, map] = ["low.glb", "high.obj", "map.png"].map(|name| pair.path(name));
+    let line = ["bake", text(&low), "--high", text(&high), "-o", text(&map), "--size", "16", "--force"];
+    darboux(&[&line[..], &["--cage-offset", "1", "--bits", "16"]].concat()).exits(0);
+    assert_eq!(fs::read(&map).expect("a map"), expected);
+}
+
+/// The normal map of the first bake becomes that of a high model, which is baked onto the same layout again.
+#[test]
+fn normal_maps_of_high_models_count() {
+    let pair = Pair::new();
+    let mapped = pair.path("mapped.glb");
+    pair.bake(&["--bits", "16", "--write-model", text(&mapped)]).exits(0);
+    let (leaning, _) = pair.texel("map.png");
+    let [low, map] = ["low.glb", "map.png"].map(|name| pair.path(name));
+    let line = ["bake", text(&low), "--high", text(&mapped), "-o", text(&map), "--size", "16", "--force"];
+    let again = |more: &[&str]| {
+        darboux(&[&line[..], &["--cage-offset", "0.01", "--bits", "16"], more].concat()).exits(0);
+        pair.texel("map.png").0
+    };
+    assert!(near(&again(&[]), &leaning, 1.5 / 65535.0));
+    assert!(near(&again(&["--no-high-maps"]), &[0.5, 0.5, 1.0], 1.0 / 65535.0));
+}
+
+/// A GLB with its JSON edited.
+fn edited(glb: &[u8], edit: impl FnOnce(&mut Value)) -> Vec<u8> {
+    let length = u32::from_le_bytes([glb[12], glb[13], glb[14], glb[15]]) as usize;
+    let mut json: Value = serde_json::from_slice(&glb[20..20 + length]).expect("JSON");
+    edit(&mut json);
+    let mut text = json.to_string().into_bytes();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    let rest = &glb[20 + length..];
+    let mut out = b"glTF\x02\0\0\0".to_vec();
+    out.extend(((20 + text.len() + rest.len()) as u32).to_le_bytes());
+    out.extend((text.len() as u32).to_le_bytes());
+    out.extend(b"JSON");
+    [out, text, rest.to_vec()].concat()
+}
+
+#[test]
+fn a_material_can_be_chosen_and_several_are_named() {
+    let pair = Pair::new();
+    let two = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+        let primitive = json["meshes"][0]["primitives"][0].clone();
+        json["meshes"][0]["primitives"] = json!([primitive, primitive]);
+        json["meshes"][0]["primitives"][0]["material"] = 0.into();
+        json["meshes"][0]["primitives"][1]["material"] = 1.into();
+        json["materials"] = json!([{}, {}]);
+    });
+    fs::write(pair.path("low.glb"), two).expect("a file");
+    let all = pair.bake(&["--json"]).exits(0);
+    assert!(all.stderr.contains("2 materials share this map"), "{}", all.stderr);
+    let one = pair.bake(&["--json", "--force", "--material", "1"]).exits(0);
+    assert!(!one.stderr.contains("materials share"), "{}", one.stderr);
+    let overlaps = |run: &Run| run.json()["counts"]["overlapping_texels"].clone();
+    assert_eq!([overlaps(&all), overlaps(&one)], [json!(256), json!(0)]);
+    let none = pair.bake(&["--force", "--material", "2"]).exits(1).stderr;
+    assert!(none.contains("no triangles have materials[2]"), "{none}");
+}
+
+#[test]
+fn the_texture_transform_of_the_low_model_counts() {
+    let pair = Pair::new();
+    let half = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+        json["meshes"][0]["primitives"][0]["material"] = 0.into();
+        let transform = json!({"KHR_texture_transform": {"scale": [0.5, 0.5]}});
+        json["materials"] = json!([{"normalTexture": {"index": 0, "extensions": transform}}]);
+        json["textures"] = json!([{}]);
+        json["extensionsUsed"] = json!(["KHR_texture_transform"]);
+    });
+    fs::write(pair.path("low.glb"), half).expect("a file");
+    let model = pair.path("model.glb");
+    let line = ["--json", "--write-model", text(&model)];
+    let counts = pair.bake(&line).exits(0).json()["counts"].clone();
+    assert_eq!((&counts["charted_texels"], &counts["texels"]), (&json!(64), &json!(256)));
+    // The written model keeps the transform, so that the map fits it.
+    let kept = String::from_utf8_lossy(&fs::read(&model).expect("a model")).contains("\"scale\":[0.5,0.5]");
+    assert!(kept);
+}
+
+#[test]
+fn tangents_of_another_uv_set_are_computed() {
+    let pair = Pair::new();
+    let tangents = ["POSITION", "NORMAL", "TEXCOORD_0", "TANGENT"];
+    let low = edited(&plate([0.0, 0.0], &tangents, 1.0), |json| {
+        json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = 2.into();
+    });
+    fs::write(pair.path("low.glb"), low).expect("a file");
+    let texel = |more: &[&str]| {
+        pair.bake(&[&["--bits", "16", "--force"], more].concat()).exits(0);
+        pair.texel("map.png").0
+    };
+    let [leaning, upright] = [0.5 - 0.5 / 5f64.sqrt(), 0.5 + 1.0 / 5f64.sqrt()];
+    // The file's tangents point up; those of the second set, which has the same UVs, to the right.
+    assert!(near(&texel(&[]), &[0.5, 1.0 - leaning, upright], 1e-5));
+    assert!(near(&texel(&["--uv-set", "1"]), &[leaning, 0.5, upright], 1e-5));
+    let model = pair.path("model.glb");
+    texel(&["--uv-set", "1", "--write-model", text(&model)]);
+    let of_model = darboux(&["compare", text(&model), "--method", "mikktspace", "--json"]).exits(0).json();
+    assert_eq!(of_model["verdict"], "identical");
+}
+
+#[test]
 fn a_cage_is_the_low_model_moved() {
     let pair = Pair::new();
     let cage = pair.path("cage.glb");

@@ -149,6 +149,9 @@ pub const GROUPS: &[(&str, &[Row])] = &[
             "describe": ["darboux_io::gltf::inspect"]; []; []; ["Document.inspect"]; []; ["darboux inspect"],
             "many files": []; []; []; ["batch", "process"]; []; ["darboux tangents"],
             "bake": ["darboux_bake::bake"]; []; []; []; []; ["darboux bake"],
+            "errors of a baked map in degrees": ["darboux_bake::verify"]; []; []; []; []; ["darboux bake"],
+            "object-space maps to tangent space, and back": ["darboux_bake::convert_space"]; []; []; []; [];
+                ["darboux convert"],
             "draw": ["darboux_render::render"]; []; []; []; []; ["darboux render"],
         ],
     ),

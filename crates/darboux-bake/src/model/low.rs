@@ -2,11 +2,12 @@
 
 use std::borrow::Cow;
 
-use darboux::{Convention, Indices, Mesh, TangentOptions, Transform, generate_tangents};
+use darboux::{Indices, Mesh, TangentOptions};
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 
-use super::placed::{PlacedPrimitive, places, reverse, vertices};
+use super::placed::{PlacedPrimitive, places, vertices};
+use super::stored::StoredPrimitive;
 use crate::LowSurface;
 
 /// How the low model is read.
@@ -15,8 +16,10 @@ use crate::LowSurface;
 pub struct LowModelOptions {
     /// The n of `TEXCOORD_n`. Default: for each primitive the set that the normal map of its material uses.
     pub uv_set: Option<usize>,
-    /// How tangents are computed. Default: the file's tangents, and MikkTSpace's where it has none.
+    /// How tangents are computed. Default: the file's tangents, and MikkTSpace's where it has none for the UV set.
     pub tangents: Option<TangentOptions>,
+    /// The index of the only material whose primitives are baked. Default: all primitives.
+    pub material: Option<usize>,
 }
 
 impl LowModelOptions {
@@ -31,6 +34,12 @@ impl LowModelOptions {
     pub fn with_tangents(self, tangents: Option<TangentOptions>) -> Self {
         Self { tangents, ..self }
     }
+
+    /// These options with the only material that is baked, or with all.
+    #[must_use]
+    pub fn with_material(self, material: Option<usize>) -> Self {
+        Self { material, ..self }
+    }
 }
 
 /// The triangles of a document's scene at the first of their places, without animation and in the pose in which skinned meshes are stored.
@@ -43,11 +52,16 @@ pub struct LowModel<'a> {
     pub without_uvs: usize,
     /// Primitives whose tangents come from the file.
     pub with_own_tangents: usize,
+    /// Primitives whose tangents in the file are not those that were baked for.
+    pub with_unused_tangents: usize,
+    /// The materials of the baked primitives, each once; none for those without a material.
+    pub materials: Vec<Option<usize>>,
 }
 
 #[derive(Debug)]
 struct LowPart<'a> {
     name: PrimitiveName,
+    uv_set: usize,
     file: &'a str,
     primitive: PlacedPrimitive<'a>,
     /// At the place of the primitive.
@@ -64,35 +78,49 @@ impl<'a> LowModel<'a> {
         options: &LowModelOptions,
     ) -> Result<Self, Error> {
         let (places, appearances) = (places(document)?, document.appearances()?);
-        let mut model = Self { parts: Vec::new(), repeated_meshes: 0, without_uvs: 0, with_own_tangents: 0 };
+        let mut model = Self {
+            parts: Vec::new(),
+            repeated_meshes: 0,
+            without_uvs: 0,
+            with_own_tangents: 0,
+            with_unused_tangents: 0,
+            materials: Vec::new(),
+        };
         model.repeated_meshes = places.iter().filter(|places| places.len() > 1).count();
-        for corners in corners.iter().filter(|corners| !corners.is_empty()) {
+        let is_chosen = |corners: &PrimitiveCorners<'_>| {
+            options.material.is_none_or(|material| corners.material() == Some(material))
+        };
+        for corners in corners.iter().filter(|corners| !corners.is_empty() && is_chosen(corners)) {
             let name = corners.name();
             let Some(place) = places.get(name.mesh).and_then(|places| places.first()) else { continue };
             let Some(primitive) = PlacedPrimitive::read(document, corners, place)? else { continue };
             let appearance = corners.material().and_then(|material| appearances.get(material));
             let of_map = appearance.map_or(0, |appearance| appearance.tangent_uv_set);
             let uv_set = options.uv_set.unwrap_or(of_map);
-            let Some(uvs) = vertices(document, name, &format!("TEXCOORD_{uv_set}"))? else {
+            let Some(mut uvs) = vertices(document, name, &format!("TEXCOORD_{uv_set}"))? else {
                 model.without_uvs += 1;
                 continue;
             };
             let Some(normals) = primitive.normals.clone() else {
                 return Err(without_normals(document, name));
             };
-            let is_own = options.tangents.is_none() && vertices::<4>(document, name, "TANGENT")?.is_some();
+            let has_own = vertices::<4>(document, name, "TANGENT")?.is_some();
+            let is_own = has_own && options.tangents.is_none() && uv_set == of_map;
+            model.with_unused_tangents += usize::from(has_own && !is_own);
+            if !model.materials.contains(&corners.material()) {
+                model.materials.push(corners.material());
+            }
             model.with_own_tangents += usize::from(is_own);
             let stored = StoredPrimitive { document, corners, uvs: &uvs };
-            let mut tangents = match is_own {
-                true => stored.own_tangents()?,
-                false => stored.computed_tangents(&options.tangents.unwrap_or_default())?,
-            };
-            if let Some(transform) = &primitive.transform {
-                let normals = vertices(document, name, "NORMAL")?.unwrap_or_default();
-                move_tangents(&mut tangents, corners, &normals, transform);
+            let computed = options.tangents.unwrap_or_default();
+            let tangents = stored.tangents((!is_own).then_some(&computed), primitive.transform.as_ref())?;
+            if let Some(texture) = appearance.and_then(|appearance| appearance.normal_texture.as_ref())
+                && texture.uv_set == uv_set
+            {
+                uvs.to_mut().iter_mut().for_each(|uv| *uv = texture.transform_uv(*uv));
             }
             let (name, file) = (name.clone(), document.name());
-            model.parts.push(LowPart { name, file, primitive, normals, uvs, tangents });
+            model.parts.push(LowPart { name, uv_set, file, primitive, normals, uvs, tangents });
         }
         Ok(model)
     }
@@ -109,6 +137,11 @@ impl<'a> LowModel<'a> {
             })?);
         }
         Ok(surfaces)
+    }
+
+    /// The baked primitives, and the UV set n of `TEXCOORD_n` of each.
+    pub fn primitives(&self) -> impl Iterator<Item = (&PrimitiveName, usize)> {
+        self.parts.iter().map(|part| (&part.name, part.uv_set))
     }
 
     /// The name of each surface: that of its node, or else of its mesh; empty if neither has one.
@@ -140,47 +173,5 @@ fn without_normals(document: &Document, name: &PrimitiveName) -> Error {
         file: document.name().to_owned(),
         at: name.path(),
         problem: "has no normals, which the frames of a normal map need; generate them first".to_owned(),
-    }
-}
-
-/// A primitive as the file has it, before it is placed.
-struct StoredPrimitive<'a> {
-    document: &'a Document,
-    corners: &'a PrimitiveCorners<'a>,
-    uvs: &'a [[f32; 2]],
-}
-
-impl StoredPrimitive<'_> {
-    /// The file's tangents, converted to those that [`generate_tangents`] would return.
-    fn own_tangents(&self) -> Result<Vec<[f32; 4]>, Error> {
-        let conversion = Convention::GLTF.to(Convention::GLTF.generated());
-        let tangents = self.corners.vectors::<4>("TANGENT")?.unwrap_or_default();
-        Ok(tangents.into_iter().map(|tangent| conversion.tangent(tangent)).collect())
-    }
-
-    fn computed_tangents(&self, options: &TangentOptions) -> Result<Vec<[f32; 4]>, Error> {
-        let (document, name) = (self.document, self.corners.name());
-        let positions = vertices::<3>(document, name, "POSITION")?.unwrap_or_default();
-        let normals = vertices::<3>(document, name, "NORMAL")?.unwrap_or_default();
-        let mesh = Mesh::triangles(&*positions, &*normals, self.uvs, Indices::U32(self.corners.vertices()));
-        let mesh =
-            mesh.map_err(|source| Error::Mesh { file: document.name().to_owned(), at: name.path(), source })?;
-        Ok(generate_tangents(&mesh, options).corners.into_per_corner())
-    }
-}
-
-/// Moves tangents to the place of their primitive. `normals`: of the vertices, as the file has them.
-fn move_tangents(
-    tangents: &mut [[f32; 4]],
-    corners: &PrimitiveCorners<'_>,
-    normals: &[[f32; 3]],
-    transform: &Transform,
-) {
-    for (tangent, &vertex) in tangents.iter_mut().zip(corners.vertices()) {
-        let normal = normals.get(vertex as usize).copied().unwrap_or_default();
-        (_, *tangent) = transform.frame(normal, *tangent);
-    }
-    if transform.orientation() < 0.0 {
-        reverse(tangents);
     }
 }

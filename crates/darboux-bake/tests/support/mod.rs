@@ -78,9 +78,9 @@ impl Pair {
         Shape::grid(cells, self.is_mirrored, |u, v| (self.base)(u, v))
     }
 
-    /// The base with the detail, finely.
+    /// The base with the detail, finely. It is a little longer than the low mesh, so that the rays at the ends of that hit.
     pub fn high(&self, cells: usize) -> Shape {
-        Shape::grid(cells, false, |u, v| self.point(u, v))
+        Shape::grid(cells, false, |u, v| self.point(u, 1.02 * v - 0.01))
     }
 
     /// A point of the surface with the detail.

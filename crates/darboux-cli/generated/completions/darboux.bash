@@ -73,7 +73,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__bake)
-            opts="-o -q -h --high --output --map --size --bits --samples --convention --padding --ao-rays --ao-distance --distance --cage-offset --cage --match --back-faces --method --bitangent --uv-set --normals --jobs --force --allow-outside --memory-limit --json --quiet --help"
+            opts="-o -q -h --high --output --map --size --bits --samples --convention --padding --ao-rays --ao-distance --distance --cage-offset --cage --match --back-faces --no-high-maps --method --bitangent --uv-set --material --normals --write-model --verify --heat-map --jobs --force --allow-outside --memory-limit --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -151,7 +151,19 @@ _darboux() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --material)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --normals)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --write-model)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --heat-map)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -285,7 +297,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__convert)
-            opts="-v -q -o -h --out-dir --in-place --force --resume --jobs --verbose --allow-outside --memory-limit --from --to --layout --to-layout --raw --json --quiet --output --help"
+            opts="-v -q -o -h --out-dir --in-place --force --resume --jobs --verbose --allow-outside --memory-limit --from --to --layout --to-layout --space --model --uv-set --raw --json --quiet --output --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -316,6 +328,18 @@ _darboux() {
                     return 0
                     ;;
                 --to-layout)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --space)
+                    COMPREPLY=($(compgen -W "tangent object" -- "${cur}"))
+                    return 0
+                    ;;
+                --model)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --uv-set)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

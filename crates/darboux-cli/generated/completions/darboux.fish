@@ -117,6 +117,10 @@ maya\t''
 3dsmax\t''"
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l layout -d 'The channels of x, y and, if stored, z of a normal map: rgb, rg, ag, la, ...' -r
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l to-layout -d 'The channels in the output; by default those of --layout. A z that is not stored is computed from x and y' -r
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l space -d 'Convert normal maps to this space from the other one, with the frames of --model' -r -f -a "tangent\t'Tangent space, from an object-space map'
+object\t'Object space, from a tangent-space map: the space of the model\'s scene'"
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l model -d 'The model that has the map (.gltf, .glb, .vrm), with the tangents of its file, or MikkTSpace\'s' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l uv-set -d 'The UV set n of TEXCOORD_n of the model; by default that of the material\'s normal map' -r
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s o -l output -d 'Output file for a single input, in an existing folder; - is standard output' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l force -d 'Replace output files that exist'
@@ -277,7 +281,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand check" -s q -l quiet -d 
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l force -d 'Replace output files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l high -d 'The high models, which have the detail' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l high -d 'The high models, which have the detail (.gltf, .glb, .vrm, .obj); the normal maps of their materials count' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -s o -l output -d 'The map, in an existing folder; with several maps the name of each is added, as in crate.ao.png' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l map -d 'The maps to bake; several at once share their rays' -r -f -a "normal\t'Normals in tangent space'
 object-normal\t'Normals in the space of the scene'
@@ -305,7 +309,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand bake" -l cage-offset -d 
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l cage -d 'Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as --cage-offset would' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l match -d 'Which high parts the rays of a low part can hit' -r -f -a "nearest\t'All of them: the first that a ray meets'
 name\t'Those of the same name: crate_low gets the detail of crate_high and crate_high_bolts. The names of nodes count, or else of meshes'"
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l method -d 'How tangents are computed; by default those of the low model\'s file are used, and mikktspace if it has none' -r -f -a "mikktspace\t'The standard of bakers and engines'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l method -d 'How tangents are computed; by default those of the low model\'s file are used, and mikktspace if it has none for the UV set' -r -f -a "mikktspace\t'The standard of bakers and engines'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
 angle-edge\t'Weighted by angle and edge lengths, meshoptimizer\'s default'
 lengyel\t'The sum of dP/du, separate for each UV orientation'
@@ -317,11 +321,16 @@ from-normal\t'Any direction perpendicular to the normal, independent of UVs'"
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l bitangent -d 'How the renderer rebuilds the bitangent' -r -f -a "pixel\t'Per pixel from the interpolated normal and tangent, as glTF, MikkTSpace, Blender, Unreal and Unity'
 vertex\t'Per vertex, then interpolated'"
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l uv-set -d 'The UV set n of TEXCOORD_n; by default that of the material\'s normal map' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l material -d 'Bake only the primitives with this material, materials[N] of the low model\'s file; by default all share the map' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l normals -d 'Generate missing normals of the low model first: flat, smooth or crease=DEG; keep generates none' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l write-model -d 'Write the low model with the normal map in its materials and the tangents in its vertices' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l heat-map -d 'Draw these errors over the UV layout, on a scale from 0.01 to 180 degrees' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l jobs -d 'How many threads work; by default one per processor core' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l back-faces -d 'Let rays hit triangles from behind'
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l force -d 'Replace maps that exist'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l no-high-maps -d 'Bake the geometry of the high models without the normal maps of their materials'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l verify -d 'Shade the low model with the map that was written, as a renderer does, and print how far its normals are from those of the high models'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l force -d 'Replace files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'

@@ -3,8 +3,12 @@
 pub mod arguments;
 mod cage;
 mod matching;
+mod model;
+mod open;
+mod pictures;
 mod report;
 mod run;
+mod verified;
 mod write;
 
 pub use run::run;

@@ -1,6 +1,8 @@
 //! `darboux convert`: converts normal maps and models between conventions.
 
 pub mod arguments;
+#[cfg(feature = "bake")]
+mod space;
 
 use std::fs::File;
 use std::io::Read;
@@ -22,7 +24,7 @@ use crate::options::messages::MessageOptions;
 use crate::paths::is_png;
 use crate::terminal::FileProgress;
 use crate::text::counted;
-use arguments::ConvertArguments;
+use arguments::{ConvertArguments, SpaceChoice};
 
 /// The report of a file, which is an image or a model.
 #[derive(Default, Serialize)]
@@ -44,6 +46,21 @@ struct ImageSummary {
     green_inverted: bool,
     /// Whether the vector was moved to other channels.
     moved: bool,
+    /// What a conversion to another space did.
+    space: Option<SpaceSummary>,
+}
+
+/// The report of a conversion to another space.
+#[derive(Serialize)]
+struct SpaceSummary {
+    /// `tangent` or `object`.
+    to: &'static str,
+    /// Texels that the charts of the model cover.
+    charted_texels: u64,
+    /// Texels that several triangles cover.
+    overlapping_texels: u64,
+    /// Texels without a tangent frame or a direction.
+    invalid_texels: u64,
 }
 
 impl FileCommand for ConvertArguments {
@@ -53,6 +70,9 @@ impl FileCommand for ConvertArguments {
     const IMAGES: bool = true;
 
     fn suffix(&self) -> &str {
+        if let Some(space) = self.space {
+            return space_name(space);
+        }
         // Only the name of a preset becomes part of a file name.
         if self.to.convention.names().any(|name| name == self.to.name) { &self.to.name } else { "converted" }
     }
@@ -71,13 +91,22 @@ impl FileCommand for ConvertArguments {
                 "{} is a folder, and not every image in it is a normal map; name the files instead",
                 folder.display()
             ))),
+            None if self.space.is_some() && self.to_layout.is_some() => Err(UsageError(
+                "--to-layout cannot be used with --space; move channels in a second run".to_owned(),
+            )),
+            None if self.space.is_some() && self.layout.to_string().len() < 3 => Err(UsageError(
+                "--space needs maps that store x, y and z; name three channels with --layout".to_owned(),
+            )),
+            None if self.space.is_some() && !cfg!(feature = "bake") => {
+                Err(UsageError("--space is not in this build; install it with --features full".to_owned()))
+            }
             None => Ok(()),
         }
     }
 
     fn options(&self) -> String {
-        let Self { from, to, layout, to_layout, raw, .. } = self;
-        format!("{:?}", (&from.name, &to.name, layout, to_layout, raw))
+        let Self { from, to, layout, to_layout, raw, space, model, uv_set, .. } = self;
+        format!("{:?}", (&from.name, &to.name, layout, to_layout, raw, space, model, uv_set))
     }
 
     fn process(
@@ -94,6 +123,9 @@ impl FileCommand for ConvertArguments {
                     return self
                         .image(PngImage::from_bytes(&name, bytes, &options).map_err(sentence)?, &job.output);
                 }
+                if self.space.is_some() {
+                    return Err(format!("{name}: --space converts normal maps; save it as a PNG first"));
+                }
                 self.model(
                     Document::from_bytes(&name, bytes, None, &options).map_err(sentence)?,
                     job,
@@ -105,6 +137,9 @@ impl FileCommand for ConvertArguments {
             }
             Input::File(path) if FileKind::of(path).is_some_and(|kind| !kind.is_model()) => {
                 Err(format!("{}: only PNG images can be converted; save it as a PNG first", path.display()))
+            }
+            Input::File(path) if self.space.is_some() => {
+                Err(format!("{}: --space converts normal maps; save it as a PNG first", path.display()))
             }
             Input::File(_) => self.model(load_any(&job.input, &self.files.reading)?, job, progress),
         }
@@ -130,8 +165,14 @@ impl ConvertArguments {
         let sentence = |error: darboux_io::Error| error.to_string();
         let conversion = self.from.convention.to(self.to.convention);
         let target = self.to_layout.unwrap_or(self.layout);
-        let warnings = self.warning(&image).into_iter().collect();
-        convert_normal_map(&mut image, &conversion, self.layout, target).map_err(sentence)?;
+        let mut warnings: Vec<String> = Vec::new();
+        let mut space = None;
+        if let Some(to) = self.space {
+            space = Some(self.convert_space(&mut image, to, &mut warnings)?);
+        } else {
+            warnings.extend(self.warning(&image));
+            convert_normal_map(&mut image, &conversion, self.layout, target).map_err(sentence)?;
+        }
         let (status, files_written) = save_image(&image, output, &self.files)?;
         let [width, height] = image.size();
         let summary = ImageSummary {
@@ -139,15 +180,27 @@ impl ConvertArguments {
             height,
             bits: image.bits(),
             channels: image.channels(),
-            red_inverted: conversion.inverts_red(),
-            green_inverted: conversion.inverts_green(),
+            red_inverted: space.is_none() && conversion.inverts_red(),
+            green_inverted: space.is_none() && conversion.inverts_green(),
             moved: target != self.layout,
+            space,
         };
         Ok(ProcessedFile {
             status,
             files_written,
             summary: ConvertSummary { image: Some(summary), warnings, ..Default::default() },
         })
+    }
+
+    /// Converts the vectors of an image to a space, with the frames of `--model`. Errors are one sentence each.
+    #[cfg(not(feature = "bake"))]
+    fn convert_space(
+        &self,
+        _image: &mut PngImage,
+        _to: SpaceChoice,
+        _warnings: &mut Vec<String>,
+    ) -> Result<SpaceSummary, String> {
+        Err("--space is not in this build".to_owned())
     }
 
     /// Warns about an image that does not look like a normal map.
@@ -198,8 +251,20 @@ fn starts_as_png(path: &Path) -> bool {
     File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && PngImage::is_png(&first)
 }
 
+fn space_name(space: SpaceChoice) -> &'static str {
+    match space {
+        SpaceChoice::Tangent => "tangent",
+        SpaceChoice::Object => "object",
+    }
+}
+
 fn describe_image(image: &ImageSummary) -> String {
     let ImageSummary { width, height, bits, channels, .. } = image;
+    if let Some(SpaceSummary { to, charted_texels, .. }) = image.space {
+        return format!(
+            "{width} x {height}, {bits} bits, {channels}: {to} space, {charted_texels} texels in charts"
+        );
+    }
     let done = [
         (image.red_inverted, "red inverted"),
         (image.green_inverted, "green inverted"),

@@ -22,8 +22,9 @@ content. A normal map holds those normals in the tangent frames that renderers w
 frames are those in the file of the low model; if it has no tangents, run darboux tangents on it before it is used.
 
 All models are placed as their scenes have them; skinned meshes have the pose in which they are stored. Texels that several triangles cover \
-belong to the first one. Texels outside the UV charts are filled from the nearest chart, so that no background shows at a distance. The maps are \
-the same for every number of threads.";
+belong to the first one. Texels outside the UV charts are filled from the nearest chart, so that no background shows at a distance. If the rays \
+of more than 1 % of the texels hit nothing, a picture beside the map shows where, as in crate.misses.png: red, or orange where rays met \
+triangles from behind. The maps are the same for every number of threads, and made on the processor.";
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -33,6 +34,8 @@ Examples:
   darboux bake low.glb --high high.glb -o n.png --distance 0.05,0.02
   darboux bake low.glb --high high.glb -o n.png --match name          crate_low from crate_high
   darboux bake low.glb --high high.glb -o n.png --convention unreal   green down
+  darboux bake low.glb --high high.glb -o n.png --write-model baked.glb --verify
+  darboux bake model.glb --high model.glb -o n.png --uv-set 1         from one UV layout to another
   darboux bake low.glb --high high.glb -o height.png --map height --json";
 
 /// What is baked, and how.
@@ -43,7 +46,7 @@ pub struct BakeArguments {
     #[arg(value_name = "LOW")]
     pub low: PathBuf,
 
-    /// The high models, which have the detail
+    /// The high models, which have the detail (.gltf, .glb, .vrm, .obj); the normal maps of their materials count
     #[arg(long, value_name = "HIGH", required = true, num_args = 1..)]
     pub high: Vec<PathBuf>,
 
@@ -115,7 +118,11 @@ pub struct BakeArguments {
     #[arg(long, help_heading = "Rays")]
     pub back_faces: bool,
 
-    /// How tangents are computed; by default those of the low model's file are used, and mikktspace if it has none
+    /// Bake the geometry of the high models without the normal maps of their materials
+    #[arg(long, help_heading = "Maps")]
+    pub no_high_maps: bool,
+
+    /// How tangents are computed; by default those of the low model's file are used, and mikktspace if it has none for the UV set
     #[arg(long, value_enum, value_name = "NAME", help_heading = "Frames")]
     pub method: Option<MethodName>,
 
@@ -127,17 +134,35 @@ pub struct BakeArguments {
     #[arg(long, value_name = "N", help_heading = "Frames")]
     pub uv_set: Option<usize>,
 
+    /// Bake only the primitives with this material, materials[N] of the low model's file; by default all share the map
+    #[arg(long, value_name = "N", help_heading = "Frames")]
+    pub material: Option<usize>,
+
     /// Generate missing normals of the low model first: flat, smooth or crease=DEG; keep generates none
     ///
     /// Its renderer must use the same normals: `darboux normals` writes them.
     #[arg(long, value_name = "SHADING", default_value = "keep", value_parser = normals_choice, help_heading = "Frames")]
     pub normals: NormalsChoice,
 
+    /// Write the low model with the normal map in its materials and the tangents in its vertices
+    #[arg(long, value_name = "GLB", help_heading = "Results")]
+    pub write_model: Option<PathBuf>,
+
+    /// Shade the low model with the map that was written, as a renderer does, and print how far its normals are from those of the high models
+    ///
+    /// One random point per texel is compared, in degrees: of all points, by cause, and what renderers with other frames would show.
+    #[arg(long, help_heading = "Results")]
+    pub verify: bool,
+
+    /// Draw these errors over the UV layout, on a scale from 0.01 to 180 degrees
+    #[arg(long, value_name = "PNG", requires = "verify", help_heading = "Results")]
+    pub heat_map: Option<PathBuf>,
+
     /// How many threads work; by default one per processor core
     #[arg(long, value_name = "NUMBER", value_parser = jobs)]
     pub jobs: Option<NonZero<u16>>,
 
-    /// Replace maps that exist
+    /// Replace files that exist
     #[arg(long)]
     pub force: bool,
 

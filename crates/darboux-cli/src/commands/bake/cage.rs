@@ -1,6 +1,6 @@
 //! Where rays begin: at a distance along the normals, on a cage that is made here, or on one that is a file.
 
-use darboux_bake::{BakeError, LowSurface, inflated_cage};
+use darboux_bake::{BakeError, HighModelOptions, LowSurface, inflated_cage};
 use darboux_io::gltf::Document;
 use serde::Serialize;
 
@@ -90,7 +90,12 @@ impl Cages {
 fn of_document(document: &Document, low: &[LowSurface<'_>]) -> Result<Vec<Vec<[f32; 3]>>, String> {
     let sentence = |error: darboux_io::Error| error.to_string();
     let corners = document.corners().map_err(sentence)?;
-    let cage = darboux_bake::HighModel::read(document, &corners).map_err(sentence)?;
+    let cage = darboux_bake::HighModel::read(
+        document,
+        &corners,
+        &HighModelOptions::default().with_normal_maps(false),
+    )
+    .map_err(sentence)?;
     let surfaces = cage.surfaces().map_err(sentence)?;
     if surfaces.len() != low.len() {
         return Err(format!(

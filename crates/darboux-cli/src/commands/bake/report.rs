@@ -5,6 +5,7 @@ pub mod advice;
 use serde::Serialize;
 
 use super::cage::Rays;
+use super::verified::Verified;
 use super::write::WrittenMap;
 use crate::text::{counted, nonzero_counts};
 
@@ -19,7 +20,12 @@ pub struct BakeReport {
     pub samples: u32,
     pub rays: Rays,
     pub maps: Vec<WrittenMap>,
+    /// The model that was written.
+    pub model: Option<String>,
+    /// The picture of texels without a hit.
+    pub misses: Option<String>,
     pub counts: darboux_bake::BakeReport,
+    pub verification: Option<Verified>,
     pub warnings: Vec<String>,
 }
 
@@ -52,5 +58,8 @@ pub fn summary(report: &BakeReport) -> Vec<String> {
             (as_count(counts.below_horizon_texels), "normal below the surface", "normals below the surface"),
         ])
     );
-    report.maps.iter().map(map).chain([of_run]).collect()
+    let model =
+        report.model.iter().map(|path| format!("{path}: the low model with this map and its tangents"));
+    let verified = report.verification.iter().flat_map(Verified::lines);
+    report.maps.iter().map(map).chain(model).chain([of_run]).chain(verified).collect()
 }

@@ -4,18 +4,20 @@ use std::path::Path;
 
 use darboux::Context;
 use darboux_bake::{
-    BakeOptions, BakeProgress, Baked, HighModel, HighSurface, LowModel, LowModelOptions, LowSurface, MapSet,
-    bake,
+    BakeOptions, BakeProgress, Baked, HighModel, HighModelOptions, HighSurface, LowModel, LowModelOptions,
+    LowSurface, MapSet, bake,
 };
-use darboux_io::gltf::{AddNormalsOptions, Document, add_normals};
+use darboux_io::gltf::Document;
 
 use super::arguments::{BakeArguments, MatchChoice};
 use super::cage::{Cages, Rays};
 use super::matching::group_by_name;
+use super::model::write_model;
+use super::open::{open_high, open_low};
+use super::pictures;
 use super::report::{BakeReport, advice, summary};
-use super::write::{outputs, refuse_outputs, write_maps};
-use crate::documents::load;
-use crate::inputs::Input;
+use super::verified::Verified;
+use super::write::{all_outputs, refuse_outputs, write_maps};
 use crate::json::{VERSION, print_report};
 use crate::terminal::Messages;
 use crate::{exit, interrupt};
@@ -57,23 +59,25 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
     let low_document = open_low(arguments, &mut warnings)?;
     let mut high_documents = Vec::new();
     for path in &arguments.high {
-        let mut document = load(&Input::File(path.clone()), &arguments.reading)?;
-        document.decompress().map_err(sentence)?;
-        warnings.extend(document.warnings().iter().cloned());
-        high_documents.push(document);
+        high_documents.push(open_high(path, arguments, &mut warnings)?);
     }
     refuse_used(arguments, high_documents.iter().chain([&low_document]))?;
 
     let low_corners = low_document.corners().map_err(sentence)?;
     let low = LowModel::read(&low_document, &low_corners, &low_options(arguments)).map_err(sentence)?;
+    let high_options = HighModelOptions::default().with_normal_maps(!arguments.no_high_maps);
     let high_corners: Vec<_> =
         high_documents.iter().map(Document::corners).collect::<Result<_, _>>().map_err(sentence)?;
     let highs: Vec<HighModel<'_>> = high_documents
         .iter()
         .zip(&high_corners)
-        .map(|(document, corners)| HighModel::read(document, corners))
+        .map(|(document, corners)| HighModel::read(document, corners, &high_options))
         .collect::<Result<_, _>>()
         .map_err(sentence)?;
+    if let Some(material) = arguments.material.filter(|_| low.materials.is_empty()) {
+        let name = low_document.name();
+        return Err(format!("{name}: no triangles have materials[{material}]; `darboux inspect` lists them"));
+    }
     warnings.extend(advice::of_models(&low, low_document.name(), &highs));
 
     let rays = Rays::choose(arguments, low.diagonal());
@@ -89,8 +93,16 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
     }
     let options = options(arguments, &rays);
     let baked = bake_surfaces(arguments, messages, &surfaces, &high_surfaces, &options)?;
-    let maps = write_maps(arguments, &baked.images, &options)?;
-    warnings.extend(advice::of_report(&baked.report, arguments));
+    let written = write_maps(arguments, &baked.images, &options)?;
+    let misses = pictures::misses(arguments, &baked, &mut warnings)?;
+    let model = write_model(arguments, &low, written.normal.as_ref(), &mut warnings)?;
+    let verification = match &written.normal {
+        Some(normal) if arguments.verify => {
+            Some(Verified::new(arguments, (&surfaces, &high_surfaces), &baked.images, normal, &options)?)
+        }
+        _ => None,
+    };
+    warnings.extend(advice::of_report(&baked.report, arguments, misses.as_deref()));
     Ok(BakeReport {
         command: "bake",
         version: VERSION,
@@ -99,28 +111,21 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
         size: arguments.size,
         samples: arguments.samples.0 * arguments.samples.0,
         rays,
-        maps,
+        maps: written.maps,
+        model,
+        misses,
         counts: baked.report,
+        verification,
         warnings,
     })
 }
 
-/// The low model, with generated normals where that was asked for.
-fn open_low(arguments: &BakeArguments, warnings: &mut Vec<String>) -> Result<Document, String> {
-    let sentence = |error: darboux_io::Error| error.to_string();
-    let mut document = load(&Input::File(arguments.low.clone()), &arguments.reading)?;
-    document.decompress().map_err(sentence)?;
-    warnings.extend(document.warnings().iter().cloned());
-    if let Some(options) = arguments.normals.options() {
-        let options = AddNormalsOptions::default().with_normals(options);
-        warnings.extend(add_normals(&mut document, &options, &mut |_| {}).map_err(sentence)?.warnings);
-    }
-    Ok(document)
-}
-
 fn low_options(arguments: &BakeArguments) -> LowModelOptions {
     let tangents = arguments.method.map(|method| darboux::Method::from(method).into());
-    LowModelOptions::default().with_uv_set(arguments.uv_set).with_tangents(tangents)
+    LowModelOptions::default()
+        .with_uv_set(arguments.uv_set)
+        .with_tangents(tangents)
+        .with_material(arguments.material)
 }
 
 /// Refuses to write a map over a file that the models use.
@@ -128,9 +133,9 @@ fn refuse_used<'a>(
     arguments: &BakeArguments,
     documents: impl Iterator<Item = &'a Document>,
 ) -> Result<(), String> {
-    let outputs = outputs(arguments);
+    let outputs = all_outputs(arguments);
     for document in documents {
-        if let Some(output) = outputs.iter().map(|(_, path)| path).find(|path| document.uses_file(path)) {
+        if let Some(output) = outputs.iter().find(|path| document.uses_file(path)) {
             return Err(format!("{}: is used by {}; choose another name", output.display(), document.name()));
         }
     }

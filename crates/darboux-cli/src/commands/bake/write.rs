@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use darboux::{Channel, TexelLayout};
+use darboux::{Channel, Convention, TexelLayout};
 use darboux_bake::{BakeOptions, Images};
 use darboux_io::SaveOptions;
 use darboux_io::image::{PngImage, Sample};
@@ -20,6 +20,14 @@ pub struct WrittenMap {
     pub bits: u8,
     /// The values that black and white mean, one pair per channel; none where the map is a direction.
     pub range: Vec<[f32; 2]>,
+}
+
+/// The maps that were written.
+#[derive(Debug, Default)]
+pub struct WrittenMaps {
+    pub maps: Vec<WrittenMap>,
+    /// The normal map, if it was chosen.
+    pub normal: Option<PngImage>,
 }
 
 /// The chosen maps, each once, with their files.
@@ -44,7 +52,8 @@ pub fn refuse_outputs(arguments: &BakeArguments) -> Result<(), String> {
         let shown = arguments.output.display();
         return Err(format!("{shown}: the map is a PNG; its name must end in .png"));
     }
-    for (_, path) in outputs(arguments) {
+    refuse_other_results(arguments)?;
+    for path in all_outputs(arguments) {
         if path.is_dir() {
             return Err(format!("{} is a folder; choose a file in it", path.display()));
         }
@@ -58,13 +67,61 @@ pub fn refuse_outputs(arguments: &BakeArguments) -> Result<(), String> {
     Ok(())
 }
 
+/// Refuses a model and a heat map that cannot be what was asked for.
+fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
+    let BakeArguments { map, write_model, heat_map, verify, .. } = arguments;
+    let needs_normals = [(write_model.is_some(), "--write-model"), (*verify, "--verify")];
+    if let Some((_, option)) = needs_normals.iter().find(|(is_set, _)| *is_set)
+        && !map.contains(&MapChoice::Normal)
+    {
+        return Err(format!("{option} needs a normal map; add normal to --map"));
+    }
+    if let Some(model) = write_model {
+        refuse_missing_folder(model)?;
+        if !model.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("glb")) {
+            return Err(format!("{}: the model is a GLB; its name must end in .glb", model.display()));
+        }
+        let conversion = arguments.map_convention().to(Convention::GLTF);
+        if conversion.inverts_red() || conversion.inverts_green() {
+            return Err(
+                "--write-model needs a map in glTF's convention; leave --convention out, or convert the map afterwards"
+                    .to_owned(),
+            );
+        }
+    }
+    if let Some(picture) = heat_map {
+        refuse_missing_folder(picture)?;
+        if !is_png(picture) {
+            return Err(format!("{}: the heat map is a PNG; its name must end in .png", picture.display()));
+        }
+    }
+    let all = all_outputs(arguments);
+    match (1..all.len()).find(|&i| all[..i].contains(&all[i])) {
+        Some(twice) => Err(format!("{}: is named twice; choose another name", all[twice].display())),
+        None => Ok(()),
+    }
+}
+
+/// Every file that the arguments name for writing.
+pub fn all_outputs(arguments: &BakeArguments) -> Vec<PathBuf> {
+    let maps = outputs(arguments).into_iter().map(|(_, path)| path);
+    maps.chain(arguments.write_model.clone()).chain(arguments.heat_map.clone()).collect()
+}
+
+/// Writes an image and returns its path. Errors are one sentence each.
+pub fn save(image: &PngImage, path: &Path, force: bool) -> Result<String, String> {
+    let _guard = interrupt::writing();
+    let saved = image.save(path, &SaveOptions::default().with_force(force));
+    Ok(saved.map_err(|error| error.to_string())?.display().to_string())
+}
+
 /// Writes all maps. Errors are one sentence each.
 pub fn write_maps(
     arguments: &BakeArguments,
     images: &Images,
     options: &BakeOptions,
-) -> Result<Vec<WrittenMap>, String> {
-    let mut written = Vec::new();
+) -> Result<WrittenMaps, String> {
+    let mut written = WrittenMaps::default();
     for (map, path) in outputs(arguments) {
         let bits = arguments.bits.unwrap_or_else(|| map.default_bits());
         let range = range(map, images, options);
@@ -72,10 +129,11 @@ pub fn write_maps(
             8 => encode::<u8>(map, images, &range, &path)?,
             _ => encode::<u16>(map, images, &range, &path)?,
         };
-        let _guard = interrupt::writing();
-        let saved = image.save(&path, &SaveOptions::default().with_force(arguments.force));
-        let file = saved.map_err(|error| error.to_string())?.display().to_string();
-        written.push(WrittenMap { map: map.name(), file, bits, range });
+        let file = save(&image, &path, arguments.force)?;
+        written.maps.push(WrittenMap { map: map.name(), file, bits, range });
+        if map == MapChoice::Normal {
+            written.normal = Some(image);
+        }
     }
     Ok(written)
 }

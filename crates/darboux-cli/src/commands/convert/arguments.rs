@@ -1,6 +1,8 @@
 //! The arguments of `darboux convert`.
 
-use clap::Args;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
 use darboux_io::image::Channels;
 
 use crate::options::convention::{ConventionParser, NamedConvention};
@@ -14,6 +16,9 @@ Normal maps (PNG, 8 or 16 bits): red and green are inverted where the convention
 original texels. --layout and --to-layout move the vector to other channels (DXT5nm uses ag, two-channel maps use rg); a channel that holds no \
 part of the vector keeps its values unless a component moves into it. Metadata chunks are kept, except for palettes, colour profiles and others that \
 do not fit the new channels. A warning names images that do not look like normal maps.
+
+--space converts object-space maps to tangent space, for any renderer's convention, and back. Texels outside the UV charts of --model are filled from \
+the nearest one. It is in builds with the feature bake or full.
 
 Models: positions, normals, tangents, UVs, morph targets and the winding of triangles are converted; if the axes differ, nodes, skins and \
 animations too. A glTF file must be in glTF's convention, so this repairs files whose writer copied the numbers of another convention (--to gltf). \
@@ -31,6 +36,8 @@ Examples:
   darboux convert *_n.png --from unreal --to gltf --in-place  many normal maps
   darboux convert n.png --from gltf --to gltf --layout ag --to-layout rgb
                                                               unpacks two channels and computes z
+  darboux convert object_n.png --space tangent --model low.glb --from gltf --to unreal
+                                                              an object-space map for Unreal Engine
   darboux convert exported.glb --from unity --to gltf         repairs a file with Unity's numbers
   darboux convert model.glb --from gltf --to unreal --raw     for a loader that expects Unreal's numbers";
 
@@ -59,10 +66,31 @@ pub struct ConvertArguments {
     #[arg(long, value_name = "LETTERS", help_heading = "Conversion")]
     pub to_layout: Option<Channels>,
 
+    /// Convert normal maps to this space from the other one, with the frames of --model
+    #[arg(long, value_enum, value_name = "SPACE", requires = "model", help_heading = "Conversion")]
+    pub space: Option<SpaceChoice>,
+
+    /// The model that has the map (.gltf, .glb, .vrm), with the tangents of its file, or MikkTSpace's
+    #[arg(long, value_name = "LOW", requires = "space", help_heading = "Conversion")]
+    pub model: Option<PathBuf>,
+
+    /// The UV set n of TEXCOORD_n of the model; by default that of the material's normal map
+    #[arg(long, value_name = "N", requires = "space", help_heading = "Conversion")]
+    pub uv_set: Option<usize>,
+
     /// Allow models in other conventions than glTF's, for programs that use the numbers as they are
     #[arg(long, help_heading = "Conversion")]
     pub raw: bool,
 
     #[command(flatten)]
     pub messages: MessageOptions,
+}
+
+/// `--space`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SpaceChoice {
+    /// Tangent space, from an object-space map
+    Tangent,
+    /// Object space, from a tangent-space map: the space of the model's scene
+    Object,
 }

@@ -29,18 +29,30 @@ pub fn of_models(low: &LowModel<'_>, low_name: &str, high: &[HighModel<'_>]) -> 
         let subject = counted(flat, "primitive of the high models has", "primitives of the high models have");
         format!("{subject} no normals, so every triangle is flat, as glTF requires; darboux normals --smooth makes smooth ones")
     });
-    of_low.chain(of_high).collect()
+    let materials = low.materials.len();
+    let of_materials = (materials > 1).then(|| {
+        format!(
+            "{low_name}: {materials} materials share this map, which is right only where their charts lie beside each other; for materials with maps of their own use --material"
+        )
+    });
+    let of_maps = high.iter().flat_map(HighModel::warnings).cloned();
+    of_low.chain(of_materials).chain(of_high).chain(of_maps).collect()
+}
+
+/// Whether so many texels have no hit that something must be wrong.
+pub fn has_many_misses(report: &BakeReport) -> bool {
+    report.missed_texels as f64 > NOTABLE * report.charted_texels as f64
 }
 
 /// Warnings about the result.
-pub fn of_report(report: &BakeReport, arguments: &BakeArguments) -> Vec<String> {
+pub fn of_report(report: &BakeReport, arguments: &BakeArguments, misses: Option<&str>) -> Vec<String> {
     let share = |count: u64| count as f64 / report.charted_texels.max(1) as f64;
     let percent = |count: u64| format!("{:.1} %", 100.0 * share(count));
     let mut warnings = Vec::new();
     if report.charted_texels == 0 {
         warnings.push("no triangle of the low model covers a texel; check its UVs".to_owned());
     }
-    if share(report.missed_texels) > NOTABLE {
+    if has_many_misses(report) {
         let missed = percent(report.missed_texels);
         let why = match () {
             () if 2 * report.back_facing_texels > report.missed_texels => {
@@ -51,7 +63,8 @@ pub fn of_report(report: &BakeReport, arguments: &BakeArguments) -> Vec<String> 
             }
             () => "choose a larger --cage-offset, and check that the models lie on each other",
         };
-        warnings.push(format!("the rays of {missed} of the texels hit nothing: {why}"));
+        let place = misses.map(|path| format!("; {path} shows where")).unwrap_or_default();
+        warnings.push(format!("the rays of {missed} of the texels hit nothing: {why}{place}"));
     }
     if share(report.inverted_texels) > NOTABLE {
         warnings.push(format!(

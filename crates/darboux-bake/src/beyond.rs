@@ -1,0 +1,69 @@
+//! Samples beyond charts: stages 3 to 5 for texels that filters mix with those of a chart.
+
+use crate::band::{Bake, Scratch};
+use crate::bvh::Sides;
+use crate::coverage::TEXELS;
+use crate::face::Face;
+use crate::layout::BLOCK;
+use crate::rays::ray_of;
+use crate::samples::STEPS;
+use crate::skirt::Skirt;
+use crate::texel::Sample;
+
+/// The least z of a normal beyond a chart. Where the surface turns away further than 60 degrees, the chart does not continue.
+const LEAST_Z: f64 = 0.5;
+
+impl Bake<'_> {
+    /// Follows the rays of a block's samples that no triangle covers, on the nearest triangle, continued. What does not continue the chart is
+    /// left to padding.
+    ///
+    /// `skirt`: of the block; it is made when the first sample needs it.
+    pub fn sample_beyond(
+        &self,
+        block: [usize; 2],
+        sample: [i64; 2],
+        skirt: &mut Option<Skirt>,
+        scratch: &mut Scratch,
+    ) {
+        let first = block.map(|at| at * BLOCK);
+        let is_in_image = |texel: &usize| {
+            let at = [first[0] + texel % BLOCK, first[1] + texel / BLOCK];
+            at[0] < self.layout.size[0] && at[1] < self.layout.size[1]
+        };
+        if self.options.padding == Some(0) {
+            return;
+        }
+        let mut last: Option<Face> = None;
+        for texel in (0..TEXELS).filter(is_in_image) {
+            if scratch.coverage.owners[texel].is_some() {
+                continue;
+            }
+            let skirt = skirt.get_or_insert_with(|| Skirt::of_block(self.layout, self.low, block));
+            let Some(placed) = skirt.nearest(texel) else { continue };
+            if last.as_ref().is_none_or(|face| face.placed != placed) {
+                last = Some(Face::new(self.layout, self.low, placed));
+            }
+            let Some(face) = &last else { continue };
+            let at = [first[0] + texel % BLOCK, first[1] + texel / BLOCK];
+            if let Some(found) = self.beyond(face, at, sample, scratch) {
+                scratch.sums[texel].add(&found);
+            }
+        }
+    }
+
+    /// What the ray of a sample finds, if it continues the chart.
+    fn beyond(&self, face: &Face, at: [usize; 2], sample: [i64; 2], scratch: &mut Scratch) -> Option<Sample> {
+        let place = [0, 1].map(|i| at[i] as f64 + sample[i] as f64 / STEPS as f64);
+        let point = face.continued_point(place)?;
+        let ray = ray_of(&point, self.options.distance)?;
+        let group = &self.groups[face.group];
+        let sides = if self.options.back_faces { Sides::Both } else { Sides::Front };
+        scratch.rays += 1;
+        let hit = group.bvh.nearest(&ray.ray, sides, &mut scratch.stack)?;
+        let texel = (at[1] * self.layout.size[0] + at[0]) as i64;
+        let seed = ((texel * STEPS + sample[1]) * STEPS + sample[0]) as u64;
+        let found = self.found(group, &point, &ray, &hit, seed, &mut scratch.stack)?;
+        let continues = found.normal.is_some_and(|normal| normal[2] > LEAST_Z);
+        continues.then_some(Sample { is_extended: true, ..found })
+    }
+}

@@ -1,0 +1,123 @@
+//! Normal maps of high models: images, UVs and tangents.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use darboux::{Convention, TangentOptions};
+use darboux_io::Error;
+use darboux_io::gltf::{Appearance, Document, PrimitiveCorners, TextureUse};
+use darboux_io::image::{Channels, DecodeLimits, PngImage, RgbaImage, normal_vectors};
+
+use super::placed::{PlacedPrimitive, vertices};
+use super::stored::StoredPrimitive;
+use crate::NormalTexture;
+
+/// A normal map on a primitive at its place.
+#[derive(Debug)]
+pub struct MapOnPart<'a> {
+    /// The index in [`Textures`].
+    pub texture: usize,
+    /// Where the texture is read, one per vertex.
+    pub uvs: Cow<'a, [[f32; 2]]>,
+    /// One per corner, as generated ones.
+    pub tangents: Vec<[f32; 4]>,
+}
+
+/// The normal maps of a document's materials, decoded.
+#[derive(Debug, Default)]
+pub struct Textures {
+    list: Vec<NormalTexture>,
+    /// By the index of the material; none where the map cannot be used.
+    of_material: HashMap<usize, Option<(usize, Appearance)>>,
+    pub warnings: Vec<String>,
+}
+
+impl Textures {
+    /// The texture.
+    pub fn get(&self, index: usize) -> &NormalTexture {
+        &self.list[index]
+    }
+
+    /// The material of a primitive, if it has a normal map that can be used. Errors: a broken document.
+    pub fn of_primitive(
+        &mut self,
+        document: &Document,
+        corners: &PrimitiveCorners<'_>,
+    ) -> Result<Option<usize>, Error> {
+        let Some(material) = corners.material() else { return Ok(None) };
+        if !self.of_material.contains_key(&material) {
+            let read = self.read(document, material)?;
+            self.of_material.insert(material, read);
+        }
+        Ok(self.of_material[&material].as_ref().map(|_| material))
+    }
+
+    fn read(&mut self, document: &Document, material: usize) -> Result<Option<(usize, Appearance)>, Error> {
+        let Some(appearance) = document.appearances()?.into_iter().nth(material) else { return Ok(None) };
+        let Some(used) = &appearance.normal_texture else { return Ok(None) };
+        let texture = decode(document, used).and_then(|(size, texels)| {
+            NormalTexture::new(size, texels, Convention::GLTF, Convention::GLTF)
+                .map_err(|error| error.to_string())
+        });
+        match texture {
+            Ok(texture) => {
+                let texture = texture.with_wrap(used.wrap).with_scale(appearance.normal_scale);
+                self.list.push(texture);
+                Ok(Some((self.list.len() - 1, appearance)))
+            }
+            Err(why) => {
+                let name = document.name();
+                self.warnings
+                    .push(format!("{name}: the normal map of materials[{material}] is not used: {why}"));
+                Ok(None)
+            }
+        }
+    }
+
+    /// The map on a primitive, with the tangents that a renderer uses: the file's, or else MikkTSpace's. None: the primitive lacks normals or
+    /// the map's UVs. Errors: invalid data.
+    pub fn on_part<'a>(
+        &mut self,
+        document: &'a Document,
+        corners: &'a PrimitiveCorners<'a>,
+        material: usize,
+        primitive: &PlacedPrimitive<'a>,
+    ) -> Result<Option<MapOnPart<'a>>, Error> {
+        let Some((texture, appearance)) = &self.of_material[&material] else { return Ok(None) };
+        let Some(used) = &appearance.normal_texture else { return Ok(None) };
+        let (name, set) = (corners.name(), used.uv_set);
+        let uvs = vertices(document, name, &format!("TEXCOORD_{set}"))?;
+        let Some(mut uvs) = uvs.filter(|_| primitive.normals.is_some()) else {
+            self.warnings.push(format!(
+                "{}: {}: the normal map is not used, because the primitive has no {}",
+                document.name(),
+                name.path(),
+                if primitive.normals.is_some() { format!("TEXCOORD_{set}") } else { "normals".to_owned() }
+            ));
+            return Ok(None);
+        };
+        let computed = TangentOptions::default();
+        let has_own = vertices::<4>(document, name, "TANGENT")?.is_some();
+        let stored = StoredPrimitive { document, corners, uvs: &uvs };
+        let tangents = stored.tangents((!has_own).then_some(&computed), primitive.transform.as_ref())?;
+        uvs.to_mut().iter_mut().for_each(|uv| *uv = used.transform_uv(*uv));
+        Ok(Some(MapOnPart { texture: *texture, uvs, tangents }))
+    }
+}
+
+/// The size and the vectors of a normal map: 8 or 16 bits of a PNG, 8 bits of other formats. The error is a clause.
+fn decode(document: &Document, used: &TextureUse) -> Result<([u32; 2], Vec<[f32; 3]>), String> {
+    let image = used.image.ok_or("its texture has no image; export it again with one")?;
+    let bytes = document.image_bytes(image).map_err(|error| error.to_string())?;
+    let name = format!("{}: images[{image}]", document.name());
+    if PngImage::is_png(&bytes) && PngImage::obstacle(&bytes).is_none() {
+        let image = PngImage::from_bytes(&name, bytes.into_owned(), document.load_options());
+        let image = image.map_err(|error| error.to_string())?;
+        let vectors = normal_vectors(&image, Channels::RGB).map_err(|error| error.to_string())?;
+        return Ok((image.size(), vectors));
+    }
+    let limits = DecodeLimits::default().with_max_texels(document.memory_limit_of(bytes.len()) / 4);
+    let image = RgbaImage::decode(&bytes, &limits).map_err(|error| format!("the image {error}"))?;
+    let vector = |[r, g, b, _]: &[u8; 4]| darboux::TexelLayout::RGB.vector([*r, *g, *b]);
+    Ok(([image.width, image.height], image.texels.iter().map(vector).collect()))
+}

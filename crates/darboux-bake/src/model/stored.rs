@@ -1,0 +1,66 @@
+//! Tangents of a document's primitives, as the file has them or computed.
+
+use darboux::{Convention, Indices, Mesh, TangentOptions, Transform, generate_tangents};
+use darboux_io::Error;
+use darboux_io::gltf::{Document, PrimitiveCorners};
+
+use super::placed::{reverse, vertices};
+
+/// A primitive as the file has it, before it is placed.
+pub struct StoredPrimitive<'a> {
+    pub document: &'a Document,
+    pub corners: &'a PrimitiveCorners<'a>,
+    pub uvs: &'a [[f32; 2]],
+}
+
+impl StoredPrimitive<'_> {
+    /// The tangents at a place of the primitive: the file's, or computed ones with options.
+    pub fn tangents(
+        &self,
+        options: Option<&TangentOptions>,
+        transform: Option<&Transform>,
+    ) -> Result<Vec<[f32; 4]>, Error> {
+        let mut tangents = match options {
+            None => self.own_tangents()?,
+            Some(options) => self.computed_tangents(options)?,
+        };
+        if let Some(transform) = transform {
+            let normals = vertices(self.document, self.corners.name(), "NORMAL")?.unwrap_or_default();
+            move_tangents(&mut tangents, self.corners, &normals, transform);
+        }
+        Ok(tangents)
+    }
+
+    /// The file's tangents, converted to those that [`generate_tangents`] would return.
+    fn own_tangents(&self) -> Result<Vec<[f32; 4]>, Error> {
+        let conversion = Convention::GLTF.to(Convention::GLTF.generated());
+        let tangents = self.corners.vectors::<4>("TANGENT")?.unwrap_or_default();
+        Ok(tangents.into_iter().map(|tangent| conversion.tangent(tangent)).collect())
+    }
+
+    fn computed_tangents(&self, options: &TangentOptions) -> Result<Vec<[f32; 4]>, Error> {
+        let (document, name) = (self.document, self.corners.name());
+        let positions = vertices::<3>(document, name, "POSITION")?.unwrap_or_default();
+        let normals = vertices::<3>(document, name, "NORMAL")?.unwrap_or_default();
+        let mesh = Mesh::triangles(&*positions, &*normals, self.uvs, Indices::U32(self.corners.vertices()));
+        let mesh =
+            mesh.map_err(|source| Error::Mesh { file: document.name().to_owned(), at: name.path(), source })?;
+        Ok(generate_tangents(&mesh, options).corners.into_per_corner())
+    }
+}
+
+/// Moves tangents to the place of their primitive. `normals`: of the vertices, as the file has them.
+fn move_tangents(
+    tangents: &mut [[f32; 4]],
+    corners: &PrimitiveCorners<'_>,
+    normals: &[[f32; 3]],
+    transform: &Transform,
+) {
+    for (tangent, &vertex) in tangents.iter_mut().zip(corners.vertices()) {
+        let normal = normals.get(vertex as usize).copied().unwrap_or_default();
+        (_, *tangent) = transform.frame(normal, *tangent);
+    }
+    if transform.orientation() < 0.0 {
+        reverse(tangents);
+    }
+}

@@ -1,0 +1,65 @@
+//! [`verify`]: shades the low surfaces with a map that was written, as a renderer does, and measures the angle to the high surfaces.
+//!
+//! ```text
+//! points      one per texel and triangle that covers it, at a random place
+//! truth       the normal where the point's ray hits the high surfaces
+//! shown       the map, filtered, in the frame at the point
+//! statistics  the angles between both: of all points, by place, and for renderers with other frames
+//! ```
+
+mod errors;
+mod places;
+mod points;
+mod summary;
+
+use darboux::Context;
+use darboux::internal::jobs;
+
+use crate::bake::{check_memory, check_options, check_surfaces, group_surfaces};
+use crate::layout::Layout;
+use crate::{BakeError, BakeOptions, HighSurface, Images, LowSurface, NormalTexture, memory};
+use points::{BandPoints, Points};
+use summary::summarize;
+
+pub use errors::ErrorStatistics;
+pub use places::{Mistake, VerifiedPlace};
+pub use summary::Verification;
+
+/// Compares what a renderer shows with the high surfaces, at one random point per texel and triangle (fewer where the map has more than 2048
+/// rows or columns).
+///
+/// `low`: as the renderer has them; `baked`: the images of [`bake`](crate::bake()) with these options; `written`: the normal map as it is in its
+/// file, in the options' conventions. The truth at a point is the normal where its ray hits, also between texels, so that the error of resolution and
+/// filter is part of the result. Errors: as of [`bake`](crate::bake()); images without a normal map or of another size.
+pub fn verify(
+    low: &[LowSurface<'_>],
+    high: &[HighSurface<'_>],
+    baked: &Images,
+    written: &NormalTexture,
+    options: &BakeOptions,
+    context: &mut Context,
+) -> Result<Verification, BakeError> {
+    check_options(options)?;
+    check_surfaces(low, high)?;
+    let unrounded =
+        baked.normal.clone().filter(|_| baked.size == options.size && written.size() == options.size);
+    let unrounded = unrounded.ok_or(BakeError::NoMaps)?;
+    let limit = check_memory(memory::needed(high, options), options.memory_limit)?;
+    let layout = Layout::new(low, options.size, options.surface_convention, limit)?;
+    let unrounded =
+        NormalTexture::new(options.size, unrounded, options.map_convention, options.surface_convention)?;
+    let groups = group_surfaces(low, high, context)?;
+    let points = Points {
+        low,
+        groups: &groups,
+        layout: &layout,
+        options,
+        states: &baked.states,
+        written,
+        unrounded: &unrounded,
+    };
+    let mut bands: Vec<(usize, BandPoints)> =
+        (0..points.band_count()).map(|row| (row, BandPoints::default())).collect();
+    jobs::for_each(context, &mut bands, |(row, band)| *band = points.band(*row))?;
+    Ok(summarize(bands.into_iter().map(|(_, band)| band).collect(), points.heat_size()))
+}

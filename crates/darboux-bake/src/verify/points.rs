@@ -1,0 +1,181 @@
+//! The points of a verification and their errors.
+
+use super::places::{Mistake, VerifiedPlace};
+use crate::bvh::{Sides, Stack};
+use crate::coverage::{Coverage, TEXELS, visit_covered};
+use crate::face::Face;
+use crate::frame::ShadingFrame;
+use crate::high::HighGroup;
+use crate::images::TexelState;
+use crate::layout::{BLOCK, Layout, Placed};
+use crate::normal_texture::filter_texels;
+use crate::occlusion::turn_of;
+use crate::point::SurfacePoint;
+use crate::rays::ray_of;
+use crate::samples::STEPS;
+use crate::vector::{Place, Vector, cross, dot, length};
+use crate::{BakeOptions, Bitangent, LowSurface, NormalTexture};
+
+/// The largest side of the picture of errors; of larger maps one texel in each cell is compared.
+const MAX_HEAT_SIDE: usize = 2048;
+
+/// What all bands share.
+pub struct Points<'a> {
+    pub low: &'a [LowSurface<'a>],
+    pub groups: &'a [HighGroup<'a>],
+    pub layout: &'a Layout,
+    pub options: &'a BakeOptions,
+    pub states: &'a [TexelState],
+    pub written: &'a NormalTexture,
+    pub unrounded: &'a NormalTexture,
+}
+
+/// The errors at a point, in degrees.
+#[derive(Clone, Copy, Debug)]
+pub struct PointErrors {
+    pub place: VerifiedPlace,
+    /// The cell in the picture of errors.
+    pub cell: u32,
+    pub shown: f32,
+    pub rounding: f32,
+    /// In the order of [`Mistake::ALL`].
+    pub mistakes: [f32; Mistake::ALL.len()],
+}
+
+/// The points of a row of blocks.
+#[derive(Debug, Default)]
+pub struct BandPoints {
+    pub points: Vec<PointErrors>,
+    pub without_hit: u64,
+    pub without_frame: u64,
+}
+
+impl Points<'_> {
+    /// The number of rows of blocks.
+    pub fn band_count(&self) -> usize {
+        self.layout.size[1].div_ceil(BLOCK)
+    }
+
+    /// Texels per side of a cell.
+    fn cell_side(&self) -> usize {
+        self.layout.size[0].max(self.layout.size[1]).div_ceil(MAX_HEAT_SIDE)
+    }
+
+    /// The cells per row, and their rows.
+    pub fn heat_size(&self) -> [u32; 2] {
+        self.layout.size.map(|side| side.div_ceil(self.cell_side()) as u32)
+    }
+
+    /// Compares the points of a row of blocks.
+    pub fn band(&self, row: usize) -> BandPoints {
+        let mut band = BandPoints::default();
+        let mut stack = Stack::new();
+        let mut coverage = Coverage::new();
+        for column in 0..self.layout.blocks_per_row() {
+            let random = |i: u64| turn_of(3 * (row * self.layout.blocks_per_row() + column) as u64 + i);
+            let sample = [0, 1].map(|i| (random(i) * STEPS as f64) as i64);
+            let side = self.cell_side();
+            let of_cell = (random(2) * (side * side) as f64) as usize;
+            coverage.clear();
+            for placed in self.layout.block(column, row) {
+                let low = &self.low[placed.surface as usize];
+                coverage.add(*placed, self.layout.steps_in_block(low, placed, [column, row]), sample);
+            }
+            for placed in self.layout.block(column, row) {
+                let low = &self.low[placed.surface as usize];
+                let mut face = None;
+                visit_covered(self.layout.steps_in_block(low, placed, [column, row]), sample, |texel| {
+                    let [x, y] = [column * BLOCK + texel % BLOCK, row * BLOCK + texel / BLOCK];
+                    let is_chosen = y % side * side + x % side == of_cell;
+                    if !is_chosen || x >= self.layout.size[0] || y >= self.layout.size[1] {
+                        return;
+                    }
+                    let face = face.get_or_insert_with(|| Face::new(self.layout, self.low, *placed));
+                    let place = [0, 1].map(|i| [x, y][i] as f64 + sample[i] as f64 / STEPS as f64);
+                    let owner = coverage.owners[texel.min(TEXELS - 1)];
+                    self.compare(face, place, owner, &mut stack, &mut band);
+                });
+            }
+        }
+        band
+    }
+
+    fn compare(
+        &self,
+        face: &Face,
+        place: Place,
+        owner: Option<Placed>,
+        stack: &mut Stack,
+        band: &mut BandPoints,
+    ) {
+        let point = face.point(place);
+        let Some(truth) = self.truth(face, &point, stack) else {
+            band.without_hit += 1;
+            return;
+        };
+        let bitangent = self.options.bitangent;
+        let frame = ShadingFrame::new(&point, bitangent);
+        let texel = self.written.at_place(place);
+        let (shown, unrounded) = (frame.shade(texel), frame.shade(self.unrounded.at_place(place)));
+        let (Some(shown), Some(unrounded), Some(_)) = (shown, unrounded, frame.to_tangent_space(truth))
+        else {
+            band.without_frame += 1;
+            return;
+        };
+        let error = |shown: Option<Vector>| shown.map_or(180.0, |shown| degrees(shown, truth));
+        band.points.push(PointErrors {
+            place: self.kind(place, owner == Some(face.placed)),
+            cell: self.cell(place),
+            shown: degrees(shown, truth),
+            rounding: degrees(shown, unrounded),
+            mistakes: Mistake::ALL.map(|mistake| error(shown_with(mistake, &point, bitangent, texel))),
+        });
+    }
+
+    /// The normal of the high surfaces at a point.
+    fn truth(&self, face: &Face, point: &SurfacePoint, stack: &mut Stack) -> Option<Vector> {
+        let ray = ray_of(point, self.options.distance)?;
+        let group = &self.groups[face.group];
+        let sides = if self.options.back_faces { Sides::Both } else { Sides::Front };
+        let hit = group.bvh.nearest(&ray.ray, sides, stack)?;
+        Some(group.point(&hit)?.normal)
+    }
+
+    fn kind(&self, place: Place, is_owner: bool) -> VerifiedPlace {
+        let states = filter_texels(place, self.layout.size).map(|texel| self.states[texel]);
+        match () {
+            () if !is_owner => VerifiedPlace::Overlap,
+            () if states.iter().any(|state| state.is_missed()) => VerifiedPlace::Missed,
+            () if states.iter().any(|&state| state != TexelState::Baked) => VerifiedPlace::Border,
+            () => VerifiedPlace::Inside,
+        }
+    }
+
+    fn cell(&self, place: Place) -> u32 {
+        let [x, y] = place.map(|x| x as usize / self.cell_side());
+        (y * self.heat_size()[0] as usize + x) as u32
+    }
+}
+
+/// What a renderer with a mistake shows.
+fn shown_with(
+    mistake: Mistake,
+    point: &SurfacePoint,
+    bitangent: Bitangent,
+    [x, y, z]: Vector,
+) -> Option<Vector> {
+    let other = match bitangent {
+        Bitangent::PerPixel => Bitangent::PerVertex,
+        Bitangent::PerVertex => Bitangent::PerPixel,
+    };
+    match mistake {
+        Mistake::OtherBitangent => ShadingFrame::new(point, other).shade([x, y, z]),
+        Mistake::OtherGreen => ShadingFrame::new(point, bitangent).shade([x, -y, z]),
+        Mistake::NormalisedFrame => ShadingFrame::normalised(point)?.shade([x, y, z]),
+    }
+}
+
+/// The angle between two unit vectors in degrees, exact also for small angles.
+fn degrees(a: Vector, b: Vector) -> f32 {
+    length(cross(a, b)).atan2(dot(a, b)).to_degrees() as f32
+}

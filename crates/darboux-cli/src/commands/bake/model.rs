@@ -1,0 +1,45 @@
+//! `--write-model`: the low model with the map in its materials and the tangents in its vertices.
+
+use darboux_bake::LowModel;
+use darboux_io::SaveOptions;
+use darboux_io::gltf::{AddTangentsOptions, add_tangents};
+use darboux_io::image::PngImage;
+
+use super::arguments::BakeArguments;
+use super::open::open_low;
+use crate::interrupt;
+
+/// Writes the model and returns its path; none if it was not asked for. Errors are one sentence each.
+///
+/// The model is read again, because the bake still borrows the first one.
+pub fn write_model(
+    arguments: &BakeArguments,
+    low: &LowModel<'_>,
+    map: Option<&PngImage>,
+    warnings: &mut Vec<String>,
+) -> Result<Option<String>, String> {
+    let (Some(path), Some(map)) = (&arguments.write_model, map) else { return Ok(None) };
+    let sentence = |error: darboux_io::Error| error.to_string();
+    let has_both = low.with_own_tangents > 0 && low.with_unused_tangents > 0;
+    if has_both {
+        return Err(format!(
+            "{}: some primitives were baked with their own tangents and others with computed ones; add --method, which computes all",
+            arguments.low.display()
+        ));
+    }
+    let mut document = open_low(arguments, &mut Vec::new())?;
+    let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let primitives: Vec<_> = low.primitives().map(|(name, uv_set)| (name.clone(), uv_set)).collect();
+    document.set_normal_map(map.to_bytes().map_err(sentence)?, &name, &primitives).map_err(sentence)?;
+    let options = AddTangentsOptions::default().with_overwrite(low.with_unused_tangents > 0);
+    let options = match arguments.method {
+        Some(method) => options.with_tangents(darboux::Method::from(method).into()),
+        None => options,
+    };
+    let tangents = add_tangents(&mut document, &options, &mut |_| {}).map_err(sentence)?;
+    warnings.extend(tangents.warnings);
+    let _guard = interrupt::writing();
+    let written =
+        document.save(path, &SaveOptions::default().with_force(arguments.force)).map_err(sentence)?;
+    Ok(written.last().map(|path| path.display().to_string()))
+}

@@ -1,0 +1,59 @@
+//! Pictures over the UV layout: where rays missed, and how large errors are.
+
+use darboux_bake::{Baked, TexelState, Verification};
+use darboux_io::image::PngImage;
+
+use super::arguments::BakeArguments;
+use super::report::advice;
+use super::write::save;
+use crate::heat_scale::{ramp, row, scale_position};
+
+const OUTSIDE: [u8; 3] = [16, 16, 16];
+const HIT: [u8; 3] = [96, 96, 96];
+const MISSED: [u8; 3] = [230, 40, 40];
+const MISSED_BEHIND: [u8; 3] = [255, 160, 0];
+
+/// The rows of the gap and of the scale below a heat map.
+const GAP: usize = 8;
+const SCALE: usize = 24;
+
+/// Draws the texels without a hit, if they are many, beside the map. Returns the path; none without a picture. Errors are one sentence each.
+pub fn misses(
+    arguments: &BakeArguments,
+    baked: &Baked,
+    warnings: &mut Vec<String>,
+) -> Result<Option<String>, String> {
+    if !advice::has_many_misses(&baked.report) {
+        return Ok(None);
+    }
+    let path = arguments.output.with_extension("misses.png");
+    if path.exists() && !arguments.force {
+        let shown = path.display();
+        warnings.push(format!("{shown}: exists and does not show this run; use --force to replace it"));
+        return Ok(None);
+    }
+    let color = |state: &TexelState| match state {
+        TexelState::Missed => MISSED,
+        TexelState::MissedBehind => MISSED_BEHIND,
+        TexelState::Baked => HIT,
+        _ => OUTSIDE,
+    };
+    let texels: Vec<[u8; 3]> = baked.images.states.iter().map(color).collect();
+    let image = PngImage::from_rgb(&path.display().to_string(), baked.images.size, &texels);
+    save(&image.map_err(|error| error.to_string())?, &path, true).map(Some)
+}
+
+/// The errors of a verification with the scale below them.
+pub fn heat_map(name: &str, verification: &Verification) -> Result<PngImage, String> {
+    let [width, height] = verification.heat_size;
+    let color = |error: &f32| match error.is_nan() {
+        true => OUTSIDE,
+        false => ramp(scale_position(f64::from(*error))),
+    };
+    let mut texels: Vec<[u8; 3]> = verification.heat.iter().map(color).collect();
+    texels.resize(width as usize * (height as usize + GAP), [0; 3]);
+    let scale = row(width as usize);
+    (0..SCALE).for_each(|_| texels.extend_from_slice(&scale));
+    let size = [width, height + (GAP + SCALE) as u32];
+    PngImage::from_rgb(name, size, &texels).map_err(|error| error.to_string())
+}

@@ -1,0 +1,99 @@
+//! `--verify`: the error of the map that was written, in degrees.
+
+use darboux::{Context, Convention};
+use darboux_bake::{
+    BakeOptions, ErrorStatistics, HighSurface, Images, LowSurface, Mistake, NormalTexture, Verification,
+    VerifiedPlace, verify,
+};
+use darboux_io::image::{Channels, PngImage, normal_vectors};
+use serde::Serialize;
+
+use super::arguments::BakeArguments;
+use super::pictures;
+use super::write::save;
+
+/// The part of the report about errors. json.md documents its fields.
+#[derive(Debug, Serialize)]
+pub struct Verified {
+    #[serde(flatten)]
+    errors: Verification,
+    heat_map: Option<String>,
+}
+
+impl Verified {
+    /// Verifies a map and draws its errors. Errors are one sentence each.
+    pub fn new(
+        arguments: &BakeArguments,
+        (low, high): (&[LowSurface<'_>], &[HighSurface<'_>]),
+        baked: &Images,
+        map: &PngImage,
+        options: &BakeOptions,
+    ) -> Result<Self, String> {
+        let texels = normal_vectors(map, Channels::RGB).map_err(|error| error.to_string())?;
+        let written = NormalTexture::new(map.size(), texels, options.map_convention, Convention::GLTF)
+            .map_err(|error| error.to_string())?;
+        let mut context = Context::new();
+        if let Some(jobs) = arguments.jobs {
+            context.set_max_threads(usize::from(jobs.get()));
+        }
+        let errors =
+            verify(low, high, baked, &written, options, &mut context).map_err(|error| error.to_string())?;
+        let draw = |path: &std::path::PathBuf| {
+            let picture = pictures::heat_map(&path.display().to_string(), &errors)?;
+            save(&picture, path, arguments.force)
+        };
+        let heat_map = arguments.heat_map.as_ref().map(draw).transpose()?;
+        Ok(Self { errors, heat_map })
+    }
+
+    /// The statistics as a table.
+    pub fn lines(&self) -> Vec<String> {
+        let Verification {
+            all, rounding, places, mistakes, points_without_hit, points_without_frame, ..
+        } = &self.errors;
+        let mut lines =
+            vec![format!("{:44}{:>9}{:>9}{:>9}{:>9}", "error in degrees", "median", "mean", "95 %", "worst")];
+        lines.push(line("the written map", all));
+        lines.push(line("  by rounding to its bits", rounding));
+        let found = places.iter().filter(|(_, errors)| errors.points > 0);
+        lines.extend(found.map(|(place, errors)| line(name_of_place(*place), errors)));
+        lines.extend(mistakes.iter().map(|(mistake, errors)| line(name_of_mistake(*mistake), errors)));
+        for (count, what) in [
+            (points_without_hit, "points have no high surface to compare with"),
+            (points_without_frame, "points have no tangent frame"),
+        ] {
+            if *count > 0 {
+                lines.push(format!(
+                    "{count} of {} {what}",
+                    all.points + points_without_hit + points_without_frame
+                ));
+            }
+        }
+        lines.extend(self.heat_map.iter().map(|path| format!("{path}: these errors over the UV layout")));
+        lines
+    }
+}
+
+fn line(what: &str, errors: &ErrorStatistics) -> String {
+    let ErrorStatistics { median, mean, p95, worst, .. } = errors;
+    format!("{what:44}{median:>9.4}{mean:>9.4}{p95:>9.4}{worst:>9.4}")
+}
+
+fn name_of_place(place: VerifiedPlace) -> &'static str {
+    match place {
+        VerifiedPlace::Inside => "  inside charts",
+        VerifiedPlace::Border => "  at the borders of charts",
+        VerifiedPlace::Missed => "  beside texels without a hit",
+        VerifiedPlace::Overlap => "  where another triangle owns the texels",
+        _ => "  elsewhere",
+    }
+}
+
+fn name_of_mistake(mistake: Mistake) -> &'static str {
+    match mistake {
+        Mistake::OtherBitangent => "in a renderer with the other --bitangent",
+        Mistake::OtherGreen => "in a renderer with the other green",
+        Mistake::NormalisedFrame => "in a renderer that normalises N and T",
+        _ => "in another renderer",
+    }
+}
