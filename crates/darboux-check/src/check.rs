@@ -131,6 +131,10 @@ pub fn check_map_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptio
         model.surfaces.iter().for_each(|surface| votes.add(surface, None, image));
         votes
     });
+    for finding in checked.findings.iter_mut().filter(|finding| finding.code == Code::MapRedFlipped) {
+        let alone = "without the model it looks as inverted green; put it on the model and repair that";
+        finding.left_because.get_or_insert_with(|| alone.to_owned());
+    }
     if model.findings.iter().any(|finding| finding.code == Code::TangentSignFlipped) {
         for finding in checked.findings.iter_mut().filter(|finding| finding.code == Code::MapGreenFlipped) {
             finding.text += "; the signs w of the model are flipped, too, so that bumps look right until one of the two mistakes is repaired";
@@ -169,13 +173,16 @@ fn worst_severity(code: Code, surface: &Surface) -> Severity {
     if is_unread { Severity::Warning } else { Severity::Error }
 }
 
-/// What decides the findings about a primitive: its attributes, indices, mode and material.
-type SurfaceKey = (Vec<(String, usize)>, Option<usize>, u32, Option<usize>);
+/// The accessors of semantics.
+type Semantics = BTreeMap<String, usize>;
+
+/// What decides the findings about a primitive: its attributes, morph targets, indices, mode and material.
+type SurfaceKey = (Semantics, Vec<Semantics>, Option<usize>, u32, Option<usize>);
 
 fn surface_key(document: &Document, name: &PrimitiveName) -> SurfaceKey {
     let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
-    let attributes = primitive.attributes.iter().map(|(name, at)| (name.clone(), *at)).collect();
-    (attributes, primitive.indices, primitive.mode, primitive.material)
+    let (attributes, targets) = (primitive.attributes.clone(), primitive.targets.clone());
+    (attributes, targets, primitive.indices, primitive.mode, primitive.material)
 }
 
 /// The primitives about which a finding is: the one that it names, and all with the same data.
@@ -255,6 +262,20 @@ fn check_image(
             return Ok(MAP_RULES.iter().filter_map(|rule| rule(&map)).collect());
         }
     };
+    let checked = check_texels(document, appearances, image, &bytes, options)?;
+    let obstacle = document.normal_map_obstacle(image).map(|clause| format!("the image {clause}"));
+    Ok(checked.findings.into_iter().map(|finding| finding.with_obstacle(obstacle.clone())).collect())
+}
+
+/// Checks the file of an image in the place of an image of a document. `appearances`: of all materials. Errors: invalid data of the primitives that
+/// use it.
+pub fn check_texels(
+    document: &Document,
+    appearances: &[Appearance],
+    image: usize,
+    file: &[u8],
+    options: &CheckOptions,
+) -> Result<CheckedMap, Error> {
     let mut users = Vec::new();
     for (corners, _) in distinct(document, document.corners()?) {
         let appearance = corners.material().and_then(|material| appearances.get(material));
@@ -265,11 +286,9 @@ fn check_image(
             users.push((surface, texture));
         }
     }
-    let checked = check_map_with(&bytes, options, |image| {
+    Ok(check_map_with(file, options, |image| {
         let mut votes = FacetVotes::default();
         users.iter().for_each(|(surface, texture)| votes.add(surface, Some(texture), image));
         votes
-    });
-    let obstacle = document.normal_map_obstacle(image).map(|clause| format!("the image {clause}"));
-    Ok(checked.findings.into_iter().map(|finding| finding.with_obstacle(obstacle.clone())).collect())
+    }))
 }

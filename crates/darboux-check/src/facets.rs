@@ -47,8 +47,12 @@ pub struct FacetVotes {
 
 impl FacetVotes {
     /// Adds the votes of a surface on which the image is the normal map. `texture`: how its material uses the map; none for the UVs that
-    /// its tangents follow, repeated.
+    /// its tangents follow, repeated. A surface that is wound against its normals has no votes.
     pub fn add(&mut self, surface: &Surface, texture: Option<&TextureUse>, image: &RgbaImage) {
+        if surface.is_wound_against_normals() {
+            // Reversed normals lean the other way in both directions, as those of a map with red and green inverted.
+            return;
+        }
         let uv_set = texture.map_or(surface.uv_set, |texture| texture.uv_set);
         let (Some(normals), Some(uvs)) = (&surface.normals, surface.uv_sets.get(&uv_set)) else { return };
         let wrap = texture.map_or([Wrap::Repeat; 2], |texture| texture.wrap);

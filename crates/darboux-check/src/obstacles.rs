@@ -4,7 +4,7 @@ use darboux_io::image::PngImage;
 
 use crate::code::Code;
 use crate::finding::Finding;
-use crate::orientation::Reversal;
+use crate::orientation::{ONLY_A_PART, Reversal};
 use crate::rule::Measured;
 use crate::severity::Severity;
 use crate::surface::Surface;
@@ -19,10 +19,7 @@ pub fn of_surface(finding: &Finding, measured: &Measured<'_>) -> Option<String> 
         Code::NormalNotFinite | Code::NormalNotUnit if surface.moves_normals => {
             Some("morph targets move these normals".to_owned())
         }
-        Code::NormalAgainstWinding if finding.severity < Severity::Error => Some(
-            "only a part of the surface is reversed, and nothing says whether its faces or its normals are"
-                .to_owned(),
-        ),
+        Code::NormalAgainstWinding if finding.severity < Severity::Error => Some(ONLY_A_PART.to_owned()),
         Code::NormalAgainstWinding => match measured.reversal? {
             Reversal::Faces => None,
             Reversal::Normals | Reversal::NormalsByTangents => {
@@ -30,7 +27,17 @@ pub fn of_surface(finding: &Finding, measured: &Measured<'_>) -> Option<String> 
             }
             Reversal::Unknown(reason) => Some(reason.to_owned()),
         },
-        code if code.name().starts_with("tangent-") => no_tangents(surface),
+        code if code.name().starts_with("tangent-") => {
+            no_tangents(surface).or_else(|| undecided_side(measured.reversal?))
+        }
+        _ => None,
+    }
+}
+
+/// New tangents would side with the faces, and then seem to show that the normals are the ones that are reversed.
+fn undecided_side(reversal: Reversal) -> Option<String> {
+    match reversal {
+        Reversal::Unknown(reason) if reason != ONLY_A_PART => Some(reason.to_owned()),
         _ => None,
     }
 }

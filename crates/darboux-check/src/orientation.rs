@@ -22,6 +22,10 @@ pub enum Reversal {
     Unknown(&'static str),
 }
 
+/// Why nothing is decided on a surface of which only a part is reversed.
+pub const ONLY_A_PART: &str =
+    "only a part of the surface is reversed, and nothing says whether its faces or its normals are";
+
 /// The share of triangles, area or corners that decides.
 const NEARLY_ALL: f64 = 0.98;
 
@@ -29,9 +33,7 @@ impl Reversal {
     /// None where most faces agree with their normals.
     pub fn of(surface: &Surface) -> Option<Self> {
         surface.is_wound_against_normals().then(|| match () {
-            () if !is_uniform(surface) => Self::Unknown(
-                "only a part of the surface is reversed, and nothing says whether its faces or its normals are",
-            ),
+            () if !is_uniform(surface) => Self::Unknown(ONLY_A_PART),
             () => by_volume(surface).unwrap_or_else(|| by_tangents(surface)),
         })
     }

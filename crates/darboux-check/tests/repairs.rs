@@ -233,6 +233,56 @@ fn a_repair_that_makes_a_map_worse_is_not_kept() {
     assert!(!left.repaired && reason.contains("would end in map-channels-swapped"), "{reason}");
 }
 
+/// Later mistakes are compared with the faces, too, which tell inverted red from inverted green.
+#[test]
+fn a_chain_of_repairs_keeps_the_evidence_of_the_mesh() {
+    for healthy in support::baked::baked_models().into_iter().take(4) {
+        let spoil: [fn([u8; 3]) -> [u8; 3]; 2] = [|[r, g, _]| [255 - r, g, 0], |[r, g, _]| [g, 255 - r, 0]];
+        for spoil in spoil {
+            let map = healthy.map.with_texels(healthy.map.texels.iter().copied().map(spoil).collect());
+            let model = Model { map, ..healthy.clone() };
+            let mut document = model.document();
+            fixed(&mut document, &mut model.document(), &FixOptions::default());
+            let mut repaired = read(document.to_glb().expect("a GLB"));
+            let left = check_document(&mut repaired, &CheckOptions::default()).expect("a valid document");
+            let errors: Vec<_> = left.iter().filter(|found| found.severity == Severity::Error).collect();
+            assert!(errors.is_empty(), "{}: {errors:?}", healthy.name);
+            let texels = support::table::rgb(&image(&repaired));
+            let pairs = || texels.iter().zip(&healthy.map.texels);
+            let largest = pairs().flat_map(|(a, b)| [a[0].abs_diff(b[0]), a[1].abs_diff(b[1])]).max();
+            assert!(largest <= Some(2), "{}: {largest:?}", healthy.name);
+        }
+    }
+}
+
+/// Negated normals lean against all texels, and say nothing about the map.
+#[test]
+fn reversed_normals_leave_the_map_alone() {
+    for mut model in support::baked::baked_models().into_iter().take(4) {
+        let before = image(&model.document());
+        model.negate_normals();
+        let mut document = model.document();
+        let findings = fixed(&mut document, &mut model.document(), &FixOptions::default());
+        let about_maps: Vec<_> = findings
+            .iter()
+            .filter(|fixed| fixed.finding.severity == Severity::Error && fixed.finding.place.image.is_some())
+            .collect();
+        assert!(about_maps.is_empty(), "{}: {about_maps:?}", model.name);
+        assert!(image(&document) == before, "{}", model.name);
+    }
+}
+
+/// Flat parts of a relief may lean so that they have the colour of a flat texel that was encoded as sRGB.
+#[test]
+fn leaning_facets_are_not_encoded() {
+    let map = healthy_models().remove(0).map;
+    let facet = [188, 188, 255 - 37];
+    let texels = map.texels.iter().enumerate().map(|(i, &texel)| if i % 128 < 12 { facet } else { texel });
+    let file = map.with_texels(texels.collect()).file;
+    let found = check_map(&file, &CheckOptions::default()).findings;
+    assert!(found.iter().all(|finding| finding.code != Code::MapSrgb), "{found:?}");
+}
+
 /// An image that is also a colour, and one that cannot be rewritten, are left, with the reason.
 #[test]
 fn maps_that_must_not_change_are_left() {
@@ -332,6 +382,11 @@ fn reversed_faces_of_open_surfaces_are_left() {
         let left = left.expect("the finding");
         let reason = left.finding.left_because.as_deref().unwrap_or_default();
         assert!(!left.repaired && reason.contains("both its normals and the signs w"), "{reason}");
+        assert!(!document.is_changed());
+        // New tangents would side with the faces, and so decide what nothing decides.
+        model.tangents().iter_mut().for_each(|tangent| tangent[3] *= 0.5);
+        let mut document = model.document();
+        fixed(&mut document, &mut model.document(), &FixOptions::default());
         assert!(!document.is_changed());
     }
 }

@@ -12,7 +12,7 @@ use darboux_io::{Error, LoadOptions};
 
 use super::options::FixOptions;
 use super::outcome::{FixedFinding, is_same, outcome};
-use crate::check::{CheckedMap, check_map};
+use crate::check::{CheckedMap, check_map, check_texels};
 use crate::code::Code;
 use crate::finding::{Finding, Place};
 use crate::severity::Severity;
@@ -36,19 +36,23 @@ pub fn fix_map(
     loading: &LoadOptions,
     options: &FixOptions,
 ) -> Result<FixedMap, Error> {
-    fix_checked(name, file, check_map(file, &options.check), loading, options)
+    let check = |file: &[u8]| Ok(check_map(file, &options.check));
+    fix_checked(name, file, check_map(file, &options.check), &check, loading, options)
 }
+
+/// Checks an image file again after a repair, with all that was known before, so that one repair does not mislead the next.
+type Check<'a> = dyn Fn(&[u8]) -> Result<CheckedMap, Error> + 'a;
 
 /// Repairs an image file whose findings are known: meshes may have helped to find them.
 fn fix_checked(
     name: &str,
     file: &[u8],
     mut checked: CheckedMap,
+    check: &Check<'_>,
     loading: &LoadOptions,
     options: &FixOptions,
 ) -> Result<FixedMap, Error> {
     let known = checked.findings.clone();
-    // Red is inverted before anything is checked again: without the mesh, inverted red looks as inverted green.
     if known.iter().any(|finding| finding.code == Code::MapRedFlipped && !options.repairs(finding)) {
         return Ok(all_left(known, "its red is inverted, and only that is certain while it is left"));
     }
@@ -66,7 +70,7 @@ fn fix_checked(
         };
         let mistake = checked.judgement.and_then(|judgement| judgement.srgb_mistake());
         repair(&mut changed, next.code, mistake, options)?;
-        checked = check_map(&changed.to_bytes()?, &options.check);
+        checked = check(&changed.to_bytes()?)?;
         image = Some(changed);
         for finding in &checked.findings {
             if !findings.iter().any(|known| is_same(known, finding)) {
@@ -172,6 +176,7 @@ pub fn fix_images(
     let places: BTreeSet<(Option<usize>, Option<usize>)> =
         findings.iter().map(|finding| (finding.place.image, finding.place.material)).collect();
     let mut fixed = Vec::new();
+    let appearances = document.appearances()?;
     for (image, material) in places {
         let of_image = findings.iter().filter(|finding| finding.place.image == image);
         let has_work = of_image.clone().any(|finding| options.repairs(finding));
@@ -185,7 +190,8 @@ pub fn fix_images(
         let findings =
             of_image.clone().map(|finding| Finding { place: Place::default(), ..finding.clone() }).collect();
         let checked = CheckedMap { findings, ..check_map(&file, &options.check) };
-        let made = match fix_checked(&name, &file, checked, document.load_options(), options) {
+        let check = |file: &[u8]| check_texels(document, &appearances, index, file, &options.check);
+        let made = match fix_checked(&name, &file, checked, &check, document.load_options(), options) {
             Ok(made) => made,
             Err(error) => {
                 fixed.extend(of_image.map(|finding| left(finding, &error)));

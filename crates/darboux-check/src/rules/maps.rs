@@ -54,7 +54,8 @@ fn kind(map: &Map, judgement: &MapJudgement) -> Kind {
         // The commonest colour of a colour texture may be near that of a flat map that was encoded. Decoding it does not give normals.
         () if map.before_srgb.is_some_and(|before| !is_map(&before)) => Kind::Other,
         // The encoding turns a nearly flat map's blue into 255 everywhere, as in a map of two channels, and flat texels tell them apart.
-        () if judgement.srgb_mistake().is_some() => Kind::Srgb,
+        // A part that leans may have the colour of an encoded flat one, but undoing an encoding that never was makes vectors of other lengths than 1.
+        () if map.before_srgb.is_some_and(|before| before.not_unit < judgement.not_unit) => Kind::Srgb,
         () if judgement.is_two_channel() => Kind::TwoChannel,
         () if judgement.is_object_space() => Kind::ObjectSpace,
         () if is_no_map(judgement) => Kind::Other,
