@@ -4,6 +4,7 @@
 //! and the adapters to other packages. Doc comments of functions are their Python docstrings.
 
 mod arrays;
+mod bake;
 mod check;
 mod choices;
 mod command;
@@ -29,6 +30,8 @@ mod _darboux {
     use pyo3::prelude::*;
     use pyo3::types::PyTuple;
 
+    #[pymodule_export]
+    use crate::bake::bake;
     #[pymodule_export]
     use crate::check::{check, judge_normal_map, recognise_recipe};
     #[pymodule_export]

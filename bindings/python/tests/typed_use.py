@@ -21,3 +21,7 @@ files: List[Path] = darboux.save(document, "out.glb", force=True)
 found: List[darboux.Finding] = darboux.check("model.glb", maps=False)
 verdict: str = darboux.judge_normal_map(np.zeros((4, 4, 3), np.uint8)).verdict
 recipe: str = darboux.recognise_recipe(positions, positions, positions[:, :2], [0, 1, 2], tangents)[0].method
+maps: darboux.BakedMaps = darboux.bake(
+    positions, positions, positions[:, :2], [0, 1, 2], tangents, positions, size=(4, 4), distance=(1, 1), maps=["normal"]
+)
+missed: int = maps.report.missed_texels

@@ -31,7 +31,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux-mikktspace", &["darboux"]),
     ("darboux-js", &["darboux", "darboux-io", "darboux-check"]),
     ("darboux-viewer", &["darboux", "darboux-io"]),
-    ("darboux-python", &["darboux", "darboux-io", "darboux-check", "darboux-cli"]),
+    ("darboux-python", &["darboux", "darboux-io", "darboux-check", "darboux-bake", "darboux-cli"]),
     ("darboux-dice", &[]),
     ("darboux-tests", &["darboux", "darboux-io", "darboux-dice"]),
     ("darboux-shader-tests", &["darboux", "darboux-dice"]),

@@ -24,6 +24,7 @@ from ._darboux import (
     Document,
     Plan,
     __version__,
+    bake,
     check,
     convert,
     convert_texels,
@@ -44,6 +45,8 @@ from ._darboux import (
 )
 from ._process import process
 from ._results import (
+    BakedMaps,
+    BakeReport,
     Converted,
     Finding,
     FindingPlace,
@@ -61,6 +64,8 @@ from ._results import (
 
 __all__ = [
     "CONVENTIONS",
+    "BakeReport",
+    "BakedMaps",
     "Converted",
     "Document",
     "Finding",
@@ -77,6 +82,7 @@ __all__ = [
     "UvFidelity",
     "VertexSplit",
     "__version__",
+    "bake",
     "batch",
     "check",
     "convert",

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._results import (
+    BakedMaps,
     Converted,
     Finding,
     Frames,
@@ -37,6 +38,7 @@ __all__ = [
     "Document",
     "Plan",
     "__version__",
+    "bake",
     "check",
     "convert",
     "convert_texels",
@@ -292,6 +294,30 @@ def tangent_from_diamond(normals: npt.ArrayLike, codes: npt.NDArray[np.uint16]) 
 def frame_to_quaternion(normals: npt.ArrayLike, tangents: npt.ArrayLike) -> npt.NDArray[np.int16]: ...
 def frame_from_quaternion(codes: npt.NDArray[np.int16]) -> Tuple[_Floats, _Floats]: ...
 
+def bake(
+    positions: npt.ArrayLike,
+    normals: npt.ArrayLike,
+    uvs: npt.ArrayLike,
+    indices: Optional[npt.ArrayLike],
+    tangents: npt.ArrayLike,
+    high_positions: npt.ArrayLike,
+    high_indices: Optional[npt.ArrayLike] = None,
+    high_normals: Optional[npt.ArrayLike] = None,
+    *,
+    size: Tuple[int, int],
+    distance: Tuple[float, float],
+    cage: Union[npt.ArrayLike, float, None] = None,
+    maps: Sequence[Literal["normal", "object-normal", "height", "ao", "position"]] = ("normal",),
+    samples: int = 1,
+    source: str = "gltf",
+    target: str = "gltf",
+    bitangent: Literal["pixel", "vertex"] = "pixel",
+    padding: Optional[int] = None,
+    back_faces: bool = False,
+    ao_rays: int = 64,
+    ao_distance: float = ...,
+    threads: Optional[int] = None,
+) -> BakedMaps: ...
 def check(
     path: _Path,
     *,

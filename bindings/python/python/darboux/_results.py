@@ -240,3 +240,49 @@ class TransformedFrames(NamedTuple):
     """(V, 4): unit xyz, perpendicular to the normals, and the sign w."""
     orientation: float
     """-1 where the matrix mirrors, which also reverses the winding of faces; else 1."""
+
+
+class BakeReport(NamedTuple):
+    """The counts of a bake. A texel counts where at least one of its samples does."""
+
+    charted_texels: int
+    """Texels that triangles of the low mesh cover."""
+    missed_texels: int
+    """Of these, those without any hit. They are filled from around."""
+    back_facing_texels: int
+    """Of the missed texels, those whose rays met triangles from behind."""
+    overlapping_texels: int
+    """Texels that several triangles cover."""
+    inverted_texels: int
+    """Texels at which the high mesh's normal points to the back of its triangle."""
+    frameless_texels: int
+    """Texels without a tangent frame."""
+    below_horizon_texels: int
+    """Texels whose normal points below the low mesh."""
+    rays: int
+    """Rays of samples."""
+    degenerate_triangles: int
+    """Triangles of the low mesh without an area in the image."""
+    oversized_triangles: int
+    """Triangles of the low mesh across more than 16 tiles of UVs. They are not baked."""
+    non_finite_triangles: int
+    """Triangles of the high mesh with positions that are not finite. No ray hits them."""
+
+
+class BakedMaps(NamedTuple):
+    """The images of a bake, the top row first; None for what was not chosen. H: rows, W: texels per row."""
+
+    normal: Optional[Floats]
+    """(H, W, 3): unit normals in tangent space, from -1 to 1."""
+    object_normal: Optional[Floats]
+    """(H, W, 3): unit normals along the axes of the target's convention."""
+    height: Optional[Floats]
+    """(H, W): the distance from the low mesh along the ray, positive outside."""
+    ao: Optional[Floats]
+    """(H, W): from 0, closed, to 1, open."""
+    position: Optional[Floats]
+    """(H, W, 3): positions along the axes of the target's convention."""
+    states: npt.NDArray[np.uint8]
+    """(H, W): 0 outside the charts, 1 baked, 2 beside a chart and baked on its continuation, 3 missed, 4 missed, but hit from behind."""
+    report: BakeReport
+    """The counts."""
