@@ -148,7 +148,7 @@ pub const GROUPS: &[(&str, &[Row])] = &[
             "add normals": ["darboux_io::gltf::add_normals"]; []; []; ["Document.add_normals"]; []; ["darboux normals"],
             "describe": ["darboux_io::gltf::inspect"]; []; []; ["Document.inspect"]; []; ["darboux inspect"],
             "many files": []; []; []; ["batch", "process"]; []; ["darboux tangents"],
-            "bake": ["darboux_bake::bake"]; []; []; []; []; ["darboux bake"],
+            "bake": ["darboux_bake::bake"]; []; []; ["bake"]; []; ["darboux bake"],
             "errors of a baked map in degrees": ["darboux_bake::verify"]; []; []; []; []; ["darboux bake"],
             "object-space maps to tangent space, and back": ["darboux_bake::convert_space"]; []; []; []; [];
                 ["darboux convert"],
