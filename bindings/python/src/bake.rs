@@ -14,7 +14,7 @@ use crate::arrays::Rows;
 use crate::choices::choice;
 use crate::convention::convention;
 use crate::mesh::{IndexArray, MeshArrays};
-use crate::numbers::Threads;
+use crate::numbers::{Natural, Threads, natural};
 use crate::results::named;
 use crate::threads::run_interruptibly;
 
@@ -96,29 +96,29 @@ pub fn bake<'py>(
     high_positions: &Bound<'py, PyAny>,
     high_indices: Option<&Bound<'py, PyAny>>,
     high_normals: Option<&Bound<'py, PyAny>>,
-    size: (u32, u32),
+    size: (Natural, Natural),
     distance: (f32, f32),
     cage: Option<&Bound<'py, PyAny>>,
     maps: Vec<String>,
-    samples: u32,
+    #[pyo3(from_py_with = natural)] samples: u32,
     source: &str,
     target: &str,
     bitangent: &str,
-    padding: Option<u32>,
+    padding: Option<Natural>,
     back_faces: bool,
-    ao_rays: u32,
+    #[pyo3(from_py_with = natural)] ao_rays: u32,
     ao_distance: f32,
     threads: Option<Threads>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let kinds = maps.iter().map(|name| choice("maps", name, MAPS)).collect::<PyResult<Vec<_>>>()?;
     let conventions: [Convention; 2] = [convention("source", source)?, convention("target", target)?];
-    let options = BakeOptions::new(size.into(), distance.into())
+    let options = BakeOptions::new([size.0.0, size.1.0], distance.into())
         .with_maps(MapSet::of(&kinds))
         .with_samples_per_axis(samples)
         .with_surface_convention(conventions[0])
         .with_map_convention(conventions[1])
         .with_bitangent(choice("bitangent", bitangent, BITANGENTS)?)
-        .with_padding(padding)
+        .with_padding(padding.map(|Natural(texels)| texels))
         .with_back_faces(back_faces)
         .with_occlusion(ao_rays, ao_distance);
     let low = MeshArrays::new(positions, normals, uvs, indices, None)?;

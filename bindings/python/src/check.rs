@@ -16,6 +16,7 @@ use crate::arrays::{Rows, array_of, packed, shape_text};
 use crate::choices::{choice, method_name};
 use crate::document::{file_error, load_options};
 use crate::mesh::{MeshArrays, value_error};
+use crate::numbers::Natural;
 use crate::results::named;
 use crate::threads::cancellable;
 
@@ -52,7 +53,7 @@ pub fn check<'py>(
     convention: &str,
     maps: bool,
     allow_outside: bool,
-    memory_limit: Option<u32>,
+    memory_limit: Option<Natural>,
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let green = choice("convention", convention, CONVENTIONS)?;
     let options = CheckOptions::default().with_green(green).with_maps(maps);

@@ -16,7 +16,7 @@ use crate::arrays::rows_array;
 use crate::choices::{choice, tangent_options};
 use crate::convention::convention;
 use crate::normals::normal_options;
-use crate::numbers::{degrees, place};
+use crate::numbers::{Natural, degrees, place};
 use crate::threads::run_interruptibly;
 
 const ENCODINGS: &[(&str, TangentEncoding)] = &[
@@ -55,7 +55,7 @@ pub fn load(
     py: Python<'_>,
     path: PathBuf,
     allow_outside: bool,
-    memory_limit: Option<u32>,
+    memory_limit: Option<Natural>,
 ) -> PyResult<Document> {
     let options = load_options(memory_limit).with_allow_outside(allow_outside);
     let document = py.detach(|| gltf::Document::open(&path, &options));
@@ -85,7 +85,7 @@ pub fn loads(
     data: Vec<u8>,
     name: &str,
     base: Option<PathBuf>,
-    memory_limit: Option<u32>,
+    memory_limit: Option<Natural>,
 ) -> PyResult<Document> {
     let options = load_options(memory_limit);
     let document = py.detach(|| gltf::Document::from_bytes(name, data, base.as_deref(), &options));
@@ -93,8 +93,8 @@ pub fn loads(
 }
 
 /// The options of the reader, with the names of Python's parameters for messages.
-pub fn load_options(memory_limit: Option<u32>) -> LoadOptions {
-    let limit = memory_limit.map(|mebibytes| MemoryLimit::bytes(u64::from(mebibytes) << 20));
+pub fn load_options(memory_limit: Option<Natural>) -> LoadOptions {
+    let limit = memory_limit.map(|Natural(mebibytes)| MemoryLimit::bytes(u64::from(mebibytes) << 20));
     let names = OptionNames::default()
         .with_memory_limit("memory_limit=")
         .with_allow_outside("allow_outside=True")

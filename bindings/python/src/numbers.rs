@@ -37,6 +37,23 @@ impl<'py> FromPyObject<'_, 'py> for VertexCount {
     }
 }
 
+/// A number that is not negative.
+#[derive(Clone, Copy)]
+pub struct Natural(pub u32);
+
+impl<'py> FromPyObject<'_, 'py> for Natural {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        natural(&value).map(Self)
+    }
+}
+
+/// As [`Natural`], for arguments with a default.
+pub fn natural(value: &Bound<'_, PyAny>) -> PyResult<u32> {
+    whole("a number", value, 0, u32::MAX.into()).map(|number| number as u32)
+}
+
 /// An angle. Numbers beyond the range of floats become infinite, which later checks refuse.
 pub fn degrees(value: &Bound<'_, PyAny>) -> PyResult<f32> {
     match value.extract::<f64>() {

@@ -307,7 +307,7 @@ def bake(
     size: Tuple[int, int],
     distance: Tuple[float, float],
     cage: Union[npt.ArrayLike, float, None] = None,
-    maps: Sequence[Literal["normal", "object-normal", "height", "ao", "position"]] = ("normal",),
+    maps: Sequence[Literal["normal", "object-normal", "height", "ao", "position"]] = ...,
     samples: int = 1,
     source: str = "gltf",
     target: str = "gltf",
