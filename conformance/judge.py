@@ -349,7 +349,8 @@ def write_junit(path, verdicts, level):
             if verdict["skipped"] is not None:
                 body = f"<skipped message={quoteattr(printable(verdict['skipped']))}/>"
             elif not verdict["passed"]:
-                body = f"<failure message={quoteattr("One possible cause: " + verdict['failure'])}>{escape(summary(verdict['measures']))}</failure>"
+                cause = quoteattr(f"One possible cause: {verdict['failure']}")
+                body = f"<failure message={cause}>{escape(summary(verdict['measures']))}</failure>"
             seconds = verdict["measures"].seconds if verdict["skipped"] is None else 0.0
             cases.append(f'    <testcase classname={quoteattr(name)} name={quoteattr(verdict["name"])} time="{seconds:.6f}">{body}</testcase>')
         failures = sum(verdict.get("passed") is False for verdict in own)

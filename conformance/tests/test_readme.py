@@ -73,7 +73,7 @@ class Elsewhere(unittest.TestCase):
         self.adapter("adapter.py", code, sys.executable)
         code, out = self.verdict()
         self.assertEqual(code, 1)
-        self.assertIn("mirrored-pair (seams): The two halves share the tangents of the edge.", out)
+        self.assertIn("mirrored-pair (seams). One possible cause: The two halves share the tangents of the edge.", out)
         self.assertNotIn("square (core)", out)
         self.assertIn("1 skipped", out)
 
