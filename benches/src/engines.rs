@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 use darboux::internal::width_limit::{self, WidthLimit};
-use darboux::{Context, MikkTSpaceOptions, Mode, TangentOptions, generate_tangents, write_tangents};
+use darboux::{Context, MikkTSpaceOptions, Mode, TangentOptions, generate_tangents_with, write_tangents};
 use darboux_tests::{FaceSizes, OwnedMesh};
 
 use crate::callbacks::Callbacks;
@@ -90,16 +90,25 @@ fn ours() -> Vec<Engine> {
     vec![
         native("darboux", version, Method::MikkTSpace, |mesh| {
             let view = mesh.view();
-            per_corner(mesh, move |out| *out = generate_tangents(&view, &exact()).corners.into_per_corner())
+            per_corner(mesh, move |out| {
+                let tangents =
+                    generate_tangents_with(&view, &exact(), &mut Context::new().with_max_threads(1));
+                *out = tangents.expect("not cancelled").corners.into_per_corner();
+            })
         }),
-        native("darboux-kept", version, Method::MikkTSpace, |mesh| kept(mesh, Context::new())),
+        native("darboux-kept", version, Method::MikkTSpace, |mesh| {
+            kept(mesh, Context::new().with_max_threads(1))
+        }),
         native("darboux-kept-256", version, Method::MikkTSpace, |mesh| {
-            kept(mesh, width_limit::context(WidthLimit::Bits256))
+            kept(mesh, width_limit::context(WidthLimit::Bits256).with_max_threads(1))
         }),
         native("darboux-kept-128", version, Method::MikkTSpace, |mesh| {
-            kept(mesh, width_limit::context(WidthLimit::Compiled))
+            kept(mesh, width_limit::context(WidthLimit::Compiled).with_max_threads(1))
         }),
-        Engine { threads, ..native("darboux-threads", version, Method::MikkTSpace, kept_by_threads) },
+        Engine {
+            threads,
+            ..native("darboux-threads", version, Method::MikkTSpace, |mesh| kept(mesh, Context::new()))
+        },
     ]
 }
 
@@ -119,20 +128,6 @@ fn kept(mesh: &OwnedMesh, mut context: Context) -> Box<dyn Run + '_> {
     per_corner(mesh, move |out| {
         out.resize(view.corner_count(), [0.0; 4]);
         _ = write_tangents(&view, &exact(), &mut context, out).expect("one tangent per corner");
-    })
-}
-
-/// As [`kept`], on all threads of the machine.
-fn kept_by_threads(mesh: &OwnedMesh) -> Box<dyn Run + '_> {
-    let view = mesh.view();
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(available_threads()).build();
-    let pool = pool.expect("a thread pool starts");
-    let mut context = Context::new();
-    per_corner(mesh, move |out| {
-        out.resize(view.corner_count(), [0.0; 4]);
-        pool.install(|| {
-            _ = write_tangents(&view, &exact(), &mut context, out).expect("one tangent per corner")
-        });
     })
 }
 

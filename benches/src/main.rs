@@ -78,9 +78,10 @@ const DEEP_STACK: usize = 1 << 30;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    // Single-threaded engines run in this pool; the others create their own. 0 is the default: one per core.
-    let threads = usize::from(!arguments.threads);
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().expect("no pool has started before");
+    if arguments.check {
+        // Its functions take no context that limits threads.
+        rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("no pool has started before");
+    }
     let deep = std::thread::Builder::new().stack_size(DEEP_STACK);
     let thread = deep.spawn(move || run(&arguments)).expect("a thread starts");
     match thread.join().expect("no engine panics") {
