@@ -27,7 +27,7 @@ pub fn count(engines: &[Engine]) -> Result<Vec<Counts>, String> {
 
 /// The difference between three calls and one, so that creating the mesh and the set-up of the first call do not count.
 fn per_triangle(engine: &Engine, name: &str) -> Option<f64> {
-    let mesh = meshes::make(name, Size::Quick).filter(|mesh| engine.takes(&mesh.mesh))?;
+    let mesh = meshes::make(name, Size::QUICK).filter(|mesh| engine.takes(&mesh.mesh))?;
     eprintln!("counting {} on {name}", engine.name);
     let calls = |count| collected(engine.name, name, count);
     Some((calls(3)? - calls(1)?) / (2 * mesh.triangles()) as f64)

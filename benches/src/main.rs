@@ -96,7 +96,7 @@ fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Result<(), String> {
     if let Some(task) = arguments.baseline {
         let engines = rounds::select(&baseline::ENGINES.map(str::to_owned))?;
-        return baseline::run(task, &instructions::count(&engines)?);
+        return baseline::run(task, || instructions::count(&engines));
     }
     if arguments.check {
         return time_check(arguments);
@@ -141,7 +141,7 @@ fn time_check(arguments: &Arguments) -> Result<(), String> {
 
 /// The meshes with these names, or all if there are none. Errors: unknown names.
 fn select_meshes(arguments: &Arguments) -> Result<Vec<Named>, String> {
-    let size = if arguments.quick { Size::Quick } else { Size::Full };
+    let size = if arguments.quick { Size::QUICK } else { Size::FULL };
     let all = arguments.meshes.is_empty();
     let wanted = |name: &str| all || arguments.meshes.iter().any(|wanted| wanted == name);
     let mut found: Vec<Named> =

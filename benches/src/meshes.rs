@@ -8,11 +8,9 @@ use darboux_tests::{Dice, FaceSizes, OwnedMesh, families, models};
 
 /// The size of the generated meshes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Size {
-    /// A million triangles.
-    Full,
-    /// Fifty thousand: for quick runs and instruction counts.
-    Quick,
+pub struct Size {
+    /// About how many triangles the large meshes have.
+    pub triangles: usize,
 }
 
 /// A mesh and its name in the table.
@@ -57,35 +55,25 @@ const HELMET: &str = "FlightHelmet";
 const LARGE: usize = 50_000;
 
 impl Size {
-    /// A number of triangles.
+    /// The size of the benchmark.
+    pub const FULL: Self = Self { triangles: 1_000_000 };
+    /// For quick runs and instruction counts.
+    pub const QUICK: Self = Self { triangles: 50_000 };
+
+    /// A number of triangles, `full` in [`Size::FULL`].
     fn count(self, full: usize) -> usize {
-        if self == Size::Full { full } else { full / 20 }
+        full * self.triangles / Self::FULL.triangles
     }
 
-    /// A side of a rectangle of cells, whose area shrinks as [`Size::count`] does.
+    /// A side of a rectangle of cells, `full` in [`Size::FULL`], whose area shrinks as [`Size::count`] does.
     fn side(self, full: usize) -> usize {
-        if self == Size::Full { full } else { (full as f32 / 20f32.sqrt()) as usize }
+        (full as f64 * (self.triangles as f64 / Self::FULL.triangles as f64).sqrt()) as usize
     }
 }
 
 /// The names of the generated meshes.
 pub fn made() -> impl Iterator<Item = &'static str> {
     MAKERS.iter().map(|maker| maker.0)
-}
-
-/// The shapes of [`shape`].
-pub const SHAPES: [&str; 5] = ["grid", "quads", "sphere", "soup", "charts"];
-
-/// One of the [`SHAPES`] with about so many triangles.
-pub fn shape(name: &str, triangles: usize) -> OwnedMesh {
-    let side = ((triangles / 4) as f32).sqrt().ceil() as usize;
-    match name {
-        "quads" => quads(grid(2 * side, side)),
-        "sphere" => sphere(side, 2 * side),
-        "soup" => grid(2 * side, side).unindexed(),
-        "charts" => charts(triangles.div_ceil(50)),
-        _ => grid(2 * side, side),
-    }
 }
 
 /// The generated mesh with this name.
@@ -240,11 +228,11 @@ mod tests {
     #[test]
     fn sizes_are_as_named() {
         for name in ["grid", "quads", "sphere", "soup", "charts"] {
-            assert_eq!(triangles(name, Size::Full), 1_000_000, "{name}");
-            assert!((48_000..=50_000).contains(&triangles(name, Size::Quick)), "{name}");
+            assert_eq!(triangles(name, Size::FULL), 1_000_000, "{name}");
+            assert!((48_000..=50_000).contains(&triangles(name, Size::QUICK)), "{name}");
         }
-        assert_eq!(triangles("small", Size::Full), 5_000);
-        assert_eq!(triangles("lone-degenerates", Size::Full), 100_000);
+        assert_eq!(triangles("small", Size::FULL), 5_000);
+        assert_eq!(triangles("lone-degenerates", Size::FULL), 100_000);
     }
 
     #[test]

@@ -8,9 +8,12 @@ use cpu_time::ProcessTime;
 use darboux::{Context, MikkTSpaceOptions, Mode, TangentOptions, write_tangents};
 
 use crate::judging::spread;
-use crate::meshes::{SHAPES, shape};
+use crate::meshes::{self, Size};
 use crate::run::Tangent;
 use crate::table::{align_right, empty};
+
+/// The meshes that can have any size.
+const SHAPES: [&str; 5] = ["grid", "quads", "sphere", "soup", "charts"];
 
 /// The sizes of the meshes, in triangles.
 const SIZES: [usize; 12] =
@@ -40,16 +43,15 @@ pub fn measure(names: &[String], quick: bool) -> Result<Vec<Row>, String> {
     Ok(shapes.flat_map(|shape| SIZES.map(|size| of_shape(shape, size, rounds))).collect())
 }
 
-fn of_shape(shape_name: &'static str, size: usize, rounds: usize) -> Row {
-    let mesh = shape(shape_name, size);
+fn of_shape(shape: &'static str, triangles: usize, rounds: usize) -> Row {
+    let named = meshes::make(shape, Size { triangles }).expect("a mesh of this name");
+    let (mesh, triangles) = (&named.mesh, named.triangles());
     let view = mesh.view();
-    let triangles = mesh.corner_count() - 2 * mesh.face_sizes().len();
-    let triangles = if mesh.face_sizes().is_empty() { mesh.corner_count() / 3 } else { triangles };
     let options: TangentOptions = MikkTSpaceOptions::new().with_mode(Mode::Reference).into();
     let mut out: Vec<Tangent> = vec![[0.0; 4]; mesh.corner_count()];
     let calls = (TRIANGLES_PER_ROUND / triangles).max(1);
     let mut contexts = [Context::new().with_max_threads(1), Context::new()];
-    let mut row = Row { shape: shape_name, triangles, wall: Default::default(), cpu: Default::default() };
+    let mut row = Row { shape, triangles, wall: Default::default(), cpu: Default::default() };
     for round in 0..=rounds {
         for (at, context) in contexts.iter_mut().enumerate() {
             let (wall, cpu) = (Instant::now(), ProcessTime::now());

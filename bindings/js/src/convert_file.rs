@@ -24,7 +24,8 @@ enum Converted {
     Error(String),
 }
 
-/// Converts the file in the bytes, which is a PNG image or a model. The result is the repaired file. Returns the address of the JSON.
+/// Converts the file that `file_bytes` holds: a PNG image or a model. The new file lies where that of a repair does (`repaired_file`). Returns the
+/// address of the JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn convert_file() -> *const u8 {
     with_arena(|arena| {

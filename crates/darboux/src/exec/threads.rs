@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::exec::helpers::call_with_helpers;
 use crate::exec::limits::RunLimits;
 
-/// Calls `job` once for every worker with its part of the work, on as many threads as there are workers.
+/// Calls `job` once for every worker with its part of the work, on at most as many threads as there are workers.
 pub(crate) fn run<W: Send, P: Send>(
     workers: &mut [W],
     parts: impl Iterator<Item = P> + Send,
@@ -33,10 +33,20 @@ pub(crate) fn run<W: Send, P: Send>(
 ///
 /// `threads`: the number of threads, at least 1.
 pub(crate) fn for_each<T: Send>(threads: usize, list: &mut [T], with: impl Fn(&mut T) + Sync) {
+    for_each_with(&mut vec![(); threads], list, |(), element| with(element));
+}
+
+/// As [`for_each`], on as many threads as there are workers. Each thread uses a worker of its own.
+pub(crate) fn for_each_with<W: Send, T: Send>(
+    workers: &mut [W],
+    list: &mut [T],
+    with: impl Fn(&mut W, &mut T) + Sync,
+) {
     let rest = Mutex::new(list.iter_mut());
-    run(&mut vec![(); threads], std::iter::repeat_n((), threads), |(), ()| {
+    let parts = std::iter::repeat_n((), workers.len());
+    run(workers, parts, |worker, ()| {
         while let Ok(Some(element)) = rest.lock().map(|mut rest| rest.next()) {
-            with(element);
+            with(worker, element);
         }
     });
 }

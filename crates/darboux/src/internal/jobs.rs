@@ -30,12 +30,8 @@ pub fn map_with<T: Sync, R: Send>(
     of: impl Fn(&T, &mut Context) -> R + Sync,
 ) -> Vec<R> {
     let mut results: Vec<(&T, Option<R>)> = list.iter().map(|element| (element, None)).collect();
-    let rest = std::sync::Mutex::new(results.iter_mut());
-    let threads = contexts.len();
-    threads::run(contexts, std::iter::repeat_n((), threads), |context, ()| {
-        while let Some((element, result)) = rest.lock().ok().and_then(|mut rest| rest.next()) {
-            *result = Some(of(element, context));
-        }
+    threads::for_each_with(contexts, &mut results, |context, (element, result)| {
+        *result = Some(of(element, context));
     });
     results.into_iter().filter_map(|(_, result)| result).collect()
 }

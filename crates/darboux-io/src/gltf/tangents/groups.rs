@@ -71,7 +71,7 @@ pub fn group<'a>(
     groups
 }
 
-/// Groups with at least so many triangles are computed on all threads, one after the other.
+/// Groups with at least so many triangles are computed on all threads, one after the other: the core shares meshes of this size.
 const LARGE_GROUP: usize = 1 << 14;
 
 /// Small groups are computed side by side, so many triangles before they are written.
