@@ -4,8 +4,8 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::npm;
 use crate::run::{Outcome, program, root, run, works};
+use crate::{npm, python};
 
 /// Makes glibc keep freed memory, so that no engine waits for fresh pages of the kernel, however it allocates.
 const ALLOCATOR: &str =
@@ -42,6 +42,18 @@ fn native() -> Command {
 pub fn bench_gpu(arguments: &[&str]) -> Outcome {
     let line = "cargo run --quiet --profile bench-room --package darboux-gpu --example times --";
     run(program(line).args(arguments))
+}
+
+/// `cargo xtask bench --bake`: bakes with Blender's Cycles and with Darboux. `words`: texels per side, threads, models.
+pub fn bench_bake(words: &[&str]) -> Outcome {
+    let [size, threads, models @ ..] = words else {
+        return Err("bench --bake needs the texels per side, the threads and, if you like, models".into());
+    };
+    let line = "cargo run --quiet --release --package darboux-bake --all-features --example peers --";
+    let mut command = program(line);
+    command.arg(python::with_blender()?).arg("benches/bake/blender_bake.py");
+    command.arg(root().join("target/bench-bake")).args([size, threads]).args(models);
+    run(&mut command)
 }
 
 /// `cargo xtask maps`: prints how generated normal maps are judged. `options` go to the program.

@@ -57,6 +57,8 @@ measurements
   maps --real FOLDER ...
                    print the verdicts on the normal maps below folders, as they are and with green inverted
   bench --gpu      time everything on every adapter: [--quick] [TRIANGLES ...]
+  bench --bake SIZE THREADS [MODEL ...]
+                   bake the same pairs with Blender's Cycles and with Darboux: errors in degrees and times (needs python3.11)
   gpu [...]        on a machine with a GPU: record its tests, report and times in benches/record/gpu:
                    [pack] [--out FOLDER] [devices] [tests] [command] [report] [times] [long] [options of bench --gpu]
 
@@ -92,6 +94,7 @@ fn main() -> ExitCode {
         ["docs", ref pages @ ..] => doc_blocks::run(pages),
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),
         ["bench", "--gpu", ref options @ ..] => bench::bench_gpu(options),
+        ["bench", "--bake", ref words @ ..] => bench::bench_bake(words),
         ["bench", ref options @ ..] => bench::bench(options),
         ["gpu", ref words @ ..] => gpu::Arguments::new(words).and_then(|arguments| gpu::record(&arguments)),
         ["maps", "--real", ref folders @ ..] => bench::judge_real_maps(folders),

@@ -72,6 +72,13 @@ pub fn blender() -> Outcome {
     run(with(&python, "-m pytest --quiet").arg(format!("{PACKAGE}/tests/test_blender.py")))
 }
 
+/// An interpreter with the Blender whose bakes are compared.
+pub fn with_blender() -> Result<PathBuf, String> {
+    let python = environment_of("python3.11", "blender-bake")?;
+    run(pip(&python).arg("bpy==4.5.0"))?;
+    Ok(python)
+}
+
 /// Tests batches on Ray and Dask, and the adapter for Open3D, whose packages are large.
 pub fn large_packages() -> Outcome {
     if !works(&mut program("python3 -m venv --help")) {

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "every test file uses a part")]
 
+pub mod shading;
+
 use std::f64::consts::{PI, TAU};
 
 use darboux::{Context, Mesh, TangentOptions, generate_tangents};
