@@ -2,7 +2,7 @@
 
 use darboux::Conversion;
 
-use crate::bvh::{Hit, Sides, Stack};
+use crate::bvh::{Hit, PreparedRay, Shaft, Sides, Stack};
 use crate::coverage::{Coverage, TEXELS};
 use crate::face::Face;
 use crate::frame::ShadingFrame;
@@ -14,7 +14,7 @@ use crate::point::SurfacePoint;
 use crate::rays::{SampleRay, point_at, ray_of};
 use crate::samples::STEPS;
 use crate::texel::{Sample, TexelSums};
-use crate::vector::narrow;
+use crate::vector::{narrow, unit};
 use crate::{BakeOptions, BakeReport, LowSurface, MapKind};
 
 /// What all bands share.
@@ -34,6 +34,23 @@ pub struct Scratch {
     pub sums: Vec<TexelSums>,
     pub stack: Stack,
     pub rays: u64,
+    rays_of_tile: Vec<TexelRay>,
+}
+
+/// Texels per side of a tile, whose rays begin at one cut of the tree.
+const TILE: usize = 8;
+
+/// Tiles per side of a block.
+const TILES: usize = BLOCK / TILE;
+
+/// The ray of a sample.
+struct TexelRay {
+    /// Its place in the block.
+    texel: usize,
+    point: SurfacePoint,
+    ray: SampleRay,
+    prepared: PreparedRay,
+    group: usize,
 }
 
 impl Bake<'_> {
@@ -44,6 +61,7 @@ impl Bake<'_> {
             sums: vec![TexelSums::default(); TEXELS],
             stack: Stack::new(),
             rays: 0,
+            rays_of_tile: Vec::with_capacity(TILE * TILE),
         };
         let mut report = BakeReport::default();
         for column in 0..self.layout.blocks_per_row() {
@@ -69,10 +87,22 @@ impl Bake<'_> {
         }
     }
 
-    /// Stages 3 to 5: follows the rays of a block's samples.
+    /// Stages 3 to 5: follows the rays of a block's samples, tile by tile.
     fn sample(&self, first: [usize; 2], sample: [i64; 2], scratch: &mut Scratch) {
+        for tile in 0..TILES * TILES {
+            let from = [tile % TILES * TILE, tile / TILES * TILE];
+            self.find_rays(first, from, sample, scratch);
+            self.follow_rays(first, sample, scratch);
+        }
+    }
+
+    /// Stage 3: the rays of the samples of a tile. `first`: the upper left texel of the block; `from`: that of the tile in the block.
+    fn find_rays(&self, first: [usize; 2], from: [usize; 2], sample: [i64; 2], scratch: &mut Scratch) {
+        scratch.rays_of_tile.clear();
         let mut last: Option<Face> = None;
-        for texel in 0..TEXELS {
+        for at_tile in 0..TILE * TILE {
+            let in_block = [from[0] + at_tile % TILE, from[1] + at_tile / TILE];
+            let texel = in_block[1] * BLOCK + in_block[0];
             let Some(placed) = scratch.coverage.owners[texel] else { continue };
             if last.as_ref().is_none_or(|face| face.placed != placed) {
                 last = Some(Face::new(self.layout, self.low, placed));
@@ -81,27 +111,47 @@ impl Bake<'_> {
             let sums = &mut scratch.sums[texel];
             sums.is_charted = true;
             sums.is_overlapped |= scratch.coverage.overlaps[texel];
-            let at = [first[0] + texel % BLOCK, first[1] + texel / BLOCK];
-            let place = [0, 1].map(|i| at[i] as f64 + sample[i] as f64 / STEPS as f64);
+            let place = [0, 1].map(|i| (first[i] + in_block[i]) as f64 + sample[i] as f64 / STEPS as f64);
             let point = face.point(place);
             let Some(ray) = ray_of(&point, self.options.distance) else { continue };
-            scratch.rays += 1;
-            let group = &self.groups[face.group];
+            let prepared = self.groups[face.group].bvh.prepare(&ray.ray);
+            scratch.rays_of_tile.push(TexelRay { texel, point, ray, prepared, group: face.group });
+        }
+        scratch.rays += scratch.rays_of_tile.len() as u64;
+    }
+
+    /// Stages 4 and 5: the hits of a tile's rays, all of which begin at the cut of their shaft.
+    fn follow_rays(&self, first: [usize; 2], sample: [i64; 2], scratch: &mut Scratch) {
+        let Scratch { rays_of_tile, sums, stack, .. } = scratch;
+        for rays in rays_of_tile.chunk_by(|a, b| a.group == b.group) {
+            let group = &self.groups[rays[0].group];
+            let Some(shaft) = Shaft::of(rays.iter().map(|ray| &ray.prepared)) else { continue };
+            let cut = group.bvh.cut(&shaft);
             let sides = if self.options.back_faces { Sides::Both } else { Sides::Front };
-            match group.bvh.nearest(&ray.ray, sides, &mut scratch.stack) {
-                Some(hit) => {
-                    let texel = (at[1] * self.layout.size[0] + at[0]) as i64;
-                    let seed = ((texel * STEPS + sample[1]) * STEPS + sample[0]) as u64;
-                    if let Some(found) = self.found(group, &point, &ray, &hit, seed, &mut scratch.stack) {
-                        sums.add(&found);
+            for TexelRay { texel, point, ray, prepared, .. } in rays {
+                let sums = &mut sums[*texel];
+                match group.bvh.nearest_of_cut(&cut, prepared, sides, stack) {
+                    Some(hit) => {
+                        let at = [first[0] + texel % BLOCK, first[1] + texel / BLOCK];
+                        if let Some(found) = self.found(group, point, ray, &hit, self.seed(at, sample), stack)
+                        {
+                            sums.add(&found);
+                        }
                     }
+                    None if sides == Sides::Front => {
+                        sums.hits_back |=
+                            group.bvh.nearest_of_cut(&cut, prepared, Sides::Both, stack).is_some();
+                    }
+                    None => {}
                 }
-                None if sides == Sides::Front => {
-                    sums.hits_back |= group.bvh.nearest(&ray.ray, Sides::Both, &mut scratch.stack).is_some();
-                }
-                None => {}
             }
         }
+    }
+
+    /// A number for the random choices of a sample of a texel.
+    pub fn seed(&self, at: [usize; 2], sample: [i64; 2]) -> u64 {
+        let texel = (at[1] * self.layout.size[0] + at[0]) as i64;
+        ((texel * STEPS + sample[1]) * STEPS + sample[0]) as u64
     }
 
     /// What a hit adds to its texel.
@@ -117,7 +167,10 @@ impl Bake<'_> {
         let BakeOptions { maps, bitangent, occlusion_rays, occlusion_distance, .. } = *self.options;
         let high = group.point(hit)?;
         let position = point_at(&ray.ray, hit.distance);
-        let opening = || Opening { position, normal: high.normal, face_normal: high.face_normal, seed };
+        let opening = || {
+            let face_normal = unit(high.face_normal).unwrap_or(high.normal);
+            Opening { position, normal: high.normal, face_normal, seed }
+        };
         Some(Sample {
             normal: ShadingFrame::new(point, bitangent).to_tangent_space(high.normal),
             object_normal: high.normal,

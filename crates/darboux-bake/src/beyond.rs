@@ -60,9 +60,7 @@ impl Bake<'_> {
         let sides = if self.options.back_faces { Sides::Both } else { Sides::Front };
         scratch.rays += 1;
         let hit = group.bvh.nearest(&ray.ray, sides, &mut scratch.stack)?;
-        let texel = (at[1] * self.layout.size[0] + at[0]) as i64;
-        let seed = ((texel * STEPS + sample[1]) * STEPS + sample[0]) as u64;
-        let found = self.found(group, &point, &ray, &hit, seed, &mut scratch.stack)?;
+        let found = self.found(group, &point, &ray, &hit, self.seed(at, sample), &mut scratch.stack)?;
         let continues = found.normal.is_some_and(|normal| normal[2] > LEAST_Z);
         continues.then_some(Sample { is_extended: true, ..found })
     }

@@ -11,10 +11,12 @@ mod build;
 mod leaf;
 mod node;
 mod ray;
+mod shaft;
 mod traverse;
 mod tree;
 
-pub use ray::{Hit, Ray, Sides};
+pub use ray::{Hit, PreparedRay, Ray, Sides};
+pub use shaft::Shaft;
 pub use traverse::Stack;
 pub use tree::{BYTES_PER_TRIANGLE, Bvh};
 

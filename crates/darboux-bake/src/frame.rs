@@ -6,7 +6,7 @@
 
 use crate::Bitangent;
 use crate::point::SurfacePoint;
-use crate::vector::{Vector, cross, dot, length, scale, unit};
+use crate::vector::{Vector, cross, dot, scale, unit};
 
 /// Tangent, bitangent and normal at a point.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +48,8 @@ impl ShadingFrame {
     pub fn to_tangent_space(self, normal: Vector) -> Option<Vector> {
         let Self { tangent: t, bitangent: b, normal: n } = self;
         let volume = dot(t, cross(b, n));
-        let spans_space = volume.abs() > LEAST_VOLUME * length(t) * length(b) * length(n);
+        let squares = dot(t, t) * dot(b, b) * dot(n, n);
+        let spans_space = volume * volume > LEAST_VOLUME * LEAST_VOLUME * squares;
         if !spans_space {
             return None;
         }
@@ -62,7 +63,7 @@ mod tests {
     use darboux_dice::Dice;
 
     use super::*;
-    use crate::vector::sub;
+    use crate::vector::{length, sub};
 
     fn point(dice: &mut Dice<'_>) -> SurfacePoint {
         let mut vector = || [0, 1, 2].map(|_| f64::from(dice.uniform()));

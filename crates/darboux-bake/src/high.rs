@@ -22,7 +22,7 @@ pub struct HighGroup<'a> {
 pub struct HighPoint {
     /// The normal that the surface's map shows, or else the interpolated one, or that of the triangle's plane; unit length.
     pub normal: Vector,
-    /// The normal of the triangle's plane, towards the ray's origin; unit length.
+    /// The normal of the triangle's plane, towards the ray's origin; not normalised, not zero.
     pub face_normal: Vector,
     /// Whether the interpolated normal points to the back of its triangle.
     pub is_inverted: bool,
@@ -57,12 +57,20 @@ impl<'a> HighGroup<'a> {
         let surface = &self.surfaces[surface];
         let [a, b, c] = surface.corners(triangle).map(wide);
         let side = if hit.is_front { 1.0 } else { -1.0 };
-        let face_normal = unit(cross(sub(b, a), sub(c, a)))?.map(|x| side * x);
+        let plane = cross(sub(b, a), sub(c, a));
+        let square = dot(plane, plane);
+        if !(square > 0.0 && square.is_finite()) {
+            return None;
+        }
         let weights = hit.weights.map(f64::from);
         let interpolated = weighted(weights, surface.normals(triangle));
-        let outwards = unit(interpolated).map(|_| interpolated).unwrap_or(scale(side, face_normal));
-        let is_inverted = side * dot(outwards, face_normal) < 0.0;
-        let normal = surface.mapped_normal(triangle, weights, outwards).or_else(|| unit(outwards))?;
+        let (outwards, smooth) = match unit(interpolated) {
+            Some(unit) => (interpolated, unit),
+            None => (unit(plane)?, unit(plane)?),
+        };
+        let is_inverted = dot(outwards, plane) < 0.0;
+        let normal = surface.mapped_normal(triangle, weights, outwards).unwrap_or(smooth);
+        let face_normal = scale(side, plane);
         Some(HighPoint { normal: scale(side, normal), face_normal, is_inverted })
     }
 }

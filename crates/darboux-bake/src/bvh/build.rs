@@ -6,7 +6,7 @@
 //! cost of a split:   area of the left box * leaves on the left + the same of the right
 //! ```
 //!
-//! The upper part of the tree is built on the calling thread. The parts below are jobs for all threads; their number depends on the triangles
+//! The sets of each of the upper levels are split by all threads. The parts below are jobs for all threads; their number depends on the triangles
 //! alone, and their lists are joined in order.
 
 use darboux::internal::jobs;
@@ -36,55 +36,72 @@ const MIN_JOB: usize = if cfg!(small_limits) { 8 } else { 4096 };
 /// The bounding box of a triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounded {
-    least: [f32; 3],
-    greatest: [f32; 3],
+    bounds: Box3,
     id: u32,
 }
 
 impl Bounded {
-    /// `None` if a corner is not finite.
-    pub fn new(id: u32, [a, b, c]: [[f32; 3]; 3]) -> Option<Self> {
-        let least = [0, 1, 2].map(|i| a[i].min(b[i]).min(c[i]));
-        let greatest = [0, 1, 2].map(|i| a[i].max(b[i]).max(c[i]));
-        let is_finite = [a, b, c].as_flattened().iter().all(|x| x.is_finite());
-        is_finite.then_some(Self { least, greatest, id })
+    pub const EMPTY: Self = Self { bounds: Box3::EMPTY, id: 0 };
+
+    pub fn is_empty(&self) -> bool {
+        self.bounds.least[0] == f32::INFINITY
+    }
+
+    /// [`Bounded::EMPTY`] if a corner is not finite.
+    pub fn new(id: u32, corners: [[f32; 3]; 3]) -> Self {
+        let bounds = corners.into_iter().fold(Box3::EMPTY, |all, [x, y, z]| all.with([x, y, z, 0.0]));
+        let is_finite = corners.as_flattened().iter().all(|x| x.is_finite());
+        if is_finite { Self { bounds, id } } else { Self::EMPTY }
     }
 
     /// Twice the centre of the box.
-    fn center(&self, axis: usize) -> f32 {
-        self.least[axis] + self.greatest[axis]
+    fn center(&self) -> [f32; 4] {
+        std::array::from_fn(|i| self.bounds.least[i] + self.bounds.greatest[i])
     }
 }
 
-/// A bounding box.
+/// A bounding box. The fourth component, which is 0, fills a vector register.
 #[derive(Clone, Copy, Debug)]
 struct Box3 {
-    least: [f32; 3],
-    greatest: [f32; 3],
+    least: [f32; 4],
+    greatest: [f32; 4],
 }
 
 impl Box3 {
-    const EMPTY: Self = Self { least: [f32::INFINITY; 3], greatest: [f32::NEG_INFINITY; 3] };
+    const EMPTY: Self = Self { least: [f32::INFINITY; 4], greatest: [f32::NEG_INFINITY; 4] };
 
     fn of(triangles: &[Bounded]) -> Self {
-        triangles.iter().fold(Self::EMPTY, |all, one| all.with(one.least, one.greatest))
+        triangles.iter().fold(Self::EMPTY, |all, one| all.union(one.bounds))
     }
 
-    fn with(self, least: [f32; 3], greatest: [f32; 3]) -> Self {
-        Self {
-            least: [0, 1, 2].map(|i| self.least[i].min(least[i])),
-            greatest: [0, 1, 2].map(|i| self.greatest[i].max(greatest[i])),
-        }
+    /// The box around this one and a point. Comparisons instead of `f32::min`: without its rule for NaN they are one instruction.
+    #[inline(always)]
+    fn with(self, point: [f32; 4]) -> Self {
+        self.union(Self { least: point, greatest: point })
     }
 
+    #[inline(always)]
     fn union(self, other: Self) -> Self {
-        self.with(other.least, other.greatest)
+        let lesser = |i: usize| if other.least[i] < self.least[i] { other.least[i] } else { self.least[i] };
+        let greater = |i: usize| {
+            if other.greatest[i] > self.greatest[i] { other.greatest[i] } else { self.greatest[i] }
+        };
+        Self { least: std::array::from_fn(lesser), greatest: std::array::from_fn(greater) }
+    }
+
+    fn extent(self) -> [f32; 3] {
+        [0, 1, 2].map(|i| self.greatest[i] - self.least[i])
     }
 
     /// Half of the surface area; 0 for an empty box.
     fn half_area(self) -> f32 {
-        let [x, y, z] = [0, 1, 2].map(|i| (self.greatest[i] - self.least[i]).max(0.0));
+        let [x, y, z] = self.extent().map(|side| side.max(0.0));
         x * y + y * z + z * x
+    }
+
+    /// The least and the greatest coordinates.
+    fn ends(self) -> [[f32; 3]; 2] {
+        [self.least, self.greatest].map(|[x, y, z, _]| [x, y, z])
     }
 }
 
@@ -95,13 +112,16 @@ struct Tree {
     leaves: Vec<Leaf>,
 }
 
-/// A part of the tree that is built on any thread.
+/// A set of triangles that is split, or built, on any thread.
 struct Job<'a> {
     triangles: &'a mut [Bounded],
-    depth: usize,
-    /// The node and the place in it of which the part is the child.
-    parent: (usize, usize),
     bounds: Box3,
+    depth: usize,
+    /// The node and the place in it of which the set is the child; the root has none.
+    parent: Option<(usize, usize)>,
+    /// The parts of a set that was split.
+    parts: Vec<(&'a mut [Bounded], Box3)>,
+    /// The part of the tree of a set that was built.
     tree: Tree,
 }
 
@@ -114,21 +134,18 @@ pub fn build(
     if triangles.is_empty() {
         return Ok((Vec::new(), Vec::new()));
     }
-    let job_size = (triangles.len() / JOBS).max(MIN_JOB);
     let mut tree = Tree::default();
-    let mut list = Vec::new();
-    build_upper(&mut triangles, 0, job_size, corners, &mut tree, &mut list);
+    let mut list = upper_levels(&mut triangles, corners, &mut tree, context)?;
     jobs::for_each(context, &mut list, |job| {
-        let Job { triangles, depth, tree, .. } = job;
-        build_node(triangles, *depth, corners, tree);
+        build_node(job.triangles, job.bounds, job.depth, corners, &mut job.tree);
     })?;
     let parts: Vec<_> = list.into_iter().map(|job| (job.parent, job.bounds, job.tree)).collect();
     drop(triangles);
     tree.nodes.reserve_exact(parts.iter().map(|(_, _, part)| part.nodes.len()).sum());
     tree.leaves.reserve_exact(parts.iter().map(|(_, _, part)| part.leaves.len()).sum());
-    for ((node, place), bounds, part) in parts {
+    for (parent, bounds, part) in parts {
         let root = tree.append(part);
-        tree.nodes[node].set(place, [bounds.least, bounds.greatest], root);
+        tree.link(parent, bounds, root);
     }
     Ok((tree.nodes, tree.leaves))
 }
@@ -145,6 +162,13 @@ impl Tree {
         Child::Node(nodes)
     }
 
+    /// Enters a child into its parent, if it has one.
+    fn link(&mut self, parent: Option<(usize, usize)>, bounds: Box3, child: Child) {
+        if let Some((node, place)) = parent {
+            self.nodes[node].set(place, bounds.ends(), child);
+        }
+    }
+
     fn push_leaf(&mut self, triangles: &[Bounded], corners: &impl Fn(u32) -> [[f32; 3]; 3]) -> Child {
         let mut leaf = Leaf::EMPTY;
         for (place, triangle) in triangles.iter().enumerate() {
@@ -155,98 +179,125 @@ impl Tree {
     }
 }
 
-/// Builds the nodes whose children have more than `job_size` triangles; the others become jobs.
-fn build_upper<'a>(
+/// Builds the nodes of sets that are too large for one job, level by level; returns the other sets.
+fn upper_levels<'a>(
     triangles: &'a mut [Bounded],
-    depth: usize,
-    job_size: usize,
     corners: &impl Fn(u32) -> [[f32; 3]; 3],
     tree: &mut Tree,
-    jobs: &mut Vec<Job<'a>>,
-) {
-    let node = tree.nodes.len();
-    tree.nodes.push(Node::EMPTY);
-    for (place, (part, bounds)) in parts(triangles, depth).into_iter().enumerate() {
-        if part.len() <= SIZE {
-            let leaf = tree.push_leaf(part, corners);
-            tree.nodes[node].set(place, [bounds.least, bounds.greatest], leaf);
-        } else if part.len() <= job_size {
-            let tree = Tree::default();
-            jobs.push(Job { triangles: part, depth: depth + 1, parent: (node, place), bounds, tree });
-        } else {
-            let child = Child::Node(tree.nodes.len() as u32);
-            tree.nodes[node].set(place, [bounds.least, bounds.greatest], child);
-            build_upper(part, depth + 1, job_size, corners, tree, jobs);
+    context: &Context,
+) -> Result<Vec<Job<'a>>, Error> {
+    let job_size = (triangles.len() / JOBS).max(MIN_JOB);
+    let bounds = Box3::of(triangles);
+    let (mut level, mut small) = (vec![Job::new(triangles, bounds, 0, None)], Vec::new());
+    loop {
+        small.extend(level.extract_if(.., |job| job.triangles.len() <= job_size));
+        if level.is_empty() {
+            return Ok(small);
         }
+        jobs::for_each(context, &mut level, |job| {
+            job.parts = parts(std::mem::take(&mut job.triangles), job.bounds, job.depth);
+        })?;
+        let mut next = Vec::new();
+        for job in level {
+            let node = tree.nodes.len();
+            tree.nodes.push(Node::EMPTY);
+            tree.link(job.parent, job.bounds, Child::Node(node as u32));
+            for (place, (part, bounds)) in job.parts.into_iter().enumerate() {
+                if part.len() <= SIZE {
+                    let leaf = tree.push_leaf(part, corners);
+                    tree.link(Some((node, place)), bounds, leaf);
+                } else {
+                    next.push(Job::new(part, bounds, job.depth + 1, Some((node, place))));
+                }
+            }
+        }
+        level = next;
+    }
+}
+
+impl<'a> Job<'a> {
+    fn new(triangles: &'a mut [Bounded], bounds: Box3, depth: usize, parent: Option<(usize, usize)>) -> Self {
+        Self { triangles, bounds, depth, parent, parts: Vec::new(), tree: Tree::default() }
     }
 }
 
 /// Builds a node and all below it.
 fn build_node(
     triangles: &mut [Bounded],
+    bounds: Box3,
     depth: usize,
     corners: &impl Fn(u32) -> [[f32; 3]; 3],
     tree: &mut Tree,
 ) -> Child {
     let node = tree.nodes.len();
     tree.nodes.push(Node::EMPTY);
-    for (place, (part, bounds)) in parts(triangles, depth).into_iter().enumerate() {
+    for (place, (part, bounds)) in parts(triangles, bounds, depth).into_iter().enumerate() {
         let child = match part.len() {
             0..=SIZE => tree.push_leaf(part, corners),
-            _ => build_node(part, depth + 1, corners, tree),
+            _ => build_node(part, bounds, depth + 1, corners, tree),
         };
-        tree.nodes[node].set(place, [bounds.least, bounds.greatest], child);
+        tree.link(Some((node, place)), bounds, child);
     }
     Child::Node(node as u32)
 }
 
 /// Splits triangles into one to four parts: always the part with the largest box, or from [`HALVING_DEPTH`] on that with the most triangles.
-fn parts(triangles: &mut [Bounded], depth: usize) -> Vec<(&mut [Bounded], Box3)> {
+fn parts(triangles: &mut [Bounded], bounds: Box3, depth: usize) -> Vec<(&mut [Bounded], Box3)> {
     let is_halved = depth >= HALVING_DEPTH;
-    let bounds = Box3::of(triangles);
-    let mut parts = vec![(triangles, bounds)];
+    let mut parts = Vec::with_capacity(4);
+    parts.push((triangles, bounds));
     while parts.len() < 4 {
         let size = |(part, bounds): &(&mut [Bounded], Box3)| match part.len() {
             0..=SIZE => -1.0,
             len if is_halved => len as f32,
             _ => bounds.half_area(),
         };
-        let sizes: Vec<f32> = parts.iter().map(size).collect();
-        let largest = (0..parts.len()).fold(0, |best, i| if sizes[i] > sizes[best] { i } else { best });
-        if sizes[largest] < 0.0 {
+        let mut largest = (0, size(&parts[0]));
+        for (at, part) in parts.iter().enumerate().skip(1) {
+            let size = size(part);
+            largest = if size > largest.1 { (at, size) } else { largest };
+        }
+        if largest.1 < 0.0 {
             break;
         }
-        let (part, bounds) = parts.remove(largest);
-        let (left, right) = split(part, bounds, is_halved);
-        let bounds = [Box3::of(left), Box3::of(right)];
-        parts.insert(largest, (right, bounds[1]));
-        parts.insert(largest, (left, bounds[0]));
+        let (part, bounds) = parts.remove(largest.0);
+        let [left, right] = split(part, bounds, is_halved);
+        parts.insert(largest.0, right);
+        parts.insert(largest.0, left);
     }
     parts
 }
 
-/// Splits more than [`SIZE`] triangles in two.
-fn split(triangles: &mut [Bounded], bounds: Box3, is_halved: bool) -> (&mut [Bounded], &mut [Bounded]) {
+/// Splits more than [`SIZE`] triangles in two, each with its box.
+fn split(triangles: &mut [Bounded], bounds: Box3, is_halved: bool) -> [(&mut [Bounded], Box3); 2] {
+    if !is_halved
+        && triangles.len() > SORTED
+        && let Some((middle, boxes)) = partition_by_bins(triangles)
+    {
+        let (left, right) = triangles.split_at_mut(middle);
+        return [(left, boxes[0]), (right, boxes[1])];
+    }
     let middle = match triangles.len() {
-        _ if is_halved => halve(triangles, bounds),
-        0..=SORTED => sort_and_sweep(triangles),
-        _ => partition_by_bins(triangles).unwrap_or_else(|| halve(triangles, bounds)),
+        ..=SORTED if !is_halved => sort_and_sweep(triangles),
+        _ => halve(triangles, bounds),
     };
-    triangles.split_at_mut(middle)
+    let (left, right) = triangles.split_at_mut(middle);
+    let boxes = [Box3::of(left), Box3::of(right)];
+    [(left, boxes[0]), (right, boxes[1])]
 }
 
 /// Moves the half with the smaller centres along the longest axis to the front.
 fn halve(triangles: &mut [Bounded], bounds: Box3) -> usize {
-    let extent = [0, 1, 2].map(|i| bounds.greatest[i] - bounds.least[i]);
-    let axis = longest(extent);
+    let axis = longest(bounds.extent());
     let middle = (triangles.len() / 2).next_multiple_of(SIZE);
-    triangles.select_nth_unstable_by(middle, |a, b| order(a, b, axis));
+    let key = |triangle: &Bounded| (triangle.center()[axis], triangle.id);
+    triangles.select_nth_unstable_by(middle, |a, b| order(key(a), key(b)));
     middle
 }
 
 /// By centres, then by numbers: a total order.
-fn order(a: &Bounded, b: &Bounded, axis: usize) -> std::cmp::Ordering {
-    a.center(axis).total_cmp(&b.center(axis)).then(a.id.cmp(&b.id))
+fn order(a: (f32, u32), b: (f32, u32)) -> std::cmp::Ordering {
+    a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
 }
 
 fn longest(extent: [f32; 3]) -> usize {
@@ -258,47 +309,60 @@ fn leaf_count(triangles: usize) -> f32 {
     triangles.div_ceil(SIZE) as f32
 }
 
-/// Sorts along the best axis; returns the multiple of [`SIZE`] at which the split costs least.
+/// Sorts at most [`SORTED`] triangles along the best axis; returns the multiple of [`SIZE`] at which the split costs least.
 fn sort_and_sweep(triangles: &mut [Bounded]) -> usize {
-    let (mut best, mut lowest) = ((0, SIZE), f32::INFINITY);
+    let count = triangles.len();
+    let mut given = [triangles[0]; SORTED];
+    given[..count].copy_from_slice(triangles);
+    let (mut best, mut middle, mut lowest) = ([(0.0, 0, 0); SORTED], SIZE, f32::INFINITY);
     for axis in 0..3 {
-        triangles.sort_unstable_by(|a, b| order(a, b, axis));
-        for middle in (SIZE..triangles.len()).step_by(SIZE) {
-            let (left, right) = triangles.split_at(middle);
-            let cost = Box3::of(left).half_area() * leaf_count(left.len())
-                + Box3::of(right).half_area() * leaf_count(right.len());
-            if cost < lowest {
-                (best, lowest) = ((axis, middle), cost);
+        let mut sorted = [(0f32, 0, 0); SORTED];
+        for (at, triangle) in given[..count].iter().enumerate() {
+            sorted[at] = (triangle.center()[axis], triangle.id, at);
+        }
+        sorted[..count].sort_unstable_by(|a, b| order((a.0, a.1), (b.0, b.1)));
+        let box_of = |part: &[(f32, u32, usize)]| {
+            part.iter().fold(Box3::EMPTY, |all, (.., at)| all.union(given[*at].bounds))
+        };
+        for at in (SIZE..count).step_by(SIZE) {
+            let cost = box_of(&sorted[..at]).half_area() * leaf_count(at)
+                + box_of(&sorted[at..count]).half_area() * leaf_count(count - at);
+            // The first one is taken also where costs overflow.
+            if cost < lowest || (axis, at) == (0, SIZE) {
+                (best, middle, lowest) = (sorted, at, lowest.min(cost));
             }
         }
     }
-    let (axis, middle) = best;
-    triangles.sort_unstable_by(|a, b| order(a, b, axis));
+    for (triangle, (.., at)) in triangles.iter_mut().zip(best) {
+        *triangle = given[at];
+    }
     middle
 }
 
-/// Moves the triangles of the lower bins to the front; returns their number. `None` where all centres are equal.
-fn partition_by_bins(triangles: &mut [Bounded]) -> Option<usize> {
-    let centers = triangles.iter().fold(Box3::EMPTY, |all, one| {
-        let center = [0, 1, 2].map(|axis| one.center(axis));
-        all.with(center, center)
-    });
-    let extent = [0, 1, 2].map(|i| centers.greatest[i] - centers.least[i]);
+/// Moves the triangles of the lower bins to the front; returns their number and the boxes of both sides. `None` where all centres are equal.
+fn partition_by_bins(triangles: &mut [Bounded]) -> Option<(usize, [Box3; 2])> {
+    let centers = triangles.iter().fold(Box3::EMPTY, |all, one| all.with(one.center()));
+    let extent = centers.extent();
     let axis = longest(extent);
     let scale = BINS as f32 / extent[axis];
     if !(extent[axis] > 0.0 && extent[axis].is_finite() && scale.is_finite()) {
         return None;
     }
-    let bin_of =
-        |triangle: &Bounded| (((triangle.center(axis) - centers.least[axis]) * scale) as usize).min(BINS - 1);
+    let least = centers.least[axis];
+    let bin_of = |triangle: &Bounded| {
+        let center = triangle.bounds.least[axis] + triangle.bounds.greatest[axis];
+        (((center - least) * scale) as u32).min(BINS as u32 - 1) as usize
+    };
     let mut bins = [(Box3::EMPTY, 0usize); BINS];
     for triangle in &*triangles {
         let (bounds, count) = &mut bins[bin_of(triangle)];
-        *bounds = bounds.with(triangle.least, triangle.greatest);
+        *bounds = bounds.union(triangle.bounds);
         *count += 1;
     }
     let last = cheapest_bin(&bins);
-    Some(partition(triangles, |triangle| bin_of(triangle) <= last))
+    let side = |bins: &[(Box3, usize)]| bins.iter().fold(Box3::EMPTY, |all, bin| all.union(bin.0));
+    let boxes = [side(&bins[..=last]), side(&bins[last + 1..])];
+    Some((partition(triangles, |triangle| bin_of(triangle) <= last), boxes))
 }
 
 /// The last bin of the left side of the cheapest split. Both sides have triangles: the first and the last bin are never empty.

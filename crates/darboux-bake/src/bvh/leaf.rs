@@ -56,21 +56,30 @@ impl Leaf {
         let [u, v, w] = [edge(c, b), edge(a, c), edge(b, a)];
         let sum: [f32; SIZE] = std::array::from_fn(|i| u[i] + v[i] + w[i]);
         let depth: [f32; SIZE] = std::array::from_fn(|i| u[i] * a[2][i] + v[i] * b[2][i] + w[i] * c[2][i]);
-        let mut found = best;
-        for i in 0..SIZE {
-            let is_positive = (u[i] >= 0.0) & (v[i] >= 0.0) & (w[i] >= 0.0);
-            let is_negative = (u[i] <= 0.0) & (v[i] <= 0.0) & (w[i] <= 0.0);
-            let is_front = sum[i] > 0.0;
-            if !(is_positive | is_negative) || sum[i] == 0.0 || (sides == Sides::Front && !is_front) {
-                continue;
-            }
+        let farthest = best.map_or(ray.length, |best| best.distance);
+        let least: [f32; SIZE] = std::array::from_fn(|i| u[i].min(v[i]).min(w[i]));
+        let greatest: [f32; SIZE] = std::array::from_fn(|i| u[i].max(v[i]).max(w[i]));
+        let distances: [f32; SIZE] = std::array::from_fn(|i| {
             let distance = depth[i] / sum[i];
+            let is_hit = match sides {
+                Sides::Front => (least[i] >= 0.0) & (sum[i] > 0.0),
+                Sides::Both => ((least[i] >= 0.0) | (greatest[i] <= 0.0)) & (sum[i] != 0.0),
+            };
+            let is_in_reach = (distance >= 0.0) & (distance <= farthest);
+            if is_hit & is_in_reach { distance } else { f32::INFINITY }
+        });
+        if distances == [f32::INFINITY; SIZE] {
+            return best;
+        }
+        let mut found = best;
+        for i in (0..SIZE).filter(|&i| distances[i] < f32::INFINITY) {
+            let (distance, triangle) = (distances[i], self.ids[i]);
             let is_nearer = found.is_none_or(|best| {
-                distance < best.distance || (distance == best.distance && self.ids[i] < best.triangle)
+                distance < best.distance || (distance == best.distance && triangle < best.triangle)
             });
-            if distance >= 0.0 && distance <= ray.length && is_nearer {
+            if is_nearer {
                 let weights = [u[i], v[i], w[i]].map(|edge| edge / sum[i]);
-                found = Some(Hit { distance, triangle: self.ids[i], weights, is_front });
+                found = Some(Hit { distance, triangle, weights, is_front: sum[i] > 0.0 });
             }
         }
         found

@@ -14,7 +14,7 @@ const LEAF: u32 = 1 << 31;
 
 /// The far end of a box is moved by this factor, which exceeds the rounding errors of its distance (T. Ize, "Robust BVH Ray Traversal", JCGT
 /// 2(2), 2013, section 3): no ray misses a box that contains its hit.
-const FAR_FACTOR: f32 = 1.000_000_4;
+pub const FAR_FACTOR: f32 = 1.000_000_4;
 
 /// The boxes of up to four children, by axis and child.
 #[derive(Clone, Copy, Debug)]
@@ -44,6 +44,22 @@ impl Node {
             stored if stored & LEAF != 0 => Child::Leaf(stored & !LEAF),
             stored => Child::Node(stored),
         }
+    }
+
+    /// The box of a child.
+    pub fn bounds_of(&self, place: usize) -> [[f32; 3]; 2] {
+        self.bounds.map(|side| side.map(|of_axis| of_axis[place]))
+    }
+
+    /// Whether there is no child at a place.
+    pub fn is_absent(&self, place: usize) -> bool {
+        self.bounds[0][0][place] == f32::INFINITY
+    }
+
+    /// The coordinates along an axis at which rays enter and leave the boxes of the children.
+    pub fn sides(&self, axis: usize, is_negative: bool) -> [&[f32; 4]; 2] {
+        let entry = usize::from(is_negative);
+        [&self.bounds[entry][axis], &self.bounds[1 - entry][axis]]
     }
 
     /// The box around all children.

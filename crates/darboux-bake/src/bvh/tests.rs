@@ -122,6 +122,42 @@ fn no_ray_passes_between_triangles() {
     }
 }
 
+/// The slow twin of a cut is the whole tree.
+#[test]
+fn rays_that_begin_at_a_cut_have_the_same_hits() {
+    let mut dice = Dice::from_seed(17);
+    let mut stack = Stack::new();
+    let mut hits = 0;
+    for round in 0..300 {
+        let triangles = if round % 3 == 0 { sheet(40) } else { soup(&mut dice, [3, 90, 900][round % 3]) };
+        let bvh = build(&triangles, 1);
+        // From parallel rays at one place to any rays at all; some are parallel to axes.
+        let spread = dice.pick(&[0.0, 0.01, 0.1, 1.0]);
+        let mut vector = |size: f32| [0, 1, 2].map(|_| size * dice.uniform());
+        let (place, along) = (vector(1.2), vector(1.0));
+        let axis = [0.0, 0.0, -1.0];
+        let rays: Vec<Ray> = (0..48)
+            .map(|i| {
+                let (by, turn) = (vector(spread), vector(0.3 * spread));
+                let origin = [0, 1, 2].map(|i| place[i] + by[i]);
+                let turned = [0, 1, 2].map(|i| along[i] + turn[i]);
+                let direction = if round % 5 == 0 && i % 4 == 0 { axis } else { unit(turned) };
+                Ray { origin, direction, length: 0.2 + i as f32 / 24.0 }
+            })
+            .collect();
+        let prepared: Vec<PreparedRay> = rays.iter().map(|ray| bvh.prepare(ray)).collect();
+        let cut = bvh.cut(&Shaft::of(&prepared).expect("there are rays"));
+        for (ray, prepared) in rays.iter().zip(&prepared) {
+            for sides in [Sides::Front, Sides::Both] {
+                let expected = bvh.nearest(ray, sides, &mut stack);
+                assert_eq!(bvh.nearest_of_cut(&cut, prepared, sides, &mut stack), expected);
+                hits += usize::from(expected.is_some());
+            }
+        }
+    }
+    assert!(hits > 1000, "{hits} hits");
+}
+
 #[test]
 fn sides_and_lengths_limit_hits() {
     let bvh = build(&sheet(4), 1);

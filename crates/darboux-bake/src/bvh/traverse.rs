@@ -1,12 +1,13 @@
 //! Traversal: nearest hits, and whether there is any.
 
 use super::build::MAX_DEPTH;
-use super::node::Child;
+use super::node::{Child, Node};
 use super::ray::{Hit, PreparedRay, Ray, Sides};
+use super::shaft::Cut;
 use super::tree::Bvh;
 
-/// A node leaves at most three children on the stack.
-const STACK: usize = 3 * MAX_DEPTH + 1;
+/// A node leaves at most three children on the stack, and a cut begins with up to 16.
+const STACK: usize = 3 * MAX_DEPTH + 16;
 
 /// The children that wait, each with the distance of its box. Rays reuse it one after the other.
 pub struct Stack {
@@ -33,32 +34,67 @@ impl Stack {
 impl Bvh {
     /// The nearest hit of a ray. Of hits at the same distance, that of the triangle with the smallest number.
     pub fn nearest(&self, ray: &Ray, sides: Sides, stack: &mut Stack) -> Option<Hit> {
-        self.search(ray, sides, false, stack)
+        self.nearest_below(self.root(), &self.prepare(ray), sides, stack)
+    }
+
+    /// The nearest hit of a ray whose shaft has this cut: the same as of [`Bvh::nearest`], in fewer steps.
+    pub fn nearest_of_cut(
+        &self,
+        cut: &Cut,
+        ray: &PreparedRay,
+        sides: Sides,
+        stack: &mut Stack,
+    ) -> Option<Hit> {
+        self.nearest_below(cut.nodes(), ray, sides, stack)
     }
 
     /// Whether a ray hits any triangle, from either side.
     pub fn is_blocked(&self, ray: &Ray, stack: &mut Stack) -> bool {
-        self.search(ray, Sides::Both, true, stack).is_some()
+        self.search(self.root(), &self.prepare(ray), Sides::Both, true, stack).is_some()
+    }
+
+    /// A ray, prepared for this tree.
+    pub fn prepare(&self, ray: &Ray) -> PreparedRay {
+        PreparedRay::new(ray, &self.bounds)
+    }
+
+    fn root(&self) -> &[Node] {
+        &self.nodes[..self.nodes.len().min(1)]
+    }
+
+    fn nearest_below(
+        &self,
+        start: &[Node],
+        ray: &PreparedRay,
+        sides: Sides,
+        stack: &mut Stack,
+    ) -> Option<Hit> {
+        self.search(start, ray, sides, false, stack)
     }
 
     /// `is_any`: returns the first hit that is found.
     #[inline(always)]
-    fn search(&self, ray: &Ray, sides: Sides, is_any: bool, stack: &mut Stack) -> Option<Hit> {
-        if self.nodes.is_empty() {
-            return None;
-        }
-        let ray = PreparedRay::new(ray, &self.bounds);
+    fn search(
+        &self,
+        start: &[Node],
+        ray: &PreparedRay,
+        sides: Sides,
+        is_any: bool,
+        stack: &mut Stack,
+    ) -> Option<Hit> {
         let mut best: Option<Hit> = None;
         let mut limit = ray.length;
         stack.len = 0;
-        stack.push((0.0, Child::Node(0)));
+        for node in start {
+            push_children(node, ray, limit, stack);
+        }
         while let Some((entry, child)) = stack.pop() {
             if entry > limit {
                 continue;
             }
             match child {
                 Child::Leaf(index) => {
-                    best = self.leaves[index as usize].nearest(&ray, sides, best);
+                    best = self.leaves[index as usize].nearest(ray, sides, best);
                     if let Some(hit) = best {
                         limit = hit.distance;
                         if is_any {
@@ -66,26 +102,25 @@ impl Bvh {
                         }
                     }
                 }
-                Child::Node(index) => self.push_children(index, &ray, limit, stack),
+                Child::Node(index) => push_children(&self.nodes[index as usize], ray, limit, stack),
             }
         }
         best
     }
+}
 
-    /// Pushes the children whose boxes a ray enters, the nearest one last.
-    #[inline(always)]
-    fn push_children(&self, index: u32, ray: &PreparedRay, limit: f32, stack: &mut Stack) {
-        let node = &self.nodes[index as usize];
-        let entries = node.entries(ray, limit);
-        let first = stack.len;
-        for (place, entry) in entries.into_iter().enumerate() {
-            if entry < f32::INFINITY {
-                stack.push((entry, node.child(place)));
-                let mut at = stack.len - 1;
-                while at > first && stack.entries[at - 1].0 < entry {
-                    stack.entries.swap(at - 1, at);
-                    at -= 1;
-                }
+/// Pushes the children whose boxes a ray enters, the nearest one last.
+#[inline(always)]
+fn push_children(node: &Node, ray: &PreparedRay, limit: f32, stack: &mut Stack) {
+    let entries = node.entries(ray, limit);
+    let first = stack.len;
+    for (place, entry) in entries.into_iter().enumerate() {
+        if entry < f32::INFINITY {
+            stack.push((entry, node.child(place)));
+            let mut at = stack.len - 1;
+            while at > first && stack.entries[at - 1].0 < entry {
+                stack.entries.swap(at - 1, at);
+                at -= 1;
             }
         }
     }

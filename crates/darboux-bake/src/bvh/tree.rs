@@ -1,5 +1,6 @@
 //! The hierarchy itself.
 
+use darboux::internal::jobs;
 use darboux::{Context, Error};
 
 use super::build::{self, Bounded};
@@ -8,6 +9,9 @@ use super::node::Node;
 
 /// The most bytes that a tree takes per triangle while it is built, as the memory check assumes.
 pub const BYTES_PER_TRIANGLE: u64 = 100;
+
+/// Triangles whose boxes a job computes.
+const PART: usize = 1 << 14;
 
 /// A hierarchy over triangles, which it copies.
 pub struct Bvh {
@@ -28,7 +32,14 @@ impl Bvh {
         triangle: &(impl Fn(u32) -> [[f32; 3]; 3] + Sync),
         context: &Context,
     ) -> Result<Self, Error> {
-        let bounded: Vec<Bounded> = (0..count).filter_map(|id| Bounded::new(id, triangle(id))).collect();
+        let mut bounded = vec![Bounded::EMPTY; count as usize];
+        let mut parts: Vec<_> = bounded.chunks_mut(PART).enumerate().collect();
+        jobs::for_each(context, &mut parts, |(part, bounded)| {
+            for (id, bounded) in (*part * PART..).zip(bounded.iter_mut()) {
+                *bounded = Bounded::new(id as u32, triangle(id as u32));
+            }
+        })?;
+        bounded.retain(|triangle| !triangle.is_empty());
         let (nodes, leaves) = build::build(bounded, triangle, context)?;
         let bounds = nodes.first().map(Node::bounds).unwrap_or_default();
         Ok(Self { nodes, leaves, bounds })
