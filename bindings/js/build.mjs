@@ -20,7 +20,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const [modules, out, version, ...entries] = process.argv.slice(2);
 
 /** The entries of the whole package, each with a WebAssembly module of its name. */
-const ALL_ENTRIES = ['darboux', 'tangents', 'check'];
+const ALL_ENTRIES = ['darboux', 'tangents', 'check', 'bake'];
 
 /** The other entries of the whole package. Most import one of the above. */
 const ADAPTERS = entries.length === ALL_ENTRIES.length ? ['three', 'gltf-transform', 'mikktspace', 'webgpu'] : [];
@@ -54,7 +54,10 @@ function run(program, ...words) {
   });
 }
 
-/** Functions of the standard library that format messages. Only `check` returns any. */
+/** The entries that return messages. */
+const WITH_MESSAGES = ['check', 'bake'];
+
+/** Functions of the standard library that format messages. */
 const MESSAGES = /^_R.*4core3fmt/;
 
 /** Functions of the standard library that end a call. */
@@ -62,7 +65,7 @@ const PANICS = /^_R.*(9panicking\d|_fail$|_failed$|17rust_begin_unwind|15panic_w
 
 /** Replaces the bodies of panics by traps. Their messages, which nothing can print, are not linked then. */
 function trapPanics(entry, from, to) {
-  const isTrapped = (name) => PANICS.test(name) || (entry !== 'check' && MESSAGES.test(name));
+  const isTrapped = (name) => PANICS.test(name) || (!WITH_MESSAGES.includes(entry) && MESSAGES.test(name));
   const module = binaryen.readBinary(readFileSync(from));
   // Keeps the names of functions, which wasm-opt sorts by.
   binaryen.setDebugInfo(true);

@@ -30,28 +30,35 @@ pub const TRIPLE: &str = "wasm32-unknown-unknown";
 /// The two forms of every module, and their compiler flags.
 const FORMS: [(&str, &str); 2] = [("simd", "-Ctarget-feature=+simd128"), ("scalar", "")];
 
-/// Flags of all modules: functions with several callers are not inlined, and loops of unknown length are not unrolled. The modules are an
+/// Flags of most modules: functions with several callers are not inlined, and loops of unknown length are not unrolled. The modules are an
 /// eighth smaller for it and as fast. Optimisation levels for size would lose vectorisation.
 const FLAGS: &str = "-Cllvm-args=-inline-threshold=0 -Cllvm-args=-inlinehint-threshold=30 \
     -Cllvm-args=-unroll-runtime=false -Cllvm-args=-unroll-allow-partial=false";
 
-/// A module: the entry of the npm package that embeds it, the features of `darboux-js`, and whether size matters more than speed outside
-/// the hot functions.
+/// A module: the entry of the npm package that embeds it, the features of `darboux-js`, compiler flags, and whether size matters more than speed
+/// outside the hot functions.
 #[derive(Clone, Copy)]
 pub struct Module {
     entry: &'static str,
     features: &'static str,
+    flags: &'static str,
     is_small: bool,
 }
 
 /// The module of `darboux`.
-pub const FULL: Module = Module { entry: "darboux", features: "full", is_small: false };
+pub const FULL: Module = Module { entry: "darboux", features: "full", flags: FLAGS, is_small: false };
 
 /// The module of `darboux/tangents`.
-const SMALL: Module = Module { entry: "tangents", features: "", is_small: true };
+const SMALL: Module = Module { entry: "tangents", features: "", flags: FLAGS, is_small: true };
 
 /// The module of `darboux/check`.
-pub const CHECK: Module = Module { entry: "check", features: "check", is_small: false };
+pub const CHECK: Module = Module { entry: "check", features: "check", flags: FLAGS, is_small: false };
+
+/// The module of `darboux/bake`, without the flags: its rays call small functions in their innermost loops.
+pub const BAKE: Module = Module { entry: "bake", features: "bake", flags: "", is_small: false };
+
+/// The modules of the whole package.
+const ALL: [Module; 4] = [FULL, SMALL, CHECK, BAKE];
 
 /// Optimises every function for size. The hot functions are excluded by name.
 const SIZE_FLAG: &str = "-Cllvm-args=-force-attribute=optsize";
@@ -65,15 +72,15 @@ pub fn test(without: WithoutNpm) -> Outcome {
         println!("skipped: the npm package needs node and npm");
         return Ok(());
     }
-    make_folder(&folder()?, &[FULL, SMALL, CHECK])?;
+    make_folder(&folder()?, &ALL)?;
     run(program("npm test").current_dir(root().join("bindings/js")))
 }
 
 /// `cargo xtask dist-js`: makes the folder and prints its absolute path as the last line.
 pub fn make() -> Outcome {
-    eprintln!("dist-js makes the npm package: 6 WebAssembly modules, bundled with TypeScript");
+    eprintln!("dist-js makes the npm package: 8 WebAssembly modules, bundled with TypeScript");
     let folder = folder()?;
-    make_folder(&folder, &[FULL, SMALL, CHECK])?;
+    make_folder(&folder, &ALL)?;
     println!("{}", folder.display());
     Ok(())
 }
@@ -114,14 +121,14 @@ pub fn make_folder(folder: &Path, modules: &[Module]) -> Outcome {
 
 /// Compiles one form of a module to `FOLDER/ENTRY.FORM.wasm`.
 fn compile(module: Module, (form, form_flags): (&str, &str), folder: &Path) -> Outcome {
-    let Module { entry, features, is_small } = module;
+    let Module { entry, features, flags, is_small } = module;
     let target = target_folder()?.join("dist-js").join(format!("{entry}-{form}"));
     let hot = if is_small { hot_functions(&target)? } else { BTreeSet::new() };
     let size = if is_small { format!(" {SIZE_FLAG}{}", excluded(&hot)) } else { String::new() };
     step(&format!("compile the module of {entry} ({form})"), || {
         let mut cargo = cargo_build("darboux-js", &target);
         cargo.args(["--no-default-features", "--features", features]);
-        run(to_stderr(cargo.env("RUSTFLAGS", format!("{form_flags} {FLAGS}{size}"))))
+        run(to_stderr(cargo.env("RUSTFLAGS", format!("{form_flags} {flags}{size}"))))
     })?;
     let built = target.join(TRIPLE).join("dist/darboux_js.wasm");
     if is_small {

@@ -25,7 +25,7 @@ const HEAD: &str = "\
 
 The same function has the same name, in the spelling of each language, the same arguments in the same order (positions, normals, UVs, indices, options)
 and the same results, bit for bit. A dash means that the language does not have it. Packages other than the core are named: `darboux_io::` is a Rust
-crate, `check:` stands for the npm package's entry `darboux/check`, and the command's column names the subcommand that does it for files.
+crate, `check:` stands for the npm package's entry `darboux/check` (and so on), and the command's column names the subcommand that does it for files.
 ";
 
 /// Writes the page below `into`, where the lists of the Rust API, darboux.h and the command-line reference lie already.

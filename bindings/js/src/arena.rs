@@ -25,6 +25,8 @@ pub struct Arena {
     pub context: Context,
     #[cfg(feature = "full")]
     pub extras: crate::extras::Extras,
+    #[cfg(feature = "bake")]
+    pub bake: crate::bake_arrays::BakeArrays,
     #[cfg(feature = "check")]
     pub check: crate::check_arrays::CheckArrays,
 }

@@ -11,6 +11,10 @@ mod mesh_arrays;
 mod options;
 mod tangents;
 
+#[cfg(feature = "bake")]
+mod bake;
+#[cfg(feature = "bake")]
+mod bake_arrays;
 #[cfg(feature = "check")]
 mod check;
 #[cfg(feature = "check")]

@@ -53,6 +53,14 @@ test('what is wrong with a model', async () => {
   assert.ok(left.every(({ severity, leftBecause }) => severity !== 'error' && leftBecause));
 });
 
+test('baking', async () => {
+  const before = process.cwd();
+  process.chdir(fileURLToPath(new URL('../../..', import.meta.url)));
+  const { texels, missed } = await run(8, 'texels, missed').finally(() => process.chdir(before));
+  assert.equal(texels.length, 256 * 256 * 3);
+  assert.ok(missed < 0.01, `${missed}`);
+});
+
 test('in place of npm mikktspace', async () => {
   const { tangents } = await run(5, 'tangents');
   assert.deepEqual(Array.from(tangents), Array.from({ length: 3 }, () => [1, 0, 0, 1]).flat());

@@ -8,10 +8,11 @@ use crate::api;
 use crate::run::root;
 
 /// The entries of the npm package, with their prefix in the table.
-const ENTRIES: [(&str, &str); 7] = [
+const ENTRIES: [(&str, &str); 8] = [
     ("", "darboux"),
     ("tangents:", "tangents"),
     ("check:", "check"),
+    ("bake:", "bake"),
     ("three:", "three"),
     ("gltf-transform:", "gltf-transform"),
     ("mikktspace:", "mikktspace"),

@@ -148,7 +148,9 @@ pub const GROUPS: &[(&str, &[Row])] = &[
             "add normals": ["darboux_io::gltf::add_normals"]; []; []; ["Document.add_normals"]; []; ["darboux normals"],
             "describe": ["darboux_io::gltf::inspect"]; []; []; ["Document.inspect"]; []; ["darboux inspect"],
             "many files": []; []; []; ["batch", "process"]; []; ["darboux tangents"],
-            "bake": ["darboux_bake::bake"]; []; []; ["bake"]; []; ["darboux bake"],
+            "bake surfaces": ["darboux_bake::bake"]; []; []; ["bake"]; []; [],
+            "bake models": ["darboux_bake::LowModel::surfaces", "darboux_bake::HighModel::surfaces"]; []; []; [];
+                ["bake:bakeModels"]; ["darboux bake"],
             "errors of a baked map in degrees": ["darboux_bake::verify"]; []; []; []; []; ["darboux bake"],
             "object-space maps to tangent space, and back": ["darboux_bake::convert_space"]; []; []; []; [];
                 ["darboux convert"],
@@ -172,7 +174,7 @@ pub const GROUPS: &[(&str, &[Row])] = &[
             "reused memory, threads": ["Context"]; ["darboux_context_create", "darboux_context_free"]; ["context"]; []; []; [],
             "cancel a call": ["Cancel::cancel"]; ["darboux_context_cancel", "darboux_context_resume"]; ["cancel", "resume"];
                 []; []; [],
-            "the library is loaded": []; []; []; []; ["ready", "check:ready", "tangents:ready"]; [],
+            "the library is loaded": []; []; []; []; ["ready", "bake:ready", "check:ready", "tangents:ready"]; [],
             "the last error": []; ["darboux_last_error"]; ["error"]; []; []; [],
             "the library's memory and version": []; ["darboux_set_allocator", "darboux_version"]; []; []; []; [],
             "free results": [];
@@ -200,4 +202,5 @@ pub const OUTSIDE: &[&str] = &[
     "webgpu:GpuPlan",
     "webgpu:BoundPlan",
     "Document",
+    "bake:TEXEL_STATES",
 ];

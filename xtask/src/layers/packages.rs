@@ -29,7 +29,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ),
     ("darboux-c", &["darboux", "darboux-tests"]),
     ("darboux-mikktspace", &["darboux"]),
-    ("darboux-js", &["darboux", "darboux-io", "darboux-check"]),
+    ("darboux-js", &["darboux", "darboux-io", "darboux-check", "darboux-bake"]),
     ("darboux-viewer", &["darboux", "darboux-io"]),
     ("darboux-python", &["darboux", "darboux-io", "darboux-check", "darboux-bake", "darboux-cli"]),
     ("darboux-dice", &[]),

@@ -52,20 +52,21 @@ function seeded<E extends Exports>(instance: WebAssembly.Instance): E {
   return exports;
 }
 
-/** Starts to load a module. The form without SIMD is imported only where the one with SIMD does not compile. */
+/** Starts to load a module. The form without SIMD is imported only where the one with SIMD does not compile. `imports`: what the module calls. */
 export function load<E extends Exports>(
   simd: Uint8Array<ArrayBuffer>,
   scalar: () => Promise<{ default: Uint8Array<ArrayBuffer> }>,
+  imports?: WebAssembly.Imports,
 ): WasmModule<E> {
   let module: WebAssembly.Module;
   let exports: E | undefined;
 
   async function start(): Promise<void> {
     module = await compile(simd).catch(async () => compile((await scalar()).default));
-    exports = seeded(await WebAssembly.instantiate(module));
+    exports = seeded(await WebAssembly.instantiate(module, imports));
   }
 
-  const instantiate = () => seeded<E>(new WebAssembly.Instance(module));
+  const instantiate = () => seeded<E>(new WebAssembly.Instance(module, imports));
 
   function shared(): E {
     if (!exports) throw new Error('darboux has not loaded yet; await ready before the first call');

@@ -1,0 +1,1 @@
+export { default } from './wasm/bake.scalar.wasm';

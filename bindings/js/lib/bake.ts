@@ -1,0 +1,234 @@
+// `darboux/bake`: maps of a low-poly model from the detail of high-poly ones. It has a WebAssembly module of its own.
+
+import { checkType, choice, optionsOf } from './core/checks.js';
+import { writeTexts } from './core/mesh.js';
+import { load, type Exports } from './core/wasm-module.js';
+import type { Convention } from './types.js';
+import simd from './wasm/bake.simd.wasm';
+
+/** The functions of the module; bindings/js/src/bake.rs documents them. */
+interface BakeExports extends Exports {
+  begin_bake(): void;
+  model_bytes(bytes: number): number;
+  bake_options(bytes: number): number;
+  bake_models(): number;
+  json_length(): number;
+  baked_image(kind: number): number;
+  baked_states(): number;
+}
+
+/** A kind of image: tangent-space normals, object-space normals, heights, ambient occlusion, positions. */
+export type MapKind = 'normal' | 'object-normal' | 'height' | 'ao' | 'position';
+
+/** The kinds in the order of their numbers in WebAssembly: names of images, and floats per texel. */
+const KINDS = [
+  ['normal', 'normal', 3],
+  ['object-normal', 'objectNormal', 3],
+  ['height', 'height', 1],
+  ['ao', 'ao', 1],
+  ['position', 'position', 3],
+] as const satisfies (readonly [MapKind, keyof BakedImages, number])[];
+
+/** Options of {@link bakeModels}. */
+export interface BakeOptions {
+  /** Width and height in texels. Default: [1024, 1024]. */
+  size?: readonly [number, number] | null;
+  /** Rays begin on a copy of the low model, inflated by this distance, and end as far inside. Default: 2 % of the model's diagonal. */
+  cageOffset?: number | null;
+  /** In place of a cage: how far outside rays begin along the normals, and how far inside they end, in units of the positions. */
+  distance?: readonly [number, number] | null;
+  /** The images that are made; they share rays. Default: ['normal']. */
+  maps?: readonly MapKind[] | null;
+  /** Samples per texel and axis, 1 to 16. Default: 1. */
+  samples?: number | null;
+  /** How the renderer rebuilds the bitangent. Default: 'pixel'. */
+  bitangent?: 'pixel' | 'vertex' | null;
+  /** The convention of the maps. Default: 'gltf'. */
+  convention?: Convention | null;
+  /** How far texels outside the charts are filled, in texels. Default: all are. */
+  padding?: number | null;
+  /** Whether rays also hit triangles from behind. Default: false. */
+  backFaces?: boolean | null;
+  /** The index of the only material of the low model that is baked. Default: all. */
+  material?: number | null;
+  /** The n of `TEXCOORD_n`. Default: the set that the normal map of each material uses. */
+  uvSet?: number | null;
+  /** 'name': the part `crate_low` is baked from `crate_high` and `crate_high_bolts` only. Default: 'nearest'. */
+  match?: 'nearest' | 'name' | null;
+  /** Whether the normal maps of the high models count. Default: true. */
+  highMaps?: boolean | null;
+  /** Rays of ambient occlusion per sample. Default: 64. */
+  aoRays?: number | null;
+  /** How far surfaces occlude each other. Default: any distance. */
+  aoDistance?: number | null;
+  /** Called while the call runs, with the finished part from 0 to 1. */
+  onProgress?: ((done: number) => void) | null;
+}
+
+/** The images of a bake, the top row first; null where a kind was not chosen. */
+export interface BakedImages {
+  /** Unit normals in tangent space, 3 floats per texel, (0, 0, 1) in the background. A texel of 8 bits is 127.5 + 127.5 n, rounded. */
+  normal: Float32Array<ArrayBuffer> | null;
+  /** Unit normals along the axes of the convention, 3 floats per texel. */
+  objectNormal: Float32Array<ArrayBuffer> | null;
+  /** Distances along the rays, positive outside. */
+  height: Float32Array<ArrayBuffer> | null;
+  /** From 0, closed, to 1, open. */
+  ao: Float32Array<ArrayBuffer> | null;
+  /** Positions along the axes of the convention, 3 floats per texel. */
+  position: Float32Array<ArrayBuffer> | null;
+}
+
+/** The result of {@link bakeModels}. */
+export interface BakedMaps extends BakedImages {
+  /** Width and height in texels. */
+  size: readonly [number, number];
+  /** What is in each texel: a number of {@link TEXEL_STATES}. */
+  states: Uint8Array<ArrayBuffer>;
+  report: BakeReport;
+  /** The diagonal of the box around the low model, in units of its positions. */
+  diagonal: number;
+  /** How far outside rays began and how far inside they ended. */
+  distance: readonly [number, number];
+  /** What was left out, one sentence each. */
+  warnings: string[];
+}
+
+/** The states of texels. 'missed': in a chart, but no ray hit; 'missedBehind': and rays met triangles from behind. Both are filled from around. */
+export const TEXEL_STATES = ['outside', 'baked', 'extended', 'missed', 'missedBehind'] as const;
+
+/** The counts of a bake. A texel counts where at least one of its samples does. */
+export interface BakeReport {
+  texels: number;
+  /** Texels that the charts cover. */
+  chartedTexels: number;
+  /** Charted texels without any hit. */
+  missedTexels: number;
+  /** Those of the missed texels whose rays met triangles from behind. */
+  backFacingTexels: number;
+  /** Texels that more than one triangle covers. The first triangle owns them. */
+  overlappingTexels: number;
+  /** Texels at which the normal of the high model points to the back of its triangle. */
+  invertedTexels: number;
+  /** Texels at which the frame of the low model does not span space. */
+  framelessTexels: number;
+  /** Texels whose normal points below the low surface. */
+  belowHorizonTexels: number;
+  rays: number;
+  lowTriangles: number;
+  /** Triangles of the low model without an area in the image. They are not baked. */
+  degenerateTriangles: number;
+  /** Triangles of the low model across more than 16 tiles of UVs. They are not baked. */
+  oversizedTriangles: number;
+  highTriangles: number;
+  /** Triangles of the high models with positions that are not finite. No ray hits them. */
+  nonFiniteTriangles: number;
+}
+
+/** What the module reports: counts by their names in Rust, or a sentence. */
+interface Outcome {
+  report?: Pick<BakedMaps, 'diagonal' | 'distance' | 'warnings'> & { counts: Record<string, number> };
+  error?: string;
+}
+
+/** The receiver of the running call's progress. */
+let tell: ((done: number) => void) | null | undefined;
+
+const bakeModule = load<BakeExports>(simd, () => import('./bake.scalar.js'), {
+  darboux: { progress: (done: number, total: number) => tell?.(done / total) },
+});
+
+/** Resolves when the other functions can be called. */
+export const ready: Promise<void> = bakeModule.ready;
+
+/**
+ * Bakes the detail of high models into images over the UVs of a low model, as `darboux bake` does, with the same bits.
+ *
+ * From every texel that a triangle of the low model covers, a ray passes from outside through it; the first triangle of a high model that it hits
+ * gives the content. Normals are in the frames of the tangents that the low model has, or else of MikkTSpace's. The call does not return before all
+ * is done: run it in a worker, which a page can end.
+ *
+ * @param low The bytes of a GLB, or of a glTF whose buffers and images are embedded. Draco is decompressed, meshopt is not.
+ * @param high The same of one high model, or of several.
+ * @throws TypeError for another type. RangeError for an unknown choice. Error for a file that cannot be read, a model without normals, UVs or triangles, and numbers
+ * out of range.
+ */
+export function bakeModels(low: Uint8Array, high: Uint8Array | readonly Uint8Array[], options?: BakeOptions | null): BakedMaps {
+  const files = [low, ...(Array.isArray(high) ? (high as readonly Uint8Array[]) : [high as Uint8Array])];
+  files.forEach((file, at) => checkType(at ? 'high' : 'low', file, ['Uint8Array']));
+  const chosen = optionsOf(options);
+  const text = optionsText(chosen);
+  tell = chosen.onProgress;
+  return bakeModule.call((exports) => {
+    exports.begin_bake();
+    for (const file of files) writeBytes(exports, file);
+    writeTexts(exports, [text], exports.bake_options);
+    const { report, error } = readJson<Outcome>(exports, exports.bake_models());
+    if (!report) throw new Error(error);
+    const { counts, diagonal, distance, warnings } = report;
+    const size = sizeOf(chosen);
+    return { ...images(exports, size), size, states: states(exports, size), report: camelCased(counts), diagonal, distance, warnings };
+  });
+}
+
+function sizeOf({ size }: BakeOptions): readonly [number, number] {
+  return size ?? [1024, 1024];
+}
+
+/** The options as the JSON that the module reads. Errors: numbers that JSON or the module does not have. */
+function optionsText(options: BakeOptions): string {
+  const { cageOffset, distance, maps, samples, padding, material, uvSet, aoRays, aoDistance } = options;
+  const whole = { width: sizeOf(options)[0], height: sizeOf(options)[1], samples: samples ?? 1, padding, material, uvSet, aoRays: aoRays ?? 64 };
+  for (const [name, value] of Object.entries(whole)) {
+    if (value != null && !(Number.isInteger(value) && value >= 0 && value < 2 ** 32)) throw new RangeError(`${name} is ${value}; it must be a whole number from 0 on`);
+  }
+  const lengths = { cageOffset, aoDistance, 'the first distance': distance?.[0], 'the second distance': distance?.[1] };
+  for (const [name, value] of Object.entries(lengths)) {
+    if (value != null && !Number.isFinite(value)) throw new RangeError(`${name} is ${value}; it must be a finite number`);
+  }
+  return JSON.stringify({
+    size: sizeOf(options),
+    cageOffset: cageOffset ?? null,
+    distance: distance ?? null,
+    maps: (maps ?? ['normal']).map((kind) => choice('maps', kind, KINDS.map(([kind]) => kind))),
+    samples: whole.samples,
+    isPerVertex: choice('bitangent', options.bitangent, ['pixel', 'vertex'], 'pixel') === 1,
+    convention: options.convention ?? 'gltf',
+    padding: padding ?? null,
+    backFaces: Boolean(options.backFaces),
+    material: material ?? null,
+    uvSet: uvSet ?? null,
+    matchesNames: choice('match', options.match, ['nearest', 'name'], 'nearest') === 1,
+    highMaps: options.highMaps ?? true,
+    aoRays: whole.aoRays,
+    aoDistance: aoDistance ?? null,
+  });
+}
+
+function images(exports: BakeExports, [width, height]: readonly [number, number]): BakedImages {
+  const entries = KINDS.map(([, name, channels], kind) => {
+    const address = exports.baked_image(kind) >>> 0;
+    return [name, address ? new Float32Array(exports.memory.buffer, address, width * height * channels).slice() : null];
+  });
+  return Object.fromEntries(entries) as BakedImages;
+}
+
+function states(exports: BakeExports, [width, height]: readonly [number, number]): Uint8Array<ArrayBuffer> {
+  return new Uint8Array(exports.memory.buffer, exports.baked_states() >>> 0, width * height).slice();
+}
+
+/** Counts with their names in JavaScript. */
+function camelCased(counts: Record<string, number>): BakeReport {
+  const named = Object.entries(counts).map(([name, count]) => [name.replaceAll(/_(.)/g, (_, letter: string) => letter.toUpperCase()), count]);
+  return Object.fromEntries(named) as BakeReport;
+}
+
+function writeBytes(exports: BakeExports, bytes: Uint8Array): void {
+  const address = exports.model_bytes(bytes.length) >>> 0;
+  new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes);
+}
+
+function readJson<T>(exports: BakeExports, address: number): T {
+  const bytes = new Uint8Array(exports.memory.buffer, address >>> 0, exports.json_length() >>> 0);
+  return JSON.parse(new TextDecoder().decode(bytes)) as T;
+}

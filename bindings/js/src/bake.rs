@@ -1,0 +1,280 @@
+//! `darboux/bake`: maps of a low model from the detail of high ones.
+
+use darboux::{Context, Convention};
+use darboux_bake::{
+    BakeOptions, BakeProgress, BakeReport, Baked, Bitangent, HighModel, HighModelOptions, LowModel,
+    LowModelOptions, LowSurface, MapKind, MapSet, TexelState, bake, inflated_cage, match_names,
+};
+use darboux_io::LoadOptions;
+use darboux_io::gltf::Document;
+use serde::{Deserialize, Serialize};
+
+use crate::arena::with_arena;
+use crate::inputs::resized;
+
+/// The cage's offset without options, as a share of the diagonal of the low model's box; as that of `darboux bake`.
+const DEFAULT_SHARE: f64 = 0.02;
+
+#[cfg(target_family = "wasm")]
+#[link(wasm_import_module = "darboux")]
+unsafe extern "C" {
+    /// Receives the rows of blocks that are finished, and all rows.
+    safe fn progress(done: usize, total: usize);
+}
+
+/// Receives the rows of blocks that are finished, and all rows. Only JavaScript has a receiver.
+#[cfg(not(target_family = "wasm"))]
+fn progress(_done: usize, _total: usize) {}
+
+/// Forgets the files of the call before.
+#[unsafe(no_mangle)]
+pub extern "C" fn begin_bake() {
+    with_arena(|arena| arena.bake.files.clear());
+}
+
+/// The bytes of the next file: the low model, then the high ones.
+#[unsafe(no_mangle)]
+pub extern "C" fn model_bytes(bytes: usize) -> *mut u8 {
+    with_arena(|arena| {
+        let files = &mut arena.bake.files;
+        files.push(Vec::new());
+        files.last_mut().map_or(std::ptr::null_mut(), |file| resized(file, bytes))
+    })
+}
+
+/// The options, as the JSON of [`Options`].
+#[unsafe(no_mangle)]
+pub extern "C" fn bake_options(bytes: usize) -> *mut u8 {
+    with_arena(|arena| resized(&mut arena.bake.options, bytes))
+}
+
+/// The number of bytes of the last report.
+#[unsafe(no_mangle)]
+pub extern "C" fn json_length() -> usize {
+    with_arena(|arena| arena.bake.json.len())
+}
+
+/// The address of an image, by the number of its kind in [`MapKind::ALL`]; null where it was not chosen.
+#[unsafe(no_mangle)]
+pub extern "C" fn baked_image(kind: usize) -> *const f32 {
+    with_arena(|arena| {
+        let images = &arena.bake.images;
+        let vectors =
+            |image: &Option<Vec<[f32; 3]>>| image.as_ref().map(|image| image.as_flattened().as_ptr());
+        let numbers = |image: &Option<Vec<f32>>| image.as_ref().map(|image| image.as_ptr());
+        let found = match MapKind::ALL.get(kind) {
+            Some(MapKind::Normal) => vectors(&images.normal),
+            Some(MapKind::ObjectNormal) => vectors(&images.object_normal),
+            Some(MapKind::Height) => numbers(&images.height),
+            Some(MapKind::Occlusion) => numbers(&images.occlusion),
+            Some(MapKind::Position) => vectors(&images.position),
+            _ => None,
+        };
+        found.unwrap_or(std::ptr::null())
+    })
+}
+
+/// The address of the states of all texels.
+#[unsafe(no_mangle)]
+pub extern "C" fn baked_states() -> *const u8 {
+    with_arena(|arena| arena.bake.states.as_ptr())
+}
+
+/// Options of a bake. bindings/js/lib/bake.ts documents them.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Options {
+    size: [u32; 2],
+    cage_offset: Option<f32>,
+    distance: Option<[f32; 2]>,
+    /// Numbers in [`MapKind::ALL`].
+    maps: Vec<usize>,
+    samples: u32,
+    is_per_vertex: bool,
+    convention: String,
+    padding: Option<u32>,
+    back_faces: bool,
+    material: Option<usize>,
+    uv_set: Option<usize>,
+    matches_names: bool,
+    high_maps: bool,
+    ao_rays: u32,
+    ao_distance: Option<f32>,
+}
+
+/// What a bake reports beside its images.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Report {
+    counts: BakeReport,
+    diagonal: f64,
+    distance: [f32; 2],
+    has_cage: bool,
+    warnings: Vec<String>,
+}
+
+#[derive(Serialize)]
+enum Outcome {
+    #[serde(rename = "report")]
+    Report(Report),
+    #[serde(rename = "error")]
+    Error(String),
+}
+
+/// Bakes the models in the arena. Returns the address of the JSON.
+#[unsafe(no_mangle)]
+pub extern "C" fn bake_models() -> *const u8 {
+    with_arena(|arena| {
+        let arrays = &mut arena.bake;
+        let outcome = match bake_files(&arrays.files, &arrays.options, &mut arena.context) {
+            Ok((baked, report)) => {
+                arrays.states = baked.images.states.iter().map(|&state| code(state)).collect();
+                arrays.images = baked.images;
+                Outcome::Report(report)
+            }
+            Err(sentence) => Outcome::Error(sentence),
+        };
+        arrays.put_json(&outcome)
+    })
+}
+
+/// Reads the models and bakes them. Errors: one sentence.
+fn bake_files(files: &[Vec<u8>], options: &[u8], context: &mut Context) -> Result<(Baked, Report), String> {
+    let options: Options = serde_json::from_slice(options).map_err(|error| format!("options: {error}"))?;
+    let (low_file, high_files) = files.split_first().ok_or("there is no model to bake")?;
+    let low_document = open("the low model", low_file)?;
+    let high_documents: Vec<_> =
+        high_files.iter().map(|file| open("the high model", file)).collect::<Result<_, _>>()?;
+    let low_corners = low_document.corners().map_err(sentence)?;
+    let low_options = LowModelOptions::default().with_uv_set(options.uv_set).with_material(options.material);
+    let low = LowModel::read(&low_document, &low_corners, &low_options).map_err(sentence)?;
+    let high_corners: Vec<_> =
+        high_documents.iter().map(Document::corners).collect::<Result<_, _>>().map_err(sentence)?;
+    let high_options = HighModelOptions::default().with_normal_maps(options.high_maps);
+    let highs: Vec<HighModel<'_>> = high_documents
+        .iter()
+        .zip(&high_corners)
+        .map(|(document, corners)| HighModel::read(document, corners, &high_options))
+        .collect::<Result<_, _>>()
+        .map_err(sentence)?;
+    let mut report = Report {
+        counts: BakeReport::default(),
+        diagonal: low.diagonal(),
+        distance: distance(&options, low.diagonal()),
+        has_cage: options.distance.is_none(),
+        warnings: warnings(&low, &highs)?,
+    };
+    let baked = bake_read(&low, &highs, &options, &mut report, context)?;
+    report.counts = baked.report;
+    Ok((baked, report))
+}
+
+/// Bakes models that were read.
+fn bake_read(
+    low: &LowModel<'_>,
+    highs: &[HighModel<'_>],
+    options: &Options,
+    report: &mut Report,
+    context: &mut Context,
+) -> Result<Baked, String> {
+    let mut low_surfaces = low.surfaces().map_err(sentence)?;
+    let mut high_surfaces = Vec::new();
+    for high in highs {
+        high_surfaces.extend(high.surfaces().map_err(sentence)?);
+    }
+    if options.matches_names {
+        let low_names: Vec<&str> = low.names().collect();
+        let high_names: Vec<&str> = highs.iter().flat_map(HighModel::names).collect();
+        let found = match_names(&low_names, &high_names);
+        for (surface, &group) in low_surfaces.iter_mut().zip(&found.group_of_low) {
+            *surface = surface.with_group(group);
+        }
+        let grouped = high_surfaces.into_iter().zip(&found.group_of_high);
+        high_surfaces =
+            grouped.filter_map(|(surface, group)| group.map(|group| surface.with_group(group))).collect();
+        let alone = found.low_without_high.iter().map(|&part| low_names[part]);
+        report.warnings.extend(alone.map(|name| format!("no part of the high models belongs to {name}")));
+    }
+    let cages = match report.has_cage {
+        true => cages(&low_surfaces, report.distance[0])?,
+        false => Vec::new(),
+    };
+    let mut placed = Vec::with_capacity(low_surfaces.len());
+    for (index, surface) in low_surfaces.into_iter().enumerate() {
+        placed.push(match cages.get(index) {
+            Some(cage) => surface.with_cage(cage).map_err(text)?,
+            None => surface,
+        });
+    }
+    let tell = &mut |BakeProgress { done, total }: BakeProgress| progress(done, total);
+    bake(&placed, &high_surfaces, &bake_settings(options, report.distance)?, context, tell).map_err(text)
+}
+
+fn bake_settings(options: &Options, distance: [f32; 2]) -> Result<BakeOptions, String> {
+    let kinds: Vec<MapKind> =
+        options.maps.iter().filter_map(|&kind| MapKind::ALL.get(kind).copied()).collect();
+    let convention: Convention =
+        options.convention.parse().map_err(|error| format!("convention: {error}"))?;
+    let bitangent = if options.is_per_vertex { Bitangent::PerVertex } else { Bitangent::PerPixel };
+    Ok(BakeOptions::new(options.size, distance)
+        .with_maps(MapSet::of(&kinds))
+        .with_samples_per_axis(options.samples)
+        .with_back_faces(options.back_faces)
+        .with_bitangent(bitangent)
+        .with_map_convention(convention)
+        .with_padding(options.padding)
+        .with_occlusion(options.ao_rays, options.ao_distance.unwrap_or(f32::INFINITY)))
+}
+
+/// How far rays begin outside and end inside: the options', or a share of the model's diagonal.
+fn distance(options: &Options, diagonal: f64) -> [f32; 2] {
+    let by_size = (DEFAULT_SHARE * diagonal).max(f64::from(f32::MIN_POSITIVE)) as f32;
+    options.distance.unwrap_or([options.cage_offset.unwrap_or(by_size); 2])
+}
+
+fn cages(low: &[LowSurface<'_>], offset: f32) -> Result<Vec<Vec<[f32; 3]>>, String> {
+    low.iter().map(|surface| inflated_cage(surface.mesh(), offset).map_err(text)).collect()
+}
+
+/// What was left out. Errors: nothing of the low model can be baked.
+fn warnings(low: &LowModel<'_>, highs: &[HighModel<'_>]) -> Result<Vec<String>, String> {
+    let mut warnings: Vec<String> = highs.iter().flat_map(HighModel::warnings).cloned().collect();
+    if low.without_uvs > 0 && low.primitives().next().is_none() {
+        return Err("the low model has no UVs, so that no map fits it; unwrap it first".to_owned());
+    }
+    if low.without_uvs > 0 {
+        warnings
+            .push(format!("{} primitives of the low model have no UVs and are not baked", low.without_uvs));
+    }
+    if low.materials.len() > 1 {
+        let count = low.materials.len();
+        warnings.push(format!("the {count} materials of the low model share one map; where their charts overlap, the first triangle wins"));
+    }
+    Ok(warnings)
+}
+
+fn open(name: &str, file: &[u8]) -> Result<Document, String> {
+    let options = LoadOptions::default();
+    let mut document = Document::from_bytes(name, file.to_vec(), None, &options).map_err(sentence)?;
+    document.decompress().map_err(sentence)?;
+    Ok(document)
+}
+
+/// The number of a state in `BakedMaps.states`.
+fn code(state: TexelState) -> u8 {
+    match state {
+        TexelState::Baked => 1,
+        TexelState::Extended => 2,
+        TexelState::Missed => 3,
+        TexelState::MissedBehind => 4,
+        _ => 0,
+    }
+}
+
+fn sentence(error: darboux_io::Error) -> String {
+    error.to_string()
+}
+
+fn text(error: darboux_bake::BakeError) -> String {
+    error.to_string()
+}

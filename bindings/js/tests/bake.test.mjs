@@ -1,0 +1,79 @@
+// `darboux/bake`: maps, counts, progress, options and errors.
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { formsOf } from './forms.mjs';
+
+const forms = await formsOf('darboux/bake');
+const shield = new Uint8Array(readFileSync(fileURLToPath(new URL('../../../assets/made/shield.glb', import.meta.url))));
+
+/** A square of unit size as a glTF, bent upwards along x by a slope; without UVs where `hasUvs` is false. */
+function square(slope, { name = 'square', hasUvs = true } = {}) {
+  const corners = [[0, 0], [1, 0], [1, 1], [0, 1]];
+  const arrays = [corners.map(([x, y]) => [x, y, slope * x]), corners.map(() => [-slope, 0, 1].map((c) => c / Math.hypot(slope, 1))), corners.map(([x, y]) => [x, 1 - y])];
+  const floats = Float32Array.from(arrays.flat(2));
+  const uri = `data:application/octet-stream;base64,${Buffer.from(floats.buffer).toString('base64')}`;
+  const starts = [0, 48, 96];
+  const bufferViews = starts.map((byteOffset, at) => ({ buffer: 0, byteOffset, byteLength: arrays[at].flat().length * 4 }));
+  const bounds = { min: [0, 0, Math.min(0, slope)], max: [1, 1, Math.max(0, slope)] };
+  const accessors = bufferViews.map((_, at) => ({ bufferView: at, componentType: 5126, count: 4, type: at < 2 ? 'VEC3' : 'VEC2', ...(at ? {} : bounds) }));
+  const attributes = { POSITION: 0, NORMAL: 1, ...(hasUvs ? { TEXCOORD_0: 2 } : {}) };
+  const meshes = [{ name, primitives: [{ attributes, mode: 6 }] }];
+  return Buffer.from(JSON.stringify({ asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0, name }], meshes, accessors, bufferViews, buffers: [{ byteLength: floats.byteLength, uri }] }));
+}
+
+const bytes = (...arguments_) => new Uint8Array(square(...arguments_));
+const results = [];
+
+for (const [name, { bakeModels, TEXEL_STATES }] of Object.entries(forms)) {
+  test(`${name}: a slope leans the normal against it`, () => {
+    const progress = [];
+    const maps = ['normal', 'object-normal', 'height', 'ao', 'position'];
+    const baked = bakeModels(bytes(0), bytes(0.5), { size: [64, 32], distance: [1, 1], maps, onProgress: (done) => progress.push(done) });
+    assert.deepEqual([baked.size, baked.normal.length, baked.height.length], [[64, 32], 64 * 32 * 3, 64 * 32]);
+    const [x, y, z] = baked.normal;
+    assert.ok(Math.abs(x / z + 0.5) < 1e-6 && Math.abs(y) < 1e-6, `${x}, ${y}, ${z}`);
+    assert.ok(Math.abs(baked.position[0] - 0.5 / 64) < 1e-6 && Math.abs(baked.height[0] - 0.25 / 64) < 1e-6);
+    assert.ok(baked.objectNormal[0] < -0.4 && baked.ao.every((open) => open === 1));
+    assert.ok(baked.states.every((state) => TEXEL_STATES[state] === 'baked'));
+    assert.deepEqual([baked.report.chartedTexels, baked.report.missedTexels, baked.warnings], [2048, 0, []]);
+    assert.ok(progress.at(-1) === 1 && progress.every((done, at) => done > (progress[at - 1] ?? 0)));
+    results.push(baked);
+  });
+
+  test(`${name}: each option acts`, () => {
+    const pair = [bytes(0), bytes(0.5)];
+    const near = bakeModels(...pair, { size: [64, 64], cageOffset: 0.1 });
+    assert.ok(near.report.missedTexels > 2000 && TEXEL_STATES[near.states[63]] === 'missed');
+    assert.ok(Math.abs(bakeModels(...pair, { size: [64, 64] }).distance[0] - 0.02 * Math.SQRT2) < 1e-8);
+    const [up, down] = ['gltf', 'directx'].map((convention) => bakeModels(bytes(0), new Uint8Array(square(0.5)), { size: [8, 8], cageOffset: 1, convention }));
+    assert.ok(up.normal.every((c, at) => (at % 3 === 1 ? Math.abs(c + down.normal[at]) < 1e-7 : c === down.normal[at])));
+    assert.equal(bakeModels(...pair, { size: [8, 8], samples: 2, cageOffset: 1 }).report.rays, 4 * 64);
+    const named = bakeModels(bytes(0, { name: 'a_low' }), [bytes(0.5, { name: 'b_high' }), bytes(0.25, { name: 'a_high' })], { size: [8, 8], cageOffset: 1, match: 'name' });
+    assert.ok(Math.abs(named.normal[0] / named.normal[2] + 0.25) < 1e-6);
+    assert.ok(bakeModels(shield, shield, { size: [64, 64], cageOffset: 0.01, highMaps: false }).normal.every((c, at) => Math.abs(c - (at % 3 === 2)) < 0.01));
+    assert.ok(bakeModels(shield, shield, { size: [64, 64], cageOffset: 0.01 }).normal.some((c, at) => at % 3 !== 2 && Math.abs(c) > 0.1));
+  });
+
+  test(`${name}: what cannot be baked is refused in a sentence`, () => {
+    assert.throws(() => bakeModels('low.glb', shield), { name: 'TypeError', message: /^low must be a Uint8Array, not String$/ });
+    assert.throws(() => bakeModels(shield, [shield, 1]), TypeError);
+    assert.throws(() => bakeModels(shield, shield, { maps: ['colour'] }), RangeError);
+    assert.throws(() => bakeModels(shield, shield, { samples: 1.5 }), RangeError);
+    assert.throws(() => bakeModels(shield, shield, { cageOffset: NaN }), RangeError);
+    assert.throws(() => bakeModels(shield, shield, { cageOffset: -1 }), /must not be|negative|distance/);
+    assert.throws(() => bakeModels(shield, shield, { size: [0, 4] }), Error);
+    assert.throws(() => bakeModels(shield, shield, { convention: 'quake' }), /^Error: convention: /);
+    assert.throws(() => bakeModels(shield, new Uint8Array([1, 2, 3])), /the high model/);
+    assert.throws(() => bakeModels(bytes(0, { hasUvs: false }), shield), /the low model has no UVs/);
+    assert.equal(bakeModels(bytes(0), bytes(0), { size: [4, 4] }).report.missedTexels, 0, 'and the next call works');
+  });
+}
+
+test('all forms give the same bits', () => {
+  for (const image of ['normal', 'objectNormal', 'height', 'position']) {
+    for (const other of results) assert.deepEqual(other[image], results[0][image]);
+  }
+});
