@@ -26,14 +26,15 @@ impl Drop for Viewer {
 impl Viewer {
     /// Shows a model in a page of one file.
     fn start(folder: &Path, model: &Path) -> Self {
-        Self::start_with(Command::new(env!("CARGO_BIN_EXE_darboux")), folder, model)
+        Self::start_with(Command::new(env!("CARGO_BIN_EXE_darboux")), folder, &[model])
     }
 
-    fn start_with(mut command: Command, folder: &Path, model: &Path) -> Self {
+    fn start_with(mut command: Command, folder: &Path, models: &[&Path]) -> Self {
         fs::write(folder.join("index.html"), "the page").expect("a page");
         let mut child = command
             .args(["view", "--no-open", "--page"])
-            .args([folder, model])
+            .arg(folder)
+            .args(models)
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
@@ -90,13 +91,32 @@ fn the_page_and_the_model_are_behind_the_secret() {
     assert_eq!(viewer.get("evil.example", &format!("/{secret}/")).0, 403);
 }
 
+#[test]
+fn a_high_model_is_served_beside_the_low_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (low, high) = (asset("made/shield.glb"), asset("NormalTangentTest/NormalTangentTest.glb"));
+    let command = Command::new(env!("CARGO_BIN_EXE_darboux"));
+    let viewer = Viewer::start_with(command, folder.path(), &[&low, Path::new("--high"), &high]);
+    let (host, secret) = viewer.parts();
+    assert!(viewer.address.ends_with("/?model=shield.glb&high=NormalTangentTest.glb"), "{}", viewer.address);
+    assert_eq!(viewer.get(host, &format!("/{secret}/high")), (200, br#"["NormalTangentTest.glb"]"#.to_vec()));
+    for (address, model) in [("model", &low), ("high", &high)] {
+        let (status, body) = viewer.get(host, &format!("/{secret}/{address}/0"));
+        assert!(status == 200 && body == fs::read(model).expect("a model"), "{address}: {status}");
+    }
+    let alone = Viewer::start(folder.path(), &low);
+    let (host, secret) = alone.parts();
+    assert_eq!(alone.get(host, &format!("/{secret}/high")).0, 404);
+    darboux(&["view", "--no-open", "--high", &high.display().to_string()]).exits(2);
+}
+
 /// A thread whose stack is larger than the address space cannot start.
 #[test]
 fn without_threads_every_request_is_answered() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut command = Command::new(env!("CARGO_BIN_EXE_darboux"));
     command.env("RUST_MIN_STACK", (1u64 << 50).to_string());
-    let viewer = Viewer::start_with(command, folder.path(), &asset("made/shield.glb"));
+    let viewer = Viewer::start_with(command, folder.path(), &[&asset("made/shield.glb")]);
     let (host, secret) = viewer.parts();
     for _ in 0..3 {
         assert_eq!(viewer.get(host, &format!("/{secret}/")), (200, b"the page".to_vec()));

@@ -237,6 +237,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             break
         }
         'darboux;view' {
+            [CompletionResult]::new('--high', '--high', [CompletionResultType]::ParameterName, 'A high-poly model whose detail the page bakes into a normal map of MODEL')
             [CompletionResult]::new('--memory-limit', '--memory-limit', [CompletionResultType]::ParameterName, 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file')
             [CompletionResult]::new('--page', '--page', [CompletionResultType]::ParameterName, 'The folder with the page''s files')
             [CompletionResult]::new('--no-open', '--no-open', [CompletionResultType]::ParameterName, 'Print the address and open no browser')

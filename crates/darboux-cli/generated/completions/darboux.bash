@@ -579,12 +579,16 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__view)
-            opts="-h --no-open --allow-outside --memory-limit --page --help"
+            opts="-h --high --no-open --allow-outside --memory-limit --page --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
+                --high)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --memory-limit)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0

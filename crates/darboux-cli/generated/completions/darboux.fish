@@ -403,6 +403,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand render" -l allow-outside
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_using_subcommand view" -l high -d 'A high-poly model whose detail the page bakes into a normal map of MODEL' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l page -d 'The folder with the page\'s files' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l no-open -d 'Print the address and open no browser'

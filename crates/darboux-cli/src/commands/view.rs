@@ -8,13 +8,14 @@ mod server;
 
 use std::convert::Infallible;
 use std::fmt::Write as _;
+use std::path::PathBuf;
 
 use crate::exit;
 use crate::terminal::{Messages, write_stdout};
 use arguments::ViewArguments;
 use model::ServedModel;
 use page::Page;
-use server::Server;
+use server::{ServedModels, Server};
 
 /// Serves until the process is interrupted; returns the exit code if the server cannot start.
 pub fn run(arguments: &ViewArguments) -> u8 {
@@ -29,13 +30,12 @@ pub fn run(arguments: &ViewArguments) -> u8 {
 }
 
 fn serve(arguments: &ViewArguments, messages: &Messages) -> Result<Infallible, String> {
-    let model = arguments
-        .model
-        .as_deref()
-        .map(|path| ServedModel::find(path, arguments.reading.load_options()))
-        .transpose()?;
+    let find = |path: &Option<PathBuf>| {
+        path.as_deref().map(|path| ServedModel::find(path, arguments.reading.load_options())).transpose()
+    };
+    let models = ServedModels { model: find(&arguments.model)?, high: find(&arguments.high)? };
     let page = Page::find(arguments.page.as_deref())?;
-    let server = Server::start(page, model, secret()?)?;
+    let server = Server::start(page, models, secret()?)?;
     let address = server.address();
     write_stdout(format!("{address}\n").as_bytes())
         .map_err(|error| format!("the address cannot be written: {error}"))?;

@@ -18,7 +18,8 @@ source folder of this program.";
 pub const EXAMPLES: &str = "\
 Examples:
   darboux view model.glb
-  darboux view model.gltf --no-open   only print the address";
+  darboux view low.glb --high high.glb   bake the detail of high.glb in the page
+  darboux view model.gltf --no-open      only print the address";
 
 /// What is shown, and how.
 #[derive(Debug, Args)]
@@ -26,6 +27,10 @@ pub struct ViewArguments {
     /// A model (.gltf, .glb, .vrm, .obj)
     #[arg(value_name = "MODEL")]
     pub model: Option<PathBuf>,
+
+    /// A high-poly model whose detail the page bakes into a normal map of MODEL
+    #[arg(long, value_name = "HIGH", requires = "model")]
+    pub high: Option<PathBuf>,
 
     /// Print the address and open no browser
     #[arg(long)]

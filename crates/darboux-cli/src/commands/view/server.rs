@@ -45,10 +45,28 @@ pub struct Server {
     served: Arc<ServedFiles>,
 }
 
+/// The models that the page shows.
+pub struct ServedModels {
+    pub model: Option<ServedModel>,
+    /// The high model that is baked onto the other one.
+    pub high: Option<ServedModel>,
+}
+
+impl ServedModels {
+    /// The model below an address.
+    fn at(&self, address: &str) -> Option<&ServedModel> {
+        if address == HIGH { self.high.as_ref() } else { self.model.as_ref() }
+    }
+}
+
+/// The addresses of the models.
+const MODEL: &str = "model";
+const HIGH: &str = "high";
+
 /// What is served, and to whom.
 struct ServedFiles {
     page: Page,
-    model: Option<ServedModel>,
+    models: ServedModels,
     /// The server's address, as browsers send it in `Host`.
     host: String,
     secret: String,
@@ -61,20 +79,24 @@ const TEXT: &str = "text/plain; charset=utf-8";
 
 impl Server {
     /// Opens a port. Errors: the system refuses one.
-    pub fn start(page: Page, model: Option<ServedModel>, secret: String) -> Result<Self, String> {
+    pub fn start(page: Page, models: ServedModels, secret: String) -> Result<Self, String> {
         let failed = |error: io::Error| format!("no port can be opened: {error}");
         let listener = StdListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, 0))).map_err(failed)?;
         listener.set_nonblocking(true).map_err(failed)?;
         let host = listener.local_addr().map_err(failed)?.to_string();
-        Ok(Self { listener, served: Arc::new(ServedFiles { page, model, host, secret }) })
+        Ok(Self { listener, served: Arc::new(ServedFiles { page, models, host, secret }) })
     }
 
     /// The address of the page.
     pub fn address(&self) -> String {
-        let ServedFiles { host, secret, model, .. } = &*self.served;
-        let name = model.iter().flat_map(ServedModel::names).next();
-        let query = name.map_or(String::new(), |name| format!("?model={}", percent_encoded(&name)));
-        format!("http://{host}/{secret}/{query}")
+        let ServedFiles { host, secret, models, .. } = &*self.served;
+        let queries = [MODEL, HIGH].into_iter().filter_map(|address| {
+            let name = models.at(address)?.names().into_iter().next()?;
+            Some(format!("{address}={}", percent_encoded(&name)))
+        });
+        let queries = queries.collect::<Vec<_>>().join("&");
+        let mark = if queries.is_empty() { "" } else { "?" };
+        format!("http://{host}/{secret}/{mark}{queries}")
     }
 
     /// Serves until the process ends. Errors: the system refuses what the server needs.
@@ -163,10 +185,10 @@ impl ServedFiles {
         }
         match name {
             "" => self.page_file("index.html"),
-            "model" => self.model_names(),
-            name => match name.strip_prefix("model/") {
-                Some(index) => self.model_file(index),
-                None => self.page_file(name),
+            MODEL | HIGH => self.model_names(name),
+            name => match name.split_once('/') {
+                Some((address @ (MODEL | HIGH), index)) => self.model_file(address, index),
+                _ => self.page_file(name),
             },
         }
     }
@@ -179,17 +201,18 @@ impl ServedFiles {
     }
 
     /// The names of the model's files as a JSON array.
-    fn model_names(&self) -> ResponseParts {
-        let names = self.model.as_ref().map(|model| serde_json::to_vec(&model.names()));
+    fn model_names(&self, address: &str) -> ResponseParts {
+        let names = self.models.at(address).map(|model| serde_json::to_vec(&model.names()));
         match names {
             Some(Ok(names)) => (StatusCode::OK, "application/json", names),
-            _ => not_found("darboux view was started without a model"),
+            _ => not_found("darboux view was started without this model"),
         }
     }
 
     /// The file with an index in that array.
-    fn model_file(&self, index: &str) -> ResponseParts {
-        let read = self.model.as_ref().zip(index.parse().ok()).and_then(|(model, index)| model.read(index));
+    fn model_file(&self, address: &str, index: &str) -> ResponseParts {
+        let read =
+            self.models.at(address).zip(index.parse().ok()).and_then(|(model, index)| model.read(index));
         match read {
             Some(Ok(bytes)) => (StatusCode::OK, "application/octet-stream", bytes),
             Some(Err(sentence)) => (StatusCode::UNPROCESSABLE_ENTITY, TEXT, sentence.into_bytes()),
