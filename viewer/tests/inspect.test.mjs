@@ -71,6 +71,51 @@ test('edges are drawn, on the model and in the UV layout with its texture', asyn
   await viewer.click('#layout');
 });
 
+test('the UV layout is moved by dragging, zoomed by the wheel and by two fingers, and set back', async () => {
+  const page = await Viewer.open(chromium, server.address, { viewport: { width: 1000, height: 600 }, hasTouch: true });
+  await page.click('#layout');
+  const box = await page.page.locator('#layout-frame').boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  const whole = await page.picture();
+  /** How much the layout differs from the whole one, and what lies beside it. */
+  const changed = async () => {
+    await page.settled();
+    const now = await page.picture();
+    return [now.differs(whole, 0.55), now.differs(whole, 0, 0.4)];
+  };
+  const isOnlyLayout = async (what) => {
+    const [layout, rest] = await changed();
+    assert.ok(layout > 0.02 && rest === 0, `${what}: ${layout} of the layout, ${rest} of the rest`);
+  };
+  const isWhole = async () => assert.equal((await changed())[0], 0);
+  await page.page.mouse.move(x, y);
+  await page.page.mouse.down();
+  await page.page.mouse.move(x - 60, y + 30, { steps: 3 });
+  await page.page.mouse.up();
+  await isOnlyLayout('drag');
+  await page.page.mouse.dblclick(x, y);
+  await isWhole();
+  await page.page.mouse.wheel(0, -400);
+  await isOnlyLayout('wheel');
+  await page.page.focus('#layout-frame');
+  await page.page.keyboard.press('Home');
+  await page.page.$eval('#layout-frame', (frame) => frame.blur());
+  await isWhole();
+  const session = await page.page.context().newCDPSession(page.page);
+  const touch = (type, apart) => session.send('Input.dispatchTouchEvent', { type, touchPoints: apart ? [{ x: x - apart, y, id: 1 }, { x: x + apart, y, id: 2 }] : [] });
+  for (const [type, apart] of [['touchStart', 30], ['touchMove', 50], ['touchMove', 80], ['touchEnd', 0]]) await touch(type, apart);
+  await isOnlyLayout('pinch');
+  for (const key of ['Home', '+', 'ArrowLeft']) await page.page.press('#layout-frame', key);
+  await page.page.$eval('#layout-frame', (frame) => frame.blur());
+  await isOnlyLayout('keys');
+  await page.click('#reset');
+  assert.equal(await page.page.isVisible('#layout-frame'), false);
+  await page.click('#layout');
+  await isWhole();
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});
+
 test('parts can be hidden', async () => {
   await viewer.give('folder', join(root, 'assets/Morphing'));
   const name = await viewer.text('name');
@@ -96,6 +141,16 @@ test('clips, morph targets and cameras of the file pose the model', async () => 
   await viewer.choose('clip', '1');
   await viewer.slide('clip-time', 0.4);
   assert.ok((await viewer.picture()).differs(rest) > 0.01, 'it moved');
+  const time = () => viewer.page.inputValue('#clip-time').then(Number);
+  await viewer.page.click('#clip-play');
+  await viewer.page.waitForFunction(() => Math.abs(document.getElementById('clip-time').valueAsNumber - 0.4) > 0.05);
+  assert.equal(await viewer.page.getAttribute('#clip-play', 'aria-pressed'), 'true');
+  await viewer.page.click('#clip-play');
+  await viewer.settled();
+  const stopped = await time();
+  await viewer.page.waitForTimeout(300);
+  assert.equal(await time(), stopped, 'it stays where it was stopped');
+  assert.equal(await viewer.text('clip-play'), 'Play');
   await viewer.choose('clip', '');
   assert.ok((await viewer.picture()).differs(rest) < 0.002, 'and back');
   const up = QUAD.POSITION[0].map((_, at) => (at % 3 === 2 && at < 6 ? 1 : 0));

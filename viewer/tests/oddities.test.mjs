@@ -1,11 +1,12 @@
 // Broken and odd models say why in the page, and slips that users met.
 
 import assert from 'node:assert/strict';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
 import { parts } from './glb.mjs';
-import { browser, serve, Viewer } from './page.mjs';
-import { gltf, grid, QUAD } from './quads.mjs';
+import { browser, root, serve, Viewer } from './page.mjs';
+import { gltf, QUAD } from './quads.mjs';
 
 let server, chromium, viewer;
 
@@ -63,11 +64,22 @@ test('nothing is saved where there is nothing to write', async () => {
   assert.equal(await viewer.page.isVisible('#repair'), false, 'there is nothing to repair');
 });
 
-test('a place of many says of how many', async () => {
-  const { attributes, indices } = grid(210);
-  await open('grid.gltf', gltf({ attributes, indices }));
-  await viewer.click('#report [data-kind=seams] button');
-  assert.match(await viewer.text('status'), /^210 mirrored edges: .*, place 1 of the first 200 of 210, at /);
+test('normals are made when that is asked for, and saved', async () => {
+  await viewer.give('files', [join(root, 'assets/Fox/Fox.glb')]);
+  assert.equal(await viewer.page.isVisible('#repair'), false, 'flat shading may be wanted');
+  await viewer.slide('split', 100);
+  const flat = await viewer.picture();
+  await viewer.slide('split', 0);
+  await viewer.click('#make-normals');
+  assert.equal(await viewer.page.inputValue('#right'), 'repaired');
+  assert.ok((await viewer.picture()).differs(flat) > 0.01, 'it is smooth now');
+  assert.equal(await viewer.page.isVisible('#make-normals'), false);
+  const { name, bytes } = await viewer.download('#save-repaired');
+  assert.equal(name, 'Fox.repaired.glb');
+  await viewer.page.setInputFiles('#files', { name, mimeType: 'model/gltf-binary', buffer: bytes });
+  await viewer.settled();
+  assert.ok(!(await viewer.codes()).includes('normal-missing'));
+  await viewer.slide('split', 50);
 });
 
 test('what saves a model is in sight', async () => {

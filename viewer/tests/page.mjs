@@ -68,7 +68,8 @@ export class Viewer {
     await this.page.waitForFunction(() => {
       const text = (id) => document.getElementById(id).textContent;
       const isChecked = document.getElementById('findings').ariaBusy === 'false';
-      return isChecked && document.getElementById('progress').hidden && (text('status') || text('error'));
+      const isBaking = document.getElementById('bake').ariaBusy === 'true';
+      return isChecked && !isBaking && document.getElementById('progress').hidden && (text('status') || text('error'));
     });
     // The page draws in the next animation frame.
     await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
@@ -76,11 +77,6 @@ export class Viewer {
 
   text(id) {
     return this.page.textContent(`#${id}`);
-  }
-
-  /** The lines of the report by their kind. */
-  report() {
-    return this.page.$$eval('#report li', (items) => Object.fromEntries(items.map((item) => [item.dataset.kind, item.textContent])));
   }
 
   /** The findings of the check: code, severity and sentence. */
@@ -114,6 +110,11 @@ export class Viewer {
   async click(selector) {
     await this.page.click(selector);
     await this.settled();
+  }
+
+  /** The codes of the findings. */
+  async codes() {
+    return (await this.findings()).map(({ code }) => code);
   }
 
   /** Gives files or a folder to a button. */
@@ -181,6 +182,11 @@ export class Picture {
   differs(other, from = 0, to = 1) {
     const differs = (at) => [0, 1, 2].some((i) => Math.abs(this.data[at + i] - other.data[at + i]) > 6);
     return this.#share(differs, from, to);
+  }
+
+  /** The mean difference of the channels from another picture. */
+  distance(other) {
+    return this.data.reduce((sum, x, at) => sum + Math.abs(x - other.data[at]), 0) / this.data.length;
   }
 
   #share(test, from, to) {

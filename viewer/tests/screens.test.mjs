@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { browser, serve, Viewer } from './page.mjs';
+import { browser, root, serve, Viewer } from './page.mjs';
 
 let server, chromium;
 
@@ -43,10 +43,47 @@ for (const [name, [width, height, isTouched]] of Object.entries(SCREENS)) {
       if (process.env.SCREENS) await viewer.page.screenshot({ path: join(process.env.SCREENS, `${name}-${colorScheme}.png`) });
     }
     await viewer.click('#reset');
+    await remembers(viewer);
     if (isTouched) await touches(viewer, view);
+    await poses(viewer, width);
     assert.deepEqual(viewer.faults, []);
     await viewer.close();
   });
+}
+
+/** A link to the page shows the same at this size. */
+async function remembers(viewer) {
+  await viewer.choose('right', 'lengyel');
+  await viewer.click('#flip-w');
+  await viewer.page.waitForFunction(() => /right=lengyel.*flip-w=1.*view=/.test(location.hash));
+  const viewport = viewer.page.viewportSize();
+  const other = await Viewer.open(chromium, viewer.page.url(), { viewport });
+  assert.deepEqual([await other.page.inputValue('#right'), await other.page.getAttribute('#flip-w', 'aria-pressed')], ['lengyel', 'true']);
+  await other.close();
+  await viewer.click('#reset');
+}
+
+/** A clip, with its button and its slider, can be used at this size, and values are shown of the pose. */
+async function poses(viewer, width) {
+  await viewer.give('files', [join(root, 'assets/Fox/Fox.glb')]);
+  await viewer.choose('clip', '1');
+  for (const id of ['clip', 'clip-time', 'clip-play']) {
+    await viewer.page.locator(`#${id}`).scrollIntoViewIfNeeded();
+    const { x, width: wide } = await viewer.page.locator(`#${id}`).boundingBox();
+    assert.ok(x >= 0 && x + wide <= width, `${id} is cut off`);
+  }
+  await viewer.page.focus('#view');
+  await viewer.page.keyboard.press('Enter');
+  const position = () => viewer.page.$eval('#values-list', (list) => list.innerText);
+  const before = await position();
+  await viewer.page.click('#clip-play');
+  await viewer.page.waitForFunction(() => document.getElementById('clip-time').valueAsNumber > 0.1);
+  await viewer.page.click('#clip-play');
+  await viewer.slide('clip-time', 0.5);
+  await viewer.page.focus('#view');
+  await viewer.page.keyboard.press('Escape');
+  await viewer.page.keyboard.press('Enter');
+  assert.notEqual(await position(), before, 'the values are those of the pose');
 }
 
 /** The line between the sides follows a finger, a finger turns the model, and the sheet can be closed. */

@@ -10,7 +10,7 @@
 use std::path::{Path, PathBuf};
 use std::thread;
 
-use crate::dist_js::{self, CHECK, FULL, TRIPLE};
+use crate::dist_js::{self, BAKE, CHECK, FULL, TRIPLE};
 use crate::npm;
 use crate::progress::step;
 use crate::run::{Outcome, program, root, run, target_folder, to_stderr, works};
@@ -21,15 +21,25 @@ const CHROMIUM: &str = "/usr/bin/chromium";
 
 /// `cargo xtask dist-viewer`: makes the page and prints its absolute folder as the last line.
 pub fn make() -> Outcome {
-    eprintln!("dist-viewer makes the page: 5 WebAssembly modules, bundled with TypeScript and three.js");
-    let package = target_folder()?.join("dist-viewer/darboux");
+    println!("{}", make_page()?.display());
+    Ok(())
+}
+
+/// Makes the page and returns its absolute folder.
+pub fn make_page() -> Result<PathBuf, String> {
+    eprintln!("the viewer's page: 7 WebAssembly modules, bundled with TypeScript and three.js");
+    let package = package()?;
     thread::scope(|scope| {
         let page = scope.spawn(prepare);
-        dist_js::make_folder(&package, &[FULL, CHECK])?;
+        dist_js::make_folder(&package, &[FULL, CHECK, BAKE])?;
         page.join().expect("compiling does not panic")
     })?;
-    println!("{}", bundle(&package)?.display());
-    Ok(())
+    bundle(&package)
+}
+
+/// The folder of the npm package with the entries that the page imports.
+pub fn package() -> Result<PathBuf, String> {
+    Ok(target_folder()?.join("dist-viewer/darboux"))
 }
 
 /// Makes the page with the npm package that [`dist_js::test`] has made, and tests it in a browser with the command's server and outputs.

@@ -35,6 +35,34 @@ async function collect(entry: FileSystemEntry, bundle: FileBundle): Promise<void
   bundle.set(entry.fullPath.replace(/^\//, ''), file);
 }
 
+/** Names of files that hold a model. */
+export const MODEL_NAME = /\.(glb|gltf|vrm|obj)$/i;
+
+/** Names of high-poly models, such as crate_high.glb. */
+const HIGH_NAME = /(^|[^a-z])(high|highpoly|hp)([^a-z]|$)/i;
+
+/** A low model, and the high one for its bake, if there is one. */
+export interface Pair {
+  low: FileBundle;
+  high: FileBundle | null;
+}
+
+/**
+ * Takes a high model out of a bundle that holds two models side by side: the one that is named so, or else the larger one where the bundle holds nothing
+ * else. Other bundles hold one model.
+ */
+export function pairOf(bundle: FileBundle): Pair {
+  const models = [...bundle.keys()].filter((path) => MODEL_NAME.test(path));
+  if (models.length !== 2) return { low: bundle, high: null };
+  const named = models.filter((path) => HIGH_NAME.test(path.replace(/^.*\//, '')));
+  const size = (path: string) => bundle.get(path)!.size;
+  const larger = bundle.size === 2 ? models.sort((a, b) => size(b) - size(a))[0] : undefined;
+  const high = named.length === 1 ? named[0] : larger;
+  if (high === undefined) return { low: bundle, high: null };
+  const without = (model: string) => new Map([...bundle].filter(([path]) => path !== model));
+  return { low: without(high), high: without(models.find((path) => path !== high)!) };
+}
+
 /** The path of a URI that is relative to the file `base`; null for other URIs. */
 export function resolvePath(uri: string, base: string): string | null {
   if (/^[a-z][a-z0-9+.-]+:/i.test(uri) || uri.startsWith('/')) return null;

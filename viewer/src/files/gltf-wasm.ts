@@ -14,6 +14,7 @@ interface Exports extends WebAssembly.Exports {
   text_len(): number;
   check(): number;
   repair(): number;
+  make_normals(): number;
 }
 
 /** A file that was made, and the JSON that describes it. */
@@ -47,8 +48,13 @@ export function repair(name: string, bytes: Uint8Array): Promise<Outcome<Summary
   return run('repair', name, bytes);
 }
 
+/** Makes smooth normals where a primitive has none. Errors: those of {@link check}. */
+export function makeNormals(name: string, bytes: Uint8Array): Promise<Outcome<unknown>> {
+  return run('make_normals', name, bytes);
+}
+
 /** Runs a function in a new instance, because the memory of an instance never shrinks. */
-async function run<T>(task: 'check' | 'repair', name: string, bytes: Uint8Array): Promise<Outcome<T>> {
+async function run<T>(task: 'check' | 'repair' | 'make_normals', name: string, bytes: Uint8Array): Promise<Outcome<T>> {
   module ??= fetch(address).then(async (response) => WebAssembly.compile(await response.arrayBuffer()));
   const exports = (await WebAssembly.instantiate(await module)).exports as Exports;
   const [low, high] = crypto.getRandomValues(new Uint32Array(2));

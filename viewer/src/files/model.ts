@@ -2,7 +2,7 @@
 
 import type { AnimationClip, Camera, Object3D } from 'three';
 
-import type { FileBundle } from './file-bundle';
+import { MODEL_NAME, type FileBundle } from './file-bundle';
 import { openGltf } from './gltf';
 import { openObj } from './obj';
 
@@ -25,8 +25,6 @@ export type Progress = (task: string, fraction: number | null) => void;
 
 /** The largest file that is read. The page holds several copies. */
 const MAX_BYTES = 1.5e9;
-
-const MODEL_NAME = /\.(glb|gltf|vrm|obj)$/i;
 
 /** Opens the model with the fewest folders in its path, and of several the first by name. Errors: one sentence to show. */
 export async function openModel(bundle: FileBundle, progress: Progress): Promise<Model> {

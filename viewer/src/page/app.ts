@@ -5,32 +5,37 @@ import { Box3, Matrix3, Sphere, Vector3 } from 'three';
 
 import { openGltf } from '../files/gltf';
 import { openModel, type Model } from '../files/model';
-import { withTangents } from '../files/export-glb';
+import { documentOf, withTangents } from '../files/export-glb';
+import type { FileBundle } from '../files/file-bundle';
 import { oddities } from '../scene/oddities';
+import { BakedMap } from '../scene/baked-map';
 import { PlaceMarker } from '../scene/place-marker';
 import { coarseCopy } from '../scene/coarse';
 import { boundsOfCopies, partsOf, placesOf, uvSquare, type Part } from '../scene/model-parts';
 import { dispose, empty, ModelView, type Side, type Values } from '../scene/model-view';
 import { type Picked, Viewport } from '../scene/viewport';
 import type { Comparison } from '../surface/comparison';
-import { SOURCE_NAMES, type Shown, type Source } from '../surface/sources';
+import { isOtherModel, SOURCE_NAMES, type Shown, type Source } from '../surface/sources';
 import { call } from '../worker/surfaces';
-import { chooseRepaired, connectControls, offerSources, settings } from './controls';
-import { element, numberOf } from './elements';
+import { chooseBaked, chooseRepaired, connectControls, offerSources, settings } from './controls';
+import { BakePanel } from './bake-panel';
+import { element, isOn, numberOf } from './elements';
 import { Examination } from './examination';
 import { placeOf } from './findings-panel';
 import { connectKeys, connectLightDrag } from './keyboard';
 import { showLegend } from './legend';
 import { readControls, readView, resetControls, writeLink } from './link';
 import { connectSheet, connectSplit } from './layout';
+import { connectLayoutFrame, showLayoutFrame } from './layout-frame';
 import { connectOpening, type FindFiles } from './opening';
 import { listParts } from './parts-list';
 import { offerPoses } from './pose';
-import { clearReport, showReport, type Found } from './report-list';
 import { nameLike, save } from './download';
 import { clearError, showDone, showError, showProgress } from './status';
 import { connectTheme } from './theme';
 import { ValuesPanel } from './values-panel';
+import type { ShownBake } from '../bake/baker';
+import type { Settings } from '../settings';
 import { counted } from '../plural';
 import type { Place } from '../surface/places';
 
@@ -43,7 +48,7 @@ const PREVIEW_TRIANGLES = 200_000;
 /** The time in milliseconds after the last change until the address is written. */
 const LINK_DELAY = 300;
 
-/** The radius around a place of the report that is in view, relative to the model's radius. */
+/** The radius around a place of a finding that is in view, relative to the model's radius. */
 const CLOSE_UP = 0.12;
 
 const CONTEXT_LOST = 'The connection to the graphics card was lost, perhaps because of too little memory; reload the page and open a smaller model.';
@@ -53,11 +58,18 @@ export class App {
   private readonly view = new ModelView();
   /** The repaired model. */
   private readonly repairedView = new ModelView();
+  /** The high model of a bake. */
+  private readonly highView = new ModelView();
+  private bakedMap: BakedMap | null = null;
   private sides: [Side, Side] = [empty(), empty()];
   private readonly examination = new Examination({
     visit: (finding, n) => this.visitFinding(finding, n),
     showRepaired: (file) => this.showRepaired(file),
     attempt: (work) => this.attempt(work),
+  });
+  private readonly bakePanel = new BakePanel({
+    openHigh: (bundle) => this.attempt(() => this.openHigh(bundle)),
+    show: (bake) => this.showBake(bake),
   });
   private readonly marker = new PlaceMarker();
   private readonly values = new ValuesPanel({
@@ -90,6 +102,7 @@ export class App {
     element('reset').addEventListener('click', () => this.attempt(() => this.reset()));
     connectSplit(() => this.moveSplit());
     connectSheet();
+    connectLayoutFrame(this.viewport.layoutCamera);
     element('save-picture').addEventListener('click', () => this.attempt(() => this.savePicture()));
     element('save-model').addEventListener('click', () => this.attempt(() => this.saveModel()));
     connectOpening((find) => this.attempt(() => this.open(find)));
@@ -117,8 +130,10 @@ export class App {
     resetControls();
     offerSources(this.hasTangents());
     listParts(this.parts.map(({ name }) => name), () => this.build());
+    if (this.bakePanel.isOpen) chooseBaked();
     await this.compare();
     this.viewport.lookAtAll();
+    this.viewport.layoutCamera.reset();
     this.light();
   }
 
@@ -126,7 +141,7 @@ export class App {
   private valuesAt({ hit, side }: Picked): { values: Values; shown: Shown } {
     const { sources } = settings();
     const values = this.viewOf(sources[side]).valuesAt(hit, side);
-    return { values: sources.includes('repaired') ? { ...values, angle: null } : values, shown: sources[side] };
+    return { values: sources.some(isOtherModel) ? { ...values, angle: null } : values, shown: sources[side] };
   }
 
   /** Marks the corner whose values are pinned, at the place that was hit. */
@@ -141,7 +156,8 @@ export class App {
   }
 
   private viewOf(shown: Shown): ModelView {
-    return shown === 'repaired' ? this.repairedView : this.view;
+    if (shown === 'repaired') return this.repairedView;
+    return shown === 'high' ? this.highView : this.view;
   }
 
   /** Runs a task and shows its error, if any. */
@@ -159,7 +175,8 @@ export class App {
     const isOutdated = () => turn !== this.opening;
     try {
       showProgress('Searching for a model', null);
-      const model = await openModel(await find(), (task, fraction) => isOutdated() || showProgress(task, fraction));
+      const { low, high } = await find();
+      const model = await openModel(low, (task, fraction) => isOutdated() || showProgress(task, fraction));
       const parts = partsOf(model.scene, model.kind);
       if (isOutdated()) return;
       // Stops the comparison of the model before.
@@ -170,14 +187,14 @@ export class App {
       await call('open', 'given', parts.map((part) => part.surface));
       if (isOutdated()) return;
       this.setModel(model, parts);
-      await this.present(model, isPreviewed, isOutdated);
+      await this.present(model, isPreviewed, isOutdated, high);
     } catch (error) {
       if (!isOutdated()) throw error;
     }
   }
 
-  /** Shows the open model, then what costs time: the report and the findings of the check. */
-  private async present(model: Model, isPreviewed: boolean, isOutdated: () => boolean): Promise<void> {
+  /** Shows the open model, then what costs time: the findings of the check. */
+  private async present(model: Model, isPreviewed: boolean, isOutdated: () => boolean, high: FileBundle | null): Promise<void> {
     try {
       await this.compare();
       if (isOutdated()) return;
@@ -186,8 +203,7 @@ export class App {
       this.isLinkRead = true;
       this.light();
       await nextPicture();
-      showReport(await this.findings(isOutdated), (finding, place) => this.visit(finding, place));
-      showDone(this.summary());
+      if (high) await this.openHigh(high);
     } catch (error) {
       if (!isOutdated()) this.examination.fail(error);
       throw error;
@@ -210,15 +226,16 @@ export class App {
   private setModel(model: Model, parts: Part[]): void {
     [this.model, this.parts] = [model, parts];
     model.warnings.push(...oddities(parts.map((part) => part.surface)));
-    this.viewport.setLayoutSquare(...uvSquare(parts));
+    this.viewport.layoutCamera.setWhole(uvSquare(parts));
     this.marker.hide();
+    this.bakePanel.close();
+    this.showBake(null);
     offerSources(this.hasTangents());
     listParts(parts.map(({ name }) => name), () => this.build());
     offerPoses(model, { posed: () => this.attempt(() => this.pose()), look: (camera) => this.viewport.lookFrom(camera) });
     if (!this.isLinkRead) readControls();
     this.values.free();
     element('name').textContent = model.name;
-    clearReport();
     this.examination.announce(model);
   }
 
@@ -239,25 +256,15 @@ export class App {
     }
   }
 
-  /** Collects the findings of all parts. */
-  private async findings(isOutdated: () => boolean): Promise<Found[]> {
-    const found: Found[] = [];
-    for (const [at, part] of this.parts.entries()) {
-      showProgress(`Checking ${part.name}`, this.fraction(at));
-      for (const finding of await call('report', at)) found.push({ ...finding, part: at, partName: part.name });
-      if (isOutdated()) throw new Error('Another model was opened.');
-    }
-    return found;
-  }
-
   /** Computes the tangents of both sides. */
   private async compare(): Promise<void> {
     const turn = ++this.comparing;
     const { sources } = settings();
     const comparisons: Comparison[] = [];
     for (const [at, part] of this.parts.entries()) {
-      showProgress(`Computing tangents of ${part.name}`, this.fraction(at));
-      comparisons.push(await call('compare', 'given', at, ownSources(sources)));
+      // A clip that plays would be announced without end.
+      if (!this.isPosing) showProgress(`Computing tangents of ${part.name}`, this.fraction(at));
+      comparisons.push(await call('compare', 'given', at, ownSources(sources, part.surface.tangents !== null)));
       if (turn !== this.comparing) return;
     }
     this.view.setParts(this.parts, comparisons);
@@ -283,10 +290,42 @@ export class App {
   private build(): void {
     const now = settings();
     this.sides.forEach(dispose);
-    this.sides = [this.viewOf(now.sources[0]).side(0, now, this.viewport.radius), this.viewOf(now.sources[1]).side(1, now, this.viewport.radius)];
+    this.sides = [this.sideOf(0, now), this.sideOf(1, now)];
     this.changed();
     this.viewport.show(this.sides, now.layout);
+    showLayoutFrame(now.layout);
     showLegend(now);
+  }
+
+  private sideOf(at: 0 | 1, now: Settings): Side {
+    const shown = now.sources[at];
+    // The parts, the pattern and the layout are those of the open model.
+    const own = shown === 'high' ? { ...now, pattern: false, layout: false, hidden: new Set<number>() } : now;
+    return this.viewOf(shown).side(at, own, this.viewport.radius, shown === 'baked' ? this.bakedMap : null);
+  }
+
+  /** Opens a high model and bakes its detail onto the open one. */
+  private async openHigh(bundle: FileBundle): Promise<void> {
+    const { model, opening } = this;
+    if (!model) throw new Error('There is no low model to bake onto; open it first.');
+    const high = await openModel(bundle, showProgress);
+    const parts = partsOf(high.scene, high.kind);
+    await call('open', 'high', parts.map((part) => part.surface));
+    const comparisons = await Promise.all(parts.map((_, at) => call('compare', 'high', at, ['file', 'file'])));
+    const models = { low: await documentOf(model), high: [await documentOf(high)] };
+    if (opening !== this.opening) return;
+    this.highView.setParts(parts, comparisons);
+    chooseBaked();
+    await this.compare();
+    this.bakePanel.open(models, model.name, this.view.bounds().getSize(new Vector3()).length());
+  }
+
+  /** Shows a baked map, or none, in place of the one before. */
+  private showBake(bake: ShownBake | null): void {
+    const before = this.bakedMap;
+    this.bakedMap = bake && new BakedMap(bake, isOn('bake-misses'));
+    if (settings().sources.includes('baked')) this.build();
+    before?.dispose();
   }
 
   /** Opens the repaired file and shows it on the right. */
@@ -306,16 +345,6 @@ export class App {
   private light(): void {
     this.viewport.lightFrom(numberOf('light-around'), numberOf('light-above'));
     this.viewport.brightness(numberOf('surroundings'), numberOf('light'));
-  }
-
-  /** Moves the camera to a place of the report. Returns its coordinates. */
-  private visit({ part, places }: Found, place: number): number[] {
-    const [matrix] = placesOf(this.parts[part]);
-    const at = new Vector3().fromArray(places, place * 6).applyMatrix4(matrix);
-    const normal = new Vector3().fromArray(places, place * 6 + 3).applyMatrix3(new Matrix3().getNormalMatrix(matrix));
-    this.marker.showAt(at);
-    this.viewport.look(at, CLOSE_UP * this.viewport.radius, facing(normal), true);
-    return at.toArray();
   }
 
   /** Moves the camera to the n-th place of a finding, or to its whole part. */
@@ -372,9 +401,16 @@ function facing(normal: Vector3): Vector3 {
   return normal.lengthSq() > 0 ? normal : new Vector3(0, 0, 1);
 }
 
-/** The sources of the open model's comparison: a side that shows the repaired model takes that of the other side. */
-function ownSources([left, right]: readonly [Shown, Shown]): [Source, Source] {
-  const [a, b] = [left, right].map((shown) => (shown === 'repaired' ? null : shown));
+/**
+ * The sources of the open model's comparison: a side that shows another model takes that of the other side, and the baked map is shown with the tangents
+ * that it is baked for.
+ */
+function ownSources([left, right]: readonly [Shown, Shown], hasTangents: boolean): [Source, Source] {
+  const source = (shown: Shown): Source | null => {
+    if (isOtherModel(shown)) return null;
+    return shown === 'baked' ? (hasTangents ? 'file' : 'mikktspace') : shown;
+  };
+  const [a, b] = [source(left), source(right)];
   return [a ?? b ?? 'file', b ?? a ?? 'file'];
 }
 

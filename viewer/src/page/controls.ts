@@ -1,6 +1,6 @@
 // The controls of the page: fills them, reads them, and reports changes.
 
-import { SOURCES, SOURCE_NAMES, type Shown } from '../surface/sources';
+import { isOtherModel, SOURCES, SOURCE_NAMES, type Shown } from '../surface/sources';
 import { hiddenParts } from './parts-list';
 import { element, isOn, numberOf } from './elements';
 import { PAINTS, VECTORS, type Paint, type Settings } from '../settings';
@@ -14,8 +14,11 @@ const PAINT_NAMES: Record<Paint, string> = {
   angle: 'Angle between left and right',
 };
 
+/** The choices that a model offers only after a repair or a bake. */
+const LATER = ['repaired', 'high', 'baked'] as const;
+
 /** The choices of a side. */
-const SHOWN: Shown[] = [...SOURCES, 'repaired'];
+const SHOWN: Shown[] = [...SOURCES, ...LATER];
 
 const MISTAKES = ['green', 'w', 'v'] as const;
 
@@ -89,19 +92,29 @@ export function offerSources(hasFile: boolean): void {
     file.text = hasFile ? SOURCE_NAMES.file : `${SOURCE_NAMES.file} (none)`;
   }
   [left.value, right.value] = hasFile ? ['file', 'mikktspace'] : ['mikktspace', 'derivatives'];
-  for (const select of [left, right]) hideRepaired(select, true);
+  offer([...LATER], false);
 }
 
 /** Offers the repaired model and shows the file as it is on the left and the repaired model on the right. */
 export function chooseRepaired(hasFile: boolean): void {
   const [left, right] = ['left', 'right'].map((id) => element<HTMLSelectElement>(id));
-  for (const select of [left, right]) hideRepaired(select, false);
+  offer(['repaired'], true);
   [left.value, right.value] = [hasFile ? 'file' : 'derivatives', 'repaired'];
 }
 
-function hideRepaired(select: HTMLSelectElement, isHidden: boolean): void {
-  const option = select.options[SHOWN.indexOf('repaired')];
-  option.hidden = option.disabled = isHidden;
+/** Offers the high model and the baked map, and shows the one on the left and the other on the right. */
+export function chooseBaked(): void {
+  offer(['high', 'baked'], true);
+  [element<HTMLSelectElement>('left').value, element<HTMLSelectElement>('right').value] = ['high', 'baked'];
+}
+
+function offer(choices: (typeof LATER)[number][], isOffered: boolean): void {
+  for (const id of ['left', 'right']) {
+    for (const choice of choices) {
+      const option = element<HTMLSelectElement>(id).options[SHOWN.indexOf(choice)];
+      option.hidden = option.disabled = !isOffered;
+    }
+  }
 }
 
 /** Offers the angle between the sides only where both show the same model. */
@@ -115,7 +128,7 @@ function offerAngle(isOffered: boolean): void {
 export function settings(): Settings {
   const source = (id: string) => element<HTMLSelectElement>(id).value as Shown;
   const sources = [source('left'), source('right')] as const;
-  offerAngle(!sources.includes('repaired'));
+  offerAngle(!sources.some(isOtherModel));
   const paint = document.querySelector<HTMLInputElement>('input[name=paint]:checked')!.value as Paint;
   return {
     sources,

@@ -3,6 +3,7 @@
 import type { Finding } from 'darboux/check';
 
 import { checker } from '../check/client';
+import { call } from '../worker/surfaces';
 import { documentOf } from '../files/export-glb';
 import type { Model } from '../files/model';
 import { nameLike, save } from './download';
@@ -28,6 +29,7 @@ export class Examination {
   constructor(private readonly host: Host) {
     connectMaps();
     element('repair').addEventListener('click', () => host.attempt(() => this.repair()));
+    element('make-normals').addEventListener('click', () => host.attempt(() => this.makeNormals()));
     element('save-repaired').addEventListener('click', () => this.save());
   }
 
@@ -82,6 +84,23 @@ export class Examination {
     const after = (await checker('judgeMaps', file)).filter(({ image }) => changed.has(image));
     const isSame = (map: ShownMap) => (other: { image: number }) => other.image === map.image;
     showMaps(this.maps.flatMap((map) => [map, ...after.filter(isSame(map)).map((one) => ({ ...one, isRepaired: true }))]));
+  }
+
+  /** Makes smooth normals where the file has none, which a repair leaves: flat shading may be wanted. */
+  private async makeNormals(): Promise<void> {
+    const { model } = this;
+    if (!model) return;
+    setBusy(true);
+    try {
+      const { bytes } = await call('makeNormals', model.name, await documentOf(model));
+      if (this.model !== model) return;
+      this.repaired = bytes;
+      await this.host.showRepaired(bytes);
+      element('make-normals').hidden = element('repair').hidden = true;
+      element('save-repaired').hidden = false;
+    } finally {
+      if (this.model === model) setBusy(false);
+    }
   }
 
   private save(): void {

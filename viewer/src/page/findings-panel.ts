@@ -28,7 +28,7 @@ export function showChecking(): void {
   element('findings').replaceChildren();
   setBusy(true);
   element('findings-summary').textContent = 'Checking the model and its normal maps …';
-  element('repair').hidden = element('save-repaired').hidden = true;
+  for (const id of ['repair', 'make-normals', 'save-repaired']) element(id).hidden = true;
 }
 
 /** Lists findings, the worst first. */
@@ -40,6 +40,7 @@ export function showFindings(findings: Finding[], visit: Visit): void {
   const isDone = findings.some(({ repaired }) => repaired !== undefined);
   element('repair').hidden = !repairable || isDone;
   element('repair').textContent = `Repair ${counted(repairable, 'finding', 'findings')}`;
+  element('make-normals').hidden = isDone || !findings.some(({ code, leftBecause }) => code === 'normal-missing' && leftBecause !== null);
   element('save-repaired').hidden = !isDone;
 }
 

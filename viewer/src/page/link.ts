@@ -4,7 +4,7 @@ import type { Viewport } from '../scene/viewport';
 import { element } from './elements';
 
 /** The controls whose values a link carries. */
-const CONTROLS = ['left', 'right', 'split', 'lines-tangent', 'lines-bitangent', 'lines-normal', 'seams', 'layout', 'wireframe', 'length', 'light-around', 'light-above', 'light', 'surroundings', 'pattern'];
+const CONTROLS = ['left', 'right', 'split', 'lines-tangent', 'lines-bitangent', 'lines-normal', 'seams', 'layout', 'wireframe', 'length', 'light-around', 'light-above', 'light', 'surroundings', 'pattern', 'bake-rays', 'bake-distance', 'bake-inwards', 'bake-size', 'bake-samples', 'bake-back-faces'];
 
 /** The buttons whose state a link carries. */
 const BUTTONS = ['flip-green', 'flip-w', 'flip-v'];
@@ -15,7 +15,7 @@ export function writeLink(viewport: Viewport): void {
   for (const id of CONTROLS) {
     const control = element<HTMLInputElement>(id);
     const isBox = control.type === 'checkbox';
-    if (isBox ? control.checked !== control.defaultChecked : control.value !== control.defaultValue) state.set(id, isBox ? String(Number(control.checked)) : control.value);
+    if (isBox ? control.checked !== control.defaultChecked : control.value !== defaultOf(control)) state.set(id, isBox ? String(Number(control.checked)) : control.value);
   }
   for (const id of BUTTONS) if (element(id).ariaPressed === 'true') state.set(id, '1');
   const paint = document.querySelector<HTMLInputElement>('input[name=paint]:checked')!.value;
@@ -50,13 +50,19 @@ export function resetControls(): void {
   for (const id of CONTROLS) {
     const control = element<HTMLInputElement>(id);
     if (control.type === 'checkbox') control.checked = control.defaultChecked;
-    else if (control.type === 'range') {
-      control.value = control.defaultValue;
+    else if (defaultOf(control) !== undefined) {
+      control.value = defaultOf(control)!;
       control.dispatchEvent(new Event('input', { bubbles: true }));
     }
   }
   for (const id of BUTTONS) if (element(id).ariaPressed === 'true') element(id).click();
   document.querySelector<HTMLInputElement>('input[name=paint]')!.checked = true;
+}
+
+/** The value that the page gives a control; none where a model decides. */
+function defaultOf(control: HTMLElement): string | undefined {
+  if (!(control instanceof HTMLSelectElement)) return (control as HTMLInputElement).defaultValue;
+  return [...control.options].find((option) => option.defaultSelected)?.value;
 }
 
 /** Whether a value is one of a control's choices. */

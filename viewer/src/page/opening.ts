@@ -1,13 +1,13 @@
 // Opens models from buttons, drops and the page's address.
 
-import { fromDrop, fromList, resolvePath, type FileBundle } from '../files/file-bundle';
+import { fromDrop, fromList, pairOf, resolvePath, type FileBundle, type Pair } from '../files/file-bundle';
 import { element } from './elements';
 
 /** The model that the page opens without an address. */
 const SAMPLE = 'shield.glb';
 
-/** Finds the files of a model. */
-export type FindFiles = () => Promise<FileBundle>;
+/** Finds the files of a model, and of a high model for its bake. */
+export type FindFiles = () => Promise<Pair>;
 
 /** Connects buttons and drops, and opens the model that the address names, or the sample. */
 export function connectOpening(open: (find: FindFiles) => void): void {
@@ -19,19 +19,23 @@ export function connectOpening(open: (find: FindFiles) => void): void {
       const bundle = fromList(input.files ?? []);
       // Lets the same file be chosen again.
       input.value = '';
-      if (bundle.size) open(async () => bundle);
+      if (bundle.size) open(async () => pairOf(bundle));
     });
   }
   document.addEventListener('dragover', (event) => event.preventDefault());
   document.addEventListener('drop', (event) => {
     event.preventDefault();
     const bundle = event.dataTransfer && fromDrop(event.dataTransfer);
-    if (bundle) open(() => bundle);
+    if (bundle) open(async () => pairOf(await bundle));
   });
   const query = new URLSearchParams(location.search);
-  const [named, file] = ['model', 'file'].map((name) => query.get(name));
-  if (named !== null) open(() => served(named));
-  else open(file === null ? sample : () => fromFolder(file));
+  const [named, file, high] = ['model', 'file', 'high'].map((name) => query.get(name));
+  if (named !== null) open(() => pair(() => served('model', named), high && (() => served('high', high))));
+  else open(file === null ? sample : () => pair(() => fromFolder(file), high && (() => fromFolder(high))));
+}
+
+async function pair(low: () => Promise<FileBundle>, high: '' | null | (() => Promise<FileBundle>)): Promise<Pair> {
+  return { low: await low(), high: high ? await high() : null };
 }
 
 /** A model below the page's folder or beside it, with the files that a glTF refers to. Errors: it is on another machine. */
@@ -52,14 +56,14 @@ function urisOf(text: string): string[] {
   return Array.from(text.matchAll(/"uri"\s*:\s*"([^"]*)"/g), ([, uri]) => uri).filter((uri) => !uri.startsWith('data:'));
 }
 
-async function sample(): Promise<FileBundle> {
-  return new Map([[SAMPLE, await (await fetched(SAMPLE, SAMPLE)).blob()]]);
+async function sample(): Promise<Pair> {
+  return { low: new Map([[SAMPLE, await (await fetched(SAMPLE, SAMPLE)).blob()]]), high: null };
 }
 
-/** The model that `darboux view` serves, with the files that it refers to. */
-async function served(model: string): Promise<FileBundle> {
-  const names: string[] = await (await fetched('model', model)).json();
-  const files = names.map(async (name, at) => [name, await (await fetched(`model/${at}`, name)).blob()] as const);
+/** A model that `darboux view` serves below an address, with the files that it refers to. */
+async function served(address: string, model: string): Promise<FileBundle> {
+  const names: string[] = await (await fetched(address, model)).json();
+  const files = names.map(async (name, at) => [name, await (await fetched(`${address}/${at}`, name)).blob()] as const);
   return new Map(await Promise.all(files));
 }
 

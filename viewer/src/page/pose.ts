@@ -7,8 +7,8 @@ import { element } from './elements';
 
 /** What the application does after a change. */
 export interface PoseHost {
-  /** The model moved: its surfaces must be read again. */
-  posed(): void;
+  /** The model moved: its surfaces must be read again. Resolves when they are shown. */
+  posed(): Promise<void>;
   /** Shows the model as a camera of the file does. */
   look(camera: Camera): void;
 }
@@ -21,23 +21,58 @@ export function offerPoses({ scene, animations, cameras }: Model, host: PoseHost
   element('pose').hidden = !animations.length && !morphs.length && !cameras.length;
   element('clips').hidden = !animations.length;
   clip.replaceChildren(new Option('As in the file', ''), ...animations.map(({ name }, at) => new Option(name || `Clip ${at}`, String(at))));
-  const play = () => {
+  const chosen = () => animations[clip.value === '' ? -1 : Number(clip.value)];
+  const pose = () => {
     mixer.stopAllAction();
-    const chosen = animations[clip.value === '' ? -1 : Number(clip.value)];
-    time.disabled = !chosen;
-    if (chosen) {
-      mixer.clipAction(chosen).play();
-      mixer.setTime(time.valueAsNumber * chosen.duration * (1 - 1e-6));
-      time.ariaValueText = `${(time.valueAsNumber * chosen.duration).toFixed(2)} seconds`;
+    const now = chosen();
+    if (now) {
+      mixer.clipAction(now).play();
+      mixer.setTime(time.valueAsNumber * now.duration * (1 - 1e-6));
+      time.ariaValueText = `${(time.valueAsNumber * now.duration).toFixed(2)} seconds`;
     }
-    host.posed();
+    return host.posed();
   };
-  clip.onchange = play;
-  time.oninput = play;
+  const play = element('clip-play') as HTMLButtonElement;
+  stop();
+  clip.onchange = () => {
+    time.disabled = play.disabled = !chosen();
+    if (!chosen()) stop();
+    void pose();
+  };
+  time.oninput = () => {
+    stop();
+    void pose();
+  };
+  play.onclick = () => (playing ? stop() : start(() => chosen().duration, pose));
   time.value = '0';
-  time.disabled = true;
-  element('morphs').replaceChildren(...morphs.map((morph) => slider(morph, () => host.posed())));
+  time.disabled = play.disabled = true;
+  element('morphs').replaceChildren(...morphs.map((morph) => slider(morph, () => void host.posed())));
   offerCameras(cameras, host);
+}
+
+/** The run of the clip that plays; null while none does. */
+let playing: object | null = null;
+
+/** Plays the chosen clip: moves the slider of the time as time passes, from the end on to the beginning, one pose after the other. */
+async function start(duration: () => number, pose: () => Promise<void>): Promise<void> {
+  const run = (playing = {});
+  const [time, button] = [element<HTMLInputElement>('clip-time'), element('clip-play')];
+  [button.ariaPressed, button.textContent] = ['true', 'Pause'];
+  let before = performance.now();
+  while (playing === run) {
+    const now = await new Promise<number>(requestAnimationFrame);
+    if (playing !== run) return;
+    time.valueAsNumber = (time.valueAsNumber + Math.max(0, now - before) / 1000 / (duration() || 1)) % 1;
+    before = now;
+    await pose();
+  }
+}
+
+/** Stops the clip where it is. */
+function stop(): void {
+  playing = null;
+  const button = element('clip-play');
+  [button.ariaPressed, button.textContent] = ['false', 'Play'];
 }
 
 function offerCameras(cameras: Camera[], host: PoseHost): void {

@@ -5,6 +5,7 @@ import { Box3, BufferAttribute, Group, InstancedMesh, type Intersection, LineSeg
 import type { Mistakes, Settings } from '../settings';
 import { cornerAngles, NO_ANGLE } from '../surface/angles';
 import type { Comparison } from '../surface/comparison';
+import type { BakedMap } from './baked-map';
 import { frameMaterial } from './frame-material';
 import { seamLines, vectorLines } from './frame-lines';
 import { boundsOfCopies, type Copy, placesOf, type Part } from './model-parts';
@@ -94,8 +95,8 @@ export class ModelView {
     };
   }
 
-  /** Builds a side: 0 is the left one. `radius` is that of the model. */
-  side(at: 0 | 1, settings: Settings, radius: number): Side {
+  /** Builds a side: 0 is the left one. `radius` is that of the model; `baked`: the map in place of the materials' own, or null. */
+  side(at: 0 | 1, settings: Settings, radius: number, baked: BakedMap | null = null): Side {
     const side = empty();
     const mistakes = at === 1 ? settings.mistakes : NONE;
     for (const [number, compared] of this.parts.entries()) {
@@ -105,13 +106,15 @@ export class ModelView {
       const geometry = geometriesOf(compared, settings)[at];
       const isShaded = settings.paint === 'shaded';
       for (const copy of part.copies) {
-        const material = isShaded ? sideMaterial(part, hasTangents, settings.pattern, mistakes) : frameMaterial(settings.paint, copy.place, false);
+        const material = isShaded ? sideMaterial(part, hasTangents, settings.pattern, mistakes, baked) : frameMaterial(settings.paint, copy.place, false);
         const mesh = placedMesh(copy, geometry, material);
         mesh.userData.part = number;
         side.model.add(mesh);
+        const misses = isShaded ? baked?.missesOf(part) : null;
+        if (misses) side.model.add(placedMesh(copy, geometry, misses));
         if (settings.wireframe) side.model.add(placedMesh(copy, geometry, new MeshBasicMaterial(WIRES)));
       }
-      if (settings.layout) addLayout(side, part, geometry, isShaded ? 'sign' : settings.paint);
+      if (settings.layout) addLayout(side, part, geometry, isShaded ? 'sign' : settings.paint, baked);
       this.addLines(side, at, compared, geometry, settings, radius);
     }
     return side;
@@ -134,8 +137,9 @@ export class ModelView {
 const WIRES = { color: 0x101216, wireframe: true, transparent: true, opacity: 0.55, toneMapped: false } as const;
 
 /** Adds a part to the UV layout: its texture once, its triangles and their edges. */
-function addLayout(side: Side, part: Part, geometry: BufferGeometry, paint: Settings['paint']): void {
-  const texture = part.material.map ?? (part.material.normalMap && asColors(part.material.normalMap));
+function addLayout(side: Side, part: Part, geometry: BufferGeometry, paint: Settings['paint'], baked: BakedMap | null): void {
+  const { map, normalMap } = part.material;
+  const texture = baked ? asColors(baked.textureOf(part)) : (map ?? (normalMap && asColors(normalMap)));
   if (texture && !side.layout.children.length) {
     const square = new Mesh(new PlaneGeometry().translate(0.5, 0.5, 0), new MeshBasicMaterial({ map: texture, toneMapped: false, depthTest: false }));
     // Rows of images count downwards in glTF.

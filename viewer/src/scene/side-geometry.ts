@@ -6,6 +6,7 @@ import type { Mistakes } from '../settings';
 import { NO_ANGLE } from '../surface/angles';
 import type { Comparison } from '../surface/comparison';
 import { floatsOf } from './attribute-floats';
+import type { BakedMap } from './baked-map';
 import type { Part } from './model-parts';
 import { withPattern } from './dome-pattern';
 
@@ -66,15 +67,16 @@ function withComponent(attribute: BufferAttribute, component: number, change: (x
   return copy;
 }
 
-/** Makes the material. */
-export function sideMaterial(part: Part, hasTangents: boolean, hasPattern: boolean, mistakes: Mistakes): MeshStandardMaterial {
+/** Makes the material. `baked`: the map in place of the file's own, or null. */
+export function sideMaterial(part: Part, hasTangents: boolean, hasPattern: boolean, mistakes: Mistakes, baked: BakedMap | null): MeshStandardMaterial {
   const material = part.material.clone();
   const { vDown } = part.surface;
-  const isPattern = !material.normalMap && hasPattern;
+  const isPattern = !material.normalMap && hasPattern && !baked;
   if (isPattern) withPattern(material, vDown);
+  baked?.applyTo(material, part);
   // Without tangents, three.js takes green along the derivative by v. In glTF v points down, so green has to be negated.
   const isNegated = vDown && !hasTangents;
-  const wasNegated = part.isGreenNegated && !isPattern;
+  const wasNegated = part.isGreenNegated && !isPattern && !baked;
   if (isNegated !== wasNegated) material.normalScale.y *= -1;
   if (mistakes.green) material.normalScale.y *= -1;
   material.polygonOffset = true;

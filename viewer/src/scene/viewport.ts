@@ -9,7 +9,6 @@ import {
   type Intersection,
   Mesh,
   type Object3D,
-  OrthographicCamera,
   PerspectiveCamera,
   Raycaster,
   Scene,
@@ -22,13 +21,14 @@ import {
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 import { fly, type View } from './camera-flight';
+import { LayoutCamera } from './layout-camera';
 import type { Side } from './model-view';
 import { studio } from './studio';
 
 /** The vertical field of view in degrees. */
 const FIELD_OF_VIEW = 35;
 
-/** The side of the UV layout, relative to the shorter side of the picture. */
+/** The side of the UV layout, relative to the shorter side of the picture; page.css places its frame likewise. */
 const LAYOUT_SIZE = 0.5;
 /** The distance of the UV layout from the right edge in pixels. */
 const LAYOUT_RIGHT = 12;
@@ -54,7 +54,8 @@ export class Viewport {
   private readonly scene = new Scene();
   private readonly light = new DirectionalLight(0xffffff, 2);
   private readonly layouts = new Scene();
-  private readonly layoutCamera = new OrthographicCamera(0, 1, 1, 0, -1, 1);
+  /** The part of the UV layout that is shown. */
+  readonly layoutCamera = new LayoutCamera(() => this.draw());
   private readonly sphere = new Sphere(new Vector3(), 1);
   private sides: Side[] = [];
   private hasLayout = false;
@@ -149,13 +150,6 @@ export class Viewport {
   setBounds(box: Box3): void {
     box.getBoundingSphere(this.sphere);
     if (!(this.sphere.radius > 0) || !Number.isFinite(this.sphere.radius)) this.sphere.set(new Vector3(), 1);
-  }
-
-  /** Sets the square of UVs that the layout shows. */
-  setLayoutSquare(left: number, bottom: number, size: number): void {
-    const margin = 0.02 * size;
-    Object.assign(this.layoutCamera, { left: left - margin, bottom: bottom - margin, right: left + size + margin, top: bottom + size + margin });
-    this.layoutCamera.updateProjectionMatrix();
   }
 
   /** Shows the whole model, from the front and slightly above. */
@@ -255,7 +249,7 @@ export class Viewport {
     this.drawSplit(0, 0, width, height, this.scene, camera);
     if (!this.hasLayout || this.isCoarse()) return;
     const size = Math.round(LAYOUT_SIZE * Math.min(width, height));
-    this.drawSplit(width - size - LAYOUT_RIGHT, LAYOUT_BOTTOM, size, size, this.layouts, this.layoutCamera);
+    this.drawSplit(width - size - LAYOUT_RIGHT, LAYOUT_BOTTOM, size, size, this.layouts, this.layoutCamera.camera);
   }
 
   private isCoarse(): boolean {

@@ -24,8 +24,16 @@ export const SOURCES = [
 
 export type Source = (typeof SOURCES)[number];
 
-/** What a side shows: a source of tangents on the open model, or the repaired model as it is. */
-export type Shown = Source | 'repaired';
+/** What a side shows: a source of tangents on the open model, that model with the baked map, or the repaired or the high model as it is. */
+export type Shown = Source | OtherModel | 'baked';
+
+/** Models beside the open one. */
+export type OtherModel = 'repaired' | 'high';
+
+/** Whether a side shows another model, with other vertices than the open one. */
+export function isOtherModel(shown: Shown): shown is OtherModel {
+  return shown === 'repaired' || shown === 'high';
+}
 
 /** The names on the page. */
 export const SOURCE_NAMES: Record<Shown, string> = {
@@ -43,6 +51,8 @@ export const SOURCE_NAMES: Record<Shown, string> = {
   'from-normal': 'From the normal',
   derivatives: 'Shader derivatives',
   repaired: 'Repaired file',
+  high: 'High model',
+  baked: 'Baked map',
 };
 
 /** The tangent of every corner, 4 floats each, with the sign convention of the file's format. Null where the file has no tangents. */
@@ -54,7 +64,7 @@ export function tangentsFrom(surface: Surface, source: Source): Float32Array | n
 }
 
 /** The tangents of a method, likewise. */
-export function computedTangents(
+function computedTangents(
   { positions, normals, uvs, indices, vDown }: Surface,
   method: Method,
   mode?: Mode,

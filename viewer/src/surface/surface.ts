@@ -39,15 +39,12 @@ export interface Surface extends GivenSurface {
   uvs: Float32Array;
   /** The vertex of the file that each vertex copies; null where the vertices are the same. */
   sourceOfVertex: Uint32Array | null;
-  /** The arrays that were missing and were filled in, so that the part can be shown. */
-  without: { normals: boolean; uvs: boolean };
 }
 
 /** Fills in missing arrays: flat normals, as glTF requires, and UVs that are all zero. */
-export function completed(given: GivenSurface): Surface {
-  const without = { normals: !given.normals, uvs: !given.uvs };
+function completed(given: GivenSurface): Surface {
   const uvs = given.uvs ?? new Float32Array((given.positions.length / 3) * 2);
-  if (given.normals) return { ...given, normals: given.normals, uvs, sourceOfVertex: null, without };
+  if (given.normals) return { ...given, normals: given.normals, uvs, sourceOfVertex: null };
   const corners = given.indices;
   const normals = generateNormals(given.positions, corners, { shading: 'flat' });
   return {
@@ -58,7 +55,6 @@ export function completed(given: GivenSurface): Surface {
     tangents: given.tangents && gathered(given.tangents, 4, corners),
     indices: corners.map((_, corner) => corner),
     sourceOfVertex: corners,
-    without,
   };
 }
 

@@ -13,6 +13,11 @@ export interface Call {
 /** The reply to a call: a result, or the message of an error. */
 export type Reply = { id: number; result: unknown } | { id: number; error: string };
 
+/** The finished part of the running call, from 0 to 1. */
+export interface Progress {
+  progress: number;
+}
+
 /** Answers the page's calls, once `ready` has resolved. Buffers in results are transferred, except those in `kept`. */
 export function answer(functions: Functions, ready: Promise<unknown>, kept: () => unknown = () => null): void {
   addEventListener('message', async ({ data }: MessageEvent<Call>) => {
@@ -27,6 +32,11 @@ export function answer(functions: Functions, ready: Promise<unknown>, kept: () =
       postMessage({ id, error: error instanceof Error ? error.message : String(error) } satisfies Reply);
     }
   });
+}
+
+/** Tells the page the finished part of the running call, from 0 to 1. */
+export function tellProgress(progress: number): void {
+  postMessage({ progress } satisfies Progress);
 }
 
 /** The buffers of all arrays, and all images. */

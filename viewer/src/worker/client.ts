@@ -1,6 +1,6 @@
 // The page's side of a worker thread: calls functions of the worker.
 
-import type { Call, Functions, Reply } from './calls';
+import type { Call, Functions, Progress, Reply } from './calls';
 
 /** A call without a reply yet. */
 interface PendingCall {
@@ -11,11 +11,12 @@ interface PendingCall {
 /** Calls a function of a worker. Errors: those of the function. */
 export type Caller<F extends Functions> = <K extends keyof F & string>(name: K, ...args: Parameters<F[K]>) => Promise<Awaited<ReturnType<F[K]>>>;
 
-/** Connects a worker with the functions `F`. */
-export function callerOf<F extends Functions>(worker: Worker): Caller<F> {
+/** Connects a worker with the functions `F`. `progress` receives the finished part of the running call, where the worker tells it. */
+export function callerOf<F extends Functions>(worker: Worker, progress?: (done: number) => void): Caller<F> {
   const pending = new Map<number, PendingCall>();
   let callCount = 0;
-  worker.addEventListener('message', ({ data }: MessageEvent<Reply>) => {
+  worker.addEventListener('message', ({ data }: MessageEvent<Reply | Progress>) => {
+    if ('progress' in data) return progress?.(data.progress);
     const { resolve, reject } = pending.get(data.id)!;
     pending.delete(data.id);
     if ('error' in data) reject(new Error(data.error));

@@ -1,6 +1,6 @@
 //! Reading and writing of glTF for the viewer's page, with the same code as the command.
 //!
-//! JavaScript writes a file name and a file into memory that this side owns, calls `check` or `repair`, and reads a text and a file:
+//! JavaScript writes a file name and a file into memory that this side owns, calls `check`, `repair` or `make_normals`, and reads a text and a file:
 //!
 //! ```text
 //! p = name(n); q = file(m); memory[p ..] = ...; memory[q ..] = ...
@@ -12,7 +12,7 @@
 use std::cell::RefCell;
 use std::mem::take;
 
-use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents, inspect};
+use darboux_io::gltf::{AddNormalsOptions, AddTangentsOptions, Document, add_normals, add_tangents, inspect};
 use darboux_io::{Error, LoadOptions};
 
 /// The inputs and outputs of a call.
@@ -90,6 +90,16 @@ pub extern "C" fn repair() -> u32 {
     run(|document| {
         let options = AddTangentsOptions::default().with_overwrite(true);
         let summary = add_tangents(document, &options, &mut |_| {})?;
+        Ok((to_json(&summary), document.to_glb()?))
+    })
+}
+
+/// Makes smooth normals where a primitive has none. Returns 1 where the text is a summary in JSON and the resulting file is a GLB, and 0 where the
+/// text is an error.
+#[unsafe(no_mangle)]
+pub extern "C" fn make_normals() -> u32 {
+    run(|document| {
+        let summary = add_normals(document, &AddNormalsOptions::default(), &mut |_| {})?;
         Ok((to_json(&summary), document.to_glb()?))
     })
 }

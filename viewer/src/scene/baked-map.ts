@@ -1,0 +1,73 @@
+// A baked normal map as textures, for the materials of the low model.
+
+import { DataTexture, LinearFilter, LinearMipmapLinearFilter, MeshBasicMaterial, type MeshStandardMaterial, NearestFilter, RepeatWrapping, type Texture } from 'three';
+
+import type { ShownBake } from '../bake/baker';
+import type { Part } from './model-parts';
+
+/** The textures of one placement of the map. */
+interface Placed {
+  normals: Texture;
+  misses: Texture;
+}
+
+export class BakedMap {
+  /** By the file's own normal map, whose UV set and transform the bake has used; by null where there is none. */
+  private readonly placed = new Map<Texture | null, Placed>();
+
+  /** `showsMisses`: whether texels that no ray reached are marked. */
+  constructor(
+    private readonly bake: ShownBake,
+    private readonly showsMisses: boolean,
+  ) {}
+
+  /** Sets the map as the normal map of a part's material. */
+  applyTo(material: MeshStandardMaterial, part: Part): void {
+    material.normalMap = this.textureOf(part);
+    material.normalScale.set(1, 1);
+  }
+
+  /** The map as a texture, where a part shows it. */
+  textureOf(part: Part): Texture {
+    return this.texturesOf(part).normals;
+  }
+
+  /** A material that covers the texels of a part that no ray reached; null where they are not shown. */
+  missesOf(part: Part): MeshBasicMaterial | null {
+    if (!this.showsMisses || !this.bake.report.missedTexels) return null;
+    return new MeshBasicMaterial({ map: this.texturesOf(part).misses, transparent: true, alphaTest: 0.5, toneMapped: false, side: part.material.side });
+  }
+
+  dispose(): void {
+    for (const { normals, misses } of this.placed.values()) [normals, misses].forEach((texture) => texture.dispose());
+  }
+
+  private texturesOf({ material, surface }: Part): Placed {
+    const own = material.normalMap;
+    const found = this.placed.get(own);
+    if (found) return found;
+    const { width, height, normals, misses } = this.bake;
+    const made = { normals: placedLike(new DataTexture(normals, width, height), own, surface.vDown), misses: placedLike(new DataTexture(misses, width, height), own, surface.vDown) };
+    Object.assign(made.normals, { magFilter: LinearFilter, minFilter: LinearMipmapLinearFilter, generateMipmaps: true, anisotropy: 8 });
+    Object.assign(made.misses, { magFilter: NearestFilter, minFilter: NearestFilter });
+    this.placed.set(own, made);
+    return made;
+  }
+}
+
+/** Places a texture, whose first row is the top, as the file's own one. */
+function placedLike(texture: DataTexture, own: Texture | null, vDown: boolean): DataTexture {
+  texture.wrapS = texture.wrapT = RepeatWrapping;
+  if (own) {
+    texture.channel = own.channel;
+    texture.offset.copy(own.offset);
+    texture.repeat.copy(own.repeat);
+    texture.rotation = own.rotation;
+  }
+  if (!vDown) {
+    texture.repeat.y = -1;
+    texture.offset.y = 1;
+  }
+  texture.needsUpdate = true;
+  return texture;
+}

@@ -1,0 +1,158 @@
+// Baking in the page: a pair of models, the effect of the distance, misses, the end of a bake, and the saved map.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+
+import { browser, Picture, serve, Viewer } from './page.mjs';
+import { gltf } from './quads.mjs';
+
+const DARBOUX = process.env.DARBOUX;
+
+let server, chromium, viewer, folder;
+
+before(async () => {
+  folder = mkdtempSync(join(tmpdir(), 'viewer-'));
+  [server, chromium] = [await serve(), await browser()];
+  viewer = await Viewer.open(chromium, server.address, { viewport: { width: 900, height: 500 } });
+});
+
+after(async () => {
+  await chromium?.close();
+  server?.close();
+  rmSync(folder, { recursive: true });
+  assert.deepEqual(viewer?.faults, []);
+});
+
+/** A plate of unit size with waves of some height, as a glTF. */
+function plate(side, height) {
+  const places = Array.from({ length: (side + 1) ** 2 }, (_, at) => [(at % (side + 1)) / side - 0.5, Math.floor(at / (side + 1)) / side - 0.5]);
+  const of = (width, values) => [Float32Array.from(places.flatMap(values)), width];
+  const unit = (v) => v.map((x) => x / Math.hypot(...v));
+  const slope = ([x, y]) => [-12 * height * Math.cos(12 * x) * Math.cos(12 * y), 12 * height * Math.sin(12 * x) * Math.sin(12 * y), 1];
+  const attributes = {
+    POSITION: of(3, ([x, y]) => [x, y, height * Math.sin(12 * x) * Math.cos(12 * y)]),
+    NORMAL: of(3, (place) => unit(slope(place))),
+    TEXCOORD_0: of(2, ([x, y]) => [x + 0.5, 0.5 - y]),
+  };
+  const corners = [0, 1, side + 2, 0, side + 2, side + 1];
+  const indices = Uint32Array.from({ length: side * side * 6 }, (_, at) => {
+    const quad = Math.floor(at / 6);
+    return Math.floor(quad / side) * (side + 1) + (quad % side) + corners[at % 6];
+  });
+  return { attributes, indices };
+}
+
+const path = (name) => join(folder, name);
+
+function write(name, model) {
+  writeFileSync(path(name), gltf(model));
+  return path(name);
+}
+
+/** Opens a flat plate and one with waves, whose height is 2 % of the diagonal. */
+async function openPair() {
+  await viewer.give('files', [write('plate_high.gltf', plate(96, 0.02 * Math.SQRT2)), write('plate_low.gltf', plate(2, 0))]);
+  await viewer.page.uncheck('#pattern');
+  await viewer.settled();
+}
+
+const isRed = (r, g, b) => r > 200 && g < 60 && b < 60;
+
+test('a pair that is dropped together is baked: the low model looks like the high one', async () => {
+  await openPair();
+  assert.deepEqual([await viewer.text('error'), await viewer.text('name')], ['', 'plate_low.gltf']);
+  assert.deepEqual([await viewer.page.inputValue('#left'), await viewer.page.inputValue('#right')], ['high', 'baked']);
+  await viewer.slide('bake-distance', 1);
+  assert.match(await viewer.text('bake-result'), /^Rays of all 65,536 texels hit the high model\. Baked in [\d.e-]+ s$/);
+  await viewer.slide('split', 100);
+  const high = await viewer.picture();
+  await viewer.slide('split', 0);
+  const baked = await viewer.picture();
+  await viewer.choose('right', 'mikktspace');
+  const flat = await viewer.picture();
+  const [near, far] = [baked.distance(high), flat.distance(high)];
+  assert.ok(near < 0.35 * far, `the baked picture is ${near} from that of the high model, the flat one ${far}`);
+  await viewer.choose('right', 'baked');
+  await viewer.slide('split', 50);
+});
+
+test('a cage that is too small misses, which is seen at once', async () => {
+  assert.equal((await viewer.picture()).share(isRed), 0);
+  await viewer.slide('bake-distance', -1);
+  assert.match(await viewer.text('bake-result'), /^Rays of \d+ % of the texels \([\d,]+\) hit nothing/);
+  const missing = await viewer.picture();
+  assert.ok(missing.share(isRed, 0.5) > 0.1, `${missing.share(isRed, 0.5)} red`);
+  assert.equal(missing.share(isRed, 0, 0.49), 0, 'on the low model only');
+  await viewer.click('#bake-misses');
+  assert.equal((await viewer.picture()).share(isRed), 0);
+  await viewer.click('#bake-misses');
+  await viewer.page.selectOption('#bake-rays', 'normals');
+  await viewer.slide('bake-inwards', 1);
+  await viewer.slide('bake-distance', 1);
+  assert.match(await viewer.text('bake-result'), /^Rays of all /);
+  await viewer.page.selectOption('#bake-rays', 'cage');
+  await viewer.settled();
+});
+
+test('the saved map is the command\'s', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {
+  await viewer.page.selectOption('#bake-size', '128');
+  await viewer.page.selectOption('#bake-samples', '2');
+  await viewer.slide('bake-distance', 0.8);
+  const { name, bytes } = await viewer.download('#bake-save');
+  assert.equal(name, 'plate_low.normal.png');
+  const offset = String((10 ** 0.8 / 100) * Math.SQRT2);
+  const options = ['--size', '128', '--samples', '4', '--bits', '8', '--cage-offset', offset, '--quiet'];
+  execFileSync(DARBOUX, ['bake', path('plate_low.gltf'), '--high', path('plate_high.gltf'), '-o', path('map.png'), ...options]);
+  const [ours, theirs] = [await Picture.decode(viewer.page, bytes), await Picture.decode(viewer.page, readFileSync(path('map.png')))];
+  assert.deepEqual([ours.width, ours.height], [theirs.width, theirs.height]);
+  assert.ok(ours.data.equals(theirs.data), 'the same texels');
+  assert.ok(ours.share((r, g, b) => r !== 128 || g !== 128 || b !== 255) > 0.9, 'with content');
+});
+
+test('a bake can be ended, and the next change starts another one', async () => {
+  await viewer.page.selectOption('#bake-samples', '4');
+  await viewer.page.selectOption('#bake-size', '2048');
+  await viewer.page.waitForSelector('#bake-cancel', { state: 'visible' });
+  await viewer.page.waitForFunction(() => document.getElementById('bake-progress').value > 0);
+  await viewer.click('#bake-cancel');
+  assert.match(await viewer.text('bake-result'), /^The bake was ended/);
+  assert.equal(await viewer.page.isVisible('#bake-cancel'), false);
+  await viewer.page.selectOption('#bake-samples', '1');
+  await viewer.page.waitForSelector('#bake-cancel', { state: 'visible' });
+  await viewer.page.selectOption('#bake-size', '256');
+  await viewer.settled();
+  assert.match(await viewer.text('bake-result'), /^Rays of all 65,536 texels/);
+});
+
+test('the controls of a bake are accessible, and Reset sets them back', async () => {
+  assert.deepEqual(await viewer.violations(), []);
+  await viewer.slide('bake-distance', 1.2);
+  assert.equal(await viewer.page.getAttribute('#bake-distance', 'aria-valuetext'), "16 % of the model's diagonal");
+  await viewer.page.waitForFunction(() => /bake-distance=1\.2/.test(location.hash));
+  await viewer.click('#reset');
+  assert.deepEqual([await viewer.page.inputValue('#bake-distance'), await viewer.page.inputValue('#bake-samples')], ['0.3', '1']);
+});
+
+test('a high model for the open one by button, and the sentence about a pair that cannot be baked', async () => {
+  const { POSITION, NORMAL } = plate(2, 0).attributes;
+  await viewer.give('files', [write('bare.gltf', { attributes: { POSITION, NORMAL }, indices: plate(2, 0).indices })]);
+  assert.equal(await viewer.page.isVisible('#bake-controls'), false, 'the pair before is gone');
+  await viewer.give('high', [path('plate_high.gltf')]);
+  assert.match(await viewer.text('bake-result'), /^There is no map: the low model has no UVs, so that no map fits it; unwrap it first\.$/);
+  await viewer.give('files', [path('plate_low.gltf')]);
+  await viewer.give('high', [path('plate_high.gltf')]);
+  assert.equal(await viewer.page.inputValue('#right'), 'baked');
+  assert.match(await viewer.text('bake-result'), /^Rays of /);
+});
+
+test('the address of the page names a pair', async () => {
+  const page = await Viewer.open(chromium, `${server.address}?file=shield.glb&high=shield.glb`);
+  assert.deepEqual([await page.text('error'), await page.page.inputValue('#right')], ['', 'baked']);
+  assert.match(await page.text('bake-result'), /^Rays of /);
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});
