@@ -5,6 +5,7 @@
 //! files       what pages link to is copied: figures, pictures, sources; a folder becomes a list of its files
 //! search      one script with the text of every section, loaded when somebody searches
 //! figures     the interactive figures of site/figures.js, over the npm package
+//! viewer      the viewer's page, which lessons embed
 //! links       every link of every page leads to a file and, if it has one, a heading of the site
 //! ```
 //!
@@ -19,9 +20,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::dist_js;
+use crate::dist_viewer;
 use crate::links;
-use crate::npm;
 use crate::run::{Outcome, program, root, run, target_folder, to_stderr};
 use html::Page;
 use output::Output;
@@ -33,7 +33,7 @@ const STATIC_FILES: [&str; 3] = ["style.css", "search.js", "figures.js"];
 pub fn make() -> Outcome {
     let folder = target_folder()?.join("site");
     write(&folder)?;
-    add_package(&folder)?;
+    add_viewer(&folder)?;
     println!("{}", folder.display());
     Ok(())
 }
@@ -87,11 +87,11 @@ fn read_pages() -> Result<BTreeMap<PathBuf, Page>, String> {
     links::page_paths()?.into_iter().map(read).collect()
 }
 
-/// Adds the entry `darboux` of the npm package, on which the interactive figures compute.
-fn add_package(folder: &Path) -> Outcome {
-    let package = target_folder()?.join("site-package");
-    dist_js::make_folder(&package, &[dist_js::FULL])?;
-    npm::install("bindings/js", &root().join("bindings/js"))?;
+/// Adds the viewer's page, and the entry `darboux` of the npm package, on which the interactive figures compute.
+fn add_viewer(folder: &Path) -> Outcome {
+    let page = dist_viewer::make_page()?;
+    run(to_stderr(program("cp -r").arg(page).arg(folder.join("viewer"))))?;
+    let package = dist_viewer::package()?;
     let mut copy = program("cp");
     copy.arg(package.join("darboux.js")).arg(package.join("darboux.scalar.js")).arg(folder);
     run(to_stderr(&mut copy))

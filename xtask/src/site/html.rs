@@ -108,7 +108,7 @@ impl Page {
                         _ => None,
                     })
                     .collect();
-                out.extend(html_block(&text).map(|html| Event::Html(html.into())));
+                out.extend(html_block(path, &text).map(|html| Event::Html(html.into())));
                 return end + 1;
             }
             other => {
@@ -170,16 +170,31 @@ impl Page {
     }
 }
 
-/// A block of HTML as the site has it: comments vanish, and `<!-- interactive: NAME -->` becomes the place of an interactive figure.
-fn html_block(text: &str) -> Option<String> {
+/// A block of HTML as the site has it: comments vanish, `<!-- interactive: NAME -->` becomes the place of an interactive figure, and
+/// `<!-- viewer: STATE | CAPTION -->` the viewer with its sample in that state.
+fn html_block(page: &Path, text: &str) -> Option<String> {
     let comment = text.trim().strip_prefix("<!--").and_then(|rest| rest.strip_suffix("-->"));
-    match comment.map(|comment| comment.trim().strip_prefix("interactive: ")) {
-        None => Some(text.to_owned()),
-        Some(None) => None,
-        Some(Some(name)) => {
-            Some(format!("<div class=\"interactive\" data-figure=\"{}\"></div>\n", name.trim()))
-        }
+    let Some(comment) = comment.map(str::trim) else { return Some(text.to_owned()) };
+    if let Some(name) = comment.strip_prefix("interactive: ") {
+        return Some(format!("<div class=\"interactive\" data-figure=\"{}\"></div>\n", name.trim()));
     }
+    let (state, caption) = comment.strip_prefix("viewer: ")?.split_once('|')?;
+    Some(viewer(page, state.trim(), caption.trim()))
+}
+
+/// The viewer in a frame, with a link to it.
+fn viewer(page: &Path, state: &str, caption: &str) -> String {
+    let base = "../".repeat(page.components().count() - 1);
+    let (address, caption) = (escaped(&format!("{base}viewer/index.html#{state}")), escaped(caption));
+    format!(
+        "<figure class=\"viewer\">\n<iframe src=\"{address}\" title=\"The viewer\" loading=\"lazy\"></iframe>\n\
+         <figcaption>{caption} <a href=\"{address}\">The whole viewer</a></figcaption>\n</figure>\n"
+    )
+}
+
+/// A text in HTML.
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 fn end_of(events: &[Event<'_>], from: usize, is_end: impl Fn(&TagEnd) -> bool) -> usize {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::html::{Page, target};
+use super::html::{Page, escaped, target};
 
 /// The parts of the menu with their pages in order. All other pages follow in the last part.
 const PARTS: [(&str, &[&str]); 4] = [
@@ -117,8 +117,4 @@ fn part(name: &str, pages: &[(PathBuf, String)], current: &Path, base: &str) -> 
     };
     let items: String = pages.iter().map(item).collect();
     format!("<h2>{name}</h2><ul>{items}</ul>")
-}
-
-pub fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

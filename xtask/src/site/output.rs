@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::html::{Link, Page, target};
-use super::navigation::escaped;
+use super::html::{Link, Page, escaped, target};
 use crate::run::{Outcome, root};
 
 /// Files above this size are not copied: the site would repeat the repository's models.
