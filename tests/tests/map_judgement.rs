@@ -75,7 +75,7 @@ fn tiles_vote_for_the_verdict() {
     for (is_down, sign) in [(false, 1.0), (true, -1.0)] {
         let texels = plain().texels(is_down);
         let mut judge = NormalMapJudge::new(256, TexelLayout::RGB);
-        texels.chunks_exact(256).for_each(|row| judge.push_row(row));
+        texels.chunks_exact(256).try_for_each(|row| judge.push_row(row)).expect("whole rows");
         let (judgement, tiles) = (judge.judgement(), judge.tiles());
         assert_eq!(tiles.side * tiles.columns, 256);
         assert_eq!(tiles.correlations.len(), tiles.columns * tiles.columns);
@@ -106,7 +106,8 @@ fn layouts_and_depths_agree() {
 fn rows_give_the_same_as_the_whole_map() {
     let texels = plain().texels(false);
     let mut judge = NormalMapJudge::new(256, TexelLayout::RGB);
-    texels.chunks(256).for_each(|row| judge.push_row(row));
+    texels.chunks(256).try_for_each(|row| judge.push_row(row)).expect("whole rows");
+    assert!(judge.push_row(&texels[..255]).is_err());
     assert_eq!(judge.judgement(), judged(&texels, TexelLayout::RGB));
 }
 

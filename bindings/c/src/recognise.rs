@@ -180,7 +180,7 @@ unsafe fn judged<C: Channel, const N: usize>(
     let rows = unsafe { pointers::row_slices::<[C; N]>("texels", texels, height, width, row_stride) }?;
     // Without rows a width promises nothing, and must allocate nothing.
     let mut judge = NormalMapJudge::new(if height == 0 { 0 } else { width }, layout);
-    rows.for_each(|row| judge.push_row(row));
+    rows.into_iter().try_for_each(|row| judge.push_row(row))?;
     Ok(judge.judgement())
 }
 

@@ -1,8 +1,8 @@
 //! `darboux/check`: what is wrong with models and normal maps, and how tangents were computed.
 
 use darboux::{
-    BitangentDirection, Channel, MapJudgement, MapTiles, MapVerdict, Method, Mode, NormalMapJudge,
-    RecipeMatch, RecipeRounding, RecipeWriting, TexelLayout,
+    BitangentDirection, Channel, MapJudgement, MapTiles, Method, Mode, NormalMapJudge, RecipeMatch,
+    RecipeRounding, RecipeWriting, TexelLayout,
 };
 use darboux_check::{CheckOptions, Finding, FixOptions, check_document, check_map, fix_document};
 use darboux_io::LoadOptions;
@@ -179,19 +179,13 @@ fn judge_rows<C: Channel, const N: usize>(
         return None;
     }
     let mut judge = NormalMapJudge::new(width, layout);
-    texels.chunks_exact(width.max(1)).for_each(|row| judge.push_row(row));
+    texels.chunks_exact(width.max(1)).try_for_each(|row| judge.push_row(row)).ok()?;
     Some((judge.judgement(), judge.tiles()))
 }
 
 impl Judged {
     fn new(judgement: MapJudgement, tiles: MapTiles) -> Self {
-        let verdict = match judgement.verdict {
-            MapVerdict::OpenGl => "opengl",
-            MapVerdict::DirectX => "directx",
-            MapVerdict::NoGradient => "no_gradient",
-            MapVerdict::Flat => "flat",
-            _ => "cannot_tell",
-        };
+        let verdict = judgement.verdict.name();
         let MapJudgement { confidence, correlation, z_score, log_energy_ratio, texels, background, .. } =
             judgement;
         let MapJudgement { not_unit, negative_z, grey, not_normal, .. } = judgement;

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use darboux::{
-    BitangentDirection, Context, MapJudgement, MapVerdict, RecipeMatch, RecipeRounding, RecipeWriting,
-    TexelLayout, recognise_recipe_with,
+    BitangentDirection, Context, MapJudgement, RecipeMatch, RecipeRounding, RecipeWriting, TexelLayout,
+    recognise_recipe_with,
 };
 use darboux_check::{CheckOptions, Finding, check_document, check_map};
 use darboux_io::{FileKind, gltf};
@@ -152,13 +152,7 @@ fn judged<C: darboux::Channel>(
 }
 
 fn judgement<'py>(py: Python<'py>, judgement: &MapJudgement) -> PyResult<Bound<'py, PyAny>> {
-    let verdict = match judgement.verdict {
-        MapVerdict::OpenGl => "opengl",
-        MapVerdict::DirectX => "directx",
-        MapVerdict::NoGradient => "no_gradient",
-        MapVerdict::Flat => "flat",
-        _ => "cannot_tell",
-    };
+    let verdict = judgement.verdict.name();
     let numbers =
         [judgement.confidence, judgement.correlation, judgement.z_score, judgement.log_energy_ratio];
     let [confidence, correlation, z_score, log_energy_ratio] = numbers.map(f64::from);

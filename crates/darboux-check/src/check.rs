@@ -4,16 +4,18 @@ use std::collections::BTreeMap;
 
 use darboux::{BitangentDirection, MapJudgement};
 use darboux_io::Error;
-use darboux_io::gltf::{Appearance, Document, PrimitiveCorners, PrimitiveName, inspect};
+use darboux_io::gltf::{Document, inspect};
 use darboux_io::image::RgbaImage;
 
 use crate::code::Code;
 use crate::facets::FacetVotes;
 use crate::finding::{Finding, Place};
-use crate::map::Map;
+use crate::instances::distinct;
+use crate::map::{Map, MapDirections, Vote};
+use crate::map_users::{MapSurfaces, MapUsers};
 use crate::obstacles;
 use crate::rule::Measured;
-use crate::rules::{MAP_RULES, SURFACE_RULES, TEXTURE_RULES};
+use crate::rules::{MAP_RULES, SURFACE_RULES, TEXTURE_RULES, directions_by_mesh};
 use crate::severity::Severity;
 use crate::surface::Surface;
 
@@ -79,20 +81,16 @@ pub fn for_each_surface(document: &mut Document, mut visit: impl FnMut(Surface))
 
 /// Checks the file of an image that is a normal map.
 pub fn check_map(file: &[u8], options: &CheckOptions) -> CheckedMap {
-    check_map_with(file, options, |_| FacetVotes::default())
+    check_map_with(file, options, None)
 }
 
 /// As [`check_map`]; `vote` gives the votes of the meshes that use the map.
-fn check_map_with(
-    file: &[u8],
-    options: &CheckOptions,
-    vote: impl FnOnce(&RgbaImage) -> FacetVotes,
-) -> CheckedMap {
+fn check_map_with(file: &[u8], options: &CheckOptions, vote: Option<Vote<'_>>) -> CheckedMap {
     let map = Map::read(file, options.green, vote);
     let obstacle = obstacles::of_image(file);
     let findings = MAP_RULES.iter().filter_map(|rule| rule(&map));
     let findings = findings.map(|finding| finding.with_obstacle(obstacle.clone())).collect();
-    CheckedMap { judgement: map.judgement.ok(), findings }
+    CheckedMap { directions: directions_by_mesh(&map), judgement: map.judgement.ok(), findings }
 }
 
 /// A model that normal maps are to be put on, and what is wrong with it: the result of [`check_model_of_maps`].
@@ -126,21 +124,26 @@ pub fn check_model_of_maps(document: &mut Document) -> Result<ModelOfMaps, Error
 /// The findings on the map come first, then those on the model. A finding about green says where the signs of the model's tangents are flipped,
 /// too, so that both mistakes cancel.
 pub fn check_map_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptions) -> CheckedMap {
-    let mut checked = check_map_with(file, options, |image| {
+    let mut checked = check_map_on_surfaces(file, model, options);
+    checked.findings.extend(model.findings.iter().cloned());
+    checked
+}
+
+/// As [`check_map_on_model`], without the findings on the model.
+pub fn check_map_on_surfaces(file: &[u8], model: &ModelOfMaps, options: &CheckOptions) -> CheckedMap {
+    let vote = |image: &RgbaImage| {
         let mut votes = FacetVotes::default();
         model.surfaces.iter().for_each(|surface| votes.add(surface, None, image));
         votes
-    });
-    for finding in checked.findings.iter_mut().filter(|finding| finding.code == Code::MapRedFlipped) {
-        let alone = "without the model it looks as inverted green; put it on the model and repair that";
-        finding.left_because.get_or_insert_with(|| alone.to_owned());
-    }
+    };
+    let mut checked = check_map_with(file, options, Some(&vote));
     if model.findings.iter().any(|finding| finding.code == Code::TangentSignFlipped) {
         for finding in checked.findings.iter_mut().filter(|finding| finding.code == Code::MapGreenFlipped) {
             finding.text += "; the signs w of the model are flipped, too, so that bumps look right until one of the two mistakes is repaired";
+            let together = "the signs w of the model have to be repaired with it; put the map on the model and repair that";
+            finding.left_because.get_or_insert_with(|| together.to_owned());
         }
     }
-    checked.findings.extend(model.findings.iter().cloned());
     checked
 }
 
@@ -150,6 +153,8 @@ pub fn check_map_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptio
 pub struct CheckedMap {
     /// The judgement on the texels; none if the image cannot be decoded.
     pub judgement: Option<MapJudgement>,
+    /// Which channels are inverted, where the faces of a model decide that.
+    pub directions: Option<MapDirections>,
     /// The findings.
     pub findings: Vec<Finding>,
 }
@@ -173,85 +178,36 @@ fn worst_severity(code: Code, surface: &Surface) -> Severity {
     if is_unread { Severity::Warning } else { Severity::Error }
 }
 
-/// The accessors of semantics.
-type Semantics = BTreeMap<String, usize>;
-
-/// What decides the findings about a primitive: its attributes, morph targets, indices, mode and material.
-type SurfaceKey = (Semantics, Vec<Semantics>, Option<usize>, u32, Option<usize>);
-
-fn surface_key(document: &Document, name: &PrimitiveName) -> SurfaceKey {
-    let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
-    let (attributes, targets) = (primitive.attributes.clone(), primitive.targets.clone());
-    (attributes, targets, primitive.indices, primitive.mode, primitive.material)
-}
-
-/// The primitives about which a finding is: the one that it names, and all with the same data.
-pub fn primitives_of(document: &Document, finding: &Finding) -> Vec<PrimitiveName> {
-    let Some(named) = &finding.place.primitive else { return Vec::new() };
-    if finding.place.same_as == 0 {
-        return vec![named.clone()];
-    }
-    let key = surface_key(document, named);
-    let mut names = Vec::new();
-    for (index, mesh) in document.meshes().iter().enumerate() {
-        for primitive in 0..mesh.primitives.len() {
-            let name = PrimitiveName { mesh: index, mesh_name: mesh.name.clone(), primitive };
-            if surface_key(document, &name) == key {
-                names.push(name);
-            }
-        }
-    }
-    names
-}
-
-/// The primitives that differ in data or material, each with the number of later ones that do not.
-fn distinct<'a>(
-    document: &Document,
-    primitives: Vec<PrimitiveCorners<'a>>,
-) -> Vec<(PrimitiveCorners<'a>, usize)> {
-    let mut places = BTreeMap::new();
-    let mut found: Vec<(PrimitiveCorners<'a>, usize)> = Vec::new();
-    for corners in primitives {
-        let key = surface_key(document, corners.name());
-        match places.get(&key) {
-            Some(&place) => {
-                let (_, same_as): &mut (_, usize) = &mut found[place];
-                *same_as += 1;
-            }
-            None => {
-                places.insert(key, found.len());
-                found.push((corners, 0));
-            }
-        }
-    }
-    found
-}
-
 /// Checks materials and the images of their normal maps, each image once.
 fn check_materials(document: &Document, options: &CheckOptions) -> Result<Vec<Finding>, Error> {
     let (mut findings, mut images) = (Vec::new(), BTreeMap::new());
     let appearances = document.appearances()?;
     for (index, appearance) in appearances.iter().enumerate() {
-        let Some(texture) = &appearance.normal_texture else { continue };
         let place = Place { material: Some(index), ..Place::default() };
-        let found = TEXTURE_RULES.iter().filter_map(|rule| rule(texture));
-        findings.extend(found.map(|finding| Finding { place: place.clone(), ..finding }));
-        if let Some(image) = texture.image.filter(|_| options.maps) {
+        for rule in TEXTURE_RULES {
+            let found = appearance.normal_maps().find_map(rule);
+            findings.extend(found.map(|finding| Finding { place: place.clone(), ..finding }));
+        }
+        for image in appearance.normal_maps().filter_map(|texture| texture.image).filter(|_| options.maps) {
             images.entry(image).or_insert(index);
         }
     }
+    if images.is_empty() {
+        return Ok(findings);
+    }
+    let users = MapUsers::new(document, &appearances)?;
     for (image, material) in images {
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
-        let found = check_image(document, &appearances, image, options)?;
+        let found = check_image(document, &users, image, options)?;
         findings.extend(found.into_iter().map(|finding| Finding { place: place.clone(), ..finding }));
     }
     Ok(findings)
 }
 
-/// Checks an image of a document as a normal map. `appearances`: of all materials. Errors: invalid data of the primitives that use it.
+/// Checks an image of a document as a normal map. Errors: invalid data of the primitives that use it.
 fn check_image(
     document: &Document,
-    appearances: &[Appearance],
+    users: &MapUsers<'_>,
     image: usize,
     options: &CheckOptions,
 ) -> Result<Vec<Finding>, Error> {
@@ -262,33 +218,12 @@ fn check_image(
             return Ok(MAP_RULES.iter().filter_map(|rule| rule(&map)).collect());
         }
     };
-    let checked = check_texels(document, appearances, image, &bytes, options)?;
+    let checked = check_texels(&bytes, &users.of(image)?, options);
     let obstacle = document.normal_map_obstacle(image).map(|clause| format!("the image {clause}"));
     Ok(checked.findings.into_iter().map(|finding| finding.with_obstacle(obstacle.clone())).collect())
 }
 
-/// Checks the file of an image in the place of an image of a document. `appearances`: of all materials. Errors: invalid data of the primitives that
-/// use it.
-pub fn check_texels(
-    document: &Document,
-    appearances: &[Appearance],
-    image: usize,
-    file: &[u8],
-    options: &CheckOptions,
-) -> Result<CheckedMap, Error> {
-    let mut users = Vec::new();
-    for (corners, _) in distinct(document, document.corners()?) {
-        let appearance = corners.material().and_then(|material| appearances.get(material));
-        let texture = appearance.and_then(|appearance| appearance.normal_texture.as_ref());
-        if let Some(texture) = texture.filter(|texture| texture.image == Some(image))
-            && let Some(surface) = Surface::read(document, &corners, None)?
-        {
-            users.push((surface, texture));
-        }
-    }
-    Ok(check_map_with(file, options, |image| {
-        let mut votes = FacetVotes::default();
-        users.iter().for_each(|(surface, texture)| votes.add(surface, Some(texture), image));
-        votes
-    }))
+/// Checks the file of an image as the normal map of surfaces of a document.
+pub fn check_texels(file: &[u8], surfaces: &MapSurfaces, options: &CheckOptions) -> CheckedMap {
+    check_map_with(file, options, Some(&|image| surfaces.votes(image)))
 }

@@ -11,7 +11,7 @@ mod outcome;
 mod pairs;
 mod tangents;
 
-pub use maps::{FixedMap, fix_map};
+pub use maps::{FixedMap, fix_map, fix_map_on_model};
 pub use options::FixOptions;
 pub use outcome::{FixedDocument, FixedFinding};
 

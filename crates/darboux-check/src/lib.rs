@@ -24,7 +24,9 @@ mod facets;
 mod finding;
 mod fit;
 mod fix;
+mod instances;
 mod map;
+mod map_users;
 mod obstacles;
 mod orientation;
 mod overlap;
@@ -40,5 +42,6 @@ pub use check::{
 };
 pub use code::Code;
 pub use finding::{Evidence, Finding, Place};
-pub use fix::{FixOptions, FixedDocument, FixedFinding, FixedMap, fix_document, fix_map};
+pub use fix::{FixOptions, FixedDocument, FixedFinding, FixedMap, fix_document, fix_map, fix_map_on_model};
+pub use map::MapDirections;
 pub use severity::Severity;

@@ -1,9 +1,12 @@
 //! [`Map`]: a decoded normal map, the judgement on it and the votes of the meshes that use it, as the rules read them.
 
-use darboux::{BitangentDirection, MapJudgement, NormalMapJudge, SrgbMistake, TexelLayout, judge_normal_map};
+use darboux::{
+    BitangentDirection, MapJudgement, NormalMapJudge, SrgbMistake, TangentDirection, TexelLayout,
+    judge_normal_map,
+};
 use darboux_io::image::{DecodeLimits, RgbaImage, linear_to_srgb, srgb_to_linear};
 
-use crate::facets::FacetVotes;
+use crate::facets::{Arrangement, FacetVotes};
 
 /// The normal map of a material, or one that is checked alone.
 pub struct Map {
@@ -13,17 +16,26 @@ pub struct Map {
     pub before_srgb: Option<MapJudgement>,
     /// Where green should point.
     pub wanted: BitangentDirection,
-    /// What the facets of the meshes that use the map say; no votes for a map that is checked alone.
-    pub facets: FacetVotes,
+    /// What the facets of the meshes that use the map say; none for a map that is checked alone.
+    pub facets: Option<FacetVotes>,
 }
 
+/// The directions of a map's channels, as the texels and the faces of its model show them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct MapDirections {
+    /// Where red points.
+    pub red: TangentDirection,
+    /// Where green points.
+    pub green: BitangentDirection,
+}
+
+/// Gives the votes of the meshes that use a map.
+pub type Vote<'a> = &'a dyn Fn(&RgbaImage) -> FacetVotes;
+
 impl Map {
-    /// Decodes and judges an image file. `vote`: gives the votes of the meshes that use the map.
-    pub fn read(
-        file: &[u8],
-        wanted: BitangentDirection,
-        vote: impl FnOnce(&RgbaImage) -> FacetVotes,
-    ) -> Self {
+    /// Decodes and judges an image file. `vote`: none for a map that is checked alone.
+    pub fn read(file: &[u8], wanted: BitangentDirection, vote: Option<Vote<'_>>) -> Self {
         match RgbaImage::decode(file, &DecodeLimits::default()) {
             Ok(image) => {
                 let size = [image.width, image.height].map(|side| side as usize);
@@ -31,15 +43,26 @@ impl Map {
                 let judgement = judgement.map_err(|error| error.to_string());
                 let mistake = judgement.as_ref().ok().and_then(MapJudgement::srgb_mistake);
                 let before_srgb = mistake.and_then(|mistake| judge_without(mistake, &image));
-                Self { judgement, before_srgb, wanted, facets: vote(&image) }
+                Self { judgement, before_srgb, wanted, facets: vote.map(|vote| vote(&image)) }
             }
             Err(error) => Self::unreadable(error.to_string(), wanted),
         }
     }
 
+    /// True where the facets of a mesh decide for the first of the two possibilities of an arrangement, false for the second one; none where there is
+    /// no mesh, or it does not decide.
+    pub fn decide(&self, arrangement: Arrangement) -> Option<bool> {
+        self.facets.as_ref()?.decide(arrangement)
+    }
+
+    /// The z score that the facets give an arrangement; 0 without a mesh.
+    pub fn facet_score(&self, arrangement: Arrangement) -> f64 {
+        self.facets.as_ref().map_or(0.0, |facets| facets.z_score(arrangement))
+    }
+
     /// A map that cannot be read, and why, as a clause.
     pub fn unreadable(problem: String, wanted: BitangentDirection) -> Self {
-        Self { judgement: Err(problem), before_srgb: None, wanted, facets: FacetVotes::default() }
+        Self { judgement: Err(problem), before_srgb: None, wanted, facets: None }
     }
 }
 
@@ -58,7 +81,7 @@ fn judge_without(mistake: SrgbMistake, image: &RgbaImage) -> Option<MapJudgement
     for row in image.texels.chunks_exact(width.max(1)) {
         undone.clear();
         undone.extend(row.iter().map(|[r, g, b, _]| [*r, *g, *b].map(|code| code_of[usize::from(code)])));
-        judge.push_row(&undone);
+        judge.push_row(&undone).ok()?;
     }
     Some(judge.judgement())
 }

@@ -8,6 +8,7 @@ mod tangents;
 mod transforms;
 mod uvs;
 
+pub use maps::directions_by_mesh;
 pub use normals::UNIT as UNIT_NORMAL;
 
 use crate::rule::{MapRule, SurfaceRule, TextureRule};

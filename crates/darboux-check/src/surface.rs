@@ -138,9 +138,20 @@ impl Surface {
         if vertices.is_empty() {
             return vertices;
         }
+        let is_used = self.is_used();
+        vertices.into_iter().filter(|&vertex| is_used[vertex]).collect()
+    }
+
+    /// The number of vertices that triangles use.
+    pub fn used_count(&self) -> usize {
+        self.is_used().into_iter().filter(|is_used| *is_used).count()
+    }
+
+    /// Per vertex whether a triangle uses it.
+    fn is_used(&self) -> Vec<bool> {
         let mut is_used = vec![false; self.positions.len()];
         self.vertex_of_corner.iter().for_each(|&vertex| is_used[vertex as usize] = true);
-        vertices.into_iter().filter(|&vertex| is_used[vertex]).collect()
+        is_used
     }
 
     /// The indices of the triangles whose vertices fulfil a condition.

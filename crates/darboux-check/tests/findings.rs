@@ -2,12 +2,16 @@
 
 mod support;
 
-use darboux::Method;
+use darboux::{BitangentDirection, Method, TangentDirection};
 use darboux_check::{
     CheckOptions, Code, Finding, FixOptions, Severity, check_document, check_map, check_map_on_model,
-    check_model_of_maps, fix_document,
+    check_model_of_maps, fix_document, fix_map, fix_map_on_model,
 };
+use darboux_io::LoadOptions;
+use darboux_io::gltf::Document;
+use serde_json::{Value, json};
 use support::baked::baked_models;
+use support::container::with_json;
 use support::models::{Model, healthy_models};
 use support::table::without_maps;
 
@@ -161,4 +165,63 @@ fn bare_maps_are_compared_with_the_faces_of_their_model() {
         assert_eq!(errors(|[r, g, b]| [255 - r, *g, *b]), [Code::MapRedFlipped], "{}", model.name);
         assert_eq!(errors(|[r, g, b]| [*r, 255 - g, *b]), [Code::MapGreenFlipped], "{}", model.name);
     }
+}
+
+/// What the texels and the faces say together is what is repaired, and what is said of the map as a whole.
+#[test]
+fn bare_maps_are_repaired_by_the_faces_of_their_model() {
+    let spoilt = [
+        ([true, false], TangentDirection::Left, BitangentDirection::Up),
+        ([false, true], TangentDirection::Right, BitangentDirection::Down),
+        ([true, true], TangentDirection::Left, BitangentDirection::Down),
+    ];
+    for model in baked_models().iter().take(4) {
+        let on_model = check_model_of_maps(&mut model.document()).expect("a valid document");
+        for ([inverts_red, inverts_green], red, green) in spoilt {
+            let inverted = |code: u8, inverts: bool| if inverts { 255 - code } else { code };
+            let texel = |&[r, g, b]: &[u8; 3]| [inverted(r, inverts_red), inverted(g, inverts_green), b];
+            let file = model.map.with_texels(model.map.texels.iter().map(texel).collect()).file;
+            let checked = check_map_on_model(&file, &on_model, &CheckOptions::default());
+            let directions = checked.directions.expect("directions");
+            assert_eq!((directions.red, directions.green), (red, green), "{}", model.name);
+            let (loading, options) = (LoadOptions::default(), FixOptions::default());
+            let fixed = fix_map_on_model("map", &file, &on_model, &loading, &options).expect("a map");
+            let repaired = fixed.image.expect("a repaired map").to_bytes().expect("a PNG");
+            assert!(support::table::rgb(&repaired) == model.map.texels, "{}", model.name);
+            // Without the model, nothing says which of the two channels is inverted.
+            let alone = fix_map("map", &file, &loading, &options).expect("a map");
+            assert!(alone.image.is_none(), "{}: {:?}", model.name, alone.findings);
+        }
+    }
+}
+
+/// The normal map of a clear coat is one, too, and the surfaces of all materials of a primitive's variants vote.
+#[test]
+fn clear_coats_and_variants_are_checked() {
+    let mut model = baked_models().remove(0);
+    let texels = model.map.texels.iter().map(|[r, g, b]| [255 - r, *g, *b]).collect();
+    model.map = model.map.with_texels(texels);
+    let errors = |edit: fn(&mut Value)| -> Vec<(Code, Option<usize>)> {
+        let glb = with_json(&model.glb(), edit);
+        let document = Document::from_bytes("model", glb, None, &LoadOptions::default());
+        let findings = check_document(&mut document.expect("a document"), &CheckOptions::default());
+        let findings = findings.expect("a valid document").into_iter();
+        let errors = findings.filter(|finding| finding.severity == Severity::Error);
+        errors.map(|finding| (finding.code, finding.place.material)).collect()
+    };
+    let coat = |json: &mut Value| {
+        let texture = json["materials"][0]["normalTexture"].take();
+        json["materials"][0] =
+            json!({"extensions": {"KHR_materials_clearcoat": {"clearcoatNormalTexture": texture}}});
+    };
+    assert_eq!(errors(coat), [(Code::MapRedFlipped, Some(0))]);
+    let variant = |json: &mut Value| {
+        let map = json["materials"][0].take();
+        json["materials"] = json!([{}, map]);
+        for primitive in json["meshes"][0]["primitives"].as_array_mut().expect("primitives") {
+            primitive["extensions"] =
+                json!({"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]}]}});
+        }
+    };
+    assert_eq!(errors(variant), [(Code::MapRedFlipped, Some(1))]);
 }

@@ -7,11 +7,14 @@ use std::fs;
 
 use darboux::{Method, TangentOptions};
 use darboux_check::{
-    CheckOptions, Code, FixOptions, FixedFinding, Severity, check_document, check_map, fix_document, fix_map,
+    CheckOptions, Code, FixOptions, FixedFinding, FixedMap, Severity, check_document, check_map,
+    check_model_of_maps, fix_document, fix_map, fix_map_on_model,
 };
 use darboux_io::gltf::Document;
 use darboux_io::image::PngImage;
 use darboux_io::{LoadOptions, SaveOptions};
+use serde_json::json;
+use support::container::with_json;
 use support::models::{Model, healthy_models};
 use support::table::codes;
 
@@ -154,7 +157,8 @@ fn image_files_get_new_files() {
 /// A map with 16 bits keeps them: green is inverted exactly.
 #[test]
 fn maps_keep_their_bit_depth() {
-    let map = healthy_models().remove(0).map;
+    let model = healthy_models().remove(0);
+    let map = &model.map;
     let side = map.texels.len().isqrt() as u32;
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, side, side);
@@ -163,7 +167,9 @@ fn maps_keep_their_bit_depth() {
     let words = |[r, g, b]: [u8; 3]| [r, r ^ 0x35, 255 - g, g ^ 0x35, b, b ^ 0x35];
     let bytes: Vec<u8> = map.texels.iter().flat_map(|texel| words(*texel)).collect();
     encoder.write_header().and_then(|mut writer| writer.write_image_data(&bytes)).expect("a PNG");
-    let fixed = fix_map("map.png", &file, &LoadOptions::default(), &FixOptions::default()).expect("a map");
+    let on = check_model_of_maps(&mut model.document()).expect("a valid document");
+    let (loading, options) = (LoadOptions::default(), FixOptions::default());
+    let fixed = fix_map_on_model("map.png", &file, &on, &loading, &options).expect("a map");
     let fixed = fixed.image.expect("a repaired map");
     assert_eq!((fixed.bits(), fixed.size()), (16, [side; 2]));
     let mut reader =
@@ -179,16 +185,35 @@ fn maps_keep_their_bit_depth() {
 /// Two mistakes of which one hides the other are both repaired.
 #[test]
 fn a_repair_goes_on_with_what_it_reveals() {
-    let map = healthy_models().remove(0).map;
-    let texels = map.texels.iter().map(|[r, g, _]| [*r, 255 - g, 0]).collect();
-    let file = map.with_texels(texels).file;
-    let fixed = fix_map("map.png", &file, &LoadOptions::default(), &FixOptions::default()).expect("a map");
-    let repaired: Vec<Code> =
-        fixed.findings.iter().filter(|fixed| fixed.repaired).map(|fixed| fixed.finding.code).collect();
-    assert!(
-        repaired.contains(&Code::MapTwoChannel) && repaired.contains(&Code::MapGreenFlipped),
-        "{repaired:?}"
-    );
+    let model = healthy_models().remove(0);
+    let texels = model.map.texels.iter().map(|[r, g, _]| [*r, 255 - g, 0]).collect();
+    let file = model.map.with_texels(texels).file;
+    let on = check_model_of_maps(&mut model.document()).expect("a valid document");
+    let (loading, options) = (LoadOptions::default(), FixOptions::default());
+    let repaired = |fixed: FixedMap| -> BTreeSet<Code> {
+        assert!(fixed.image.is_some());
+        fixed.findings.iter().filter(|fixed| fixed.repaired).map(|fixed| fixed.finding.code).collect()
+    };
+    let on_model = fix_map_on_model("map.png", &file, &on, &loading, &options).expect("a map");
+    assert_eq!(repaired(on_model), BTreeSet::from([Code::MapTwoChannel, Code::MapGreenFlipped]));
+    // Without the model, inverted green may as well be inverted red.
+    let alone = fix_map("map.png", &file, &loading, &options).expect("a map");
+    let green = alone.findings.iter().find(|fixed| fixed.finding.code == Code::MapGreenFlipped);
+    let reason = green.and_then(|fixed| fixed.finding.left_because.clone()).expect("a reason");
+    assert!(reason.contains("--model"), "{reason}");
+    assert_eq!(repaired(alone), BTreeSet::from([Code::MapTwoChannel]));
+}
+
+/// Vertices that no triangle uses are not seen.
+#[test]
+fn unused_vertices_are_not_counted() {
+    let mut model = healthy_models().remove(0);
+    model.positions.push([0.0; 3]);
+    model.normals.iter_mut().for_each(|normals| normals.push([0.0; 3]));
+    model.tangents.iter_mut().for_each(|tangents| tangents.push([f32::NAN, 0.0, 0.0, 0.5]));
+    model.uvs.iter_mut().for_each(|uvs| uvs.push([0.0; 2]));
+    let findings = check_document(&mut model.document(), &CheckOptions::default()).expect("a valid document");
+    assert!(findings.iter().all(|finding| finding.severity == Severity::Info), "{findings:?}");
 }
 
 /// The encoding leaves blue at 255 everywhere, as if the map had two channels.
@@ -289,18 +314,7 @@ fn maps_that_must_not_change_are_left() {
     let mut model = healthy_models().remove(0);
     let inverted = model.map.texels.iter().map(|[r, g, b]| [*r, 255 - g, *b]).collect();
     model.map = model.map.with_texels(inverted);
-    let glb = model.glb();
-    let (old, new) = (br#"{"normalTexture":"#, br#"{"emissiveTexture":{"index":0},"normalTexture":"#);
-    let at = glb.windows(old.len()).position(|window| window == old).expect("the material");
-    let mut bytes = [&glb[..at], new, &glb[at + old.len()..]].concat();
-    // The JSON chunk grew, and stays a multiple of four bytes long.
-    let length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
-    let grown = (length + new.len() - old.len()).next_multiple_of(4);
-    let padding = grown - (length + new.len() - old.len());
-    bytes.splice(20 + grown - padding..20 + grown - padding, vec![b' '; padding]);
-    bytes[12..16].copy_from_slice(&(grown as u32).to_le_bytes());
-    let total = bytes.len() as u32;
-    bytes[8..12].copy_from_slice(&total.to_le_bytes());
+    let bytes = with_json(&model.glb(), |json| json["materials"][0]["emissiveTexture"] = json!({"index": 0}));
     let mut document = read(bytes.clone());
     let findings = fixed(&mut document, &mut read(bytes), &FixOptions::default());
     let left =

@@ -227,6 +227,10 @@ fn finish<W: FileCommand>(
     start: Instant,
 ) -> u8 {
     report.files.iter().filter_map(|file| file.error.as_ref()).for_each(|error| messages.error(error));
+    for file in report.files.iter().filter(|_| command.messages().quiet) {
+        let errors = file.summary.this_run().map(W::errors).unwrap_or_default();
+        errors.iter().for_each(|error| messages.error(&format!("{}: {error}", file.input)));
+    }
     let totals = &report.totals;
     if totals.failed < totals.files || totals.files > 1 {
         let done = counted(totals.files - totals.failed, "file", "files");

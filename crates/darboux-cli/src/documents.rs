@@ -1,12 +1,14 @@
 //! Reads and writes glTF documents and images. Errors are one sentence each.
 
+use std::borrow::Cow;
+use std::fs;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 use darboux::Convention;
 use darboux_io::Error;
 use darboux_io::gltf::Document;
-use darboux_io::image::PngImage;
+use darboux_io::image::{PngImage, RgbaImage};
 
 use crate::batch::plan::Output;
 use crate::batch::report::Status;
@@ -14,7 +16,7 @@ use crate::inputs::Input;
 use crate::interrupt;
 use crate::options::files::FileOptions;
 use crate::options::reading::ReadOptions;
-use crate::paths::is_png;
+use crate::paths::{is_image, is_png};
 use crate::terminal::write_stdout;
 use crate::text::command_line;
 
@@ -32,6 +34,20 @@ impl<'a> Source<'a> {
             Input::File(_) => None,
         };
         Ok(Self { input, stdin })
+    }
+
+    /// The bytes of an image; none for a model. The extension decides what a file is, and the first bytes of standard input. Errors: the file cannot be
+    /// read.
+    pub fn image(&self) -> Result<Option<Cow<'_, [u8]>>, String> {
+        match (&self.stdin, self.input) {
+            (Some(bytes), _) => Ok(RgbaImage::is_format_known(bytes).then_some(Cow::Borrowed(bytes))),
+            (None, Input::File(path)) if is_image(path) => {
+                let bytes =
+                    fs::read(path).map_err(|error| format!("{}: cannot be read: {error}", self.input))?;
+                Ok(Some(Cow::Owned(bytes)))
+            }
+            (None, _) => Ok(None),
+        }
     }
 
     /// As [`load`].

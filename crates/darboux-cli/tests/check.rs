@@ -4,7 +4,7 @@ mod common;
 
 use std::fs;
 
-use common::{asset, darboux, text};
+use common::{asset, darboux, darboux_reading, text};
 use darboux_check::Code;
 
 #[test]
@@ -100,11 +100,19 @@ fn maps_are_judged_alone() {
     let printed = String::from_utf8_lossy(&printed.stdout).into_owned();
     assert!(printed.contains("DirectX") && printed.contains("map-green-flipped"), "{printed}");
 
+    // Without its model, the map may as well have inverted red.
+    let before = fs::read(&down).expect("a file");
+    let left = darboux(&["check", text(&down), "--fix", "--in-place"]).exits(1);
+    assert!(left.stderr.contains("--model") && left.stderr.contains("darboux convert"), "{}", left.stderr);
+    assert_eq!(fs::read(&down).expect("a file"), before);
+    let box_model = asset("made/strips-fans-lines-points.gltf");
+    let model = ["--model", text(&box_model)];
     let fixed = folder.path().join("fixed.png");
-    let repair = darboux(&["check", text(&down), "--fix", "-o", text(&fixed), "--json"]).exits(0).json();
+    let arguments = ["check", text(&down), "--fix", "-o", text(&fixed), "--json"];
+    let repair = darboux(&[&arguments[..], &model].concat()).exits(0).json();
     assert_eq!(codes(&repair, |finding| finding["repaired"] == true), ["map-green-flipped"]);
     assert_eq!(verdict(&fixed, &[], 0).as_deref(), Some("opengl"));
-    darboux(&["check", text(&down), "--fix", "--in-place"]).exits(0);
+    darboux(&[&["check", text(&down), "--fix", "--in-place"], &model[..]].concat()).exits(0);
     assert_eq!(fs::read(&down).expect("a file"), fs::read(&fixed).expect("a file"));
 
     // The plane's signs w are flipped, so that a map with green down looks right on it.
@@ -237,14 +245,15 @@ fn images_that_are_no_png() {
         path
     };
     let [jpeg, webp] = ["down.jpg", "flipped.webp"].map(|name| save(name, -1.0));
+    let strip = asset("made/strips-fans-lines-points.gltf");
     for (path, fixable, code) in [(&jpeg, true, 0), (&webp, false, 1)] {
-        let report = darboux(&["check", text(path), "--json"]).exits(1).json();
-        assert_eq!(
-            codes(&report, |finding| finding["fixable"] == fixable),
-            ["map-green-flipped"],
-            "{report}"
-        );
-        let report = darboux(&["check", text(path), "--fix", "--json"]).exits(code).json();
+        let on_model = ["check", text(path), "--model", text(&strip), "--json"];
+        let report = darboux(&on_model).exits(1).json();
+        let named = |finding: &serde_json::Value| {
+            finding["fixable"] == fixable && finding["code"] == "map-green-flipped"
+        };
+        assert_eq!(codes(&report, named), ["map-green-flipped"], "{report}");
+        let report = darboux(&[&on_model[..], &["--fix"]].concat()).exits(code).json();
         assert_eq!(
             codes(&report, |finding| finding["repaired"] == fixable),
             ["map-green-flipped"],
@@ -254,7 +263,7 @@ fn images_that_are_no_png() {
     let fixed = folder.path().join("down.fixed.png");
     darboux(&["check", text(&fixed)]).exits(0);
     let before = fs::read(&jpeg).expect("a file");
-    let refused = darboux(&["check", text(&jpeg), "--fix", "--in-place"]).exits(1);
+    let refused = darboux(&["check", text(&jpeg), "--model", text(&strip), "--fix", "--in-place"]).exits(1);
     assert!(refused.stderr.contains("use -o FILE.png"), "{}", refused.stderr);
     assert_eq!(fs::read(&jpeg).expect("a file"), before);
 
@@ -353,4 +362,82 @@ fn repairs_and_files_are_named() {
     let checked = darboux(&["check", text(&out)]).exits(0);
     let checked = String::from_utf8_lossy(&checked.stdout).into_owned();
     assert!(!checked.contains("info") || checked.contains("cure: "), "{checked}");
+}
+
+/// An image that was cut off is not judged, whether a row or only the end is missing.
+#[test]
+fn truncated_images_are_unreadable() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["whole.jpg", "whole.png", "whole.webp"] {
+        let whole = folder.path().join(name);
+        bumps(1.0).save(&whole).expect("an image");
+        darboux(&["check", text(&whole)]).exits(0);
+        let bytes = fs::read(&whole).expect("a file");
+        let cut = folder.path().join(format!("cut-{name}"));
+        for length in [bytes.len() / 4, bytes.len() / 2, bytes.len() * 9 / 10, bytes.len() - 2] {
+            fs::write(&cut, &bytes[..length]).expect("a file");
+            let report = darboux(&["check", text(&cut), "--json"]).json();
+            // The last bytes of a PNG and of a WebP hold no texels.
+            if name == "whole.jpg" || length < bytes.len() - 2 {
+                assert_eq!(codes(&report, |_| true), ["map-unreadable"], "{name}, {length}: {report}");
+            }
+        }
+    }
+    // What follows the end of an image is not part of it.
+    let jpeg = folder.path().join("whole.jpg");
+    let longer = [fs::read(&jpeg).expect("a file"), b"more".to_vec()].concat();
+    fs::write(&jpeg, longer).expect("a file");
+    darboux(&["check", text(&jpeg)]).exits(0);
+}
+
+/// With `--quiet` there is one line per error and nothing else.
+#[test]
+fn quiet_runs_print_errors_only() {
+    let shield = asset("made/shield.glb");
+    let printed = darboux(&["check", text(&shield), "--quiet"]).exits(1);
+    let printed = String::from_utf8(printed.stdout).expect("text");
+    assert_eq!(printed.lines().count(), 1, "{printed}");
+    assert!(
+        printed.contains("shield.glb: ") && printed.contains(": tangent-shared-across-mirror: "),
+        "{printed}"
+    );
+    let healthy = asset("NormalTangentTest/NormalTangentTest.glb");
+    let healthy = darboux(&["check", text(&healthy), "--quiet"]).exits(0);
+    assert_eq!((healthy.stdout.as_slice(), healthy.stderr.as_str()), (&b""[..], ""));
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let map = folder.path().join("map.png");
+    bumps(-1.0).save(&map).expect("an image");
+    let left = darboux(&["check", text(&map), "--fix", "--quiet"]).exits(1);
+    assert!(left.stderr.contains("error: ") && left.stderr.contains("map-green-flipped"), "{}", left.stderr);
+}
+
+/// Images are recognised on standard input, too.
+#[test]
+fn images_are_read_from_standard_input() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["up.png", "up.jpg", "up.webp"] {
+        let path = folder.path().join(name);
+        bumps(1.0).save(&path).expect("an image");
+        let file = fs::read(&path).expect("a file");
+        let report = darboux_reading(&["check", "-", "--json"], &file).exits(0).json();
+        assert_eq!(report["files"][0]["map"]["verdict"], "opengl", "{name}");
+    }
+    let path = folder.path().join("down.png");
+    bumps(-1.0).save(&path).expect("an image");
+    let (file, strip) = (fs::read(&path).expect("a file"), asset("made/strips-fans-lines-points.gltf"));
+    let fixed = darboux_reading(&["check", "-", "--model", text(&strip), "--fix"], &file).exits(0);
+    let report = darboux_reading(&["check", "-", "--json"], &fixed.stdout).exits(0).json();
+    assert_eq!(report["files"][0]["map"]["verdict"], "opengl");
+}
+
+/// Why there is no verdict on a small map.
+#[test]
+fn small_maps_are_told_why_they_stay_undecided() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("small.png");
+    image::imageops::crop_imm(&bumps(1.0), 0, 0, 48, 48).to_image().save(&path).expect("an image");
+    let printed = darboux(&["check", text(&path)]).exits(0);
+    let printed = String::from_utf8(printed.stdout).expect("text");
+    assert!(printed.contains("at least 64 x 64 of them"), "{printed}");
 }

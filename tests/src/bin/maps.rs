@@ -12,6 +12,7 @@ const HELP: &str = "\
 Judges generated normal maps and prints how often the verdicts are right, and how sure they were.
 
   --count N          fields, each with green up and green down; every tenth also as maps that are no gradient (default: 2000)
+  --first N          the number of the first field, and so its seed (default: 0, as on the page)
   --gentle N         nearly flat fields, on which the confidence is tested (default: 1000)
   --largest-side N   (default: 4096)
   --threads N        (default: one per core)
@@ -21,6 +22,7 @@ Judges generated normal maps and prints how often the verdicts are right, and ho
 
 struct Arguments {
     count: u64,
+    first: u64,
     gentle: u64,
     largest_side: usize,
     threads: usize,
@@ -51,6 +53,7 @@ impl Arguments {
     fn parse(mut words: impl Iterator<Item = String>) -> Result<Option<Self>, String> {
         let mut arguments = Self {
             count: 2000,
+            first: 0,
             gentle: 1000,
             largest_side: 4096,
             threads: std::thread::available_parallelism().map_or(1, usize::from),
@@ -70,6 +73,7 @@ impl Arguments {
             let number = || value.parse::<u64>().map_err(|_| format!("{word}: {value} is no number"));
             match word.as_str() {
                 "--count" => arguments.count = number()?,
+                "--first" => arguments.first = number()?,
                 "--gentle" => arguments.gentle = number()?,
                 "--largest-side" => arguments.largest_side = number()? as usize,
                 "--threads" => arguments.threads = number()?.max(1) as usize,
@@ -85,9 +89,10 @@ impl Arguments {
 fn run(arguments: &Arguments) -> Result<(), String> {
     let regular = MapSet { largest_side: arguments.largest_side, slope: 1.0 };
     let gentle = MapSet { largest_side: arguments.largest_side.min(512), slope: 0.03 };
-    let regular = judged(arguments, "regular", regular, 0..arguments.count)?;
+    let regular = judged(arguments, "regular", regular, arguments.first..arguments.first + arguments.count)?;
     // Other seeds than those of the regular maps.
-    let gentle = judged(arguments, "gentle", gentle, 1_000_000..1_000_000 + arguments.gentle)?;
+    let first = 1_000_000 + arguments.first;
+    let gentle = judged(arguments, "gentle", gentle, first..first + arguments.gentle)?;
     let text = page(&regular, &gentle);
     match &arguments.page {
         Some(path) => {

@@ -9,8 +9,9 @@ use super::options::FixOptions;
 use super::outcome::{FixedDocument, FixedFinding, outcome};
 use super::pairs::LeftPairs;
 use super::{normals, tangents};
-use crate::check::{check_surfaces, primitives_of};
+use crate::check::check_surfaces;
 use crate::finding::Finding;
+use crate::instances::primitives_of;
 use crate::severity::Severity;
 
 /// A primitive by the indices of mesh and primitive.

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use darboux::{BitangentDirection, Convention, Conversion, SrgbMistake, TangentDirection};
+use darboux::{
+    BitangentDirection, Convention, Conversion, MapJudgement, MapVerdict, SrgbMistake, TangentDirection,
+};
 use darboux_io::gltf::Document;
 use darboux_io::image::{
     Channels, DecodeLimits, PngImage, RgbaImage, change_texels, convert_normal_map, linear_to_srgb,
@@ -12,9 +14,10 @@ use darboux_io::{Error, LoadOptions};
 
 use super::options::FixOptions;
 use super::outcome::{FixedFinding, is_same, outcome};
-use crate::check::{CheckedMap, check_map, check_texels};
+use crate::check::{CheckedMap, ModelOfMaps, check_map, check_map_on_surfaces, check_texels};
 use crate::code::Code;
 use crate::finding::{Finding, Place};
+use crate::map_users::MapUsers;
 use crate::severity::Severity;
 
 /// The result of [`fix_map`].
@@ -27,7 +30,8 @@ pub struct FixedMap {
     pub findings: Vec<FixedFinding>,
 }
 
-/// Repairs an image file that is a normal map. A JPEG becomes a PNG.
+/// Repairs an image file that is a normal map. A JPEG becomes a PNG. Inverted green is left, because it may as well be inverted red:
+/// [`fix_map_on_model`] asks the faces of the model.
 ///
 /// `name` stands for the file in messages. Errors: a PNG that needs more memory than `loading` permits.
 pub fn fix_map(
@@ -36,12 +40,24 @@ pub fn fix_map(
     loading: &LoadOptions,
     options: &FixOptions,
 ) -> Result<FixedMap, Error> {
-    let check = |file: &[u8]| Ok(check_map(file, &options.check));
-    fix_checked(name, file, check_map(file, &options.check), &check, loading, options)
+    let check = |file: &[u8]| check_map(file, &options.check);
+    fix_checked(name, file, check(file), &check, loading, options)
+}
+
+/// As [`fix_map`], for the normal map of a model, which is not changed. Its findings are not among those of the result.
+pub fn fix_map_on_model(
+    name: &str,
+    file: &[u8],
+    model: &ModelOfMaps,
+    loading: &LoadOptions,
+    options: &FixOptions,
+) -> Result<FixedMap, Error> {
+    let check = |file: &[u8]| check_map_on_surfaces(file, model, &options.check);
+    fix_checked(name, file, check(file), &check, loading, options)
 }
 
 /// Checks an image file again after a repair, with all that was known before, so that one repair does not mislead the next.
-type Check<'a> = dyn Fn(&[u8]) -> Result<CheckedMap, Error> + 'a;
+type Check<'a> = dyn Fn(&[u8]) -> CheckedMap + 'a;
 
 /// Repairs an image file whose findings are known: meshes may have helped to find them.
 fn fix_checked(
@@ -56,6 +72,10 @@ fn fix_checked(
     if known.iter().any(|finding| finding.code == Code::MapRedFlipped && !options.repairs(finding)) {
         return Ok(all_left(known, "its red is inverted, and only that is certain while it is left"));
     }
+    // No repair of other texels inverts a channel, but it may reveal that one is inverted.
+    let has_directions =
+        |judgement: &MapJudgement| matches!(judgement.verdict, MapVerdict::OpenGl | MapVerdict::DirectX);
+    let directions_were_hidden = !checked.judgement.as_ref().is_some_and(has_directions);
     let mut image: Option<PngImage> = None;
     let mut done = BTreeSet::new();
     let mut findings = known.clone();
@@ -70,7 +90,7 @@ fn fix_checked(
         };
         let mistake = checked.judgement.and_then(|judgement| judgement.srgb_mistake());
         repair(&mut changed, next.code, mistake, options)?;
-        checked = check(&changed.to_bytes()?)?;
+        checked = check(&changed.to_bytes()?);
         image = Some(changed);
         for finding in &checked.findings {
             if !findings.iter().any(|known| is_same(known, finding)) {
@@ -78,7 +98,10 @@ fn fix_checked(
             }
         }
     };
-    if let Some(worse) = remaining.iter().find(|left| is_new_error(left, &known)) {
+    let is_worse = |left: &&Finding| {
+        is_new_error(left, &known) && !(directions_were_hidden && left.code == Code::MapGreenFlipped)
+    };
+    if let Some(worse) = remaining.iter().find(is_worse) {
         let reason = format!("its repair would end in {}", worse.code.name());
         return Ok(all_left(known, &reason));
     }
@@ -175,8 +198,8 @@ pub fn fix_images(
 ) -> Result<Vec<FixedFinding>, Error> {
     let places: BTreeSet<(Option<usize>, Option<usize>)> =
         findings.iter().map(|finding| (finding.place.image, finding.place.material)).collect();
-    let mut fixed = Vec::new();
-    let appearances = document.appearances()?;
+    let (mut fixed, mut rewritten) = (Vec::new(), Vec::new());
+    let users = MapUsers::new(document, &document.appearances()?)?;
     for (image, material) in places {
         let of_image = findings.iter().filter(|finding| finding.place.image == image);
         let has_work = of_image.clone().any(|finding| options.repairs(finding));
@@ -190,7 +213,8 @@ pub fn fix_images(
         let findings =
             of_image.clone().map(|finding| Finding { place: Place::default(), ..finding.clone() }).collect();
         let checked = CheckedMap { findings, ..check_map(&file, &options.check) };
-        let check = |file: &[u8]| check_texels(document, &appearances, index, file, &options.check);
+        let surfaces = users.of(index)?;
+        let check = |file: &[u8]| check_texels(file, &surfaces, &options.check);
         let made = match fix_checked(&name, &file, checked, &check, document.load_options(), options) {
             Ok(made) => made,
             Err(error) => {
@@ -199,12 +223,15 @@ pub fn fix_images(
             }
         };
         if let Some(image) = made.image {
-            document.replace_image(index, image.to_bytes()?, "image/png")?;
+            rewritten.push((index, image.to_bytes()?));
         }
         fixed.extend(made.findings.into_iter().map(|fixed| FixedFinding {
             finding: Finding { place: place.clone(), ..fixed.finding },
             ..fixed
         }));
+    }
+    for (index, bytes) in rewritten {
+        document.replace_image(index, bytes, "image/png")?;
     }
     Ok(fixed)
 }

@@ -10,9 +10,10 @@ use darboux_io::gltf::{
 };
 
 use super::options::FixOptions;
-use crate::check::{for_each_surface, primitives_of};
+use crate::check::for_each_surface;
 use crate::code::Code;
 use crate::finding::Finding;
+use crate::instances::primitives_of;
 use crate::orientation::Reversal;
 use crate::rules::UNIT_NORMAL;
 use crate::surface::length;

@@ -26,17 +26,22 @@ impl LeftPairs {
         options: &FixOptions,
     ) -> Result<Self, Error> {
         let appearances = document.appearances()?;
-        let map_of = |material: usize| appearances.get(material)?.normal_texture.as_ref()?.image;
+        let is_map_of = |material: usize, image: usize| {
+            let appearance = appearances.get(material);
+            appearance.is_some_and(|of| of.normal_maps().any(|texture| texture.image == Some(image)))
+        };
         let mut left = Self::default();
         for signs in on_surfaces.iter().filter(|finding| finding.code == Code::TangentSignFlipped) {
-            let image = signs.place.material.and_then(map_of);
-            let mut of_image = on_images.iter().filter(|finding| finding.place.image == image);
-            let Some(green) = of_image.find(|finding| finding.code == Code::MapGreenFlipped) else {
-                continue;
+            let is_of_these = |green: &&Finding| {
+                let used = signs.place.material.zip(green.place.image);
+                green.code == Code::MapGreenFlipped
+                    && used.is_some_and(|(material, image)| is_map_of(material, image))
             };
-            if !options.repairs(signs) || !options.repairs(green) {
-                left.primitives.extend(signs.place.primitive.clone());
-                left.images.extend(image);
+            for green in on_images.iter().filter(is_of_these) {
+                if !options.repairs(signs) || !options.repairs(green) {
+                    left.primitives.extend(signs.place.primitive.clone());
+                    left.images.extend(green.place.image);
+                }
             }
         }
         Ok(left)

@@ -7,8 +7,8 @@ use darboux_io::Error;
 use darboux_io::gltf::{AddTangentsOptions, Document, Generate, PrimitiveName, add_tangents_to};
 
 use super::options::FixOptions;
-use crate::check::primitives_of;
 use crate::finding::Finding;
+use crate::instances::primitives_of;
 
 /// Makes the tangents of all primitives with a finding about them again.
 pub fn fix(document: &mut Document, findings: &[&Finding], options: &FixOptions) -> Result<(), Error> {

@@ -1,12 +1,13 @@
 //! Rules about the texels of normal maps.
 
-use darboux::{BitangentDirection, MapJudgement, MapVerdict, SrgbMistake};
+use darboux::{BitangentDirection, MapJudgement, MapVerdict, SrgbMistake, TangentDirection};
 
 use crate::code::Code;
 use crate::facets::Arrangement;
 use crate::finding::Finding;
-use crate::map::Map;
+use crate::map::{Map, MapDirections};
 use crate::rule::MapRule;
+use crate::severity::Severity;
 
 pub const RULES: &[MapRule] = &[
     unreadable,
@@ -26,6 +27,9 @@ pub const RULES: &[MapRule] = &[
 
 /// The share of texels, in percent, above which vectors are worth a warning.
 const MAX_PERCENT: f64 = 5.0;
+
+/// The confidence in percent from which on a direction is an error. Below it is a warning, and is not repaired.
+const SURE_PERCENT: f64 = 90.0;
 
 fn unreadable(map: &Map) -> Option<Finding> {
     let problem = map.judgement.as_ref().err()?;
@@ -132,12 +136,6 @@ fn two_channel(map: &Map) -> Option<Finding> {
     Some(Finding::new(Code::MapTwoChannel, "its blue channel has one value only"))
 }
 
-/// Which channels point the wrong way.
-struct Inverted {
-    red: bool,
-    green: bool,
-}
-
 /// The arrangement that the derivatives show: that of a map with no (or both) channels inverted, or with one.
 fn arrangement(judgement: &MapJudgement) -> Option<Arrangement> {
     match judgement.verdict {
@@ -147,24 +145,38 @@ fn arrangement(judgement: &MapJudgement) -> Option<Arrangement> {
     }
 }
 
-/// The derivatives tell whether one channel is inverted or none (or both); the facets of the mesh tell which, if they can.
-fn inverted(judgement: &MapJudgement, map: &Map) -> Option<Inverted> {
+/// The derivatives tell whether one channel is inverted or none (or both); the facets of the mesh tell which, if they can. Otherwise red is taken to be
+/// right.
+fn directions(judgement: &MapJudgement, map: &Map) -> Option<MapDirections> {
     let arrangement = arrangement(judgement)?;
-    let red = map.facets.decide(arrangement) == Some(false);
-    let wants_down = map.wanted == BitangentDirection::Down;
-    let is_down = (arrangement == Arrangement::GreenInverted) != red;
-    Some(Inverted { red, green: is_down != wants_down })
+    let is_left = map.decide(arrangement) == Some(false);
+    let is_down = (arrangement == Arrangement::GreenInverted) != is_left;
+    let red = if is_left { TangentDirection::Left } else { TangentDirection::Right };
+    let green = if is_down { BitangentDirection::Down } else { BitangentDirection::Up };
+    Some(MapDirections { red, green })
+}
+
+/// The directions of the channels, if the faces of the mesh decide them.
+pub fn directions_by_mesh(map: &Map) -> Option<MapDirections> {
+    let judgement = directed(map)?;
+    let is_decided = arrangement(judgement).is_some_and(|arrangement| map.decide(arrangement).is_some());
+    directions(judgement, map).filter(|_| is_decided)
 }
 
 /// The finding with the evidence for the direction of the channels.
 fn with_directions(finding: Finding, judgement: &MapJudgement, map: &Map) -> Finding {
+    let percent = 100.0 * f64::from(judgement.confidence);
+    let is_sure = percent >= SURE_PERCENT;
+    let unsure = (!is_sure).then(|| format!("this is only {percent:.0} % sure"));
     let finding = finding
+        .with_severity(if is_sure { Severity::Error } else { Severity::Warning })
+        .with_obstacle(unsure)
         .with_evidence("confidence", 100.0 * f64::from(judgement.confidence), "%")
         .with_evidence("correlation of the mixed derivatives", judgement.correlation.into(), "")
         .with_evidence("z score", judgement.z_score.into(), "");
-    match arrangement(judgement).filter(|arrangement| map.facets.decide(*arrangement).is_some()) {
+    match arrangement(judgement).filter(|arrangement| map.decide(*arrangement).is_some()) {
         Some(arrangement) => {
-            finding.with_evidence("z score of the mesh's facets", map.facets.z_score(arrangement), "")
+            finding.with_evidence("z score of the mesh's facets", map.facet_score(arrangement), "")
         }
         None => finding,
     }
@@ -179,24 +191,34 @@ fn directed(map: &Map) -> Option<&MapJudgement> {
 
 fn green_flipped(map: &Map) -> Option<Finding> {
     let judgement = directed(map)?;
+    if directions(judgement, map)?.green == map.wanted {
+        return None;
+    }
     let program = match map.wanted {
         BitangentDirection::Up => "DirectX (green down) instead of OpenGL (green up)",
         BitangentDirection::Down => "OpenGL (green up) instead of DirectX (green down)",
     };
-    inverted(judgement, map)?.green.then(|| {
-        let finding = Finding::new(Code::MapGreenFlipped, format!("it is in the convention of {program}"));
-        with_directions(finding, judgement, map)
-    })
+    let (doubt, obstacle) = match (directions_by_mesh(map), &map.facets) {
+        (Some(_), _) => ("", None),
+        (None, Some(_)) => {
+            (", unless its red is inverted, which is rare and which the faces of the model do not show", None)
+        }
+        (None, None) => {
+            (", or its red is inverted, which the texels alone do not show", Some(ONLY_THE_MODEL.to_owned()))
+        }
+    };
+    let finding = Finding::new(Code::MapGreenFlipped, format!("it is in the convention of {program}{doubt}"));
+    Some(with_directions(finding.with_obstacle(obstacle), judgement, map))
 }
+
+/// Why inverted green is left in a map without a model.
+const ONLY_THE_MODEL: &str = "only the faces of the model tell inverted green from inverted red; name the model with --model, or invert green with `darboux convert`";
 
 fn red_flipped(map: &Map) -> Option<Finding> {
     let judgement = directed(map)?;
-    inverted(judgement, map)?.red.then(|| {
-        let finding = Finding::new(
-            Code::MapRedFlipped,
-            "its red is inverted: its texels lean against the faces of the mesh",
-        );
-        with_directions(finding, judgement, map)
+    (directions(judgement, map)?.red == TangentDirection::Left).then(|| {
+        let text = "its red is inverted: its texels lean against the faces of the mesh";
+        with_directions(Finding::new(Code::MapRedFlipped, text), judgement, map)
     })
 }
 
@@ -210,9 +232,8 @@ fn candidates(judgement: &MapJudgement) -> [Arrangement; 2] {
 
 /// Whether the texels follow the facets of the mesh with red and green exchanged, and not otherwise.
 fn facets_show_exchange(judgement: &MapJudgement, map: &Map) -> bool {
-    let [straight, exchanged] =
-        candidates(judgement).map(|arrangement| map.facets.z_score(arrangement).abs());
-    let decided = candidates(judgement).map(|arrangement| map.facets.decide(arrangement).is_some());
+    let [straight, exchanged] = candidates(judgement).map(|arrangement| map.facet_score(arrangement).abs());
+    let decided = candidates(judgement).map(|arrangement| map.decide(arrangement).is_some());
     decided[1] && exchanged > 2.0 * straight
 }
 
@@ -230,7 +251,7 @@ fn channels_swapped(map: &Map) -> Option<Finding> {
         .with_evidence("z score", judgement.z_score.into(), "");
     Some(match by_facets {
         true => {
-            let z_score = map.facets.z_score(candidates(judgement)[1]);
+            let z_score = map.facet_score(candidates(judgement)[1]);
             finding.with_evidence("z score of the mesh's facets", z_score, "")
         }
         false => finding,

@@ -24,7 +24,7 @@ fn is_finite(normal: [f32; 3]) -> bool {
 
 fn not_finite(measured: &Measured<'_>) -> Vec<Finding> {
     let Some(normals) = &measured.surface.normals else { return Vec::new() };
-    let found = indices_where(normals, |normal| !is_finite(*normal));
+    let found = measured.surface.used(indices_where(normals, |normal| !is_finite(*normal)));
     if found.is_empty() {
         return Vec::new();
     }
@@ -39,7 +39,8 @@ fn not_finite(measured: &Measured<'_>) -> Vec<Finding> {
 
 fn not_unit(measured: &Measured<'_>) -> Vec<Finding> {
     let Some(normals) = &measured.surface.normals else { return Vec::new() };
-    let found = indices_where(normals, |normal| is_finite(*normal) && (length(*normal) - 1.0).abs() > UNIT);
+    let is_other = |normal: &[f32; 3]| is_finite(*normal) && (length(*normal) - 1.0).abs() > UNIT;
+    let found = measured.surface.used(indices_where(normals, is_other));
     if found.is_empty() {
         return Vec::new();
     }

@@ -64,11 +64,11 @@ fn vertices(
     [one, many]: [&str; 2],
 ) -> Vec<Finding> {
     let Some(tangents) = &surface.tangents else { return Vec::new() };
-    let found = indices_where(tangents, |tangent| condition(*tangent));
+    let found = surface.used(indices_where(tangents, |tangent| condition(*tangent)));
     if found.is_empty() {
         return Vec::new();
     }
-    let share = 100.0 * found.len() as f64 / tangents.len() as f64;
+    let share = 100.0 * found.len() as f64 / surface.used_count() as f64;
     let finding = Finding::new(code, counted(found.len(), one, many)).with_items(&found);
     vec![finding.with_evidence("part of all vertices", share, "%")]
 }
@@ -146,11 +146,11 @@ fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
         }
     };
     let angles: Vec<f64> = (0..tangents.len()).map(angle).collect();
-    let found = indices_where(&angles, |angle| *angle > MAX_DEGREES_FROM_PLANE[0]);
+    let found = measured.surface.used(indices_where(&angles, |angle| *angle > MAX_DEGREES_FROM_PLANE[0]));
     if found.is_empty() {
         return Vec::new();
     }
-    let worst = angles.iter().copied().fold(0.0, f64::max);
+    let worst = found.iter().map(|&vertex| angles[vertex]).fold(0.0, f64::max);
     let severity = if worst > MAX_DEGREES_FROM_PLANE[1] { Severity::Error } else { Severity::Warning };
     let tangents = counted(
         found.len(),

@@ -41,3 +41,11 @@ pub fn container(mut json: Vec<u8>, mut bytes: Vec<u8>) -> Vec<u8> {
     let chunks = [&word(json.len()), b"JSON".as_slice(), &json, &word(bytes.len()), b"BIN\0", &bytes];
     [header, chunks.concat()].concat()
 }
+
+/// A GLB with another JSON.
+pub fn with_json(glb: &[u8], edit: impl FnOnce(&mut Value)) -> Vec<u8> {
+    let length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
+    let mut json = serde_json::from_slice(&glb[20..20 + length]).expect("JSON");
+    edit(&mut json);
+    container(serde_json::to_vec(&json).expect("JSON"), glb[28 + length..].to_vec())
+}

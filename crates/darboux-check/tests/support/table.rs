@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use darboux_check::{
-    CheckOptions, Code, Finding, FixOptions, Severity, check_document, check_map, fix_document, fix_map,
+    CheckOptions, Code, Finding, FixOptions, Severity, check_document, check_map, check_map_on_model,
+    check_model_of_maps, fix_document, fix_map_on_model,
 };
 use darboux_io::LoadOptions;
 use darboux_io::gltf::{Document, pair_tangents};
@@ -125,7 +126,7 @@ fn map_row(mistake: &MapMistake, models: &[Model]) -> Row {
         let findings = check_map(&map.file, &CheckOptions::default()).findings;
         row.count(&healthy.name, &findings);
         let Some(tolerance) = tolerance else { continue };
-        match repaired_map(&map, &healthy.map, tolerance) {
+        match repaired_map(&map, healthy, tolerance) {
             Ok(()) => *row.repaired.get_or_insert(0) += 1,
             Err(problem) => row.failures.push(format!("{code} on the map of {}: {problem}", healthy.name)),
         }
@@ -133,20 +134,22 @@ fn map_row(mistake: &MapMistake, models: &[Model]) -> Row {
     row
 }
 
-/// Repairs a map, and compares its texels with the healthy ones.
-fn repaired_map(map: &Map, healthy: &Map, tolerance: u8) -> Result<(), String> {
-    let fixed = fix_map("map.png", &map.file, &LoadOptions::default(), &FixOptions::default());
+/// Repairs a map on its model, and compares its texels with the healthy ones.
+fn repaired_map(map: &Map, healthy: &Model, tolerance: u8) -> Result<(), String> {
+    let model = check_model_of_maps(&mut healthy.document()).expect("a valid document");
+    let (loading, options) = (LoadOptions::default(), FixOptions::default());
+    let fixed = fix_map_on_model("map.png", &map.file, &model, &loading, &options);
     let fixed = fixed.map_err(|error| error.to_string())?;
     let image = fixed.image.ok_or("nothing was repaired")?;
     let file = image.to_bytes().map_err(|error| error.to_string())?;
-    let left = check_map(&file, &CheckOptions::default()).findings;
+    let left = check_map_on_model(&file, &model, &CheckOptions::default()).findings;
     if let Some(finding) = left.iter().find(|finding| finding.is_fixable()) {
         return Err(format!("{} is still there: {}", finding.code, finding.text));
     }
     let texels = rgb(&file);
     let difference = |(a, b): (&[u8; 3], &[u8; 3])| (0..3).map(|i| a[i].abs_diff(b[i])).max().unwrap_or(0);
-    let worst = texels.iter().zip(&healthy.texels).map(difference).max().unwrap_or(0);
-    let is_equal = texels.len() == healthy.texels.len() && worst <= tolerance;
+    let worst = texels.iter().zip(&healthy.map.texels).map(difference).max().unwrap_or(0);
+    let is_equal = texels.len() == healthy.map.texels.len() && worst <= tolerance;
     if is_equal { Ok(()) } else { Err(format!("texels differ by up to {worst}, more than {tolerance}")) }
 }
 

@@ -126,7 +126,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--allow', '--allow', [CompletionResultType]::ParameterName, 'Do not report these codes')
             [CompletionResult]::new('--fail-on', '--fail-on', [CompletionResultType]::ParameterName, 'The severity from which on a finding makes the exit code 1')
             [CompletionResult]::new('--convention', '--convention', [CompletionResultType]::ParameterName, 'Where the green of normal maps should point')
-            [CompletionResult]::new('--model', '--model', [CompletionResultType]::ParameterName, 'The model that the images are normal maps of: its tangents, normals and UVs are checked with each of them')
+            [CompletionResult]::new('--model', '--model', [CompletionResultType]::ParameterName, 'The model that the images are normal maps of: its faces tell inverted green from inverted red, and its tangents, normals and UVs are checked, too')
             [CompletionResult]::new('--method', '--method', [CompletionResultType]::ParameterName, 'How --fix makes tangents again: as the normal map was baked, so nearly always mikktspace')
             [CompletionResult]::new('--normals', '--normals', [CompletionResultType]::ParameterName, 'How --fix makes missing normals: flat, smooth or crease=DEG')
             [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input, in an existing folder; - is standard output, as GLB')

@@ -54,6 +54,11 @@ pub trait FileCommand: Sync {
     /// What was done to each part of a file, one line each.
     fn lines(summary: &Self::Summary) -> Vec<String>;
 
+    /// What is still wrong with a file, one line each; printed with `--quiet`, where [`FileCommand::lines`] are not.
+    fn errors(_summary: &Self::Summary) -> Vec<String> {
+        Vec::new()
+    }
+
     /// The warnings of a file, one sentence each.
     fn warnings(summary: &Self::Summary) -> &[String];
 

@@ -2,27 +2,26 @@
 
 pub mod arguments;
 mod fix;
+mod model;
 mod report;
 mod text;
 
 use std::num::NonZeroUsize;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::{fs, thread};
+use std::thread;
 
-use darboux_check::{
-    CheckOptions, CheckedMap, Finding, ModelOfMaps, check_document, check_map, check_map_on_model,
-    check_model_of_maps,
-};
+use darboux_check::{Finding, check_document};
 
 use crate::batch;
-use crate::documents::load;
+use crate::documents::Source;
 use crate::exit;
 use crate::inputs::{Input, SearchMode, UsageError, check_stdin, find_inputs};
 use crate::json::{VERSION, to_json};
-use crate::paths::is_image;
 use crate::terminal::{Messages, write_stdout};
 use arguments::CheckArguments;
+use fix::Repair;
+use model::Model;
 use report::{CheckReport, CheckedFile, ReportedMap};
 
 /// Runs the command and returns its exit code.
@@ -30,9 +29,6 @@ pub fn run(arguments: &CheckArguments) -> u8 {
     let messages = Messages::new(arguments.messages.quiet);
     if let Some(code) = arguments.explain {
         return print(&messages, text::explain(code).as_bytes(), exit::DONE);
-    }
-    if arguments.fix {
-        return batch::run(arguments);
     }
     if let Err(UsageError(sentence)) = check_stdin(&arguments.files.inputs) {
         messages.error(&sentence);
@@ -47,6 +43,9 @@ pub fn run(arguments: &CheckArguments) -> u8 {
             return exit::USAGE;
         }
     };
+    if arguments.fix {
+        return batch::run(&Repair { arguments, model });
+    }
     let mut files: Vec<CheckedFile> = found
         .failed
         .iter()
@@ -57,10 +56,10 @@ pub fn run(arguments: &CheckArguments) -> u8 {
     let code = exit_code(&files, arguments);
     let text = match (arguments.messages.json, arguments.messages.quiet) {
         (true, _) => to_json(&CheckReport { command: "check", version: VERSION, files }),
-        (false, true) => Ok(Vec::new()),
-        (false, false) => {
+        (false, is_quiet) => {
+            let describe = if is_quiet { text::errors } else { text::describe };
             let good = files.iter().filter(|file| file.error.is_none());
-            Ok(good.map(text::describe).collect::<String>().into_bytes())
+            Ok(good.map(describe).collect::<String>().into_bytes())
         }
     };
     match text {
@@ -127,46 +126,22 @@ fn check_file(input: &Input, arguments: &CheckArguments, model: &Model) -> Check
             .map(Into::into)
             .collect(),
     };
-    let checked = match input {
-        Input::File(path) if is_image(path) => fs::read(path)
-            .map_err(|error| format!("{name}: cannot be read: {error}"))
-            .and_then(|file| model.check_image(&file, &options))
-            .map(|checked| reported(checked.findings, checked.judgement.as_ref().map(Into::into))),
-        _ => load(input, &arguments.files.reading)
-            .and_then(|mut document| {
-                check_document(&mut document, &options).map_err(|error| error.to_string())
-            })
-            .map(|findings| reported(findings, None)),
+    let check = || {
+        let source = Source::new(input)?;
+        match source.image()? {
+            Some(file) => {
+                let checked = model.check_image(&file, &options)?;
+                let map = ReportedMap::of(&checked);
+                Ok(reported(checked.findings, map))
+            }
+            None => {
+                let mut document = source.load(&arguments.files.reading)?;
+                let findings = check_document(&mut document, &options).map_err(|error| error.to_string())?;
+                Ok(reported(findings, None))
+            }
+        }
     };
-    checked.unwrap_or_else(|sentence| failed(name.clone(), sentence))
-}
-
-/// The model that images are checked on: its findings, or why it cannot be read; none without `--model`.
-struct Model(Option<Result<ModelOfMaps, String>>);
-
-impl Model {
-    /// Reads and checks the model once for all images. Errors: an input is no image.
-    fn of(arguments: &CheckArguments, inputs: &[&Input]) -> Result<Self, UsageError> {
-        let Some(model) = &arguments.model else { return Ok(Self(None)) };
-        let is_image = |input: &Input| matches!(input, Input::File(path) if is_image(path));
-        if let Some(other) = inputs.iter().find(|input| !is_image(input)) {
-            return Err(UsageError(format!(
-                "--model names the model of normal maps, and {other} is no image (.png, .jpg, .webp); check models without it"
-            )));
-        }
-        let document = load(&Input::File(model.clone()), &arguments.files.reading);
-        let check = |mut document| check_model_of_maps(&mut document).map_err(|error| error.to_string());
-        Ok(Self(Some(document.and_then(check))))
-    }
-
-    /// Checks a normal map, on the model where there is one.
-    fn check_image(&self, file: &[u8], options: &CheckOptions) -> Result<CheckedMap, String> {
-        match &self.0 {
-            None => Ok(check_map(file, options)),
-            Some(Ok(on_model)) => Ok(check_map_on_model(file, on_model, options)),
-            Some(Err(sentence)) => Err(sentence.clone()),
-        }
-    }
+    check().unwrap_or_else(|sentence: String| failed(name.clone(), sentence))
 }
 
 fn failed(input: String, sentence: String) -> CheckedFile {

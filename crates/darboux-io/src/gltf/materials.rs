@@ -22,6 +22,8 @@ pub struct Appearance {
     pub base_texture: Option<TextureUse>,
     /// The normal map.
     pub normal_texture: Option<TextureUse>,
+    /// The normal map of the clear coat (`KHR_materials_clearcoat`).
+    pub clearcoat_normal_texture: Option<TextureUse>,
     /// The scale of the normal map's x and y.
     pub normal_scale: f32,
     /// The use of alpha.
@@ -36,10 +38,18 @@ impl Default for Appearance {
             base_color: [1.0; 4],
             base_texture: None,
             normal_texture: None,
+            clearcoat_normal_texture: None,
             normal_scale: 1.0,
             alpha: Alpha::Opaque,
             tangent_uv_set: 0,
         }
+    }
+}
+
+impl Appearance {
+    /// The textures that are normal maps.
+    pub fn normal_maps(&self) -> impl Iterator<Item = &TextureUse> {
+        self.normal_texture.iter().chain(&self.clearcoat_normal_texture)
     }
 }
 
@@ -87,7 +97,7 @@ pub enum Wrap {
     Clamp,
 }
 
-read_from_objects! { StoredMaterials, StoredMaterial, Metallic, StoredTextureUse, Texture, TextureExtensions, ImageSource, Sampler }
+read_from_objects! { StoredMaterials, StoredMaterial, StoredExtensions, StoredClearcoat, Metallic, StoredTextureUse, Texture, TextureExtensions, ImageSource, Sampler }
 
 #[derive(Deserialize)]
 #[serde(remote = "Self")]
@@ -109,6 +119,21 @@ struct StoredMaterial {
     alpha_mode: Option<String>,
     #[serde(default = "half")]
     alpha_cutoff: f32,
+    #[serde(default)]
+    extensions: StoredExtensions,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(remote = "Self")]
+struct StoredExtensions {
+    #[serde(rename = "KHR_materials_clearcoat")]
+    clearcoat: Option<StoredClearcoat>,
+}
+
+#[derive(Deserialize)]
+#[serde(remote = "Self", rename_all = "camelCase")]
+struct StoredClearcoat {
+    clearcoat_normal_texture: Option<StoredTextureUse>,
 }
 
 #[derive(Default, Deserialize)]
@@ -209,15 +234,24 @@ impl Document {
         material: &StoredMaterial,
     ) -> Result<Appearance, ContentError> {
         let at = format!("materials[{index}]");
-        let texture = |used: &Option<StoredTextureUse>, member: &str| {
-            used.as_ref().map(|used| self.texture_use(all, used, &format!("{at}.{member}"))).transpose()
+        let texture = |used: Option<&StoredTextureUse>, member: &str| {
+            used.map(|used| self.texture_use(all, used, &format!("{at}.{member}"))).transpose()
         };
         let metallic = &material.pbr_metallic_roughness;
+        let coat =
+            material.extensions.clearcoat.as_ref().and_then(|coat| coat.clearcoat_normal_texture.as_ref());
         let choice = self.materials().get(index).and_then(|material| UvChoice::of(material, index));
         Ok(Appearance {
             base_color: metallic.base_color_factor.unwrap_or([1.0; 4]),
-            base_texture: texture(&metallic.base_color_texture, "pbrMetallicRoughness.baseColorTexture")?,
-            normal_texture: texture(&material.normal_texture, "normalTexture")?,
+            base_texture: texture(
+                metallic.base_color_texture.as_ref(),
+                "pbrMetallicRoughness.baseColorTexture",
+            )?,
+            normal_texture: texture(material.normal_texture.as_ref(), "normalTexture")?,
+            clearcoat_normal_texture: texture(
+                coat,
+                "extensions.KHR_materials_clearcoat.clearcoatNormalTexture",
+            )?,
             normal_scale: material.normal_texture.as_ref().map_or(1.0, |used| used.scale),
             alpha: match material.alpha_mode.as_deref() {
                 Some("MASK") => Alpha::Mask(material.alpha_cutoff),

@@ -2,7 +2,7 @@
 //!
 //! [`Mesh`], [`Primitive`] and [`Accessor`] are what [`Document`](super::Document) shows of the file.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
 use serde_json::value::RawValue;
@@ -90,6 +90,16 @@ pub struct Primitive {
     /// Extensions that change how the primitive is stored.
     #[serde(default)]
     pub(super) extensions: PrimitiveExtensions,
+}
+
+impl Primitive {
+    /// The materials that it is drawn with: its own first, then those of its variants (`KHR_materials_variants`), each once.
+    pub fn materials(&self) -> Vec<usize> {
+        let variants = self.extensions.variants.iter().flat_map(|variants| &variants.mappings);
+        let others: BTreeSet<usize> = variants.map(|mapping| mapping.material).collect();
+        let others = others.into_iter().filter(|&other| Some(other) != self.material);
+        self.material.into_iter().chain(others).collect()
+    }
 }
 
 fn triangles() -> u32 {

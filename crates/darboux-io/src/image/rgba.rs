@@ -97,6 +97,12 @@ impl RgbaImage {
         }
     }
 
+    /// Whether the first bytes of a file are those of a format that is decoded.
+    pub fn is_format_known(file: &[u8]) -> bool {
+        let is_webp = file.starts_with(b"RIFF") && file.get(8..12) == Some(b"WEBP");
+        file.starts_with(&PNG) || file.starts_with(JPEG) || is_webp
+    }
+
     /// Whether the image has colours, as normal maps do and height maps do not: whether the channels of its texels differ by more than 24 of
     /// 255 on average.
     ///
@@ -168,8 +174,12 @@ fn decode_png(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeErr
 }
 
 fn decode_jpeg(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
+    if !ends_with_its_image(file) {
+        return Err(broken("it ends before its last row: it was cut off"));
+    }
     let side = limits.max_side as usize;
-    let options = DecoderOptions::default().set_strict_mode(false).set_max_width(side).set_max_height(side);
+    // Without the strict mode, the decoder fills what damaged data does not give with grey.
+    let options = DecoderOptions::default().set_strict_mode(true).set_max_width(side).set_max_height(side);
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(file), options);
     decoder.decode_headers().map_err(broken)?;
     let (width, height) = decoder.dimensions().ok_or_else(|| broken("it has no size"))?;
@@ -183,6 +193,24 @@ fn decode_jpeg(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeEr
         false => rgba(&bytes, |[r, g, b]| [r, g, b, 255]),
     };
     Ok(RgbaImage { width: width as u32, height: height as u32, texels })
+}
+
+/// Whether the segments of a JPEG reach the marker of its end (ITU-T T.81, annex B). A thumbnail in the metadata has such a marker, too, so the
+/// segments are followed by their lengths.
+fn ends_with_its_image(file: &[u8]) -> bool {
+    const END: u8 = 0xD9;
+    let mut at = 2;
+    loop {
+        // A marker is 0xFF, repeated as often as one likes, and a code. In the data of a scan, 0xFF 0x00 is a byte and 0xD0 to 0xD7 are restarts.
+        let rest = file.get(at..).unwrap_or_default();
+        let is_marker = |pair: &[u8]| pair[0] == 0xFF && !matches!(pair[1], 0 | 0xD0..=0xD7 | 0xFF);
+        let Some(skipped) = rest.windows(2).position(is_marker) else { return false };
+        if rest[skipped + 1] == END {
+            return true;
+        }
+        let Some(&[high, low]) = rest.get(skipped + 2..skipped + 4) else { return false };
+        at += skipped + 2 + usize::from(u16::from_be_bytes([high, low])).max(2);
+    }
 }
 
 fn decode_webp(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {

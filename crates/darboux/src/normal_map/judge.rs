@@ -56,7 +56,7 @@ pub fn judge_normal_map<C: Channel, const N: usize>(
         return Err(Error::ImageSize { width, height, found: texels.len() });
     }
     let mut judge = NormalMapJudge::new(width, layout);
-    texels.chunks_exact(width.max(1)).for_each(|row| judge.push_row(row));
+    texels.chunks_exact(width.max(1)).try_for_each(|row| judge.push_row(row))?;
     Ok(judge.judgement())
 }
 
@@ -85,11 +85,12 @@ impl<const N: usize> NormalMapJudge<N> {
         }
     }
 
-    /// Takes the next row. Texels beyond the width are ignored; a shorter row is ignored whole.
-    pub fn push_row<C: Channel>(&mut self, texels: &[[C; N]]) {
-        if let Some(texels) = texels.get(..self.width) {
-            Width::widest(WidthLimit::default()).run(RowTask { judge: self, texels });
-        }
+    /// Takes the next row. Texels beyond the width are ignored. Errors: fewer texels than the width; then nothing is taken.
+    pub fn push_row<C: Channel>(&mut self, texels: &[[C; N]]) -> Result<(), Error> {
+        let row = texels.get(..self.width);
+        let texels = row.ok_or(Error::ImageSize { width: self.width, height: 1, found: texels.len() })?;
+        Width::widest(WidthLimit::default()).run(RowTask { judge: self, texels });
+        Ok(())
     }
 
     /// The judgement on the rows so far.
@@ -100,16 +101,15 @@ impl<const N: usize> NormalMapJudge<N> {
         judgement.z_score = evidence.z_score as f32;
         judgement.log_energy_ratio = evidence.log_energy_ratio as f32;
         judgement.is_exchanged = evidence.is_exchanged();
-        judgement.verdict = match () {
-            () if self.texel_counts.is_flat() => MapVerdict::Flat,
-            () if judgement.is_grey() || judgement.is_object_space() => MapVerdict::NoGradient,
-            () if judgement.holds_no_normals() && !evidence.is_clear_gradient() => MapVerdict::NoGradient,
-            () => evidence.verdict(),
+        let holds_no_normals = judgement.holds_no_normals() && !evidence.is_clear_gradient();
+        let (verdict, confidence) = match () {
+            () if self.texel_counts.is_flat() => (MapVerdict::Flat, 1.0),
+            () if judgement.is_grey() || judgement.is_object_space() || holds_no_normals => {
+                (MapVerdict::NoGradient, score::MAX_CONFIDENCES[0])
+            }
+            () => (evidence.verdict(), evidence.confidence()),
         };
-        judgement.confidence = match judgement.verdict {
-            MapVerdict::Flat | MapVerdict::NoGradient => 1.0,
-            _ => evidence.confidence() as f32,
-        };
+        (judgement.verdict, judgement.confidence) = (verdict, confidence as f32);
         judgement
     }
 

@@ -32,6 +32,7 @@ Examples:
   darboux check models/ --fail-on warning
   darboux check brick_normal.png                     is it OpenGL's or DirectX's?
   darboux check brick_normal.png --model wall.glb    does it fit this model?
+  darboux check brick_normal.png --model wall.glb --fix
   darboux check level.glb --allow tangent-other-recipe,map-flat
   darboux check --explain tangent-sign-flipped
   darboux check model.glb --fix                      writes model.fixed.glb
@@ -78,8 +79,8 @@ pub struct CheckArguments {
     #[arg(long, value_enum, default_value_t, value_name = "CONVENTION", help_heading = "Findings")]
     pub convention: MapConvention,
 
-    /// The model that the images are normal maps of: its tangents, normals and UVs are checked with each of them
-    #[arg(long, value_name = "MODEL", conflicts_with = "fix", help_heading = "Findings")]
+    /// The model that the images are normal maps of: its faces tell inverted green from inverted red, and its tangents, normals and UVs are checked, too
+    #[arg(long, value_name = "MODEL", help_heading = "Findings")]
     pub model: Option<PathBuf>,
 
     /// Do not decode normal maps

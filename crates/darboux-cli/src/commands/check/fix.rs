@@ -1,15 +1,13 @@
 //! `darboux check --fix`: repairs models and normal maps, and says what was repaired.
 
-use std::fs;
-use std::path::Path;
-
 use darboux::TangentOptions;
-use darboux_check::{Code, FixOptions, FixedFinding, Severity, check_document, fix_document, fix_map};
+use darboux_check::{Code, FixOptions, FixedFinding, Severity, check_document, fix_document};
 use darboux_io::image::PngImage;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::arguments::CheckArguments;
+use super::model::Model;
 use super::report::ReportedFinding;
 use crate::batch::command::{FileCommand, ProcessedFile};
 use crate::batch::plan::Job;
@@ -18,7 +16,7 @@ use crate::documents::{Source, save, save_image};
 use crate::inputs::{Input, output_suffix};
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
-use crate::paths::{is_image, is_png};
+use crate::paths::is_png;
 use crate::terminal::FileProgress;
 use crate::text::counted;
 
@@ -29,7 +27,13 @@ pub struct FixSummary {
     pub warnings: Vec<String>,
 }
 
-impl FileCommand for CheckArguments {
+/// The command with `--fix`.
+pub struct Repair<'a> {
+    pub arguments: &'a CheckArguments,
+    pub model: Model,
+}
+
+impl FileCommand for Repair<'_> {
     type Summary = FixSummary;
 
     const NAME: &'static str = "check";
@@ -40,27 +44,28 @@ impl FileCommand for CheckArguments {
     }
 
     fn files(&self) -> &FileOptions {
-        &self.files
+        &self.arguments.files
     }
 
     fn messages(&self) -> &MessageOptions {
-        &self.messages
+        &self.arguments.messages
     }
 
     fn options(&self) -> String {
-        format!("{:?}", self.fix_options())
+        format!("{:?}", (self.arguments.fix_options(), &self.arguments.model))
     }
 
     fn process(&self, job: &Job, _: &FileProgress<'_>) -> Result<ProcessedFile<FixSummary>, String> {
-        match &job.input {
-            Input::File(path) if is_image(path) => self.fix_image(path, job),
-            _ => self.fix_model(job),
+        let source = Source::new(&job.input)?;
+        match source.image()? {
+            Some(file) => self.fix_image(file.into_owned(), job),
+            None => self.fix_model(&source, job),
         }
     }
 
     fn fails(&self, summary: &SummarySource<FixSummary>) -> bool {
         let mut left = Outcome::all_of(summary).into_iter().filter(|finding| !finding.repaired);
-        left.any(|finding| self.fail_on.includes(finding.severity))
+        left.any(|finding| self.arguments.fail_on.includes(finding.severity))
     }
 
     fn note_up_to_date(recorded: &Map<String, Value>) -> Option<String> {
@@ -70,6 +75,10 @@ impl FileCommand for CheckArguments {
 
     fn lines(summary: &FixSummary) -> Vec<String> {
         summary.findings.iter().filter_map(line).collect()
+    }
+
+    fn errors(summary: &FixSummary) -> Vec<String> {
+        summary.findings.iter().filter_map(error_line).collect()
     }
 
     fn warnings(summary: &FixSummary) -> &[String] {
@@ -129,6 +138,13 @@ fn line(finding: &ReportedFinding) -> Option<String> {
     }
 }
 
+/// An error that was not repaired, in one line.
+fn error_line(finding: &ReportedFinding) -> Option<String> {
+    let ReportedFinding { place, code, text, severity, .. } = finding;
+    let is_left = *severity == Severity::Error && finding.repaired != Some(true);
+    is_left.then(|| format!("{place}: {code}: {text}"))
+}
+
 impl CheckArguments {
     fn fix_options(&self) -> FixOptions {
         let codes = Code::ALL.iter().copied().filter(|&code| self.reports(code));
@@ -138,36 +154,40 @@ impl CheckArguments {
             .with_normals(self.normals.options())
             .with_codes(codes)
     }
+}
 
-    fn fix_model(&self, job: &Job) -> Result<ProcessedFile<FixSummary>, String> {
+impl Repair<'_> {
+    fn fix_model(&self, source: &Source<'_>, job: &Job) -> Result<ProcessedFile<FixSummary>, String> {
         let sentence = |error: darboux_io::Error| error.to_string();
-        let (source, reading) = (Source::new(&job.input)?, &self.files.reading);
+        let CheckArguments { files, .. } = self.arguments;
+        let reading = &files.reading;
         // The check decompresses a document, and the repair of a map should not: it starts from another copy.
-        let findings = check_document(&mut source.load(reading)?, &self.check_options()).map_err(sentence)?;
+        let findings =
+            check_document(&mut source.load(reading)?, &self.arguments.check_options()).map_err(sentence)?;
         let mut document = source.load(reading)?;
-        let fixed = fix_document(&mut document, findings, &self.fix_options()).map_err(sentence)?;
+        let fixed = fix_document(&mut document, findings, &self.arguments.fix_options()).map_err(sentence)?;
         if !fixed.is_changed {
             document = source.load(reading)?;
         }
         let warnings = document.warnings().to_vec();
-        let (status, files_written) = save(&document, &job.output, &self.files, fixed.is_changed)?;
+        let (status, files_written) = save(&document, &job.output, files, fixed.is_changed)?;
         Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, warnings) })
     }
 
-    fn fix_image(&self, path: &Path, job: &Job) -> Result<ProcessedFile<FixSummary>, String> {
-        let name = path.display().to_string();
-        let sentence = |error: darboux_io::Error| error.to_string();
-        let file = fs::read(path).map_err(|error| format!("{name}: cannot be read: {error}"))?;
-        let loading = self.files.reading.load_options();
-        let fixed = fix_map(&name, &file, &loading, &self.fix_options()).map_err(sentence)?;
-        if fixed.image.is_some() && self.files.in_place && !is_png(path) {
+    fn fix_image(&self, file: Vec<u8>, job: &Job) -> Result<ProcessedFile<FixSummary>, String> {
+        let name = job.input.to_string();
+        let files = &self.arguments.files;
+        let loading = files.reading.load_options();
+        let fixed = self.model.fix_image(&name, &file, &loading, &self.arguments.fix_options())?;
+        let becomes_png = matches!(&job.input, Input::File(path) if !is_png(path));
+        if fixed.image.is_some() && files.in_place && becomes_png {
             return Err(format!(
                 "{name}: is repaired into a PNG, which cannot take its place; use -o FILE.png"
             ));
         }
         let image = fixed.image.or_else(|| PngImage::from_bytes(&name, file, &loading).ok());
         let (status, files_written) = match image {
-            Some(image) => save_image(&image, &job.output, &self.files)?,
+            Some(image) => save_image(&image, &job.output, files)?,
             // Without a repair there is nothing to write but a copy, and copies are made of PNG images that can be written again.
             None => (Status::Untouched, Vec::new()),
         };
@@ -175,7 +195,7 @@ impl CheckArguments {
     }
 
     fn summary(&self, fixed: Vec<FixedFinding>, warnings: Vec<String>) -> FixSummary {
-        let reported = fixed.into_iter().filter(|fixed| self.reports(fixed.finding.code));
+        let reported = fixed.into_iter().filter(|fixed| self.arguments.reports(fixed.finding.code));
         FixSummary { findings: reported.map(Into::into).collect(), warnings }
     }
 }

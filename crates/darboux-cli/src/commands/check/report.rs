@@ -1,7 +1,7 @@
 //! The JSON report of `darboux check`. json.md documents its fields.
 
-use darboux::{MapJudgement, MapVerdict};
-use darboux_check::{Code, Evidence, Finding, FixedFinding, Severity};
+use darboux::{BitangentDirection, MapJudgement, TangentDirection};
+use darboux_check::{CheckedMap, Code, Evidence, Finding, FixedFinding, MapDirections, Severity};
 use serde::Serialize;
 
 /// The report of a run.
@@ -28,6 +28,14 @@ pub struct ReportedMap {
     pub confidence: f32,
     pub correlation: f32,
     pub z_score: f32,
+    pub by_model: Option<DirectionsByModel>,
+}
+
+/// Where red and green point, if the faces of the model decide that.
+#[derive(Serialize)]
+pub struct DirectionsByModel {
+    pub red: &'static str,
+    pub green: &'static str,
 }
 
 /// A finding.
@@ -89,16 +97,14 @@ impl From<FixedFinding> for ReportedFinding {
     }
 }
 
-impl From<&MapJudgement> for ReportedMap {
-    fn from(judgement: &MapJudgement) -> Self {
-        let verdict = match judgement.verdict {
-            MapVerdict::OpenGl => "opengl",
-            MapVerdict::DirectX => "directx",
-            MapVerdict::NoGradient => "no_gradient",
-            MapVerdict::Flat => "flat",
-            _ => "cannot_tell",
-        };
-        let MapJudgement { confidence, correlation, z_score, .. } = *judgement;
-        Self { verdict, confidence, correlation, z_score }
+impl ReportedMap {
+    /// None for an image that cannot be decoded.
+    pub fn of(checked: &CheckedMap) -> Option<Self> {
+        let MapJudgement { verdict, confidence, correlation, z_score, .. } = checked.judgement?;
+        let by_model = checked.directions.map(|MapDirections { red, green, .. }| DirectionsByModel {
+            red: if red == TangentDirection::Right { "right" } else { "left" },
+            green: if green == BitangentDirection::Up { "up" } else { "down" },
+        });
+        Some(Self { verdict: verdict.name(), confidence, correlation, z_score, by_model })
     }
 }

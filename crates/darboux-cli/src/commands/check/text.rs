@@ -1,8 +1,10 @@
 //! The findings as text, grouped by place, and the section of a code.
 
+use std::cmp::Reverse;
+
 use darboux_check::{Code, Evidence, Severity};
 
-use super::report::{CheckedFile, ReportedFinding, ReportedMap};
+use super::report::{CheckedFile, DirectionsByModel, ReportedFinding, ReportedMap};
 use crate::text::{counted, printable};
 
 /// The findings in a file.
@@ -11,13 +13,16 @@ pub fn describe(file: &CheckedFile) -> String {
     if let Some(map) = &file.map {
         text += &format!("  {}\n", verdict(map));
     }
-    let mut place = None;
-    for finding in &file.findings {
-        if place != Some(&finding.place) {
-            text += &format!("  {}\n", printable(&finding.place));
-            place = Some(&finding.place);
+    let mut places: Vec<(&str, Vec<&ReportedFinding>)> = Vec::new();
+    for finding in by_severity(&file.findings) {
+        match places.iter_mut().find(|(place, _)| *place == finding.place) {
+            Some((_, findings)) => findings.push(finding),
+            None => places.push((&finding.place, vec![finding])),
         }
-        text += &lines(finding);
+    }
+    for (place, findings) in places {
+        text += &format!("  {}\n", printable(place));
+        text.extend(findings.into_iter().map(lines));
     }
     let count = |severity| file.findings.iter().filter(|finding| finding.severity == severity).count();
     let [errors, warnings, infos] = [Severity::Error, Severity::Warning, Severity::Info].map(count);
@@ -26,14 +31,48 @@ pub fn describe(file: &CheckedFile) -> String {
     text + &format!("  {errors}, {warnings}, {} worth knowing\n", counted(infos, "thing", "things"))
 }
 
+/// The errors in a file, one line each.
+pub fn errors(file: &CheckedFile) -> String {
+    let errors = file.findings.iter().filter(|finding| finding.severity == Severity::Error);
+    let line = |finding: &ReportedFinding| {
+        let line = format!("{}: {}: {}: {}", file.input, finding.place, finding.code, finding.text);
+        format!("{}\n", printable(&line))
+    };
+    errors.map(line).collect()
+}
+
+/// The errors first, then warnings, then what is worth knowing; causes before what follows from them.
+fn by_severity(findings: &[ReportedFinding]) -> Vec<&ReportedFinding> {
+    let mut sorted: Vec<&ReportedFinding> = findings.iter().collect();
+    sorted.sort_by_key(|finding| Reverse(finding.severity));
+    sorted
+}
+
 fn verdict(map: &ReportedMap) -> String {
     let percent = 100.0 * map.confidence;
+    if let Some(DirectionsByModel { red, green }) = map.by_model {
+        let convention = if green == "up" { "OpenGL" } else { "DirectX" };
+        let red = if red == "left" { " and red is inverted" } else { "" };
+        return format!("green points {green} ({convention}){red}, by the texels and the faces of the model");
+    }
     match map.verdict {
         "opengl" => format!("green points up (OpenGL), {percent:.1} % sure"),
-        "directx" => format!("green points down (DirectX), {percent:.1} % sure"),
+        "directx" => format!("green points down (DirectX) or red is inverted, {percent:.1} % sure"),
         "flat" => "the map is flat".to_owned(),
         "no_gradient" => "the texels are not the slope of a surface".to_owned(),
-        _ => "whether green points up or down cannot be told from the texels".to_owned(),
+        _ => format!(
+            "whether green points up or down cannot be told from the texels: {}",
+            undecided(map.z_score)
+        ),
+    }
+}
+
+/// Why there is no verdict.
+fn undecided(z_score: f32) -> &'static str {
+    match z_score.abs() {
+        0.0 => "at least 64 x 64 of them must belong to a surface with slopes",
+        ..4.0 => "their slopes do not stand out from rounding and noise",
+        _ => "the map and its reduced sizes contradict each other, as where details are finer than a texel",
     }
 }
 

@@ -132,11 +132,9 @@ fn materials_of<'a>(
     name: &PrimitiveName,
     primitive: &Primitive,
 ) -> Result<Vec<(usize, &'a Material)>, Error> {
-    let variants = primitive.extensions.variants.iter().flat_map(|variants| &variants.mappings);
-    let indices: BTreeSet<_> = variants.map(|mapping| mapping.material).collect();
-    let own = primitive.material;
-    own.into_iter()
-        .chain(indices.into_iter().filter(|&index| Some(index) != own))
+    let materials = primitive.materials();
+    materials
+        .into_iter()
         .map(|index| match document.materials().get(index) {
             Some(material) => Ok((index, material)),
             None => Err(document

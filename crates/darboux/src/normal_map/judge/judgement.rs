@@ -19,6 +19,19 @@ pub enum MapVerdict {
     CannotTell,
 }
 
+impl MapVerdict {
+    /// The name in reports: `opengl`, `directx`, `no_gradient`, `flat` or `cannot_tell`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::OpenGl => "opengl",
+            Self::DirectX => "directx",
+            Self::NoGradient => "no_gradient",
+            Self::Flat => "flat",
+            Self::CannotTell => "cannot_tell",
+        }
+    }
+}
+
 /// The verdict on a normal map and the counts behind it.
 ///
 /// Counts leave out the background: black, white and middle grey texels.
@@ -27,9 +40,8 @@ pub enum MapVerdict {
 pub struct MapJudgement {
     /// The verdict.
     pub verdict: MapVerdict,
-    /// For OpenGL and DirectX an estimate of the probability that the verdict is right, from 0.5 to 0.998, as if red and green were exchanged in
-    /// every second map; for `CannotTell` that of the likelier of the two, at most 0.95; 1 for the other verdicts. The estimate was fitted to
-    /// generated maps.
+    /// An estimate of the probability that the verdict is right, from 0.5 to 0.998, as if red and green were exchanged in one of 31 maps; for
+    /// `CannotTell` that of the likelier of OpenGL and DirectX, at most 0.93; for `Flat` 1. The estimate was fitted to generated maps.
     pub confidence: f32,
     /// The mean correlation of the tiles, from -1 (DirectX) to 1 (OpenGL), of the map or of one of its halvings: of those whose mean has
     /// the sign of `z_score`, the one whose mean is largest in units of its standard error.

@@ -29,13 +29,16 @@ const MAX_EXCHANGED_RATIO_Z_SCORE: f64 = -3.0;
 const MIN_EXCHANGED_Z_SCORE: f64 = 2.0;
 
 /// The steepness of the confidence over the z score, less that of the level that contradicts it most.
-const STEEPNESS: f64 = 0.8;
+const STEEPNESS: f64 = 1.1;
 
 /// The steepness of the confidence that red and green are not exchanged, over the z score of the log energy ratio.
 const EXCHANGE_STEEPNESS: f64 = 2.0;
 
+/// The natural logarithm of the odds, before the texels are seen, that red and green are not exchanged: 30 to 1.
+const EXCHANGE_ODDS: f64 = 3.4;
+
 /// The largest confidence of a verdict, and of the likelier sign without one.
-const MAX_CONFIDENCES: [f64; 2] = [0.998, 0.95];
+pub const MAX_CONFIDENCES: [f64; 2] = [0.998, 0.93];
 
 /// The evidence of all levels.
 #[derive(Clone, Copy, Debug, Default)]
@@ -139,19 +142,22 @@ impl Evidence {
         z_score >= MIN_Z_SCORE.into() && is_strong && self.contradiction <= MAX_CONTRADICTION * z_score
     }
 
-    /// An estimate of the probability that the verdict is right; without one, that the sign of the z score is right.
+    /// An estimate of the probability that the verdict is right; without one, that the sign of the z score is right. `NoGradient` without
+    /// exchanged channels has the largest confidence of maps without a verdict.
     ///
     /// Logistic functions. The first steepness was fitted to generated maps with even numbers and tested on those with odd ones, many of them
-    /// so flat that some signs are wrong; the second one to the energy ratios of such maps, as if every second map were exchanged
-    /// (`cargo xtask maps`). The estimate stays below 1 because compression and details finer than a texel can have a direction of
+    /// so flat that some signs are wrong; the second one to the energy ratios of such maps (`cargo xtask maps`). The estimate stays below 1 because compression and details finer than a texel can have a direction of
     /// their own.
     pub fn confidence(&self) -> f64 {
         let logistic = |x: f64| 1.0 / (1.0 + (-x).exp());
         let of_sign = logistic(STEEPNESS * (self.z_score.abs() - self.contradiction));
+        let of_order = logistic(EXCHANGE_ODDS + EXCHANGE_STEEPNESS * self.ratio_z_score);
         let [largest, largest_without_verdict] = MAX_CONFIDENCES;
-        match self.is_decided() {
-            true => of_sign.min(largest) * logistic(EXCHANGE_STEEPNESS * self.ratio_z_score),
-            false => of_sign.min(largest_without_verdict),
+        match self.verdict() {
+            MapVerdict::NoGradient if self.is_exchanged() => (1.0 - of_order).min(largest),
+            MapVerdict::NoGradient => largest_without_verdict,
+            MapVerdict::OpenGl | MapVerdict::DirectX => of_sign.min(largest) * of_order,
+            MapVerdict::Flat | MapVerdict::CannotTell => of_sign.min(largest_without_verdict),
         }
         .max(0.5)
     }

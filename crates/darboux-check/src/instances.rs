@@ -1,0 +1,61 @@
+//! Primitives with the same data, which are checked once.
+
+use std::collections::BTreeMap;
+
+use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
+
+use crate::finding::Finding;
+
+/// The accessors of semantics.
+type Semantics = BTreeMap<String, usize>;
+
+/// What decides the findings about a primitive: its attributes, morph targets, indices, mode and materials.
+type SurfaceKey = (Semantics, Vec<Semantics>, Option<usize>, u32, Option<usize>, Vec<usize>);
+
+fn surface_key(document: &Document, name: &PrimitiveName) -> SurfaceKey {
+    let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
+    let (attributes, targets) = (primitive.attributes.clone(), primitive.targets.clone());
+    (attributes, targets, primitive.indices, primitive.mode, primitive.material, primitive.materials())
+}
+
+/// The primitives about which a finding is: the one that it names, and all with the same data.
+pub fn primitives_of(document: &Document, finding: &Finding) -> Vec<PrimitiveName> {
+    let Some(named) = &finding.place.primitive else { return Vec::new() };
+    if finding.place.same_as == 0 {
+        return vec![named.clone()];
+    }
+    let key = surface_key(document, named);
+    let mut names = Vec::new();
+    for (index, mesh) in document.meshes().iter().enumerate() {
+        for primitive in 0..mesh.primitives.len() {
+            let name = PrimitiveName { mesh: index, mesh_name: mesh.name.clone(), primitive };
+            if surface_key(document, &name) == key {
+                names.push(name);
+            }
+        }
+    }
+    names
+}
+
+/// The primitives that differ in data or materials, each with the number of later ones that do not.
+pub fn distinct<'a>(
+    document: &Document,
+    primitives: Vec<PrimitiveCorners<'a>>,
+) -> Vec<(PrimitiveCorners<'a>, usize)> {
+    let mut places = BTreeMap::new();
+    let mut found: Vec<(PrimitiveCorners<'a>, usize)> = Vec::new();
+    for corners in primitives {
+        let key = surface_key(document, corners.name());
+        match places.get(&key) {
+            Some(&place) => {
+                let (_, same_as): &mut (_, usize) = &mut found[place];
+                *same_as += 1;
+            }
+            None => {
+                places.insert(key, found.len());
+                found.push((corners, 0));
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,66 @@
+//! The surfaces on which the images of a document are normal maps.
+
+use std::collections::BTreeMap;
+
+use darboux_io::Error;
+use darboux_io::gltf::{Appearance, Document, PrimitiveCorners, TextureUse};
+use darboux_io::image::RgbaImage;
+
+use crate::facets::FacetVotes;
+use crate::instances::distinct;
+use crate::surface::Surface;
+
+/// The primitives that use the images of normal maps, in their own material or in one of their variants.
+pub struct MapUsers<'a> {
+    document: &'a Document,
+    primitives: Vec<PrimitiveCorners<'a>>,
+    /// Per image the indices of primitives, each with the textures that use the image.
+    users: BTreeMap<usize, BTreeMap<usize, Vec<TextureUse>>>,
+}
+
+impl<'a> MapUsers<'a> {
+    /// Finds the users of all images; primitives with the same data once. `appearances`: of all materials. Errors: invalid data of primitives.
+    pub fn new(document: &'a Document, appearances: &[Appearance]) -> Result<Self, Error> {
+        let mut users: BTreeMap<usize, BTreeMap<usize, Vec<TextureUse>>> = BTreeMap::new();
+        let mut primitives = Vec::new();
+        for (corners, _) in distinct(document, document.corners()?) {
+            let name = corners.name();
+            let materials = document.meshes()[name.mesh].primitives[name.primitive].materials();
+            let used = materials.iter().filter_map(|&material| appearances.get(material));
+            for texture in used.flat_map(Appearance::normal_maps) {
+                let Some(image) = texture.image else { continue };
+                let textures = users.entry(image).or_default().entry(primitives.len()).or_default();
+                if !textures.contains(texture) {
+                    textures.push(texture.clone());
+                }
+            }
+            primitives.push(corners);
+        }
+        Ok(Self { document, primitives, users })
+    }
+
+    /// Reads the surfaces that use an image. Errors: invalid data of primitives.
+    pub fn of(&self, image: usize) -> Result<MapSurfaces, Error> {
+        let mut surfaces = Vec::new();
+        for (&primitive, textures) in self.users.get(&image).into_iter().flatten() {
+            if let Some(surface) = Surface::read(self.document, &self.primitives[primitive], None)? {
+                surfaces.push((surface, textures.clone()));
+            }
+        }
+        Ok(MapSurfaces(surfaces))
+    }
+}
+
+/// The surfaces that use one image.
+pub struct MapSurfaces(Vec<(Surface, Vec<TextureUse>)>);
+
+impl MapSurfaces {
+    /// What their facets say about the image.
+    pub fn votes(&self, image: &RgbaImage) -> FacetVotes {
+        let mut votes = FacetVotes::default();
+        for (surface, textures) in &self.0 {
+            textures.iter().for_each(|texture| votes.add(surface, Some(texture), image));
+        }
+        votes
+    }
+}
