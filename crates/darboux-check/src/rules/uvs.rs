@@ -76,7 +76,7 @@ fn overlapping(measured: &Measured<'_>) -> Vec<Finding> {
     let Some(uvs) = surface.uv_sets.get(&surface.uv_set).filter(|_| surface.needs_tangents) else {
         return Vec::new();
     };
-    let found = overlap::overlapping(uvs, surface.triangles());
+    let found = overlap::overlapping(uvs, &surface.vertex_of_corner);
     if found.triangles.is_empty() {
         return Vec::new();
     }
