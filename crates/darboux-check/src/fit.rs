@@ -2,10 +2,9 @@
 //!
 //! The rules about tangents that follow other directions or signs exclude each other, so one measurement decides among them.
 
-use std::borrow::Cow;
-
 use darboux::CornerDifference;
 
+use crate::expected::{is_measured, on_mirrored_seams};
 use crate::orientation::Reversal;
 use crate::surface::{Surface, cross, dot, indices_where, length, sub, uv_area, xyz};
 
@@ -69,10 +68,15 @@ struct Counts {
     flipped_triangles: Vec<usize>,
 }
 
-/// Measures; none where the surface has no tangents, normals or UVs. `expected`: MikkTSpace's tangents of all corners.
-pub fn measure(surface: &Surface, expected: &[[f32; 4]], reversal: Option<Reversal>) -> Option<Fit> {
-    let tangents = surface.corner_tangents()?;
-    let own = count(surface, &tangents, surface.uv_set, Cow::Borrowed(expected), reversal)?;
+/// Measures; none where the surface has no tangents, normals or UVs. `expected`: MikkTSpace's tangents of all corners. `is_on_seam`: per vertex
+/// whether it lies on a mirrored UV seam.
+pub fn measure(
+    surface: &Surface,
+    expected: &[[f32; 4]],
+    is_on_seam: &[bool],
+    reversal: Option<Reversal>,
+) -> Option<Fit> {
+    let own = Comparison::new(surface, surface.uv_set, (expected, is_on_seam), reversal)?.counts();
     let share = |part: usize| part as f64 / own.corners.max(1) as f64;
     let flips = own.signs[0][1] + own.signs[1][1];
     let fit =
@@ -83,7 +87,9 @@ pub fn measure(surface: &Surface, expected: &[[f32; 4]], reversal: Option<Revers
     let others = surface.uv_sets.keys().filter(|&&set| set != surface.uv_set && share(own.close) < MIN_SHARE);
     for &set in others {
         let Some(expected) = surface.expected_tangents(set) else { continue };
-        let other = count(surface, &tangents, set, Cow::Owned(expected), reversal);
+        let is_on_seam = on_mirrored_seams(surface, set, &expected);
+        let other = Comparison::new(surface, set, (&expected, &is_on_seam), reversal);
+        let other = other.map(|comparison| comparison.counts());
         if let Some(other) = other.filter(|other| share(other.close) >= MIN_SHARE) {
             return Some(fit(Difference::OtherUvSet(set), other.close));
         }
@@ -175,85 +181,94 @@ fn by_signs(counts: &Counts) -> Difference {
     }
 }
 
-/// Compares with MikkTSpace's tangents of a UV set, which are given.
-fn count(
-    surface: &Surface,
-    tangents: &[[f32; 4]],
-    uv_set: usize,
-    mut expected: Cow<'_, [[f32; 4]]>,
-    reversal: Option<Reversal>,
-) -> Option<Counts> {
-    let normals = surface.normals.as_ref()?;
-    // MikkTSpace's sign is that of the UV area, which changes with the order of the corners; what is lit depends on the normal alone. So
-    // signs are those of faces that are wound along their normals, unless it is the normals that are known to be reversed.
-    if reversal.is_some_and(|reversal| reversal != Reversal::Normals) {
-        expected.to_mut().iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
-    }
-    // Where a part of the surface is reversed, which sign is right depends on what is to be turned over.
-    let mut has_sign = vec![true; expected.len() / 3];
-    if reversal.is_none() {
-        surface.triangles_against_normals().into_iter().for_each(|triangle| has_sign[triangle] = false);
-    }
-    let is_shared = on_mirrored_seams(surface, uv_set, &expected);
-    let uvs = surface.uv_sets.get(&uv_set)?;
-    let is_measured: Vec<bool> =
-        surface.triangles().map(|triangle| is_measured(surface, uvs, triangle)).collect();
-    let mut counts = Counts::default();
-    // Of the current triangle: measured corners, and those whose sign differs.
-    let mut of_triangle = [0, 0];
-    for (corner, (&ours, &theirs)) in expected.iter().zip(tangents).enumerate() {
-        if corner % 3 == 0 {
-            of_triangle = [0, 0];
+/// The tangents of the file beside MikkTSpace's for one UV set.
+struct Comparison<'a> {
+    surface: &'a Surface,
+    tangents: &'a [[f32; 4]],
+    normals: &'a [[f32; 3]],
+    uvs: &'a [[f32; 2]],
+    /// MikkTSpace's, per corner.
+    expected: &'a [[f32; 4]],
+    is_on_seam: &'a [bool],
+    /// Whether the signs of `expected` are to be negated.
+    flips: bool,
+    /// Per triangle whether its sign can be judged.
+    has_sign: Vec<bool>,
+}
+
+impl<'a> Comparison<'a> {
+    /// None where the surface has no tangents, normals or UVs.
+    fn new(
+        surface: &'a Surface,
+        uv_set: usize,
+        (expected, is_on_seam): (&'a [[f32; 4]], &'a [bool]),
+        reversal: Option<Reversal>,
+    ) -> Option<Self> {
+        // Where a part of the surface is reversed, which sign is right depends on what is to be turned over.
+        let mut has_sign = vec![true; expected.len() / 3];
+        if reversal.is_none() {
+            surface.triangles_against_normals().into_iter().for_each(|triangle| has_sign[triangle] = false);
         }
-        let vertex = surface.vertex_of_corner[corner] as usize;
-        let difference = CornerDifference::between(ours, theirs);
-        let is_counted = is_measured[corner / 3] && !is_shared[vertex];
-        let Some(angle) = difference.angle.filter(|_| is_counted) else { continue };
-        counts.corners += 1;
-        let across = dot(cross(normals[vertex], xyz(ours)), xyz(theirs)).abs();
-        let along = dot(xyz(ours), xyz(theirs));
+        Some(Self {
+            surface,
+            tangents: surface.tangents.as_ref()?,
+            normals: surface.normals.as_ref()?,
+            uvs: surface.uv_sets.get(&uv_set)?,
+            expected,
+            is_on_seam,
+            // MikkTSpace's sign is that of the UV area, which changes with the order of the corners; what is lit depends on the normal alone. So
+            // signs are those of faces that are wound along their normals, unless it is the normals that are known to be reversed.
+            flips: reversal.is_some_and(|reversal| reversal != Reversal::Normals),
+            has_sign,
+        })
+    }
+
+    fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        for (number, triangle) in self.surface.triangles().enumerate() {
+            if is_measured(self.surface, self.uvs, triangle) {
+                self.add_triangle(&mut counts, number, triangle);
+            }
+        }
+        counts
+    }
+
+    fn add_triangle(&self, counts: &mut Counts, number: usize, triangle: [usize; 3]) {
+        // Corners whose sign can be judged, and those whose sign differs.
+        let (mut judged, mut flipped) = (0, 0);
+        for (corner, vertex) in
+            triangle.into_iter().enumerate().filter(|(_, vertex)| !self.is_on_seam[*vertex])
+        {
+            let (mut ours, theirs) = (self.expected[3 * number + corner], self.tangents[vertex]);
+            ours[3] = if self.flips { -ours[3] } else { ours[3] };
+            let difference = CornerDifference::between(ours, theirs);
+            let Some(angle) = difference.angle else { continue };
+            counts.add_direction(self.normals[vertex], xyz(ours), xyz(theirs));
+            counts.close += usize::from(angle < 1.0 && !difference.flips_sign);
+            if theirs[3].abs() >= MIN_SIGN && self.has_sign[number] {
+                let of_orientation = &mut counts.signs[usize::from(ours[3] < 0.0)];
+                of_orientation[0] += 1;
+                of_orientation[1] += usize::from(difference.flips_sign);
+                (judged, flipped) = (judged + 1, flipped + usize::from(difference.flips_sign));
+            }
+        }
+        counts.triangles += usize::from(judged == 3);
+        if flipped == 3 {
+            counts.flipped_triangles.push(number);
+        }
+    }
+}
+
+impl Counts {
+    /// Counts a corner by the direction of its tangent.
+    fn add_direction(&mut self, normal: [f32; 3], ours: [f32; 3], theirs: [f32; 3]) {
+        self.corners += 1;
+        let across = dot(cross(normal, ours), theirs).abs();
+        let along = dot(ours, theirs);
         match () {
-            () if across > along.abs() => counts.across += 1,
-            () if along > 0.0 => counts.along += 1,
-            () => counts.against += 1,
-        }
-        counts.close += usize::from(angle < 1.0 && !difference.flips_sign);
-        if theirs[3].abs() < MIN_SIGN || !has_sign[corner / 3] {
-            continue;
-        }
-        let of_orientation = &mut counts.signs[usize::from(ours[3] < 0.0)];
-        of_orientation[0] += 1;
-        of_orientation[1] += usize::from(difference.flips_sign);
-        of_triangle = [of_triangle[0] + 1, of_triangle[1] + usize::from(difference.flips_sign)];
-        if of_triangle[0] == 3 {
-            counts.triangles += 1;
-        }
-        if of_triangle[1] == 3 {
-            counts.flipped_triangles.push(corner / 3);
+            () if across > along.abs() => self.across += 1,
+            () if along > 0.0 => self.along += 1,
+            () => self.against += 1,
         }
     }
-    Some(counts)
-}
-
-/// Whether a triangle has an area in the UV set. Without one it shows no bumps, and its tangents and their sign are those of any neighbour; with
-/// NaN or infinity they are arbitrary.
-fn is_measured(surface: &Surface, uvs: &[[f32; 2]], triangle: [usize; 3]) -> bool {
-    let area = uv_area(uvs, triangle);
-    let is_placed = |vertex: usize| surface.positions[vertex].iter().all(|x| x.is_finite());
-    area != 0.0 && area.is_finite() && triangle.into_iter().all(is_placed)
-}
-
-/// Per vertex whether the corners of measured triangles have both signs.
-pub fn on_mirrored_seams(surface: &Surface, uv_set: usize, expected: &[[f32; 4]]) -> Vec<bool> {
-    let mut seen = vec![[false; 2]; surface.positions.len()];
-    let Some(uvs) = surface.uv_sets.get(&uv_set) else { return vec![false; seen.len()] };
-    for (triangle, tangents) in surface.triangles().zip(expected.as_chunks::<3>().0) {
-        if !is_measured(surface, uvs, triangle) {
-            continue;
-        }
-        for (vertex, tangent) in triangle.into_iter().zip(tangents) {
-            seen[vertex][usize::from(tangent[3] < 0.0)] = true;
-        }
-    }
-    seen.into_iter().map(|[positive, negative]| positive && negative).collect()
 }

@@ -20,6 +20,7 @@
 
 mod check;
 mod code;
+mod expected;
 mod facets;
 mod finding;
 mod fit;

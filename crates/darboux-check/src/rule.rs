@@ -2,6 +2,7 @@
 
 use darboux_io::gltf::TextureUse;
 
+use crate::expected::{are_those_of_the_file, on_mirrored_seams, vertices_with_own_tangents};
 use crate::finding::Finding;
 use crate::fit::{self, Fit};
 use crate::map::Map;
@@ -11,8 +12,12 @@ use crate::surface::Surface;
 /// A surface and what several rules ask about it.
 pub struct Measured<'a> {
     pub surface: &'a Surface,
-    /// MikkTSpace's tangents of all corners; none where the surface has no tangents, or they cannot be computed.
-    pub expected: Option<Vec<[f32; 4]>>,
+    /// Per vertex whether MikkTSpace's tangents of its corners have both signs; empty where the surface has no tangents, or they cannot be computed.
+    pub is_on_mirrored_seam: Vec<bool>,
+    /// Per vertex whether its tangent is that of MikkTSpace for a corner without an area, which tells nothing.
+    pub has_own_tangent: Vec<bool>,
+    /// Whether all tangents are those of MikkTSpace, bit for bit.
+    pub is_mikktspace: bool,
     /// What is reversed; none where the faces agree with the normals.
     pub reversal: Option<Reversal>,
     /// How its tangents differ from MikkTSpace's.
@@ -21,10 +26,27 @@ pub struct Measured<'a> {
 
 impl<'a> Measured<'a> {
     pub fn new(surface: &'a Surface) -> Self {
-        let expected = surface.tangents.as_ref().and_then(|_| surface.expected_tangents(surface.uv_set));
         let reversal = Reversal::of(surface);
-        let fit = expected.as_ref().and_then(|expected| fit::measure(surface, expected, reversal));
-        Self { surface, expected, reversal, fit }
+        let expected = surface.tangents.as_ref().and_then(|_| surface.expected_tangents(surface.uv_set));
+        let Some(expected) = expected else {
+            return Self {
+                surface,
+                is_on_mirrored_seam: Vec::new(),
+                has_own_tangent: vec![false; surface.positions.len()],
+                is_mikktspace: false,
+                reversal,
+                fit: None,
+            };
+        };
+        let is_on_mirrored_seam = on_mirrored_seams(surface, surface.uv_set, &expected);
+        Self {
+            surface,
+            has_own_tangent: vertices_with_own_tangents(surface, &expected),
+            is_mikktspace: are_those_of_the_file(surface, &expected),
+            reversal,
+            fit: fit::measure(surface, &expected, &is_on_mirrored_seam, reversal),
+            is_on_mirrored_seam,
+        }
     }
 }
 

@@ -78,12 +78,6 @@ impl Surface {
         Some(tangents.converted(Convention::GLTF.generated(), Convention::GLTF).into_per_corner())
     }
 
-    /// The file's tangent of every corner; none where it has no tangents.
-    pub fn corner_tangents(&self) -> Option<Vec<[f32; 4]>> {
-        let tangents = self.tangents.as_ref()?;
-        Some(self.vertex_of_corner.iter().map(|&vertex| tangents[vertex as usize]).collect())
-    }
-
     /// The vertices of every triangle.
     pub fn triangles(&self) -> impl Iterator<Item = [usize; 3]> {
         self.vertex_of_corner.as_chunks::<3>().0.iter().map(|triangle| triangle.map(|vertex| vertex as usize))
@@ -184,8 +178,11 @@ fn vertices<const N: usize>(
     let name = corners.name();
     let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
     let Some(&accessor) = attributes.get(semantic) else { return Ok(None) };
-    corners.vectors::<N>(semantic)?;
-    Ok(Some(document.vectors(accessor)?.into_owned()))
+    let vectors = document.vectors(accessor)?;
+    if corners.vertices().iter().any(|&vertex| vertex as usize >= vectors.len()) {
+        corners.vectors::<N>(semantic)?;
+    }
+    Ok(Some(vectors.into_owned()))
 }
 
 /// Twice the signed area of a triangle in UV space, with v as stored.

@@ -40,8 +40,7 @@ pub fn doubled_area([a, b, c]: &Triangle) -> f64 {
 
 /// The lowest and the highest coordinates.
 pub fn bounds([a, b, c]: &Triangle) -> [[f64; 2]; 2] {
-    let bound = |choose: fn(f64, f64) -> f64| {
-        [choose(choose(a[0], b[0]), c[0]), choose(choose(a[1], b[1]), c[1])]
-    };
+    let bound =
+        |choose: fn(f64, f64) -> f64| [choose(choose(a[0], b[0]), c[0]), choose(choose(a[1], b[1]), c[1])];
     [bound(f64::min), bound(f64::max)]
 }

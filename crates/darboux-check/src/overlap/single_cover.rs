@@ -46,7 +46,8 @@ pub fn may_overlap(layout: &Layout<'_>) -> Vec<u32> {
     let is_suspect = |number: &u32| {
         let [low, high] = bounds(&layout.triangle(*number as usize)).map(|corner| grid.cell(corner));
         let before = |column: usize, row: usize| suspects[row * (grid.columns + 1) + column];
-        let rows = [low[1], high[1] + 1].map(|row| before(high[0] + 1, row).wrapping_sub(before(low[0], row)));
+        let rows =
+            [low[1], high[1] + 1].map(|row| before(high[0] + 1, row).wrapping_sub(before(low[0], row)));
         rows[0] != rows[1]
     };
     with_area.into_iter().filter(is_suspect).collect()

@@ -31,7 +31,8 @@ fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
     let is_fit = measured.fit.as_ref().is_some_and(|fit| {
         matches!(fit.difference, Difference::None | Difference::Unknown) && fit.measured > 0
     });
-    if !is_fit || measured.reversal.is_some() {
+    // No recipe explains tangents better than one that gives all their bits.
+    if !is_fit || measured.reversal.is_some() || measured.is_mikktspace {
         return Vec::new();
     }
     let Some(recognised) = recognise(measured.surface) else { return Vec::new() };
@@ -88,9 +89,10 @@ fn obstacle(best: &RecipeMatch, severity: Severity) -> Option<String> {
 
 /// None where there are no tangents or none can be computed.
 fn recognise(surface: &Surface) -> Option<Recognised> {
-    let tangents = surface.corner_tangents()?;
+    let of_vertex = surface.tangents.as_ref()?;
     let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
-    let tangents: Vec<[f32; 4]> = tangents.iter().map(|tangent| to_generated.tangent(*tangent)).collect();
+    let of_corner = |&vertex: &u32| to_generated.tangent(of_vertex[vertex as usize]);
+    let tangents: Vec<[f32; 4]> = surface.vertex_of_corner.iter().map(of_corner).collect();
     let as_they_are = recognise_on(&surface.mesh(surface.uv_set)?, &tangents)?;
     if close(&as_they_are.best) >= IS_MIKKTSPACE {
         return Some(as_they_are);

@@ -1,14 +1,12 @@
 //! Rules about tangents: values, signs and directions.
 
-use darboux::CornerDifference;
-
 use crate::code::Code;
 use crate::finding::Finding;
-use crate::fit::{Difference, Fit, on_mirrored_seams};
+use crate::fit::{Difference, Fit};
 use crate::orientation::Reversal;
 use crate::rule::{Measured, SurfaceRule};
 use crate::severity::Severity;
-use crate::surface::{Surface, dot, indices_where, length, uv_area, xyz};
+use crate::surface::{Surface, dot, indices_where, length, xyz};
 use crate::text::counted;
 
 pub const RULES: &[SurfaceRule] = &[
@@ -31,10 +29,6 @@ const UNIT: f64 = 0.02;
 /// bumps, and one in a hundred is seen on a model that fills the screen. Fewer may be slivers, whose UV area is rounding, so that programs
 /// differ in their sign.
 const MAX_PERCENT_OF_PART: f64 = 1.0;
-
-/// Degrees between tangents that are equal up to rounding: of floats, after sums in another order; of 8 bits.
-const ROUNDING: f64 = 0.1;
-const ROUNDING_OF_8_BITS: f64 = 1.0;
 
 /// Degrees from the plane of the normal.
 const MAX_DEGREES_FROM_PLANE: [f64; 2] = [2.0, 15.0];
@@ -109,33 +103,11 @@ fn sign_not_one(measured: &Measured<'_>) -> Vec<Finding> {
     vertices(measured.surface, Code::TangentSignNotOne, is_other, text)
 }
 
-/// Per vertex whether MikkTSpace gives its tangent, up to rounding, to one of its corners that lie in faces without an area in space or in
-/// UV space. There MikkTSpace takes the tangent of another vertex at the same place or the x axis, which may lean or have another sign than its
-/// neighbours. Computing it again does not help, and the UVs have a finding of their own.
-fn vertices_with_own_tangents(measured: &Measured<'_>) -> Vec<bool> {
-    let surface = measured.surface;
-    let mut is_own = vec![false; surface.positions.len()];
-    let (Some(expected), Some(tangents)) = (&measured.expected, &surface.tangents) else { return is_own };
-    let Some(uvs) = surface.uv_sets.get(&surface.uv_set) else { return is_own };
-    let tolerance = if surface.tangent_size == 4 { ROUNDING_OF_8_BITS } else { ROUNDING };
-    for (triangle, expected) in surface.triangles().zip(expected.as_chunks::<3>().0) {
-        if surface.has_area(triangle) && uv_area(uvs, triangle) != 0.0 {
-            continue;
-        }
-        for (vertex, expected) in triangle.into_iter().zip(expected) {
-            let difference = CornerDifference::between(*expected, tangents[vertex]);
-            let is_close = difference.angle.is_some_and(|angle| angle <= tolerance);
-            is_own[vertex] |= is_close && !difference.flips_sign;
-        }
-    }
-    is_own
-}
-
 fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
     let (Some(tangents), Some(normals)) = (&measured.surface.tangents, &measured.surface.normals) else {
         return Vec::new();
     };
-    let is_own = vertices_with_own_tangents(measured);
+    let is_own = &measured.has_own_tangent;
     let angle = |vertex: usize| {
         let (tangent, normal) = (xyz(tangents[vertex]), normals[vertex]);
         let sine = dot(tangent, normal) / (length(tangent) * length(normal));
@@ -167,9 +139,7 @@ fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
 }
 
 fn shared_across_mirror(measured: &Measured<'_>) -> Vec<Finding> {
-    let surface = measured.surface;
-    let Some(expected) = &measured.expected else { return Vec::new() };
-    let found = indices_where(&on_mirrored_seams(surface, surface.uv_set, expected), |is_shared| *is_shared);
+    let found = indices_where(&measured.is_on_mirrored_seam, |is_on_seam| *is_on_seam);
     if found.is_empty() {
         return Vec::new();
     }
@@ -181,7 +151,7 @@ fn shared_across_mirror(measured: &Measured<'_>) -> Vec<Finding> {
 fn sign_mixed(measured: &Measured<'_>) -> Vec<Finding> {
     let surface = measured.surface;
     let Some(tangents) = &surface.tangents else { return Vec::new() };
-    let is_own = vertices_with_own_tangents(measured);
+    let is_own = &measured.has_own_tangent;
     let found = surface.triangles_where(|triangle| {
         let signs = triangle.map(|vertex| tangents[vertex][3] < 0.0);
         signs != [signs[0]; 3] && !triangle.iter().all(|&vertex| is_own[vertex])
