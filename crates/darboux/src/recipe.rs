@@ -68,6 +68,8 @@ pub fn recognise_recipe_with(
     whole.add(&recipes[0], memory)?;
     // The best recipes of the sample are computed for the whole mesh, until the rest is clearly worse.
     while let Some(next) = whole.next_of(&sampled.matches) {
+        // Of a large mesh, the buffers of one method are freed before those of the next are allocated.
+        *memory = TangentMemory::default();
         whole.add(&next, memory)?;
     }
     let rest = sampled.matches.iter().filter(|found| !whole.has(&found.recipe));

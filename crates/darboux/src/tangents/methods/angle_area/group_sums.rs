@@ -39,7 +39,7 @@ pub(crate) struct GroupFrame {
     pub repaired: bool,
 }
 
-/// Buffers, reused from run to run: 140 bytes per triangle (212 for full frames) and 170 per group.
+/// Buffers, reused from run to run: 44 bytes per triangle and 170 per group.
 #[derive(Debug, Default)]
 pub(crate) struct GroupBuffers {
     pub derivatives: Vec<Derivative>,
@@ -50,10 +50,6 @@ pub(crate) struct GroupBuffers {
     pub residuals: Vec<(D3, f64)>,
     /// Twice the area of each triangle; 0 for skipped triangles.
     pub areas: Vec<f64>,
-    /// The terms of each triangle at its corners: weight times the direction of dP/du, and the weight.
-    terms: Vec<[[f64; 4]; 3]>,
-    /// The directions of dP/dv at the corners; for full frames only.
-    t_terms: Vec<[D3; 3]>,
     pub frames: Vec<GroupFrame>,
 }
 
@@ -67,23 +63,17 @@ pub(crate) struct GroupedTriangles<'a> {
 }
 
 impl GroupedTriangles<'_> {
-    /// Computes the sums of all groups from the derivatives and the normals in `buffers`.
+    /// Computes the sums of all groups from the derivatives and the normals in `buffers`, on all threads.
     ///
-    /// `is_full`: with bitangents and magnitudes. First the terms of all triangles, then the sum of each group, both on all threads. The
-    /// bits do not depend on the number of threads.
+    /// `is_full`: with bitangents and magnitudes. The bits do not depend on the number of threads.
     pub fn add_up(&self, is_full: bool, limits: RunLimits<'_>, buffers: &mut GroupBuffers) {
-        let GroupBuffers { derivatives, normals, sums, areas, terms, t_terms, .. } = buffers;
+        let GroupBuffers { derivatives, normals, sums, areas, .. } = buffers;
         let (derivatives, normals) = (&derivatives[..], &normals[..]);
         areas.resize(derivatives.len(), 0.0);
         threads::fill(limits, areas, |t| if derivatives[t].joins_any { 0.0 } else { self.doubled_area(t) });
-        terms.resize(derivatives.len(), [[0.0; 4]; 3]);
-        threads::fill(limits, terms, |t| self.terms(t, &derivatives[t], normals, areas[t]));
-        t_terms.resize(if is_full { derivatives.len() } else { 0 }, [[0.0; 3]; 3]);
-        threads::fill(limits, t_terms, |t| {
-            self.corner_normals(t, normals).map(|n| direction_in_plane(derivatives[t].t, n))
-        });
+        let areas = &areas[..];
         sums.resize(normals.len(), GroupSum::default());
-        threads::fill(limits, sums, |group| self.gathered(group, derivatives, terms, t_terms));
+        threads::fill(limits, sums, |group| self.sum(group, is_full, normals[group], (derivatives, areas)));
     }
 
     fn doubled_area(&self, t: usize) -> f64 {
@@ -95,49 +85,30 @@ impl GroupedTriangles<'_> {
         self.welded.positions(self.triangles, t).map(|position| position.map(f64::from))
     }
 
-    /// The normal of the group of each corner; zero where there is none.
-    fn corner_normals(&self, t: usize, normals: &[D3]) -> [D3; 3] {
-        let groups = self.triangles.corners[t].map(|corner| self.group_of_corner[corner as usize]);
-        groups.map(|group| normals.get(group as usize).copied().unwrap_or_default())
-    }
-
-    /// The terms of a triangle at its corners.
-    #[inline(always)]
-    fn terms(&self, t: usize, derivative: &Derivative, normals: &[D3], area: f64) -> [[f64; 4]; 3] {
-        if derivative.joins_any {
-            return [[0.0; 4]; 3];
-        }
-        let [a, b, c] = self.positions(t);
-        let (ab, bc, ca) = (sub(b, a), sub(c, b), sub(a, c));
-        let [of_a, of_b, of_c] = self.corner_normals(t, normals);
-        let area = match self.weight {
-            GroupWeight::Area => Some(area),
-            GroupWeight::Edges => None,
-        };
-        // Written out: `map` is not inlined.
-        [
-            term(derivative.s, [ab, ca], of_a, area),
-            term(derivative.s, [bc, ab], of_b, area),
-            term(derivative.s, [ca, bc], of_c, area),
-        ]
-    }
-
-    fn gathered(
+    /// The sum of a group, whose unit normal is `normal`, or zero.
+    fn sum(
         &self,
         group: usize,
-        derivatives: &[Derivative],
-        terms: &[[[f64; 4]; 3]],
-        t_terms: &[[D3; 3]],
+        is_full: bool,
+        normal: D3,
+        (derivatives, areas): (&[Derivative], &[f64]),
     ) -> GroupSum {
         let mut sum = GroupSum::default();
         for &member in self.groups.members(group) {
             let (t, k) = (member as usize / 3, member as usize % 3);
-            let [x, y, z, weight] = terms[t][k];
+            let derivative = &derivatives[t];
+            if derivative.joins_any {
+                continue;
+            }
+            let positions = self.positions(t);
+            let (at, next, last) = (positions[k], positions[(k + 1) % 3], positions[(k + 2) % 3]);
+            let area = (self.weight == GroupWeight::Area).then_some(areas[t]);
+            let [x, y, z, weight] = term(derivative.s, [sub(next, at), sub(at, last)], normal, area);
             sum.s = add_scaled(sum.s, 1.0, [x, y, z]);
             sum.weight += weight;
-            if let Some(t_term) = t_terms.get(t).filter(|_| !derivatives[t].joins_any) {
-                sum.t = add_scaled(sum.t, weight, t_term[k]);
-                let lengths = derivatives[t].magnitude.map(f64::from);
+            if is_full {
+                sum.t = add_scaled(sum.t, weight, direction_in_plane(derivative.t, normal));
+                let lengths = derivative.magnitude.map(f64::from);
                 sum.magnitude = [0, 1].map(|i| sum.magnitude[i] + weight * lengths[i]);
             }
         }
