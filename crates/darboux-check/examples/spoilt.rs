@@ -1,4 +1,5 @@
-//! Writes a healthy model, and the same with each mistake that can be made on it, into a folder: healthy.glb and CODE.glb.
+//! Writes a healthy model, and the same with each mistake that can be made on it, into a folder: healthy.glb and CODE.glb; and CODE.svg where a
+//! UV layout shows more.
 //!
 //! docs/check.md shows those that look different, as `darboux render` draws them; CONTRIBUTING.md says how they are drawn again.
 
@@ -13,6 +14,7 @@ use darboux_check::Code;
 use support::maps::MAP_MISTAKES;
 use support::mistakes::MISTAKES;
 use support::models::{Model, shown_model};
+use support::shown::{shown_layout, shown_mistake};
 
 fn main() -> io::Result<()> {
     let Some(folder) = std::env::args_os().nth(1) else {
@@ -24,9 +26,13 @@ fn main() -> io::Result<()> {
     let healthy_file = healthy.glb();
     fs::write(folder.join("healthy.glb"), &healthy_file)?;
     for code in Code::ALL {
-        let file = spoilt(&healthy, *code).glb();
+        let model = shown_mistake(&healthy, *code).unwrap_or_else(|| spoilt(&healthy, *code));
+        let file = model.glb();
         if file != healthy_file {
             fs::write(folder.join(format!("{code}.glb")), file)?;
+        }
+        if let Some(layout) = shown_layout(*code) {
+            fs::write(folder.join(format!("{code}.svg")), layout)?;
         }
     }
     Ok(())

@@ -54,36 +54,179 @@ fn reference(command: &mut Command) -> String {
     text + "\n" + include_str!("../src/json.md")
 }
 
-/// What people say when they see a finding, and where.
+/// What people say when they see a finding, and where: the repository and the number of the issue.
 const SAID: &[(Code, &str)] = &[
-    (Code::TangentZero, "the model has black triangles (glTF-Transform 1859)"),
+    (
+        Code::TangentNotFinite,
+        "triangles are black or full of noise, most often after compression made UVs equal (google/model-viewer PR 1078)",
+    ),
+    (
+        Code::TangentZero,
+        "the model has black triangles, or does not load at all (donmccurdy/glTF-Transform 1859, KhronosGroup/glTF-Blender-Exporter 110, vpenades/SharpGLTF 14)",
+    ),
+    (
+        Code::TangentNotUnit,
+        "do tangents have to have length 1, and does anybody test that? (KhronosGroup/glTF 1639)",
+    ),
+    (
+        Code::TangentNotPerpendicular,
+        "must a tangent be perpendicular to its normal? Shaders take it for granted (KhronosGroup/glTF 1639)",
+    ),
+    (
+        Code::TangentSignNotOne,
+        "the mirrored parts are wrong, because a library reads or writes tangents as three numbers (KhronosGroup/glTF-Sample-Models 160, pplux/px PR 16)",
+    ),
+    (Code::TangentSignMixed, "there are seams where the UVs are mirrored (mrdoob/three.js 18565)"),
     (
         Code::TangentSharedAcrossMirror,
         "there is a seam where the texture is mirrored (nvpro-samples/vk_gltf_renderer 33)",
     ),
     (
         Code::TangentSignFlipped,
-        "normal maps look upside down in one viewer and right in another (three.js 25263, filament 528)",
+        "bumps become dips; normal maps look upside down in one viewer and right in another (mrdoob/three.js 25263, google/filament 528, o3de/o3de 10642)",
     ),
     (
         Code::TangentSignFlippedWhereMirrored,
-        "one half of the model is lit from the wrong side (assimp 1892, its PR 6322)",
+        "one half of the model is lit from the wrong side (assimp/assimp 1892 and its PR 6322, defold/defold 8733)",
+    ),
+    (
+        Code::TangentSignPartlyFlipped,
+        "some triangles look inverted, and other engines show them right (overte-org/overte 43)",
+    ),
+    (
+        Code::TangentRotated,
+        "the light comes from the left and the shadows go up and down (asny/three-d 157, bhouston/threeify 124)",
+    ),
+    (
+        Code::TangentNegated,
+        "normal maps are inverted now and then, wherever the texture coordinates are (w23/xash3d-fwgs PR 629)",
+    ),
+    (
+        Code::TangentOtherUvSet,
+        "the normal map breaks as soon as it is not on the first UV set (ucupumar/ucupaint 81, KhronosGroup/glTF 1637)",
     ),
     (
         Code::TangentOtherRecipe,
-        "the shading is not that of the program that baked the map (glTF-Blender-IO 2226, Godot 86131 and 114508)",
+        "the shading is not that of the program that baked the map (KhronosGroup/glTF-Blender-IO 2226, godotengine/godot 86131 and 114508)",
     ),
     (
         Code::TangentMissing,
-        "tangents get lost at export, and a warning names no model (glTF-Blender-IO 172, playcanvas 2787, bevy 11831)",
+        "tangents get lost at export, and a warning names no model (KhronosGroup/glTF-Blender-IO 172, playcanvas 2787, bevyengine/bevy 11831)",
     ),
-    (Code::UvMissing, "the map is on the second UV set, and the exporter knows one (KhronosGroup/glTF 1637)"),
+    (
+        Code::TangentUnused,
+        "the file is larger than it has to be (supertuxkart/stk-blender PR 9, donmccurdy/glTF-Transform 614)",
+    ),
+    (
+        Code::PositionNotFinite,
+        "the export fails and does not say which of a thousand objects is to blame (KhronosGroup/glTF-Blender-IO 1446)",
+    ),
+    (
+        Code::NormalMissing,
+        "the model is black in one viewer, faceted in the next and smooth in a third (Moguri/panda3d-gltf PR 87, atteneder/glTFast 340)",
+    ),
+    (
+        Code::NormalNotFinite,
+        "the validator reports NaN after an export, and nobody knows where it comes from (KhronosGroup/glTF-Blender-IO 2540)",
+    ),
+    (
+        Code::NormalNotUnit,
+        "the model looks good, and the validator has thousands of errors (KhronosGroup/glTF-Validator 72, vrm-c/UniVRM 1389)",
+    ),
+    (
+        Code::NormalAgainstWinding,
+        "what was mirrored has its normals backwards after the export (facebookincubator/FBX2glTF 31, KhronosGroup/glTF-Blender-IO 2454)",
+    ),
+    (
+        Code::UvMissing,
+        "the texture does not show up; the map is on the second UV set, and the exporter knows one (KhronosGroup/glTF-Blender-IO 1438, KhronosGroup/glTF 1637)",
+    ),
+    (
+        Code::UvNotFinite,
+        "the exporter leaves holes in the JSON, where the bounds of the UVs should be, and the file does not load (iimachines/Maya2glTF 70)",
+    ),
+    (
+        Code::UvDegenerate,
+        "black dots and static come and go when the camera turns (KhronosGroup/glTF-Sample-Viewer 433, X-Plane/XPlane2Blender 258)",
+    ),
+    (
+        Code::UvMirrored,
+        "a mirrored model needs tangents in the file, and they make it several times as large (KhronosGroup/glTF 1236)",
+    ),
+    (
+        Code::UvOverlapping,
+        "a strange line runs through the normal map, until the overlapping UVs are moved apart (supertuxkart/stk-code 2243)",
+    ),
     (
         Code::MapGreenFlipped,
-        "bumps are dents; hours went into debugging the shader (glTF-Sample-Models PR 336, BabylonJS/Exporters 940)",
+        "bumps are dents; hours went into debugging the shader (KhronosGroup/glTF-Sample-Models PR 336, BabylonJS/Exporters 940)",
     ),
-    (Code::MapSrgb, "normal maps look washed out or too strong after the import (glTFast 67, UnityGLTF 362)"),
+    (
+        Code::MapRedFlipped,
+        "up and down are right, left and right are exchanged (TombEngine/TombEngine 617, makehumancommunity/makehuman2 12)",
+    ),
+    (
+        Code::MapChannelsSwapped,
+        "a converter exchanged red and green, and the orientation is wrong (castano/nvidia-texture-tools 286)",
+    ),
+    (
+        Code::MapSrgb,
+        "normal maps look washed out or too strong after the import (atteneder/glTFast 67, KhronosGroup/UnityGLTF 362)",
+    ),
+    (
+        Code::MapHeight,
+        "the exported normal map is grey; the model got an ugly metallic cover (KhronosGroup/UnityGLTF 26, BabylonJS/Exporters 412, Stykka/glTF-Bin 32)",
+    ),
+    (
+        Code::MapObjectSpace,
+        "the map looks right in one viewer, and the next one knows tangent space only (mrdoob/three.js 14139, KhronosGroup/glTF 1284)",
+    ),
+    (
+        Code::MapNotNormal,
+        "another texture stands in for the normal map, and the normals look weird (rendajs/renda 149)",
+    ),
+    (
+        Code::MapTwoChannel,
+        "the blue channel of the normal map is empty (microsoft/DirectXTex 214, turanszkij/WickedEngine 208)",
+    ),
+    (
+        Code::MapNotUnit,
+        "thousands of texels are longer than rounding explains (PixarAnimationStudios/OpenUSD 3013)",
+    ),
     (Code::MapNegativeZ, "is a normal that points inwards allowed at all? (KhronosGroup/glTF 2368)"),
+    (
+        Code::MapFlatOff,
+        "opening and saving the map, without any edit, makes seams (Facepunch/RustWorkshop 13)",
+    ),
+    (
+        Code::MapFlat,
+        "a material without bumps has to have a normal map all the same, and each placeholder adds megabytes (TokisanGames/Terrain3D 614)",
+    ),
+    (
+        Code::MapUnreadable,
+        "one damaged texture, and the whole model does not load (mrdoob/three.js PR 25014, google/model-viewer 796)",
+    ),
+    (
+        Code::TransformMirrors,
+        "the light seems to turn with the texture, in one viewer and not in the others (KhronosGroup/glTF-Sample-Assets 156, panda3d/panda3d 808)",
+    ),
+];
+
+/// Why a code has no picture.
+const NO_PICTURE: &[(Code, &str)] = &[
+    (
+        Code::TangentNotUnit,
+        "the renderer of these pictures normalises tangents, so that nothing would be seen",
+    ),
+    (Code::TangentSharedAcrossMirror, "the line is one row of faces wide, and too thin at this size"),
+    (Code::TangentOtherRecipe, "the differences are a few degrees at most, and too small at this size"),
+    (Code::TangentMissing, "the renderer of these pictures makes the tangents that are missing"),
+    (Code::TangentUnused, "nothing changes on screen"),
+    (
+        Code::MapNotUnit,
+        "the renderer of these pictures normalises the vectors, so that nothing would be seen",
+    ),
+    (Code::MapFlatOff, "a lean of two degrees is seen in reflections only"),
 ];
 
 /// Every finding with its explanation. `pictures`: the folder docs/check of the repository.
@@ -99,18 +242,39 @@ fn findings(pictures: &Path) -> String {
 fn finding(code: Code, pictures: &Path) -> String {
     let [meaning, looks, cause, cure] = [code.meaning(), code.looks_like(), code.cause(), code.cure()];
     let mut text = format!("\n## {code}\n\n{meaning}\n\n");
-    if pictures.join(code.name()).with_extension("png").exists() {
-        text += &format!(
-            "| healthy | {code} |\n|---|---|\n| ![healthy](check/healthy.png) | ![{code}](check/{code}.png) |\n\n"
-        );
-    }
+    text += &picture(code, pictures);
     text += &format!("*What it looks like:* {looks}\n\n");
-    if let Some((_, said)) = SAID.iter().find(|(known, _)| *known == code) {
-        text += &format!("*What people say:* {said}.\n\n");
-    }
+    text +=
+        &format!("*What people say:* {}\n\n", sentence(entry(SAID, code).expect("every code has a thread")));
     let left = || format!("left, because {}", code.left_because().unwrap_or_default());
     let fix = code.repair().map_or_else(left, str::to_owned);
     text + &format!("*How it comes about:* {cause}\n\n*Cure:* {cure}\n\n*With `--fix`:* {fix}.\n")
+}
+
+/// The picture beside the healthy model, the UV layout, or why there is neither.
+fn picture(code: Code, pictures: &Path) -> String {
+    let exists = |ending: &str| pictures.join(code.name()).with_extension(ending).exists();
+    match (exists("png"), exists("svg"), entry(NO_PICTURE, code)) {
+        (true, false, None) => format!(
+            "| healthy | {code} |\n|---|---|\n| ![healthy](check/healthy.png) | ![{code}](check/{code}.png) |\n\n"
+        ),
+        (false, true, None) => format!(
+            "![{code}](check/{code}.svg)\n\nA UV layout; mirrored triangles are orange, and what lies below shows through.\n\n"
+        ),
+        (false, false, Some(reason)) => format!("*No picture:* {reason}.\n\n"),
+        found => panic!("{code} has either a PNG, an SVG or an entry in NO_PICTURE, not {found:?}"),
+    }
+}
+
+fn entry(list: &[(Code, &'static str)], code: Code) -> Option<&'static str> {
+    list.iter().find(|(known, _)| *known == code).map(|(_, text)| *text)
+}
+
+/// The text with a full stop, and with a capital letter.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map_or(String::new(), |letter| letter.to_uppercase().to_string());
+    format!("{first}{}.", letters.as_str())
 }
 
 fn section(name: &str, command: &mut Command) -> String {

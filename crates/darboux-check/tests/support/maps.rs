@@ -66,7 +66,7 @@ impl Map {
     }
 
     /// The same map after a function of red, green and blue, each from 0 to 1.
-    fn through(&self, function: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
+    pub fn through(&self, function: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
         let change = |texel: &[u8; 3]| {
             function(texel.map(|byte| f32::from(byte) / 255.0)).map(|x| (255.0 * x).round() as u8)
         };

@@ -9,4 +9,5 @@ pub mod maps;
 pub mod mistakes;
 pub mod models;
 pub mod page;
+pub mod shown;
 pub mod table;
