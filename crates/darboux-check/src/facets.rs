@@ -82,6 +82,14 @@ impl FacetVotes {
         if self.squares[index] > 0.0 { self.sums[index] / self.squares[index].sqrt() } else { 0.0 }
     }
 
+    /// Votes with this z score of one arrangement, and none of the others.
+    #[cfg(test)]
+    pub fn only(arrangement: Arrangement, z_score: f64) -> Self {
+        let mut votes = Self::default();
+        (votes.sums[arrangement as usize], votes.squares[arrangement as usize]) = (z_score, 1.0);
+        votes
+    }
+
     fn vote(&mut self, products: Products) {
         let Products { facet, texel, products: [[xx, xy], [yx, yy]], count } = products;
         let least = SMALLEST * SMALLEST * f64::from(count);

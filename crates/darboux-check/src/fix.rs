@@ -4,6 +4,7 @@
 //! repair that removes no finding, or ends in a new error, is taken back.
 
 mod attempt;
+mod attributes;
 mod maps;
 mod normals;
 mod options;

@@ -105,6 +105,27 @@ fn tangents_of_quads_are_kept() {
     assert!(!document.is_changed());
 }
 
+/// Flipped signs are negated, and the directions, which follow another recipe, keep their bits.
+#[test]
+fn flipped_signs_do_not_change_the_tangents_of_quads() {
+    let mut model = model("wavy grid");
+    model.tangents = Some(model.computed_on_quads());
+    let healthy = model.tangents().to_vec();
+    model.negate_signs();
+    let mut document = model.document();
+    let options = FixOptions::default().with_check(without_maps());
+    let findings = check(&model);
+    let fixed = fix_document(&mut document, findings, &options).expect("a valid document");
+    let repaired = fixed.findings.iter().filter(|fixed| fixed.repaired).map(|fixed| fixed.finding.code);
+    assert_eq!(repaired.collect::<Vec<_>>(), [Code::TangentSignFlipped]);
+    let of = |document: &Document| -> Vec<[f32; 4]> {
+        let corners = document.corners().expect("corners");
+        corners[0].vectors("TANGENT").expect("valid data").expect("tangents")
+    };
+    let wanted: Vec<[f32; 4]> = model.indices.iter().map(|&vertex| healthy[vertex as usize]).collect();
+    assert_eq!(of(&document), wanted);
+}
+
 /// So few mirrored corners may be slivers, and say nothing about the signs of the rest.
 #[test]
 fn a_few_mirrored_corners_decide_nothing() {

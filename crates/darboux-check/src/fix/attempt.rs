@@ -6,10 +6,11 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveName};
 
 use super::options::FixOptions;
-use super::outcome::{FixedDocument, FixedFinding, outcome};
+use super::outcome::{FixedDocument, FixedFinding, is_same, outcome};
 use super::pairs::LeftPairs;
 use super::{normals, tangents};
 use crate::check::check_surfaces;
+use crate::code::Code;
 use crate::finding::Finding;
 use crate::instances::primitives_of;
 use crate::severity::Severity;
@@ -96,7 +97,17 @@ impl Work<'_> {
         Ok(findings)
     }
 
-    /// Repairs normals, and then tangents.
+    /// Whether all signs w of a primitive are flipped, and nothing else is to be repaired about its tangents.
+    fn is_only_sign(&self, finding: &Finding, all: &[Finding]) -> bool {
+        let are_all = finding.evidence.iter().any(|number| number.unit == "%" && number.value == 100.0);
+        let is_other_work = |other: &Finding| {
+            let is_about_tangents = other.code.name().starts_with("tangent-") && other.code != finding.code;
+            is_about_tangents && place(other) == place(finding) && self.is_wanted(other)
+        };
+        finding.code == Code::TangentSignFlipped && are_all && !all.iter().any(is_other_work)
+    }
+
+    /// Repairs normals, then signs that are all flipped, and then tangents.
     fn attempt(&self, document: &mut Document) -> Result<Attempt, Error> {
         let is_about_normals = |finding: &&Finding| finding.code.name().starts_with("normal-");
         let is_wanted = |finding: &&Finding| self.is_wanted(finding);
@@ -108,13 +119,27 @@ impl Work<'_> {
             tangents::make(document, &without_tangents, self.options)?;
             between = self.left.mark(self.check(document)?);
         }
+        let with_flipped_signs: Vec<&Finding> =
+            between.iter().filter(is_wanted).filter(|finding| self.is_only_sign(finding, &between)).collect();
+        let are_signs_negated = !with_flipped_signs.is_empty();
+        let current = match are_signs_negated {
+            true => {
+                tangents::negate_signs(document, &with_flipped_signs)?;
+                self.left.mark(self.check(document)?)
+            }
+            false => between.clone(),
+        };
         let of_tangents: Vec<&Finding> =
-            between.iter().filter(|finding| !is_about_normals(finding)).filter(is_wanted).collect();
+            current.iter().filter(|finding| !is_about_normals(finding)).filter(is_wanted).collect();
         if !of_tangents.is_empty() {
             tangents::fix(document, &of_tangents, self.options)?;
         }
-        let is_changed = !of_normals.is_empty() || !of_tangents.is_empty();
-        let remaining = if is_changed { self.check(document)? } else { between.clone() };
+        let is_changed = !of_normals.is_empty() || are_signs_negated || !of_tangents.is_empty();
+        let remaining = if is_changed { self.check(document)? } else { current.clone() };
+        // What the new signs revealed is reported, too.
+        let revealed = current.into_iter().filter(|new| !between.iter().any(|known| is_same(known, new)));
+        let revealed: Vec<Finding> = revealed.collect();
+        between.extend(revealed);
         Ok(Attempt { is_changed, between, remaining })
     }
 

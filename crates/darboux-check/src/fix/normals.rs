@@ -4,11 +4,9 @@ use std::collections::BTreeMap;
 
 use darboux::{Context, Faces, NormalOptions, generate_normals};
 use darboux_io::Error;
-use darboux_io::gltf::{
-    AddNormalsOptions, ComponentType, Document, ElementType, Elements, NewAccessor, NormalsOutcome,
-    PrimitiveName, Target, add_normals_to,
-};
+use darboux_io::gltf::{AddNormalsOptions, Document, NormalsOutcome, PrimitiveName, add_normals_to};
 
+use super::attributes::{replace, users_of};
 use super::options::FixOptions;
 use crate::check::for_each_surface;
 use crate::code::Code;
@@ -17,6 +15,9 @@ use crate::instances::primitives_of;
 use crate::orientation::Reversal;
 use crate::rules::UNIT_NORMAL;
 use crate::surface::length;
+
+/// The attribute.
+const NORMAL: &str = "NORMAL";
 
 /// Repairs what the findings name. Returns the primitives that lost their tangents, because their normals are other ones now.
 pub fn fix(
@@ -60,7 +61,7 @@ fn make(
 
 /// Gives normals unit length, and vertices whose normal has no direction a smooth one. Other normals keep their bits.
 fn make_unit(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Error> {
-    for (accessor, users) in users_of_normals(document, names) {
+    for (accessor, users) in users_of(document, NORMAL, names) {
         let mut normals = document.vectors::<3>(accessor)?.into_owned();
         let has_direction = |normal: [f32; 3]| length(normal).is_finite() && length(normal) > 1e-9;
         for normal in normals.iter_mut().filter(|normal| has_direction(**normal)) {
@@ -77,7 +78,7 @@ fn make_unit(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Err
                 *normal = smooth;
             }
         }
-        replace(document, accessor, &users, &normals)?;
+        replace(document, (NORMAL, accessor), &users, &normals)?;
     }
     Ok(())
 }
@@ -102,31 +103,6 @@ fn smooth_normals(
         }
     }
     Ok(normals)
-}
-
-/// Puts normals in the place of those of an accessor, in these primitives.
-fn replace(
-    document: &mut Document,
-    accessor: usize,
-    users: &[&PrimitiveName],
-    normals: &[[f32; 3]],
-) -> Result<(), Error> {
-    let elements = Elements {
-        bytes: normals.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect(),
-        count: normals.len(),
-        component_type: ComponentType::F32,
-        element_type: ElementType::Vec3,
-        normalized: false,
-    };
-    let new = NewAccessor::new(elements, Target::Vertices).with_metadata_of(Some(accessor));
-    let made = document.push_accessor(new);
-    users.iter().try_for_each(|name| {
-        document.edit_primitive(name.mesh, name.primitive, |json| {
-            if let Some(attributes) = json.get_mut("attributes").and_then(|value| value.as_object_mut()) {
-                attributes.insert("NORMAL".to_owned(), made.into());
-            }
-        })
-    })
 }
 
 /// Turns over the faces or the normals of primitives, whichever are reversed.
@@ -155,10 +131,10 @@ fn turn_over(document: &mut Document, findings: &[&Finding]) -> Result<(), Error
             Some(Reversal::Unknown(_)) | None => {}
         }
     }
-    for (accessor, users) in users_of_normals(document, &with_reversed_normals) {
+    for (accessor, users) in users_of(document, NORMAL, &with_reversed_normals) {
         let normals = document.vectors::<3>(accessor)?;
         let reversed: Vec<[f32; 3]> = normals.iter().map(|normal| normal.map(|x| -x)).collect();
-        replace(document, accessor, &users, &reversed)?;
+        replace(document, (NORMAL, accessor), &users, &reversed)?;
     }
     Ok(())
 }
@@ -198,18 +174,3 @@ fn turn_faces(
 
 /// The mode of triangle lists (glTF 2.0, 5.24.4).
 const TRIANGLES: u32 = 4;
-
-/// The accessors of the primitives' normals, each with the primitives that use it.
-fn users_of_normals<'a>(
-    document: &Document,
-    names: &'a [PrimitiveName],
-) -> BTreeMap<usize, Vec<&'a PrimitiveName>> {
-    let mut users: BTreeMap<usize, Vec<&PrimitiveName>> = BTreeMap::new();
-    for name in names {
-        let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
-        if let Some(&accessor) = attributes.get("NORMAL") {
-            users.entry(accessor).or_default().push(name);
-        }
-    }
-    users
-}

@@ -6,6 +6,7 @@ use darboux::Context;
 use darboux_io::Error;
 use darboux_io::gltf::{AddTangentsOptions, Document, Generate, PrimitiveName, add_tangents_to};
 
+use super::attributes::{replace, users_of};
 use super::options::FixOptions;
 use crate::finding::Finding;
 use crate::instances::primitives_of;
@@ -15,6 +16,18 @@ pub fn fix(document: &mut Document, findings: &[&Finding], options: &FixOptions)
     let names: Vec<PrimitiveName> =
         findings.iter().flat_map(|finding| primitives_of(document, finding)).collect();
     make(document, &names, options)
+}
+
+/// Negates the signs w of the primitives of findings; the directions of the tangents, whatever method they come from, stay.
+pub fn negate_signs(document: &mut Document, findings: &[&Finding]) -> Result<(), Error> {
+    let names: Vec<PrimitiveName> =
+        findings.iter().flat_map(|finding| primitives_of(document, finding)).collect();
+    for (accessor, users) in users_of(document, "TANGENT", &names) {
+        let tangents = document.vectors::<4>(accessor)?;
+        let negated: Vec<[f32; 4]> = tangents.iter().map(|&[x, y, z, w]| [x, y, z, -w]).collect();
+        replace(document, ("TANGENT", accessor), &users, &negated)?;
+    }
+    Ok(())
 }
 
 /// Makes the tangents of primitives again. Vertices whose corners need different tangents are split.

@@ -230,8 +230,15 @@ fn candidates(judgement: &MapJudgement) -> [Arrangement; 2] {
     }
 }
 
-/// Whether the texels follow the facets of the mesh with red and green exchanged, and not otherwise.
+/// The largest log energy ratio of a map whose channels may be exchanged: that of a gradient is not negative, and exchanging them negates it.
+const MAX_RATIO_OF_EXCHANGED: f32 = 0.02;
+
+/// Whether the texels follow the facets of the mesh with red and green exchanged, and not otherwise, and their derivatives permit it. A map that
+/// was mirrored shows other texels than the baked ones on every facet, and these may lean in any way.
 fn facets_show_exchange(judgement: &MapJudgement, map: &Map) -> bool {
+    if judgement.log_energy_ratio > MAX_RATIO_OF_EXCHANGED {
+        return false;
+    }
     let [straight, exchanged] = candidates(judgement).map(|arrangement| map.facet_score(arrangement).abs());
     let decided = candidates(judgement).map(|arrangement| map.decide(arrangement).is_some());
     decided[1] && exchanged > 2.0 * straight
@@ -301,4 +308,37 @@ fn flat(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| judgement.verdict == MapVerdict::Flat)?;
     let is_plain = kind(map, judgement) == Kind::Normals;
     is_plain.then(|| Finding::new(Code::MapFlat, "all its texels are the same"))
+}
+
+#[cfg(test)]
+mod tests {
+    use darboux::{TexelLayout, judge_normal_map};
+
+    use super::*;
+    use crate::facets::FacetVotes;
+
+    /// Waves along u, v and both, as `[x, y]`; `is_exchanged` exchanges red and green, and green is inverted before.
+    fn map(is_exchanged: bool) -> Map {
+        let texel = |i: usize| {
+            let (x, y) = ((i % 128) as f32 / 5.0, (i / 128) as f32 / 5.0);
+            let both = 0.5 * (x + y).cos();
+            let slopes = [x.cos() + both, y.cos() + both].map(|slope| 0.2 * slope);
+            let [red, green] = if is_exchanged { [slopes[1], slopes[0]] } else { slopes };
+            let length = (red * red + green * green + 1.0).sqrt();
+            [-red, green, 1.0].map(|x| (127.5 + 127.5 * x / length).round() as u8)
+        };
+        let texels: Vec<[u8; 3]> = (0..128 * 128).map(texel).collect();
+        let judgement =
+            judge_normal_map(&texels, [128; 2], TexelLayout::RGB).map_err(|error| error.to_string());
+        let arrangement = candidates(judgement.as_ref().expect("a judgement"))[1];
+        let facets = Some(FacetVotes::only(arrangement, 7.0));
+        Map { judgement, before_srgb: None, wanted: BitangentDirection::Up, facets }
+    }
+
+    /// Facets that vote for exchanged channels do not outweigh derivatives that show a gradient.
+    #[test]
+    fn gradients_have_no_exchanged_channels() {
+        assert!(channels_swapped(&map(true)).is_some());
+        assert!(channels_swapped(&map(false)).is_none());
+    }
 }
