@@ -1,7 +1,6 @@
 // Darboux for C++17: a wrapper of darboux.h with array views that carry their size, objects that free themselves, and exceptions.
 //
 // MIT or Apache-2.0, as you choose. Functions have the names of darboux.h, where they are documented; comments here give the differences.
-// Encodings have no wrapper: call the functions of darboux.h.
 // Output arrays come before options and contexts, because these have defaults.
 // Every function can throw darboux::error; functions that return a vector can throw std::bad_alloc.
 
@@ -445,6 +444,89 @@ inline darboux_uv_fidelity measure_uv_fidelity(const mesh &mesh, floats<4> tange
   check(darboux_measure_uv_fidelity(&view, tangents.data(), tangents.size(), tangents.stride(), detail::get(context),
                                     &fidelity));
   return fidelity;
+}
+
+/// The type of one tangent in a compressed format.
+template <darboux_tangent_encoding Encoding>
+struct encoded_tangent;
+template <>
+struct encoded_tangent<DARBOUX_TANGENT_ENCODING_SNORM8> {
+  using type = std::array<std::int8_t, 4>;
+};
+template <>
+struct encoded_tangent<DARBOUX_TANGENT_ENCODING_SNORM10> {
+  using type = std::uint32_t;
+};
+template <>
+struct encoded_tangent<DARBOUX_TANGENT_ENCODING_SNORM16> {
+  using type = std::array<std::int16_t, 4>;
+};
+template <>
+struct encoded_tangent<DARBOUX_TANGENT_ENCODING_OCTAHEDRAL> {
+  using type = std::array<std::int16_t, 2>;
+};
+template <>
+struct encoded_tangent<DARBOUX_TANGENT_ENCODING_DIAMOND> {
+  using type = std::uint16_t;
+};
+
+namespace detail {
+/// Errors: another number of normals than of tangents; no normals are as good as all where the encoding ignores them.
+inline void check_normals(std::size_t normals, std::size_t tangents) {
+  if (normals != 0 && normals != tangents) throw error(DARBOUX_STATUS_LENGTH, "normals must be as many as tangents");
+}
+}  // namespace detail
+
+/// As darboux_encode_tangents: encode_tangents<DARBOUX_TANGENT_ENCODING_SNORM8>(tangents). `normals`: for the format DIAMOND only.
+template <darboux_tangent_encoding Encoding, class Code = typename encoded_tangent<Encoding>::type>
+std::vector<Code> encode_tangents(floats<4> tangents, floats<3> normals = {}) {
+  detail::check_normals(normals.size(), tangents.size());
+  std::vector<Code> codes(tangents.size());
+  check(darboux_encode_tangents(Encoding, tangents.size(), normals.data(), normals.stride(), tangents.data(), tangents.stride(),
+                                codes.data(), sizeof(Code)));
+  return codes;
+}
+
+/// As darboux_decode_tangents. `normals`: for the format DIAMOND only.
+template <darboux_tangent_encoding Encoding>
+std::vector<tangent> decode_tangents(span<const typename encoded_tangent<Encoding>::type> codes, floats<3> normals = {}) {
+  detail::check_normals(normals.size(), codes.size());
+  std::vector<tangent> tangents(codes.size());
+  check(darboux_decode_tangents(Encoding, codes.size(), normals.data(), normals.stride(), codes.data(), sizeof(*codes.data()),
+                                reinterpret_cast<float *>(tangents.data()), sizeof(tangent)));
+  return tangents;
+}
+
+/// As darboux_encode_normals.
+inline std::vector<std::array<std::int16_t, 2>> encode_normals(floats<3> normals) {
+  std::vector<std::array<std::int16_t, 2>> codes(normals.size());
+  check(darboux_encode_normals(normals.size(), normals.data(), normals.stride(), reinterpret_cast<std::int16_t *>(codes.data()), sizeof(codes[0])));
+  return codes;
+}
+
+/// As darboux_decode_normals.
+inline std::vector<normal> decode_normals(span<const std::array<std::int16_t, 2>> codes) {
+  std::vector<normal> normals(codes.size());
+  check(darboux_decode_normals(codes.size(), reinterpret_cast<const std::int16_t *>(codes.data()), sizeof(*codes.data()), reinterpret_cast<float *>(normals.data()), sizeof(normal)));
+  return normals;
+}
+
+/// As darboux_encode_frames.
+inline std::vector<std::array<std::int16_t, 4>> encode_frames(floats<3> normals, floats<4> tangents) {
+  if (normals.size() != tangents.size()) throw error(DARBOUX_STATUS_LENGTH, "tangents must be as many as normals");
+  std::vector<std::array<std::int16_t, 4>> codes(normals.size());
+  check(darboux_encode_frames(normals.size(), normals.data(), normals.stride(), tangents.data(), tangents.stride(),
+                              reinterpret_cast<std::int16_t *>(codes.data()), sizeof(codes[0])));
+  return codes;
+}
+
+/// As darboux_decode_frames, into arrays of as many elements.
+inline void decode_frames(span<const std::array<std::int16_t, 4>> codes, strided<float, 3> normals, strided<float, 4> tangents) {
+  if (normals.size() != codes.size() || tangents.size() != codes.size()) {
+    throw error(DARBOUX_STATUS_LENGTH, "normals and tangents must be as many as codes");
+  }
+  check(darboux_decode_frames(codes.size(), reinterpret_cast<const std::int16_t *>(codes.data()), sizeof(*codes.data()), normals.data(), normals.stride(),
+                              tangents.data(), tangents.stride()));
 }
 
 /// The convention of a program.

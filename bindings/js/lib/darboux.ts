@@ -135,6 +135,29 @@ export function splitVertices(indices: types.Indices, tangents: Float32Array, ve
 }
 
 /**
+ * Turns normals of corners, as `generateNormals` returns them, into vertices with one normal each.
+ *
+ * @param indices The vertex of each corner.
+ * @param normals 3 per corner.
+ * @param vertexCount The number of vertices of the mesh.
+ * @throws As {@link splitVertices}.
+ */
+export function splitNormals(indices: types.Indices, normals: Float32Array, vertexCount: number): types.NormalSplit {
+  const corners = rowCount('normals', normals, 3);
+  // w = 0 marks used vertices, because unused ones get w = 1.
+  const tangents = new Float32Array(4 * corners);
+  for (let corner = 0; corner < corners; corner++) tangents.set(normals.subarray(3 * corner, 3 * corner + 3), 4 * corner);
+  if (corners !== indices.length) throw new RangeError(`there are ${corners} normals but ${indices.length} indices; pass the normals of this mesh`);
+  const { tangentOfVertex, indices: newIndices, sourceOfVertex } = splitVertices(indices, tangents, vertexCount);
+  const normalOfVertex = new Float32Array(3 * sourceOfVertex.length);
+  for (let vertex = 0; vertex < sourceOfVertex.length; vertex++) {
+    const isUsed = tangentOfVertex[4 * vertex + 3] === 0;
+    normalOfVertex.set(isUsed ? tangentOfVertex.subarray(4 * vertex, 4 * vertex + 3) : [0, 0, 1], 3 * vertex);
+  }
+  return { normalOfVertex, indices: newIndices, sourceOfVertex };
+}
+
+/**
  * Computes a unit normal for every corner: flat, smooth or creased.
  *
  * @param positions 3 per vertex, any values. The winding of a face is counter-clockwise seen from its front.
@@ -181,6 +204,38 @@ export function measureTangents(a: Float32Array, b: Float32Array): types.Tangent
       return { corner, angle };
     });
     return { corners, identical, signFlips, withoutAngle, mean, min, median, p95, max, histogram: read(9, 10), worst };
+  });
+}
+
+/**
+ * Measures tangents against the directions in which u grows on the triangles. The angle is not zero where normals are smooth: tangents are
+ * perpendicular to them, while the derivatives lie in the faces.
+ *
+ * @param positions 3 per vertex.
+ * @param normals 3 per vertex.
+ * @param uvs 2 per vertex.
+ * @param indices The vertex of each corner; null where corners are vertices.
+ * @param tangents 4 per corner.
+ * @throws As {@link generateTangents}; RangeError for another number of tangents than corners.
+ */
+export function measureUvFidelity(
+  positions: Float32Array,
+  normals: Float32Array,
+  uvs: Float32Array,
+  indices: types.Indices | null | undefined,
+  tangents: Float32Array,
+  options?: { faces?: types.Faces | null } | null,
+): types.UvFidelity {
+  const mesh = tangentMesh(positions, normals, uvs, indices, options);
+  const rows = rowCount('tangents', tangents, 4);
+  if (rows !== mesh.corners) throw new RangeError(`there are ${rows} tangents but ${mesh.corners} corners; give one per corner`);
+  return fullModule.call((exports) => {
+    writeMesh(exports, mesh);
+    writeArrays(exports, [[tangents, exports.given_tangents(rows)]]);
+    const address = exports.measure_uv_fidelity() >>> 0;
+    if (!address) throw indexError(mesh);
+    const [mean, rootMeanSquare, area, unmeasuredTriangles] = new Float64Array(exports.memory.buffer, address, 4);
+    return { mean: mean!, rootMeanSquare: rootMeanSquare!, area: area!, unmeasuredTriangles: unmeasuredTriangles! };
   });
 }
 

@@ -94,6 +94,28 @@ export interface VertexSplit {
   sourceOfVertex: Uint32Array<ArrayBuffer>;
 }
 
+/** The vertices and indices of a mesh after splitting by normals. */
+export interface NormalSplit {
+  /** 3 per new vertex; (0, 0, 1) for a vertex that no corner uses. */
+  normalOfVertex: Float32Array<ArrayBuffer>;
+  /** The new vertex of each corner, in the old order of corners. */
+  indices: Uint32Array<ArrayBuffer>;
+  /** The old vertex that each new vertex copies. */
+  sourceOfVertex: Uint32Array<ArrayBuffer>;
+}
+
+/** How well tangents follow the UVs. Angles are in degrees. */
+export interface UvFidelity {
+  /** The mean angle over the surface, weighted by area. */
+  mean: number;
+  /** The root of the mean square of the angle. */
+  rootMeanSquare: number;
+  /** The area of the triangles that were measured. */
+  area: number;
+  /** The number of triangles that have no area or no direction of u. */
+  unmeasuredTriangles: number;
+}
+
 /** The name of a program's convention, optionally with changes after commas: 'gltf,green=down'. docs/conventions.md lists them. */
 export type Convention = ConventionName | `${ConventionName},${string}`;
 

@@ -89,6 +89,27 @@ for (const [name, darboux] of Object.entries(forms)) {
     assert.deepEqual(of({ weight: 'area' }), [[0, 0, 1], mean(2, 1), mean(2, 1)]);
   });
 
+  test(`${name}: normals of corners become vertices`, () => {
+    const [positions, indices] = bend();
+    const normals = generateNormals(positions, indices, { shading: 'flat' });
+    const split = darboux.splitNormals(indices, normals, 7);
+    // The two vertices of the edge have two normals each; the seventh vertex is unused.
+    assert.deepEqual([split.sourceOfVertex.length, split.normalOfVertex.length], [9, 27]);
+    split.indices.forEach((vertex, corner) => {
+      assert.equal(split.sourceOfVertex[vertex], indices[corner]);
+      assert.deepEqual(split.normalOfVertex.subarray(3 * vertex, 3 * vertex + 3), normals.subarray(3 * corner, 3 * corner + 3));
+    });
+    assert.deepEqual([...split.normalOfVertex.subarray(3 * split.sourceOfVertex.indexOf(6)).subarray(0, 3)], [0, 0, 1]);
+  });
+
+  test(`${name}: tangents are measured against the UVs`, () => {
+    const right = darboux.measureUvFidelity(...square(), generateTangents(...square()));
+    assert.deepEqual(right, { mean: 0, rootMeanSquare: 0, area: 1, unmeasuredTriangles: 0 });
+    const turned = Float32Array.from({ length: 24 }, (_, at) => [Math.SQRT1_2, Math.SQRT1_2, 0, 1][at % 4]);
+    const wrong = darboux.measureUvFidelity(...square(), turned);
+    assert.ok(Math.abs(wrong.mean - 45) < 1e-4 && Math.abs(wrong.rootMeanSquare - 45) < 1e-4);
+  });
+
   test(`${name}: differences are measured`, () => {
     const [c, s] = [Math.cos(Math.PI / 6), 0.5];
     const found = measureTangents(Float32Array.of(1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1), Float32Array.of(1, 0, 0, 1, c, s, 0, -1, 1, 0, 0, 1));
@@ -182,6 +203,8 @@ const wrong = [
   [() => esm.splitVertices(null, tangents, 4), TypeError, /^indices must be .*, not Null$/],
   [() => esm.splitVertices(indices, tangents.slice(4), 4), RangeError, /^there are 5 tangents but 6 indices; /],
   [() => esm.splitVertices(indices, tangents, 3), RangeError, /^index 3 at place 5 is out of range: there are 3 vertices$/],
+  [() => esm.splitNormals(indices, tangents.slice(0, 3), 4), RangeError, /^there are 1 normals but 6 indices; /],
+  [() => esm.measureUvFidelity(...square(), tangents.slice(4)), RangeError, /^there are 5 tangents but 6 corners; /],
   [() => esm.splitVertices(indices, tangents, -1), RangeError, /^vertexCount is -1; /],
   [() => esm.measureTangents(tangents, tangents.slice(4)), RangeError, /^b has 5 tangents but a has 6; /],
   [() => esm.convert('metal', 'gltf', {}), RangeError, /^source is 'metal'; it must be one of 'gltf', /],

@@ -46,7 +46,7 @@ pub const GROUPS: &[(&str, &[Row])] = &[
                 ["generate_normals"]; ["generateNormals"]; ["darboux normals"],
             "split vertices by normals":
                 ["split_normals"]; ["darboux_split_normals"]; ["split_normals"];
-                ["split_normals"]; []; ["darboux normals"],
+                ["split_normals"]; ["splitNormals"]; ["darboux normals"],
             "plan of a mesh that moves":
                 ["Plan::new"]; ["darboux_plan_create"]; ["plan"]; ["Plan"]; ["Plan"]; [],
             "tangents of the mesh that moved":
@@ -95,24 +95,24 @@ pub const GROUPS: &[(&str, &[Row])] = &[
             "encode tangents":
                 ["encode::tangent_to_snorm8", "encode::tangent_to_snorm10", "encode::tangent_to_snorm16",
                     "encode::tangent_to_octahedral", "encode::tangent_to_diamond"];
-                ["darboux_encode_tangents"]; [];
+                ["darboux_encode_tangents"]; ["encode_tangents"];
                 ["encode.tangent_to_snorm8", "encode.tangent_to_snorm10", "encode.tangent_to_snorm16",
                     "encode.tangent_to_octahedral", "encode.tangent_to_diamond"];
                 ["encodeTangents"]; ["darboux tangents"],
             "decode tangents":
                 ["encode::tangent_from_snorm8", "encode::tangent_from_snorm10", "encode::tangent_from_snorm16",
                     "encode::tangent_from_octahedral", "encode::tangent_from_diamond"];
-                ["darboux_decode_tangents"]; [];
+                ["darboux_decode_tangents"]; ["decode_tangents"];
                 ["encode.tangent_from_snorm8", "encode.tangent_from_snorm10", "encode.tangent_from_snorm16",
                     "encode.tangent_from_octahedral", "encode.tangent_from_diamond"];
                 ["decodeTangents"]; [],
             "encode and decode normals":
                 ["encode::normal_to_octahedral", "encode::normal_from_octahedral"];
-                ["darboux_encode_normals", "darboux_decode_normals"]; [];
+                ["darboux_encode_normals", "darboux_decode_normals"]; ["encode_normals", "decode_normals"];
                 ["encode.normal_to_octahedral", "encode.normal_from_octahedral"]; []; [],
             "encode and decode whole frames":
                 ["encode::frame_to_quaternion", "encode::frame_from_quaternion"];
-                ["darboux_encode_frames", "darboux_decode_frames"]; [];
+                ["darboux_encode_frames", "darboux_decode_frames"]; ["encode_frames", "decode_frames"];
                 ["encode.frame_to_quaternion", "encode.frame_from_quaternion"]; []; [],
         ],
     ),
@@ -124,7 +124,7 @@ pub const GROUPS: &[(&str, &[Row])] = &[
                 ["measure_tangents"]; ["measureTangents"]; ["darboux compare"],
             "compare tangents with the UVs":
                 ["measure_uv_fidelity"]; ["darboux_measure_uv_fidelity"]; ["measure_uv_fidelity"];
-                ["measure_uv_fidelity"]; []; [],
+                ["measure_uv_fidelity"]; ["measureUvFidelity"]; [],
             "recognise how tangents were computed":
                 ["recognise_recipe"]; ["darboux_recognise_recipe"]; ["recognise_recipe"];
                 ["recognise_recipe"]; ["check:recogniseRecipe"]; ["darboux compare"],

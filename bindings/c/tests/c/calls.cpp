@@ -198,27 +198,33 @@ static void plans() {
   expect(plan.evaluate(mesh) == base && plan.count_regrouped(mesh) == 0, "evaluated");
 }
 
+template <darboux_tangent_encoding Encoding>
+static void encoding() {
+  const std::vector<darboux::tangent> tangents = {{0.6f, 0, 0.8f, -1}, {1, 0, 0, 1}};
+  const std::vector<darboux::normal> normals = {{0.8f, 0, -0.6f}, {0, 0, 1}};
+  const auto back = darboux::decode_tangents<Encoding>(darboux::encode_tangents<Encoding>(tangents, normals), normals);
+  expect(darboux::measure_tangents(tangents, back).max < 0.4, "code");
+  expect(back[0][3] == -1 && back[1][3] == 1, "sign of a code");
+  expect(darboux::decode_tangents<Encoding>(darboux::encode_tangents<Encoding>({})).empty(), "no codes");
+  expect_error(DARBOUX_STATUS_LENGTH, "as many as", [&] { darboux::encode_tangents<Encoding>(tangents, {normals.data()->data(), 1}); });
+}
+
 static void encodings() {
-  const darboux::tangent tangent = {0.6f, 0, 0.8f, -1};
-  const darboux::normal normal = {0.8f, 0, -0.6f};
-  for (darboux_tangent_encoding encoding = DARBOUX_TANGENT_ENCODING_SNORM8; encoding <= DARBOUX_TANGENT_ENCODING_DIAMOND;
-       encoding = darboux_tangent_encoding(encoding + 1)) {
-    std::int16_t code[4];
-    darboux::tangent back;
-    darboux::check(darboux_encode_tangents(encoding, 1, normal.data(), 0, tangent.data(), 0, code, 0));
-    darboux::check(darboux_decode_tangents(encoding, 1, normal.data(), 0, code, 0, back.data(), 0));
-    expect(darboux::measure_tangents(std::vector<darboux::tangent>{tangent}, std::vector<darboux::tangent>{back}).max < 0.4, "code");
-    expect(back[3] == -1, "sign of a code");
-  }
-  std::int16_t code[4];
-  darboux::tangent back;
-  darboux::normal normal_back;
-  darboux::check(darboux_encode_frames(1, normal.data(), 0, tangent.data(), 0, code, 0));
-  darboux::check(darboux_decode_frames(1, code, 0, normal_back.data(), 0, back.data(), 0));
-  expect(std::fabs(normal_back[2] + 0.6f) < 1e-3f && std::fabs(back[0] - 0.6f) < 1e-3f, "quaternion");
-  darboux::check(darboux_encode_normals(1, normal.data(), 0, code, 0));
-  darboux::check(darboux_decode_normals(1, code, 0, normal_back.data(), 0));
-  expect(std::fabs(normal_back[0] - 0.8f) < 1e-3f, "octahedral normal");
+  encoding<DARBOUX_TANGENT_ENCODING_SNORM8>();
+  encoding<DARBOUX_TANGENT_ENCODING_SNORM10>();
+  encoding<DARBOUX_TANGENT_ENCODING_SNORM16>();
+  encoding<DARBOUX_TANGENT_ENCODING_OCTAHEDRAL>();
+  encoding<DARBOUX_TANGENT_ENCODING_DIAMOND>();
+  const std::vector<darboux::tangent> tangents = {{0.6f, 0, 0.8f, -1}};
+  const std::vector<darboux::normal> normals = {{0.8f, 0, -0.6f}};
+  expect_error(DARBOUX_STATUS_NULL_POINTER, "normals", [&] { darboux::encode_tangents<DARBOUX_TANGENT_ENCODING_DIAMOND>(tangents); });
+  std::vector<darboux::tangent> tangent_back(1);
+  std::vector<darboux::normal> normal_back(1);
+  darboux::decode_frames(darboux::encode_frames(normals, tangents), normal_back, tangent_back);
+  expect(std::fabs(normal_back[0][2] + 0.6f) < 1e-3f && std::fabs(tangent_back[0][0] - 0.6f) < 1e-3f, "quaternion");
+  normal_back = darboux::decode_normals(darboux::encode_normals(normals));
+  expect(std::fabs(normal_back[0][0] - 0.8f) < 1e-3f, "octahedral normal");
+  expect(darboux::decode_normals(darboux::encode_normals({})).empty(), "no normals");
 }
 
 static void conventions() {

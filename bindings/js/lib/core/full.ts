@@ -34,6 +34,7 @@ export interface FullExports extends Exports {
   split_indices(): number;
   split_sources(): number;
   measure_tangents(): number;
+  measure_uv_fidelity(): number;
   convention_texts(bytes: number): number;
   convert(sourceBytes: number, generated: number): number;
   convert_texels(sourceBytes: number, isWide: number, channels: number): number;
