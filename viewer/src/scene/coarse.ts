@@ -6,7 +6,7 @@ import { type Box3, BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshLambe
 import { placesOf, type Part } from './model-parts';
 
 /** The cells along the longest side of the model's box. */
-const CELLS = 96;
+const CELLS = 48;
 
 /** Makes the coarse copy. `box` contains all positions that are finite. */
 export function coarseCopy(parts: Part[], box: Box3): Mesh {
