@@ -1,4 +1,4 @@
-// Search over all sections of the site, the menu's state, and answers that open when the page is printed.
+// Search over all sections of the site, the menu's state, wide blocks that keys can scroll, and answers that open when the page is printed.
 
 'use strict';
 
@@ -70,6 +70,15 @@
   const setMenu = () => (menu.open = isWide.matches);
   isWide.addEventListener('change', setMenu);
   setMenu();
+
+  // Code and tables that are wider than the page can be scrolled by keys.
+  const wide = new ResizeObserver((blocks) => {
+    for (const { target } of blocks) {
+      if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
+      else target.removeAttribute('tabindex');
+    }
+  });
+  document.querySelectorAll('main pre, main table').forEach((block) => wide.observe(block));
 
   addEventListener('beforeprint', () => document.querySelectorAll('main details').forEach((details) => (details.open = true)));
 }

@@ -1,4 +1,5 @@
-// The documentation's site in headless Chromium. SITE is its folder; playwright-core is the one of bindings/js.
+// The documentation's site in headless Chromium. SITE is its folder; playwright-core is the one of bindings/js, and axe-core that of the viewer.
+// The environment variable PICTURES names a folder for screenshots and a printed page to look at.
 
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync, readdirSync, statSync } from 'node:fs';
@@ -8,10 +9,11 @@ import { extname, join, relative } from 'node:path';
 import { after, before, test } from 'node:test';
 
 const { chromium } = createRequire(new URL('../../bindings/js/', import.meta.url))('playwright-core');
+const axe = readFileSync(createRequire(new URL('../../viewer/', import.meta.url)).resolve('axe-core/axe.min.js'), 'utf8');
 const site = process.env.SITE;
 const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 const skip = existsSync(executablePath) || process.env.CI !== undefined ? false : `there is no Chromium at ${executablePath}`;
-const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml', '.png': 'image/png' };
+const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml', '.png': 'image/png', '.wasm': 'application/wasm' };
 
 let server;
 let browser;
@@ -46,7 +48,11 @@ async function open(path, options = {}) {
   return { page, faults, close: () => context.close() };
 }
 
-const pages = () => readdirSync(site, { recursive: true }).filter((name) => name.endsWith('.html'));
+/** All pages but the viewer's, which has tests of its own. */
+const pages = () => readdirSync(site, { recursive: true }).filter((name) => name.endsWith('.html') && !name.startsWith('viewer/'));
+
+/** The sizes of a phone, a tablet and a desktop. */
+const SCREENS = { phone: { width: 390, height: 844 }, tablet: { width: 768, height: 1024 }, desktop: { width: 1280, height: 800 } };
 
 test('every page loads without errors or missing files, and every link of every page leads somewhere', { skip, timeout: 300_000 }, async () => {
   const context = await browser.newContext();
@@ -78,6 +84,66 @@ test('every page loads without errors or missing files, and every link of every 
   }
   await context.close();
   assert.deepEqual(faults, []);
+});
+
+/** The findings of the rules for accessible pages, beside those inside the viewer's frames. */
+async function violations(page) {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => globalThis.axe.run(document, { iframes: false }));
+  return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`);
+}
+
+for (const [name, viewport] of Object.entries(SCREENS)) {
+  test(`the rules for accessible pages hold, light and dark (${name})`, { skip, timeout: 600_000 }, async () => {
+    const faults = [];
+    // Scripts of the viewer in frames would take most of the time.
+    const context = await browser.newContext({ viewport });
+    await context.route('**/viewer/**', (route) => route.abort());
+    const page = await context.newPage();
+    for (const path of pages().filter((path) => name === 'desktop' || /^(index|docs\/(learn\/|viewer|bake))/.test(path))) {
+      await page.goto(`${origin}/${path}`, { waitUntil: 'load' });
+      for (const colorScheme of ['light', 'dark']) {
+        await page.emulateMedia({ colorScheme });
+        faults.push(...(await violations(page)).map((fault) => `${path}, ${colorScheme}: ${fault}`));
+        if (process.env.PICTURES && /symptoms|5-mirrored/.test(path)) await page.screenshot({ path: join(process.env.PICTURES, `${path.replace(/.*\//, '')}-${name}-${colorScheme}.png`) });
+      }
+    }
+    await context.close();
+    assert.deepEqual(faults, []);
+  });
+}
+
+test('a lesson embeds the viewer in a state', { skip, timeout: 120_000 }, async () => {
+  const { page, faults, close } = await open('docs/learn/5-mirrored.html', { viewport: SCREENS.desktop });
+  await page.locator('iframe').scrollIntoViewIfNeeded();
+  const viewer = page.frameLocator('iframe');
+  await viewer.locator('#status', { hasText: /^768 triangles in 1 part$/ }).waitFor({ timeout: 60_000 });
+  assert.deepEqual([await viewer.locator('#left').inputValue(), await viewer.locator('#right').inputValue()], ['file', 'mikktspace']);
+  assert.ok(await viewer.locator('#lines-tangent').isChecked());
+  assert.ok((await page.locator('figure.viewer a').getAttribute('href')).startsWith('../../viewer/index.html#left=file'));
+  if (process.env.PICTURES) await page.locator('figure.viewer').screenshot({ path: join(process.env.PICTURES, 'embedded.png') });
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test('what is seen leads to the mistake in two clicks', { skip }, async () => {
+  const { page, close } = await open('index.html');
+  for (const [seen, mistake] of [
+    ['Bumps look like dents everywhere', 'map-green-flipped'],
+    ['Bumps look like dents everywhere', 'tangent-sign-flipped'],
+    ['A line down the middle', 'one-tangent-per-vertex-at-a-mirrored-seam'],
+    ['Fine until I scaled it', 'tangent-transformed-by-the-normal-matrix'],
+  ]) {
+    await page.goto(`${origin}/index.html`);
+    await page.locator('main a[href*="symptoms"]').first().click();
+    await page.locator('tr', { hasText: seen }).locator(`td:nth-child(2) a[href$="#${mistake}"]`).click();
+    await page.waitForURL(new RegExp(`#${mistake}$`));
+    const heading = page.locator(`[id="${mistake}"]`);
+    const { y } = await heading.boundingBox();
+    assert.ok(y >= 0 && y < 300, `${mistake} is at ${y}`);
+    assert.ok((await heading.locator('xpath=following::img').count()) > 0, 'a picture follows');
+  }
+  await close();
 });
 
 test('search finds sections, and its links lead to them', { skip }, async () => {
@@ -157,6 +223,7 @@ test('a page prints as text and figures, with the answers open', { skip }, async
   await page.emulateMedia({ media: 'print' });
   assert.ok(!(await page.locator('header').isVisible()));
   assert.ok(await page.locator('main details p').first().isVisible());
-  assert.ok((await page.pdf()).length > 10_000);
+  const printed = await page.pdf({ printBackground: true, ...(process.env.PICTURES ? { path: join(process.env.PICTURES, 'printed.pdf') } : {}) });
+  assert.ok(printed.length > 10_000);
   await close();
 });
