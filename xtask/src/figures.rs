@@ -40,6 +40,8 @@ const FIGURES: &[FigureFile] = &[
     ("groups", mirroring::groups),
     ("matrix-columns", shading::matrix_columns),
     ("non-uniform-scale", shading::non_uniform_scale),
+    ("interpolated-vectors", shading::interpolated_vectors),
+    ("skinned-frames", shading::skinned_frames),
     ("scatter-gather", memory::scatter_gather),
     ("vertex-layout", memory::vertex_layout),
     ("brute-force", memory::brute_force),

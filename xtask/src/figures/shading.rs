@@ -96,3 +96,95 @@ pub fn non_uniform_scale() -> Figure {
     figure.label(vec2(226.0, 205.0), "M →", "symbol", Side::Left);
     figure
 }
+
+/// Half the angle in degrees between the normals at both ends of the edge of [`interpolated_vectors`].
+const BEND: f64 = 45.0;
+
+/// An edge of a coarse mesh: interpolated vectors as they are, and normalised.
+pub fn interpolated_vectors() -> Figure {
+    let shortened = BEND.to_radians().cos();
+    let as_it_is = vec2(1.0, shortened).unit();
+    let normalised = vec2(1.0, 1.0).unit();
+    let apart = as_it_is.dot(normalised).acos().to_degrees();
+    let mut figure = Figure::new(
+        720,
+        270,
+        "Interpolated vectors, as they are and normalised",
+        &format!(
+            "Left, the normals at both ends of an edge differ by 90 degrees. Halfway, their interpolation is shorter than 1. Right, the same texel \
+             in the plane of T and n: with the short n, as the baker had it, and with n normalised. The directions are {apart:.1} degrees apart."
+        ),
+    );
+    let view = View::new(180.0, 195.0, 88.0);
+    let ends = [vec2(-1.0, 0.0), vec2(1.0, 0.0)];
+    let normals = [direction(90.0 + BEND), direction(90.0 - BEND)];
+    figure.line(view.at(ends[0]), view.at(ends[1]), "ink");
+    for step in 0..=4 {
+        let share = f64::from(step) / 4.0;
+        let start = ends[0].towards(ends[1], share);
+        figure.arrow(view.at(start), view.at(start + normals[0].towards(normals[1], share)), "normal");
+    }
+    figure.label(
+        view.at(vec2(0.0, -0.2)),
+        "interpolated normals: shorter between the ends",
+        "small",
+        Side::Centre,
+    );
+    let view = View::new(440.0, 205.0, 120.0);
+    let origin = vec2(0.0, 0.0);
+    figure.arrow(view.at(origin), view.at(vec2(1.0, 0.0)), "tangent");
+    figure.arrow(view.at(origin), view.at(vec2(0.0, shortened)), "normal");
+    figure.arrow(view.at(origin), view.at(vec2(0.0, 1.0)), "normal dashed");
+    figure.arrow(view.at(origin), view.at(as_it_is * 1.2), "dark");
+    figure.arrow(view.at(origin), view.at(normalised * 1.2), "dark dashed");
+    figure.label(view.at(vec2(1.08, 0.0)), "T", "symbol tangent", Side::Right);
+    figure.label(view.at(vec2(-0.08, shortened * 0.8)), "n", "symbol normal", Side::Left);
+    figure.label(view.at(normalised * 1.2 + vec2(0.05, 0.04)), "normalised", "small", Side::Right);
+    figure.label(view.at(as_it_is * 1.2 + vec2(0.05, -0.02)), "as it is", "small", Side::Right);
+    figure.label(
+        view.at(vec2(0.6, -0.2)),
+        &format!("the texel (0.71, 0, 0.71): {apart:.1}° apart"),
+        "small",
+        Side::Centre,
+    );
+    figure
+}
+
+/// An arm that bends: frames that bend with it, and frames that stay as they were.
+pub fn skinned_frames() -> Figure {
+    let mut figure = Figure::new(
+        720,
+        270,
+        "Frames that are skinned, and frames that are not",
+        "Left, an arm at rest with its normals and tangents. In the middle, the arm is bent, and normals and tangents bend with it. Right, only \
+         the positions are bent: normals and tangents have the directions of the arm at rest, and point into and along the wrong parts of the surface.",
+    );
+    for (x, bend, frames, words) in [
+        (110.0, 0.0, 0.0, "at rest"),
+        (350.0, 80.0, 80.0, "bent, frames too"),
+        (590.0, 80.0, 0.0, "only positions are bent"),
+    ] {
+        let view = View::new(x, 130.0, 92.0);
+        let (mut point, mut points) = (vec2(-0.95, 0.0), Vec::new());
+        let mut shown = Vec::new();
+        for step in 0..=30 {
+            // The middle third bends.
+            let bent = (f64::from(step) / 10.0 - 1.0).clamp(0.0, 1.0);
+            let way = direction(-bend * bent);
+            points.push(view.at(point));
+            if step % 6 == 3 {
+                shown.push((point, direction(-frames * bent)));
+            }
+            point = point + way * (2.0 / 30.0);
+        }
+        figure.curve(&points, "ink");
+        for (start, along) in shown {
+            figure.arrow(view.at(start), view.at(start + along * 0.3), "tangent");
+            figure.arrow(view.at(start), view.at(start + along.turned() * 0.42), "normal");
+        }
+        figure.label(vec2(x, 250.0), words, "small", Side::Centre);
+    }
+    figure.label(vec2(30.0, 30.0), "normals", "small normal", Side::Right);
+    figure.label(vec2(30.0, 50.0), "tangents", "small tangent", Side::Right);
+    figure
+}
