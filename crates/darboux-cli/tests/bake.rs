@@ -273,6 +273,35 @@ fn verification_prints_degrees_and_draws_them() {
 }
 
 #[test]
+fn errors_are_painted_on_the_model() {
+    let pair = Pair::new();
+    let painted = pair.path("painted.glb");
+    let report = pair.bake(&["--verify", "--heat-model", text(&painted), "--json"]).exits(0).json();
+    assert_eq!(report["verification"]["heat_model"], text(&painted));
+    let glb = fs::read(&painted).expect("a model");
+    let material_of = |glb: &[u8]| {
+        let mut material = Value::Null;
+        edited(glb, |json| material = json["materials"][0].clone());
+        material
+    };
+    let material = material_of(&glb);
+    let [normal, color] = [&material["normalTexture"], &material["pbrMetallicRoughness"]["baseColorTexture"]];
+    assert_eq!((&normal["texCoord"], &color["texCoord"]), (&json!(0), &json!(0)), "{material}");
+    assert!(normal["index"] != color["index"] && color["index"].is_u64(), "{material}");
+    let checked = darboux(&["check", text(&painted), "--json"]);
+    assert!(checked.code < 2, "{}", checked.stderr);
+    fs::write(pair.path("low.glb"), half_size_plate()).expect("a file");
+    pair.bake(&["--verify", "--heat-model", text(&painted), "--force"]).exits(0);
+    let material = material_of(&fs::read(&painted).expect("a model"));
+    let color = &material["pbrMetallicRoughness"]["baseColorTexture"];
+    assert_eq!(color["extensions"]["KHR_texture_transform"]["scale"], json!([0.5, 0.5]), "{material}");
+    assert!(pair.bake(&["--force", "--heat-model", text(&painted)]).exits(2).stderr.contains("--verify"));
+    let gltf = pair.path("painted.gltf");
+    let refused = pair.bake(&["--force", "--verify", "--heat-model", text(&gltf)]).exits(2).stderr;
+    assert!(refused.contains("must end in .glb"), "{refused}");
+}
+
+#[test]
 fn a_model_is_written_that_bakes_to_the_same_map() {
     let pair = Pair::new();
     for (case, method) in [("mikktspace", None), ("lengyel", Some("lengyel"))] {
@@ -345,6 +374,104 @@ fn object_space_maps_become_tangent_space_ones_and_back() {
     );
 }
 
+/// A plate that leans along both axes of the image, as an OBJ.
+const LEANING: &str = "v 0 0 0\nv 1 0 0.5\nv 1 1 0.2\nv 0 1 -0.3\nf 1 2 3 4\n";
+
+/// Both maps of a bake in one convention are converted into every other one.
+#[test]
+fn spaces_are_converted_between_all_conventions() {
+    let pair = Pair::new();
+    let [low, high] = ["low.glb", "leaning.obj"].map(|name| pair.path(name));
+    fs::write(&high, LEANING).expect("a file");
+    let names = ["gltf", "unreal", "unity", "directx"];
+    for name in names {
+        let maps = pair.path(&format!("{name}.png"));
+        let line = ["bake", text(&low), "--high", text(&high), "-o", text(&maps), "--size", "16"];
+        let more = ["--map", "normal,object-normal", "--bits", "16", "--convention", name];
+        darboux(&[&line[..], &more, &["--cage-offset", "1"]].concat()).exits(0);
+    }
+    let mut seen: Vec<Vec<f64>> = Vec::new();
+    for from in names {
+        for to in names {
+            for (space, of, kind) in
+                [("tangent", "object-normal", "normal"), ("object", "normal", "object-normal")]
+            {
+                let [map, result] =
+                    [format!("{from}.{of}.png"), format!("{from}-{to}.png")].map(|name| pair.path(&name));
+                let line = ["convert", text(&map), "--from", from, "--to", to, "--space", space, "--force"];
+                darboux(&[&line[..], &["--model", text(&low), "-o", text(&result)]].concat()).exits(0);
+                let (found, _) = pair.texel(&format!("{from}-{to}.png"));
+                let (expected, _) = pair.texel(&format!("{to}.{kind}.png"));
+                // Both roundings, of half a code each, through a frame of orthogonal unit vectors.
+                assert!(
+                    near(&found, &expected, 2.0 / 65535.0),
+                    "{from} {to} {space}: {found:?} {expected:?}"
+                );
+                seen.push(expected);
+            }
+        }
+    }
+    // The conventions tell themselves apart on this plate.
+    assert!(seen.iter().any(|texel| !near(texel, &seen[0], 0.1)));
+}
+
+/// The first texel of a map, or all bytes, differ with an option from those without it.
+#[test]
+fn every_option_that_changes_a_map_acts() {
+    let pair = Pair::new();
+    let obj = |name: &str, text: &str| {
+        fs::write(pair.path(name), text).expect("a file");
+        pair.path(name)
+    };
+    let leaning = obj("leaning.obj", LEANING);
+    let turned = obj("turned.obj", "v 0 0 0\nv 1 0 0.5\nv 1 1 0.5\nv 0 1 0\nf 4 3 2 1\n");
+    let step =
+        obj("step.obj", &format!("{LEANING}v 0.31 0 0.6\nv 1 0 0.6\nv 1 1 0.7\nv 0.31 1 0.6\nf 5 6 7 8\n"));
+    let wall = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nv 0.2 0 0\nv 0.2 1 0\nv 0.2 1 0.4\nv 0.2 0 0.4\nf 5 6 7 8\n";
+    let wall = obj("wall.obj", wall);
+    let half = pair.path("half.glb");
+    fs::write(&half, half_size_plate()).expect("a file");
+    let (low, shield) = (pair.path("low.glb"), asset("made/shield.glb"));
+    let map = pair.path("option.png");
+    let baked = |low: &Path, high: &Path, more: &[&str]| {
+        let line = ["bake", text(low), "--high", text(high), "-o", text(&map), "--force", "-q"];
+        darboux(&[&line[..], more].concat()).exits(0);
+        fs::read(&map).expect("a map")
+    };
+    let common = ["--size", "16", "--bits", "16", "--cage-offset", "1"];
+    let ao = [&common[..], &["--map", "ao"]].concat();
+    let near_only = ["--size", "64", "--bits", "16", "--cage-offset", "0.01"];
+    let cases: [(&Path, &Path, &[&str], &[&str]); 8] = [
+        (&low, &leaning, &common[2..], &["--size", "32"]),
+        (&low, &step, &common, &["--samples", "16"]),
+        (&low, &leaning, &common, &["--convention", "directx"]),
+        (&half, &leaning, &common, &["--padding", "1"]),
+        (&low, &wall, &ao, &["--ao-rays", "7"]),
+        (&low, &wall, &ao, &["--ao-distance", "0.05"]),
+        (&low, &turned, &common, &["--back-faces"]),
+        (&shield, &shield, &near_only, &["--bitangent", "vertex"]),
+    ];
+    for (low, high, common, option) in cases {
+        let without = baked(low, high, common);
+        assert!(baked(low, high, &[common, option].concat()) != without, "{option:?}");
+        assert!(baked(low, high, &[common, &["--jobs", "3"]].concat()) == without, "threads change nothing");
+    }
+}
+
+#[test]
+fn faces_of_an_obj_with_many_corners_are_baked() {
+    let pair = Pair::new();
+    // A plate as one face of eight corners.
+    let corners =
+        "v 0 0 0.2\nv 0.5 0 0.2\nv 1 0 0.2\nv 1 0.5 0.2\nv 1 1 0.2\nv 0.5 1 0.2\nv 0 1 0.2\nv 0 0.5 0.2\n";
+    fs::write(pair.path("n.obj"), format!("{corners}f 1 2 3 4 5 6 7 8\n")).expect("a file");
+    let [low, high, map] = ["low.glb", "n.obj", "map.png"].map(|name| pair.path(name));
+    let line = ["bake", text(&low), "--high", text(&high), "-o", text(&map), "--size", "20", "--json"];
+    let counts = darboux(&[&line[..], &["--cage-offset", "1"]].concat()).exits(0).json()["counts"].clone();
+    let [triangles, missed] = ["high_triangles", "missed_texels"].map(|name| counts[name].clone());
+    assert_eq!((triangles, missed), (json!(6), json!(0)), "{counts}");
+}
+
 #[test]
 fn an_obj_can_be_the_high_model() {
     let pair = Pair::new();
@@ -373,6 +500,17 @@ fn normal_maps_of_high_models_count() {
     };
     assert!(near(&again(&[]), &leaning, 1.5 / 65535.0));
     assert!(near(&again(&["--no-high-maps"]), &[0.5, 0.5, 1.0], 1.0 / 65535.0));
+}
+
+/// A plate whose normal map shows its UVs at half their size.
+fn half_size_plate() -> Vec<u8> {
+    edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+        json["meshes"][0]["primitives"][0]["material"] = 0.into();
+        let transform = json!({"KHR_texture_transform": {"scale": [0.5, 0.5]}});
+        json["materials"] = json!([{"normalTexture": {"index": 0, "extensions": transform}}]);
+        json["textures"] = json!([{}]);
+        json["extensionsUsed"] = json!(["KHR_texture_transform"]);
+    })
 }
 
 /// A GLB with its JSON edited.
@@ -414,14 +552,7 @@ fn a_material_can_be_chosen_and_several_are_named() {
 #[test]
 fn the_texture_transform_of_the_low_model_counts() {
     let pair = Pair::new();
-    let half = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
-        json["meshes"][0]["primitives"][0]["material"] = 0.into();
-        let transform = json!({"KHR_texture_transform": {"scale": [0.5, 0.5]}});
-        json["materials"] = json!([{"normalTexture": {"index": 0, "extensions": transform}}]);
-        json["textures"] = json!([{}]);
-        json["extensionsUsed"] = json!(["KHR_texture_transform"]);
-    });
-    fs::write(pair.path("low.glb"), half).expect("a file");
+    fs::write(pair.path("low.glb"), half_size_plate()).expect("a file");
     let model = pair.path("model.glb");
     let line = ["--json", "--write-model", text(&model)];
     let counts = pair.bake(&line).exits(0).json()["counts"].clone();

@@ -170,6 +170,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--normals', '--normals', [CompletionResultType]::ParameterName, 'Generate missing normals of the low model first: flat, smooth or crease=DEG; keep generates none')
             [CompletionResult]::new('--write-model', '--write-model', [CompletionResultType]::ParameterName, 'Write the low model with the normal map in its materials and the tangents in its vertices')
             [CompletionResult]::new('--heat-map', '--heat-map', [CompletionResultType]::ParameterName, 'Draw these errors over the UV layout, on a scale from 0.01 to 180 degrees')
+            [CompletionResult]::new('--heat-model', '--heat-model', [CompletionResultType]::ParameterName, 'Write the low model painted with these errors, on the same scale; `darboux render` and every viewer show it')
             [CompletionResult]::new('--jobs', '--jobs', [CompletionResultType]::ParameterName, 'How many threads work; by default one per processor core')
             [CompletionResult]::new('--memory-limit', '--memory-limit', [CompletionResultType]::ParameterName, 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file')
             [CompletionResult]::new('--back-faces', '--back-faces', [CompletionResultType]::ParameterName, 'Let rays hit triangles from behind')

@@ -73,7 +73,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__bake)
-            opts="-o -q -h --high --output --map --size --bits --samples --convention --padding --ao-rays --ao-distance --distance --cage-offset --cage --match --back-faces --no-high-maps --method --bitangent --uv-set --material --normals --write-model --verify --heat-map --jobs --force --allow-outside --memory-limit --json --quiet --help"
+            opts="-o -q -h --high --output --map --size --bits --samples --convention --padding --ao-rays --ao-distance --distance --cage-offset --cage --match --back-faces --no-high-maps --method --bitangent --uv-set --material --normals --write-model --verify --heat-map --heat-model --jobs --force --allow-outside --memory-limit --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -164,6 +164,10 @@ _darboux() {
                     return 0
                     ;;
                 --heat-map)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --heat-model)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

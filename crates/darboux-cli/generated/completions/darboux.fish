@@ -325,6 +325,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand bake" -l material -d 'Ba
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l normals -d 'Generate missing normals of the low model first: flat, smooth or crease=DEG; keep generates none' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l write-model -d 'Write the low model with the normal map in its materials and the tangents in its vertices' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l heat-map -d 'Draw these errors over the UV layout, on a scale from 0.01 to 180 degrees' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l heat-model -d 'Write the low model painted with these errors, on the same scale; `darboux render` and every viewer show it' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l jobs -d 'How many threads work; by default one per processor core' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l back-faces -d 'Let rays hit triangles from behind'

@@ -1,4 +1,4 @@
-//! Gives materials a normal map.
+//! Gives materials a normal map, and paints them.
 
 use std::collections::BTreeMap;
 
@@ -56,6 +56,68 @@ impl Document {
         Ok(())
     }
 
+    /// Paints primitives: replaces their materials by matte ones with their normal map and a new base colour, embedded as a PNG, which uses the
+    /// UVs of the normal map.
+    ///
+    /// Primitives whose material has no normal map stay as they are. A material that other primitives have, too, changes for all of them.
+    /// Errors: a primitive that does not exist; a material that cannot be edited.
+    pub fn paint(&mut self, png: Vec<u8>, name: &str, primitives: &[PrimitiveName]) -> Result<(), Error> {
+        let broken = |error: serde_json::Error| {
+            ContentError::invalid("materials", format!("cannot be edited: {error}; export it again"))
+        };
+        let texture = self.push_texture(png, name).map_err(broken);
+        let texture = texture.map_err(|error| error.in_file(self.name()))?;
+        for primitive in primitives {
+            let stored = self.root.meshes.get(primitive.mesh);
+            let stored = stored.and_then(|mesh| mesh.primitives.get(primitive.primitive));
+            let Some(stored) = stored else {
+                return Err(self.invalid(primitive.path(), "does not exist; name one of the document"));
+            };
+            if let Some(material) = stored.material {
+                let painted = self.paint_material(material, texture).map_err(broken);
+                painted.map_err(|error| error.in_file(self.name()))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn paint_material(&mut self, material: usize, texture: usize) -> serde_json::Result<()> {
+        let Some(text) = self.material_text(material)? else { return Ok(()) };
+        let Some(normal) = member(&text, "normalTexture")? else { return Ok(()) };
+        let color = set_member(normal, "index", Some(&texture.to_string()))?;
+        let color = set_member(&color, "scale", None)?;
+        let two_sided = member(&text, "doubleSided")?.unwrap_or("false");
+        let painted = format!(
+            "{{\"normalTexture\":{normal},\"doubleSided\":{two_sided},\"pbrMetallicRoughness\":{{\"baseColorTexture\":{color},\"metallicFactor\":0}}}}"
+        );
+        let stored = self.stored_materials()?.len();
+        match material.checked_sub(stored) {
+            Some(appended) => self.edits.appended.entry("materials").or_default()[appended] = painted,
+            None => {
+                self.edits.scene.entry("materials").or_default().insert(material, painted);
+            }
+        }
+        Ok(())
+    }
+
+    /// The materials as they were read.
+    fn stored_materials(&self) -> serde_json::Result<Vec<&RawValue>> {
+        serde_json::from_str(member(self.text(), "materials")?.unwrap_or("[]"))
+    }
+
+    /// A material with the edits so far; `None` if it does not exist.
+    fn material_text(&self, material: usize) -> serde_json::Result<Option<String>> {
+        if let Some(edited) = self.edits.scene.get("materials").and_then(|edited| edited.get(&material)) {
+            return Ok(Some(edited.clone()));
+        }
+        let stored = self.stored_materials()?;
+        let appended = self.edits.appended.get("materials").map(Vec::as_slice).unwrap_or_default();
+        Ok(match material.checked_sub(stored.len()) {
+            Some(place) => appended.get(place).cloned(),
+            None => Some(stored[material].get().to_owned()),
+        })
+    }
+
     /// Appends an image and a texture with it. Returns the index of the texture.
     fn push_texture(&mut self, png: Vec<u8>, name: &str) -> serde_json::Result<usize> {
         let view = self.push_view(png, 1, 1, None);
@@ -89,16 +151,7 @@ impl Document {
         texture: usize,
         uv_set: usize,
     ) -> serde_json::Result<()> {
-        let edited = self.edits.scene.get("materials").and_then(|edited| edited.get(&material));
-        let text = match edited {
-            Some(edited) => edited.clone(),
-            None => {
-                let stored: Vec<&RawValue> =
-                    serde_json::from_str(member(self.text(), "materials")?.unwrap_or("[]"))?;
-                let Some(stored) = stored.get(material) else { return Ok(()) };
-                stored.get().to_owned()
-            }
-        };
+        let Some(text) = self.material_text(material)? else { return Ok(()) };
         let old = self.root.materials[material].normal_texture.take();
         let keeps_transform = old.as_ref().is_some_and(|old| {
             let of_transform = old.extensions.transform.as_ref().and_then(|transform| transform.tex_coord);

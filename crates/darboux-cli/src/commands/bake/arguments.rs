@@ -158,6 +158,10 @@ pub struct BakeArguments {
     #[arg(long, value_name = "PNG", requires = "verify", help_heading = "Results")]
     pub heat_map: Option<PathBuf>,
 
+    /// Write the low model painted with these errors, on the same scale; `darboux render` and every viewer show it
+    #[arg(long, value_name = "GLB", requires = "verify", help_heading = "Results")]
+    pub heat_model: Option<PathBuf>,
+
     /// How many threads work; by default one per processor core
     #[arg(long, value_name = "NUMBER", value_parser = jobs)]
     pub jobs: Option<NonZero<u16>>,

@@ -1,4 +1,6 @@
-//! `--write-model`: the low model with the map in its materials and the tangents in its vertices.
+//! `--write-model`: the low model with the map in its materials and the tangents in its vertices; `--heat-model`: painted with errors.
+
+use std::path::Path;
 
 use darboux_bake::LowModel;
 use darboux_io::SaveOptions;
@@ -42,4 +44,23 @@ pub fn write_model(
     let written =
         document.save(path, &SaveOptions::default().with_force(arguments.force)).map_err(sentence)?;
     Ok(written.last().map(|path| path.display().to_string()))
+}
+
+/// Writes the low model with a texture as its colour and without detail; returns the path. Errors are one sentence each.
+pub fn write_painted(
+    arguments: &BakeArguments,
+    low: &LowModel<'_>,
+    texture: &PngImage,
+    path: &Path,
+) -> Result<String, String> {
+    let sentence = |error: darboux_io::Error| error.to_string();
+    let mut document = open_low(arguments, &mut Vec::new())?;
+    let primitives: Vec<_> = low.primitives().map(|(name, uv_set)| (name.clone(), uv_set)).collect();
+    let names: Vec<_> = primitives.iter().map(|(name, _)| name.clone()).collect();
+    let flat = PngImage::from_rgb("flat", [1, 1], &[[128u8, 128, 255]]).and_then(|flat| flat.to_bytes());
+    document.set_normal_map(flat.map_err(sentence)?, "flat", &primitives).map_err(sentence)?;
+    document.paint(texture.to_bytes().map_err(sentence)?, "errors", &names).map_err(sentence)?;
+    let _guard = interrupt::writing();
+    document.save(path, &SaveOptions::default().with_force(arguments.force)).map_err(sentence)?;
+    Ok(path.display().to_string())
 }

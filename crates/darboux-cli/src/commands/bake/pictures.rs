@@ -46,14 +46,30 @@ pub fn misses(
 /// The errors of a verification with the scale below them.
 pub fn heat_map(name: &str, verification: &Verification) -> Result<PngImage, String> {
     let [width, height] = verification.heat_size;
-    let color = |error: &f32| match error.is_nan() {
-        true => OUTSIDE,
-        false => ramp(scale_position(f64::from(*error))),
-    };
-    let mut texels: Vec<[u8; 3]> = verification.heat.iter().map(color).collect();
+    let mut texels = heat_colors(verification);
     texels.resize(width as usize * (height as usize + GAP), [0; 3]);
     let scale = row(width as usize);
     (0..SCALE).for_each(|_| texels.extend_from_slice(&scale));
     let size = [width, height + (GAP + SCALE) as u32];
     PngImage::from_rgb(name, size, &texels).map_err(|error| error.to_string())
+}
+
+/// The errors of a verification without a scale, as a texture. Texels outside the charts have the colour of the texel before them, so that
+/// filters do not darken the borders.
+pub fn heat_texture(name: &str, verification: &Verification) -> Result<PngImage, String> {
+    let mut texels = heat_colors(verification);
+    for at in 1..texels.len() {
+        if verification.heat[at].is_nan() {
+            texels[at] = texels[at - 1];
+        }
+    }
+    PngImage::from_rgb(name, verification.heat_size, &texels).map_err(|error| error.to_string())
+}
+
+fn heat_colors(verification: &Verification) -> Vec<[u8; 3]> {
+    let color = |error: &f32| match error.is_nan() {
+        true => OUTSIDE,
+        false => ramp(scale_position(f64::from(*error))),
+    };
+    verification.heat.iter().map(color).collect()
 }

@@ -98,7 +98,10 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
     let model = write_model(arguments, &low, written.normal.as_ref(), &mut warnings)?;
     let verification = match &written.normal {
         Some(normal) if arguments.verify => {
-            Some(Verified::new(arguments, (&surfaces, &high_surfaces), &baked.images, normal, &options)?)
+            let surfaces = (&surfaces[..], &high_surfaces[..]);
+            let mut verified = Verified::new(arguments, surfaces, &baked.images, normal, &options)?;
+            verified.write_model(arguments, &low)?;
+            Some(verified)
         }
         _ => None,
     };

@@ -2,13 +2,14 @@
 
 use darboux::{Context, Convention};
 use darboux_bake::{
-    BakeOptions, ErrorStatistics, HighSurface, Images, LowSurface, Mistake, NormalTexture, Verification,
-    VerifiedPlace, verify,
+    BakeOptions, ErrorStatistics, HighSurface, Images, LowModel, LowSurface, Mistake, NormalTexture,
+    Verification, VerifiedPlace, verify,
 };
 use darboux_io::image::{Channels, PngImage, normal_vectors};
 use serde::Serialize;
 
 use super::arguments::BakeArguments;
+use super::model::write_painted;
 use super::pictures;
 use super::write::save;
 
@@ -18,6 +19,7 @@ pub struct Verified {
     #[serde(flatten)]
     errors: Verification,
     heat_map: Option<String>,
+    heat_model: Option<String>,
 }
 
 impl Verified {
@@ -43,7 +45,15 @@ impl Verified {
             save(&picture, path, arguments.force)
         };
         let heat_map = arguments.heat_map.as_ref().map(draw).transpose()?;
-        Ok(Self { errors, heat_map })
+        Ok(Self { errors, heat_map, heat_model: None })
+    }
+
+    /// Writes the low model with these errors as its colours, if that was asked for. Errors are one sentence each.
+    pub fn write_model(&mut self, arguments: &BakeArguments, low: &LowModel<'_>) -> Result<(), String> {
+        let Some(path) = &arguments.heat_model else { return Ok(()) };
+        let texture = pictures::heat_texture(&path.display().to_string(), &self.errors)?;
+        self.heat_model = Some(write_painted(arguments, low, &texture, path)?);
+        Ok(())
     }
 
     /// The statistics as a table.
@@ -70,6 +80,7 @@ impl Verified {
             }
         }
         lines.extend(self.heat_map.iter().map(|path| format!("{path}: these errors over the UV layout")));
+        lines.extend(self.heat_model.iter().map(|path| format!("{path}: these errors on the low model")));
         lines
     }
 }

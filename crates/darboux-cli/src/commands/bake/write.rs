@@ -69,18 +69,20 @@ pub fn refuse_outputs(arguments: &BakeArguments) -> Result<(), String> {
 
 /// Refuses a model and a heat map that cannot be what was asked for.
 fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
-    let BakeArguments { map, write_model, heat_map, verify, .. } = arguments;
+    let BakeArguments { map, write_model, heat_map, heat_model, verify, .. } = arguments;
     let needs_normals = [(write_model.is_some(), "--write-model"), (*verify, "--verify")];
     if let Some((_, option)) = needs_normals.iter().find(|(is_set, _)| *is_set)
         && !map.contains(&MapChoice::Normal)
     {
         return Err(format!("{option} needs a normal map; add normal to --map"));
     }
-    if let Some(model) = write_model {
+    for model in write_model.iter().chain(heat_model) {
         refuse_missing_folder(model)?;
         if !model.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("glb")) {
             return Err(format!("{}: the model is a GLB; its name must end in .glb", model.display()));
         }
+    }
+    if write_model.is_some() {
         let conversion = arguments.map_convention().to(Convention::GLTF);
         if conversion.inverts_red() || conversion.inverts_green() {
             return Err(
@@ -105,7 +107,8 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
 /// Every file that the arguments name for writing.
 pub fn all_outputs(arguments: &BakeArguments) -> Vec<PathBuf> {
     let maps = outputs(arguments).into_iter().map(|(_, path)| path);
-    maps.chain(arguments.write_model.clone()).chain(arguments.heat_map.clone()).collect()
+    let BakeArguments { write_model, heat_map, heat_model, .. } = arguments;
+    maps.chain([write_model, heat_map, heat_model].into_iter().flatten().cloned()).collect()
 }
 
 /// Writes an image and returns its path. Errors are one sentence each.
