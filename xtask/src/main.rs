@@ -1,6 +1,7 @@
 //! `cargo xtask <task>`: every check, generator, measurement and package that a person or CI runs.
 
 mod api;
+mod bake_pictures;
 mod bench;
 mod ci;
 mod conformance;
@@ -49,6 +50,7 @@ checks
 
 generated files
   gen              write them: command-line reference, man pages, completions, darboux.h, shaders, lists of the public API
+  bake-pictures    draw the pictures of docs/bake.md (minutes; needs a Vulkan adapter)
   figures          write only the figures of docs/learn
 
 measurements
@@ -84,6 +86,7 @@ fn main() -> ExitCode {
         ["ci"] => ci::quick(),
         ["ci", "--full"] => ci::full(),
         ["gen"] => generated::write(),
+        ["bake-pictures"] => bake_pictures::draw(),
         ["figures"] => figures::write(run::root()),
         ["site"] => site::make(),
         ["site", "--check"] => site::check(),

@@ -13,7 +13,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux-gpu", &["darboux", "darboux-tests"]),
     ("darboux-render", &["darboux", "darboux-io", "darboux-gpu", "darboux-dice"]),
     ("darboux-check", &["darboux", "darboux-io", "darboux-tests"]),
-    ("darboux-bake", &["darboux", "darboux-io", "darboux-dice"]),
+    ("darboux-bake", &["darboux", "darboux-io", "darboux-dice", "darboux-tests"]),
     (
         "darboux-cli",
         &[
