@@ -634,7 +634,7 @@ fn wrong_use_is_refused() {
     says(&["--samples", "5"], 2, "expected a square number");
     says(&["--bits", "12"], 2, "expected 8 or 16");
     says(&["--map", "curvature"], 2, "possible values");
-    says(&["--uv-set", "3"], 1, "the low model has no triangles");
+    says(&["--uv-set", "3"], 1, "no triangles have TEXCOORD_3");
     fs::write(pair.path("low.glb"), plate([0.0, 0.0], &["POSITION", "TEXCOORD_0"], 1.0)).expect("a file");
     says(&[], 1, "has no normals");
     pair.bake(&["--normals", "smooth"]).exits(0);

@@ -22,7 +22,7 @@ pub fn open_high(
     }
     let mut document = load(&Input::File(path.to_owned()), &arguments.reading)?;
     document.decompress().map_err(sentence)?;
-    warnings.extend(document.warnings().iter().cloned());
+    warnings.extend(named_warnings(&document));
     Ok(document)
 }
 
@@ -31,10 +31,15 @@ pub fn open_low(arguments: &BakeArguments, warnings: &mut Vec<String>) -> Result
     let sentence = |error: darboux_io::Error| error.to_string();
     let mut document = load(&Input::File(arguments.low.clone()), &arguments.reading)?;
     document.decompress().map_err(sentence)?;
-    warnings.extend(document.warnings().iter().cloned());
+    warnings.extend(named_warnings(&document));
     if let Some(options) = arguments.normals.options() {
         let options = AddNormalsOptions::default().with_normals(options);
         warnings.extend(add_normals(&mut document, &options, &mut |_| {}).map_err(sentence)?.warnings);
     }
     Ok(document)
+}
+
+/// The warnings of a document with its name, which tells several models apart.
+fn named_warnings(document: &Document) -> impl Iterator<Item = String> {
+    document.warnings().iter().map(|warning| format!("{}: {warning}", document.name()))
 }

@@ -65,6 +65,13 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
 
     let low_corners = low_document.corners().map_err(sentence)?;
     let low = LowModel::read(&low_document, &low_corners, &low_options(arguments)).map_err(sentence)?;
+    if low.primitives().next().is_none() && low.without_uvs > 0 {
+        let set = arguments.uv_set.map_or("UVs".to_owned(), |set| format!("TEXCOORD_{set}"));
+        let name = low_document.name();
+        return Err(format!(
+            "{name}: no triangles have {set}, onto which to bake; `darboux inspect` lists the UV sets"
+        ));
+    }
     let high_options = HighModelOptions::default().with_normal_maps(!arguments.no_high_maps);
     let high_corners: Vec<_> =
         high_documents.iter().map(Document::corners).collect::<Result<_, _>>().map_err(sentence)?;
