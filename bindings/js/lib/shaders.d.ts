@@ -1,7 +1,7 @@
 // The types of the shader lists of crates/darboux-gpu (shaders/*.json). build.mjs embeds them with the text of each file in place of its name.
 
 declare module 'darboux-gpu/kernels' {
-  type Kernel = 'adjacency' | 'average' | 'scan' | 'terms' | 'gather' | 'repair' | 'write';
+  type Kernel = 'adjacency' | 'average' | 'lengyel' | 'scan' | 'terms' | 'gather' | 'repair' | 'write';
   const kernels: Readonly<Record<Kernel, readonly string[]>>;
   export default kernels;
 }

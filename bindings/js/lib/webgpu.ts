@@ -1,5 +1,5 @@
 // `darboux/webgpu`: tangents on WebGPU. MikkTSpace of whole meshes (`generateTangents`), tangents of moving vertices (`Planner`), and the
-// method 'average' per vertex (`Average`).
+// methods 'average' and 'lengyel' per vertex (`Average`).
 
 import kernels from 'darboux-gpu/kernels';
 import { adjacency } from 'darboux-gpu/passes';
@@ -14,10 +14,10 @@ export type { GpuAttribute, GpuMovingMesh } from './gpu/planner.js';
 export type * from './types.js';
 
 /**
- * The WGSL of plans and of 'average', by kernel. A kernel is the concatenation of its texts, after declarations of the constants WORKGROUP,
+ * The WGSL of plans and of 'average' and 'lengyel', by kernel. A kernel is the concatenation of its texts, after declarations of the constants WORKGROUP,
  * VALUES_PER_THREAD, BLOCK, MAX_GROUPS and MAX_ITERATIONS.
  */
-export const shaders: Readonly<Record<'adjacency' | 'average' | 'scan' | 'terms' | 'gather' | 'repair' | 'write', readonly string[]>> = kernels;
+export const shaders: Readonly<Record<'adjacency' | 'average' | 'lengyel' | 'scan' | 'terms' | 'gather' | 'repair' | 'write', readonly string[]>> = kernels;
 
 /**
  * Opens a device of the adapter that the browser considers fastest, with the largest buffer limits of that adapter.
@@ -106,7 +106,8 @@ export interface GpuFrames {
 }
 
 /**
- * The method 'average' of `darboux` per vertex, compiled for a device: the mean of the adjacent triangles' unit tangents.
+ * The method 'average' or 'lengyel' of `darboux` per vertex, compiled for a device: the mean of the adjacent triangles' unit tangents, or the
+ * sum of their tangents dP/du, not normalised (E. Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001).
  *
  * The CPU splits a vertex where both UV orientations meet. The device gives such a vertex the frame of the orientation with more triangles,
  * and counts it: split such vertices first. The sign is that of the UVs as given. The sums have the bits of the CPU; divisions and square
@@ -117,10 +118,12 @@ export class Average {
   readonly #adjacency: PassProgram;
   readonly #gather: GPUComputePipeline;
 
-  constructor(device: GPUDevice) {
+  /** Errors: RangeError for another method. */
+  constructor(device: GPUDevice, method: 'average' | 'lengyel' = 'average') {
+    if (method !== 'average' && method !== 'lengyel') throw new RangeError(`method is '${method}'; use 'average' or 'lengyel'`);
     this.#device = device;
     this.#adjacency = PassProgram.compileLazily(device, shaders, adjacency);
-    this.#gather = computePipeline(device, shaderModule(device, shaders.average), 'gather');
+    this.#gather = computePipeline(device, shaderModule(device, shaders[method]), 'gather');
   }
 
   /** Binds a mesh. Errors: RangeError for a number of indices that is not a multiple of 3, for strides and offsets that are not multiples of 4,

@@ -1,5 +1,5 @@
-//! `Method::Average` of the core on the GPU: each vertex gets the mean of the unit tangents and bitangents of its triangles. One thread
-//! computes one vertex.
+//! `Method::Average` and `Method::Lengyel` of the core on the GPU: each vertex gets the sum of the tangents and bitangents of its triangles,
+//! made unit before they are added or not. One thread computes one vertex.
 
 use wgpu::{Buffer, CommandEncoder, ComputePipeline, Device};
 
@@ -19,7 +19,8 @@ pub enum Search {
     Adjacency,
 }
 
-/// `Method::Average` of the core per vertex, compiled for a device.
+/// `Method::Average` or `Method::Lengyel` of the core per vertex, compiled for a device: the direction of the sum of what the triangles around
+/// a vertex add, in the plane of its normal.
 ///
 /// The core splits a vertex with triangles of both UV orientations. Here such a vertex gets the frame of the orientation with more triangles,
 /// or of the unmirrored one if both have as many, and is counted; split the vertices first to avoid this (`darboux::split_vertices`). A
@@ -52,10 +53,23 @@ pub struct AverageOfMesh {
 }
 
 impl Average {
-    /// Compiles the shaders.
+    /// Compiles `Method::Average`: every triangle adds the unit vectors along dP/du and dP/dv.
     pub fn new(device: &Device, search: Search) -> Self {
+        Self::compile(device, UNIT_TERMS, search)
+    }
+
+    /// Compiles `Method::Lengyel`: every triangle adds dP/du and dP/dv, not normalised, so that triangles with little UV area for their size
+    /// count more.
+    ///
+    /// Source: E. Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001.
+    pub fn lengyel(device: &Device, search: Search) -> Self {
+        Self::compile(device, LENGYEL_TERMS, search)
+    }
+
+    /// `terms`: [`UNIT_TERMS`] or [`LENGYEL_TERMS`].
+    fn compile(device: &Device, terms: &'static str, search: Search) -> Self {
         let compile = |storage, name| {
-            compute_pipeline(device, &shader_module(device, &shader_files(search, storage)), name)
+            compute_pipeline(device, &shader_module(device, &shader_files(terms, search, storage)), name)
         };
         let (last, kernels) = match search {
             Search::BruteForce => {
@@ -166,13 +180,17 @@ const WORDS_PER_SUMS: u32 = 16;
 const WRITE_IN_PLACE: &str = include_str!("../shaders/average/write_in_place.wgsl");
 pub(crate) const WRITE_TO_BUFFER: &str = include_str!("../shaders/average/write_to_buffer.wgsl");
 
-/// The files of the shader. `storage`: [`WRITE_IN_PLACE`] or [`WRITE_TO_BUFFER`].
-pub(crate) fn shader_files(search: Search, storage: &'static str) -> [&'static str; 7] {
+pub(crate) const UNIT_TERMS: &str = include_str!("../shaders/average/unit_terms.wgsl");
+pub(crate) const LENGYEL_TERMS: &str = include_str!("../shaders/average/lengyel_terms.wgsl");
+
+/// The files of the shader. `terms`: [`UNIT_TERMS`] or [`LENGYEL_TERMS`]. `storage`: [`WRITE_IN_PLACE`] or [`WRITE_TO_BUFFER`].
+pub(crate) fn shader_files(terms: &'static str, search: Search, storage: &'static str) -> [&'static str; 8] {
     [
         include_str!("../shaders/device/mesh.wgsl"),
         include_str!("../shaders/precision/device_floats.wgsl"),
         include_str!("../shaders/precision/correct_rounding.wgsl"),
         storage,
+        terms,
         include_str!("../shaders/average/sums.wgsl"),
         include_str!("../shaders/average/frame.wgsl"),
         match search {
@@ -182,8 +200,13 @@ pub(crate) fn shader_files(search: Search, storage: &'static str) -> [&'static s
     ]
 }
 
-/// The files of both ways to write, for tests without a device.
+/// The files of both methods and of both ways to write, for tests without a device.
 #[cfg(test)]
-pub(crate) fn all_shader_files(search: Search) -> [[&'static str; 7]; 2] {
-    [WRITE_IN_PLACE, WRITE_TO_BUFFER].map(|storage| shader_files(search, storage))
+pub(crate) fn all_shader_files(search: Search) -> [[&'static str; 8]; 4] {
+    [
+        shader_files(UNIT_TERMS, search, WRITE_IN_PLACE),
+        shader_files(UNIT_TERMS, search, WRITE_TO_BUFFER),
+        shader_files(LENGYEL_TERMS, search, WRITE_IN_PLACE),
+        shader_files(LENGYEL_TERMS, search, WRITE_TO_BUFFER),
+    ]
 }

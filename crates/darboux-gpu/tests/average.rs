@@ -1,11 +1,11 @@
-//! Compares the method `Average` on every adapter, with both searches, with the core and with the oracle in double precision.
+//! Compares the methods `Average` and `Lengyel` on every adapter, with both searches, with the core and with the oracle in double precision.
 
 mod common;
 
 use common::bound::{KnownFrame, U, dot, known, length};
 use common::{
     APART, APART_STRIDE, ENGINE, ENGINE_FRAME, Found, GpuFrame, Packed, Place, UNTOUCHED, frames, gpus, pack,
-    run, triangulated,
+    run, run_method, triangulated,
 };
 use darboux::{Method, TangentOptions, generate_frames};
 use darboux_gpu::{FrameLayout, Search, VertexLayout};
@@ -21,29 +21,27 @@ struct Tally {
     of_bound: f64,
 }
 
+/// Compares both methods. `tallies`: of `Average` and of `Lengyel`.
+fn check(name: &str, mesh: &OwnedMesh, [average, lengyel]: &mut [Tally; 2]) {
+    check_method(Method::Average, name, mesh, average);
+    check_method(Method::Lengyel, &format!("{name}, Lengyel"), mesh, lengyel);
+}
+
 /// Runs a mesh with both searches, into a separate buffer and in place, and compares the frames with the core.
-fn check(name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
+fn check_method(method: Method, name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
     let mesh = triangulated(mesh);
     if mesh.corner_count() == 0 {
         return;
     }
     for gpu in gpus() {
         let packed = pack(&mesh, ENGINE);
-        let found = run(gpu, Search::Adjacency, &packed, Place::Apart);
-        assert_eq!(found, run(gpu, Search::BruteForce, &packed, Place::Apart), "{name}: brute force");
-        check_in_place(
-            name,
-            &packed,
-            &found,
-            &run(gpu, Search::Adjacency, &packed, Place::InPlace(ENGINE_FRAME)),
-        );
-        check_in_place(
-            name,
-            &packed,
-            &found,
-            &run(gpu, Search::BruteForce, &packed, Place::InPlace(ENGINE_FRAME)),
-        );
-        compare(name, &mesh, &frames(&found), tally);
+        let run = |search, place| run_method(gpu, (method, search), &packed, place);
+        let found = run(Search::Adjacency, Place::Apart);
+        assert_eq!(found, run(Search::BruteForce, Place::Apart), "{name}: brute force");
+        for search in [Search::Adjacency, Search::BruteForce] {
+            check_in_place(name, &packed, &found, &run(search, Place::InPlace(ENGINE_FRAME)));
+        }
+        compare(method, name, &mesh, &frames(&found), tally);
     }
 }
 
@@ -59,15 +57,15 @@ fn check_in_place(name: &str, packed: &Packed, apart: &Found, found: &Found) {
     assert_eq!(found.counts, apart.counts, "{name}: in place");
 }
 
-fn compare(name: &str, mesh: &OwnedMesh, found: &[GpuFrame], tally: &mut Tally) {
+fn compare(method: Method, name: &str, mesh: &OwnedMesh, found: &[GpuFrame], tally: &mut Tally) {
     let view = mesh.view();
-    let options = TangentOptions::from(Method::Average);
-    let core = generate_frames(&view, &options);
-    let slow = (mesh.corner_count() < 3_000).then(|| oracle::average(&view));
+    let core = generate_frames(&view, &TangentOptions::from(method));
+    let slow = if method == Method::Lengyel { oracle::lengyel } else { oracle::average };
+    let slow = (mesh.corner_count() < 3_000).then(|| slow(&view));
     for (v, frame) in found.iter().enumerate() {
         check_shape(name, v, frame, mesh.normals[v]);
     }
-    let known = known(mesh);
+    let known = known(mesh, method);
     let mut is_seen = vec![false; found.len()];
     for corner in 0..mesh.corner_count() {
         let v = mesh.vertex_of_corner(corner);
@@ -123,35 +121,35 @@ fn check_shape(name: &str, v: usize, (tangent, sign, bitangent): &GpuFrame, norm
 
 #[test]
 fn families_agree_with_the_core() {
-    let mut tally = Tally::default();
-    check("grid", &families::grid(37, 23, false, false), &mut tally);
-    check("mirrored grid", &families::grid(30, 30, false, true), &mut tally);
-    check("sphere", &families::sphere(20, 31, false), &mut tally);
-    check("fan", &families::fan(1_000, false), &mut tally);
-    check("moebius", &families::moebius(64, false), &mut tally);
-    check("strip", &families::strip(50), &mut tally);
-    println!("{tally:?}");
-    assert!(gpus().is_empty() || tally.compared > 3_000);
+    let mut tallies = <[Tally; 2]>::default();
+    check("grid", &families::grid(37, 23, false, false), &mut tallies);
+    check("mirrored grid", &families::grid(30, 30, false, true), &mut tallies);
+    check("sphere", &families::sphere(20, 31, false), &mut tallies);
+    check("fan", &families::fan(1_000, false), &mut tallies);
+    check("moebius", &families::moebius(64, false), &mut tallies);
+    check("strip", &families::strip(50), &mut tallies);
+    println!("{tallies:?}");
+    assert!(gpus().is_empty() || tallies.iter().all(|tally| tally.compared > 3_000));
 }
 
 #[test]
 fn corpus_agrees_with_the_core() {
-    let mut tally = Tally::default();
+    let mut tallies = <[Tally; 2]>::default();
     for corpus_case in corpus::corpus() {
-        check(&corpus_case.name, &corpus_case.mesh, &mut tally);
+        check(&corpus_case.name, &corpus_case.mesh, &mut tallies);
     }
-    println!("{tally:?}");
-    assert!(gpus().is_empty() || tally.compared > 100);
+    println!("{tallies:?}");
+    assert!(gpus().is_empty() || tallies.iter().all(|tally| tally.compared > 100));
 }
 
 #[test]
 fn random_meshes_agree_with_the_core() {
-    let mut tally = Tally::default();
+    let mut tallies = <[Tally; 2]>::default();
     for seed in 0..600 {
-        check(&format!("seed {seed}"), &Case::from_seed(seed).mesh, &mut tally);
+        check(&format!("seed {seed}"), &Case::from_seed(seed).mesh, &mut tallies);
     }
-    println!("{tally:?}");
-    assert!(gpus().is_empty() || tally.compared > 3_000);
+    println!("{tallies:?}");
+    assert!(gpus().is_empty() || tallies.iter().all(|tally| tally.compared > 3_000));
 }
 
 #[test]
@@ -242,9 +240,9 @@ fn long_index_lists_are_processed_in_ranges() {
     let grid = triangulated(&families::grid(9, 9, false, true));
     let faces = vec![grid.face_list(); 250].concat();
     assert!(faces.len() > 40_000);
-    let mut tally = Tally::default();
-    check("repeated grid", &grid.with_face_list(&faces), &mut tally);
-    assert!(gpus().is_empty() || tally.compared == 100);
+    let mut tallies = <[Tally; 2]>::default();
+    check("repeated grid", &grid.with_face_list(&faces), &mut tallies);
+    assert!(gpus().is_empty() || tallies.iter().all(|tally| tally.compared == 100));
 }
 
 #[test]

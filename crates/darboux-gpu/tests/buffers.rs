@@ -3,6 +3,7 @@
 mod common;
 
 use common::{APART, ENGINE, ENGINE_FRAME, Place, buffer, gpus, pack, run, run_with, triangulated};
+use darboux::Method;
 use darboux_gpu::{Average, Destination, FrameLayout, Gpu, MeshBuffers, Search, VertexLayout};
 use darboux_tests::families;
 use wgpu::{Buffer, BufferUsages, IndexFormat};
@@ -20,7 +21,11 @@ fn indices_of_16_bits_anywhere_in_a_buffer_give_the_same_bits() {
             let indices = buffer(gpu, &words.collect::<Vec<_>>(), BufferUsages::STORAGE);
             for search in [Search::Adjacency, Search::BruteForce] {
                 let form = (&indices, IndexFormat::Uint16, first as u32, packed.indices.len() as u32);
-                assert_eq!(run_with(gpu, search, &packed, form, Place::Apart), expected, "from {first}");
+                assert_eq!(
+                    run_with(gpu, (Method::Average, search), &packed, form, Place::Apart),
+                    expected,
+                    "from {first}"
+                );
             }
         }
     }
@@ -34,7 +39,7 @@ fn a_part_of_a_longer_list_is_a_mesh() {
     for gpu in gpus() {
         let indices = buffer(gpu, &packed.indices, BufferUsages::STORAGE);
         let form = (&indices, IndexFormat::Uint32, 12, 30);
-        let found = run_with(gpu, Search::Adjacency, &packed, form, Place::Apart);
+        let found = run_with(gpu, (Method::Average, Search::Adjacency), &packed, form, Place::Apart);
         assert_eq!(found, run(gpu, Search::Adjacency, &part, Place::Apart));
     }
 }

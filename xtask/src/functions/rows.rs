@@ -162,7 +162,7 @@ pub const GROUPS: &[(&str, &[Row])] = &[
         rows![
             "tangents of corners": ["darboux_gpu::MikkTSpace::generate_tangents"]; []; []; [];
                 ["webgpu:generateTangents"]; ["darboux tangents"],
-            "mean of the triangles around a vertex": ["darboux_gpu::Average::of_mesh"]; []; []; [];
+            "mean or sum of the tangents of the triangles around a vertex": ["darboux_gpu::Average::of_mesh"]; []; []; [];
                 ["webgpu:Average.ofMesh"]; [],
             "plan of a mesh that moves": ["darboux_gpu::Planner::plan"]; []; []; []; ["planTopology", "webgpu:Planner"]; [],
             "split vertices": ["darboux_gpu::Splitter::split_vertices"]; []; []; []; []; [],

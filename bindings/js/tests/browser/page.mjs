@@ -130,7 +130,7 @@ export function standardMaterial() {
 }
 
 /** Tangents per vertex of a grid with one unused vertex, by WebGPU and by the CPU; null without an adapter. */
-export async function averages(indexFormat) {
+export async function averages(method, indexFormat) {
   const found = await gpu();
   if (!found) return null;
   const { device, errors, filled, read } = found;
@@ -143,10 +143,10 @@ export async function averages(indexFormat) {
   const list = indexFormat === 'uint16' ? Uint16Array.from(indices) : indices;
   const frames = filled(new Float32Array(7 * vertexCount));
   const mesh = { vertices: filled(interleaved), vertexCount, stride: 32, position: 8, normal: 20, uv: 0, indices: filled(list), indexFormat, indexCount: list.length };
-  const work = new Average(device).ofMesh(mesh, { buffer: frames, stride: 28, tangent: 0, sign: 12, bitangent: 16 });
+  const work = new Average(device, method).ofMesh(mesh, { buffer: frames, stride: 28, tangent: 0, sign: 12, bitangent: 16 });
   const [words, counts] = await read((encoder) => work.record(encoder), [frames, work.counts]);
   const ofVertex = new Float32Array(words.buffer);
-  const ofCorner = darboux.generateTangents(positions, normals, uvs, indices, { method: 'average' });
+  const ofCorner = darboux.generateTangents(positions, normals, uvs, indices, { method });
   const ours = Float32Array.from({ length: ofCorner.length }, (_, at) => ofVertex[7 * indices[at >> 2] + (at & 3)]);
   return { errors, counts: Array.from(counts), difference: darboux.measureTangents(ours, ofCorner) };
 }

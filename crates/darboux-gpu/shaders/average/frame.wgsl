@@ -56,7 +56,7 @@ fn store_frame(vertex: u32, sums: Sums) {
     let normal = bitcast<vec3f>(load_normal(vertex));
     var tangent = direction_across(sum.tangent, normal);
     // If the tangents cancel out, only rounding error is left.
-    let shortest = 1e-5 * sum.count;
+    let shortest = 1e-5 * sum.size;
     if dot(sum.tangent, sum.tangent) < shortest * shortest || all(tangent == vec3f()) {
         tangent = perpendicular(normal);
         atomicAdd(&counts.without_direction, 1u);

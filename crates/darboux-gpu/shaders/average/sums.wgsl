@@ -1,5 +1,5 @@
-// Per vertex and UV orientation, the sum of the unit tangents and bitangents of the adjacent triangles. The same computation as the core's
-// tangents/vertex_sums: terms are added in the order of triangles.
+// Per vertex and UV orientation, the sum of what the adjacent triangles add: `term_vectors` of unit_terms.wgsl or lengyel_terms.wgsl. The same
+// computation as the core's tangents/methods/vertex_sums: terms are added in the order of triangles.
 
 struct Counts {
     without_direction: atomic<u32>,
@@ -45,10 +45,17 @@ const UNMIRRORED: u32 = 0u;
 const MIRRORED: u32 = 1u;
 const NO_TERM: u32 = 2u;
 
-// The term of a triangle, and the orientation whose sum it belongs to.
-struct Term {
+// What a triangle adds. `size`: the length of the tangent, within a factor of two.
+struct TermVectors {
     tangent: vec3f,
     bitangent: vec3f,
+    size: f32,
+    are_finite: bool,
+}
+
+// The term of a triangle, and the orientation whose sum it belongs to.
+struct Term {
+    vectors: TermVectors,
     side: u32,
 }
 
@@ -56,10 +63,10 @@ fn size(v: vec3f) -> f32 {
     return abs(v.x) + abs(v.y) + abs(v.z);
 }
 
-// The directions of dP/du and dP/dv (E. Lengyel, "Foundations of Game Engine Development", vol. 2, 7.5). A triangle without these
-// directions, or with an index out of range, has no term.
+// From dP/du and dP/dv (E. Lengyel, "Foundations of Game Engine Development", vol. 2, 7.5). A triangle on which one of them is zero or
+// undefined, or with an index out of range, has no term.
 fn term_of_triangle(triangle: vec3u) -> Term {
-    let nothing = Term(vec3f(), vec3f(), NO_TERM);
+    let nothing = Term(TermVectors(vec3f(), vec3f(), 0.0, false), NO_TERM);
     if any(triangle >= vec3u(mesh.vertex_count)) {
         return nothing;
     }
@@ -75,22 +82,20 @@ fn term_of_triangle(triangle: vec3u) -> Term {
     let t = d1.x * e2 - d2.x * e1;
     // Products are rounded separately, so that the area is exactly 0 if the UVs are collinear.
     let area = rounded(d1.x * d2.y) - rounded(d1.y * d2.x);
-    let s_length = sqrt(dot(s, s));
-    let t_length = sqrt(dot(t, t));
-    let magnitudes = bitcast<vec2u>(vec2f(s_length, t_length) / abs(area));
+    let vectors = term_vectors(s, t, area);
     let values_are_finite = a.is_finite && b.is_finite && c.is_finite;
-    let magnitudes_are_finite = is_finite(magnitudes.x) && is_finite(magnitudes.y);
     let has_corners = size(e1) > 0.0 && size(e2) > 0.0 && size(e3) > 0.0;
     let has_directions = not_zero(area) && size(s) > 0.0 && size(t) > 0.0;
-    if !(values_are_finite && magnitudes_are_finite && has_corners && has_directions) {
+    if !(values_are_finite && vectors.are_finite && has_corners && has_directions) {
         return nothing;
     }
-    let sign = select(-1.0, 1.0, area > 0.0);
-    return Term((sign / s_length) * s, (sign / t_length) * t, select(MIRRORED, UNMIRRORED, area > 0.0));
+    return Term(vectors, select(MIRRORED, UNMIRRORED, area > 0.0));
 }
 
+// `size`: the sum of the terms' sizes. `count`: the number of terms.
 struct Sum {
     tangent: vec3f,
+    size: f32,
     bitangent: vec3f,
     count: f32,
 }
@@ -100,15 +105,15 @@ struct Sums {
     mirrored: Sum,
 }
 
-fn add_term(sum: Sum, term: Term) -> Sum {
-    return Sum(sum.tangent + term.tangent, sum.bitangent + term.bitangent, sum.count + 1.0);
+fn add_term(sum: Sum, term: TermVectors) -> Sum {
+    return Sum(sum.tangent + term.tangent, sum.size + term.size, sum.bitangent + term.bitangent, sum.count + 1.0);
 }
 
 fn add_triangle(sums: ptr<function, Sums>, triangle: vec3u) {
     let term = term_of_triangle(triangle);
     if term.side == UNMIRRORED {
-        (*sums).unmirrored = add_term((*sums).unmirrored, term);
+        (*sums).unmirrored = add_term((*sums).unmirrored, term.vectors);
     } else if term.side == MIRRORED {
-        (*sums).mirrored = add_term((*sums).mirrored, term);
+        (*sums).mirrored = add_term((*sums).mirrored, term.vectors);
     }
 }

@@ -1,6 +1,6 @@
 //! Writes and compares the lists from which the npm package runs the same kernels.
 //!
-//! - `shaders/kernels.json` has the files of the kernels of plans and of the method `Average`, in the order of concatenation.
+//! - `shaders/kernels.json` has the files of the kernels of plans and of the methods `Average` and `Lengyel`, in the order of concatenation.
 //! - `shaders/mikktspace.json` has those of MikkTSpace.
 //! - `shaders/passes.json` has the constants that every shader begins with, and the lists of [`crate::mikktspace::passes`].
 
@@ -8,7 +8,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use crate::average::{self, Search, WRITE_TO_BUFFER};
+use crate::average::{self, LENGYEL_TERMS, Search, UNIT_TERMS, WRITE_TO_BUFFER};
 use crate::device::kernel::CONSTANTS;
 use crate::device::precision::{Arithmetic, PassOrder, kernel_files};
 use crate::device::prefix_sum::PREFIX_SUM_FILES;
@@ -28,7 +28,8 @@ fn exact(own: &[&'static str]) -> Vec<&'static str> {
 fn plan_and_average_kernels() -> Vec<KernelSource> {
     let mut all = kernels_of(ADJACENCY_PASSES);
     all.extend([
-        ("average", average::shader_files(Search::Adjacency, WRITE_TO_BUFFER).to_vec()),
+        ("average", average::shader_files(UNIT_TERMS, Search::Adjacency, WRITE_TO_BUFFER).to_vec()),
+        ("lengyel", average::shader_files(LENGYEL_TERMS, Search::Adjacency, WRITE_TO_BUFFER).to_vec()),
         ("scan", PREFIX_SUM_FILES.to_vec()),
         ("terms", exact(TERMS)),
         ("gather", exact(GATHER)),

@@ -1,10 +1,14 @@
-//! Bounds of the rounding errors of frames of the method `Average`, derived from the guarantees of WGSL.
+//! Bounds of the rounding errors of frames of the methods `Average` and `Lengyel`, derived from the guarantees of WGSL.
 //!
 //! With u = 2^-24, sums and products have relative errors of u, quotients of 2.5 ulp (5 u), and square roots, which WGSL defines as
 //! reciprocals of reciprocal roots, of 4.5 ulp (9 u). Fused operations have smaller errors. dP/du times the UV area, dv2 e1 - dv1 e2, has
 //! four roundings and an error of 4 u M, where M = |dv2| |e1| + |dv1| |e2|. Normalising a vector at most doubles its relative error and
 //! adds less than 20 u.
+//!
+//! `Lengyel` divides by the UV area instead: the product with 1 / area has a relative error of 6 u. With an area that is off by the share d,
+//! the error of a term T is at most ((d + 7 u) |T| + 5 u M / |area|) / (1 - d).
 
+use darboux::Method;
 use darboux_tests::OwnedMesh;
 
 pub const U: f64 = 1.0 / (1 << 24) as f64;
@@ -28,7 +32,7 @@ pub enum KnownFrame {
     Unsure,
 }
 
-/// A sum of directions, and the bound of its error.
+/// A sum of terms, and the bound of its error.
 #[derive(Clone, Copy, Default)]
 struct Sum {
     value: V3,
@@ -39,6 +43,8 @@ struct Sum {
 struct Side {
     tangent: Sum,
     bitangent: Sum,
+    /// The sum of the sizes of the tangents.
+    size: f64,
     count: f64,
 }
 
@@ -51,22 +57,23 @@ struct Vertex {
 enum Triangle {
     Nothing,
     Unsure,
-    Adds { side: usize, tangent: (V3, f64), bitangent: (V3, f64) },
+    Adds { side: usize, tangent: (V3, f64), bitangent: (V3, f64), size: f64 },
 }
 
-/// The determined frame of every vertex of a triangle mesh.
-pub fn known(mesh: &OwnedMesh) -> Vec<KnownFrame> {
+/// The determined frame of every vertex of a triangle mesh. `method`: `Average` or `Lengyel`.
+pub fn known(mesh: &OwnedMesh, method: Method) -> Vec<KnownFrame> {
     let mut vertices = vec![Vertex::default(); mesh.positions.len()];
     for face in mesh.face_list() {
         let [a, b, c] = [face[0] as usize, face[1] as usize, face[2] as usize];
-        match triangle(mesh, [a, b, c]) {
+        match triangle(mesh, [a, b, c], method) {
             Triangle::Nothing => {}
             Triangle::Unsure => [a, b, c].iter().for_each(|&v| vertices[v].is_unsure = true),
-            Triangle::Adds { side, tangent, bitangent } => {
+            Triangle::Adds { side, tangent, bitangent, size } => {
                 for v in [a, b, c] {
                     let side = &mut vertices[v].sides[side];
                     side.tangent.add(tangent);
                     side.bitangent.add(bitangent);
+                    side.size += size;
                     side.count += 1.0;
                 }
             }
@@ -76,8 +83,8 @@ pub fn known(mesh: &OwnedMesh) -> Vec<KnownFrame> {
 }
 
 impl Sum {
-    fn add(&mut self, (direction, error): (V3, f64)) {
-        self.value = [0, 1, 2].map(|i| self.value[i] + direction[i]);
+    fn add(&mut self, (term, error): (V3, f64)) {
+        self.value = [0, 1, 2].map(|i| self.value[i] + term[i]);
         self.error += error + U * length(self.value);
     }
 
@@ -104,7 +111,8 @@ impl Vertex {
         // Without a normal the sum is not projected.
         let normal = if normal_size > 0.0 { normal.map(|x| x / normal_size) } else { [0.0; 3] };
         let [tangent, bitangent] = [&side.tangent, &side.bitangent].map(|sum| sum.in_plane(normal));
-        let cancels = length(side.tangent.value) < 3e-5 * side.count;
+        let cancels = length(side.tangent.value) < 3e-5 * side.size;
+        let is_plain = is_plain && side.size < LARGEST;
         if is_plain && !cancels && tangent < MAX_USEFUL_BOUND && bitangent < MAX_USEFUL_BOUND {
             KnownFrame::Frame { sign, tangent, bitangent }
         } else {
@@ -113,7 +121,7 @@ impl Vertex {
     }
 }
 
-fn triangle(mesh: &OwnedMesh, vertices: [usize; 3]) -> Triangle {
+fn triangle(mesh: &OwnedMesh, vertices: [usize; 3], method: Method) -> Triangle {
     let [a, b, c] = vertices.map(|v| mesh.positions[v].map(f64::from));
     let [ta, tb, tc] = vertices.map(|v| mesh.uvs[v].map(f64::from));
     let values = [&a[..], &b, &c, &ta, &tb, &tc].concat();
@@ -128,19 +136,26 @@ fn triangle(mesh: &OwnedMesh, vertices: [usize; 3]) -> Triangle {
     }
     let area_error = 8.0 * U * ((d1[0] * d2[1]).abs() + (d1[1] * d2[0]).abs());
     let sign = area.signum();
-    let (tangent, tangent_size) = derivative([sign * d2[1], sign * d1[1]], edges[0], edges[1]);
-    let (bitangent, bitangent_size) = derivative([sign * d1[0], sign * d2[0]], edges[1], edges[0]);
-    let sizes = [tangent_size, bitangent_size, length(edges[0]), length(edges[1]), length(edges[2])];
+    let s = Scaled::new([sign * d2[1], sign * d1[1]], edges[0], edges[1]);
+    let t = Scaled::new([sign * d1[0], sign * d2[0]], edges[1], edges[0]);
+    let magnitudes = [s.size(), t.size()].map(|size| size / area.abs());
+    let lengths = [s.size(), t.size(), length(edges[0]), length(edges[1]), length(edges[2])];
+    let sizes = [&lengths[..], &magnitudes].concat();
     let are_plain = sizes.iter().all(|size| (1.0 / LARGEST..LARGEST).contains(size))
         && (LARGEST.powi(-2)..LARGEST * LARGEST).contains(&area.abs());
-    if !are_plain
-        || area.abs() <= area_error
-        || tangent.1 > MAX_USEFUL_BOUND
-        || bitangent.1 > MAX_USEFUL_BOUND
-    {
+    let is_useful = |(term, error): (V3, f64)| error <= MAX_USEFUL_BOUND * length(term);
+    if !are_plain || area.abs() <= area_error {
         return Triangle::Unsure;
     }
-    Triangle::Adds { side: usize::from(area < 0.0), tangent, bitangent }
+    let [tangent, bitangent] = match method {
+        Method::Lengyel => [s, t].map(|scaled| scaled.over(area.abs(), area_error)),
+        _ => [s, t].map(|scaled| scaled.direction()),
+    };
+    if !is_useful(tangent) || !is_useful(bitangent) {
+        return Triangle::Unsure;
+    }
+    let size = tangent.0.iter().map(|x| x.abs()).sum();
+    Triangle::Adds { side: usize::from(area < 0.0), tangent, bitangent, size }
 }
 
 /// The area as the shader computes it, without fused operations, so that it is exactly 0 for collinear UVs.
@@ -148,12 +163,36 @@ fn area_in_floats([a, b, c]: [[f32; 2]; 3]) -> f32 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// The direction of x a - y b with its error in floats, and its length.
-fn derivative([x, y]: [f64; 2], a: V3, b: V3) -> ((V3, f64), f64) {
-    let value = [0, 1, 2].map(|i| x * a[i] - y * b[i]);
-    let size = length(value);
-    let error = 4.0 * U * (x.abs() * length(a) + y.abs() * length(b));
-    ((value.map(|x| x / size), 2.0 * error / size + UNIT), size)
+/// A derivative times the UV area, and M.
+#[derive(Clone, Copy)]
+struct Scaled {
+    value: V3,
+    products: f64,
+}
+
+impl Scaled {
+    /// x a - y b.
+    fn new([x, y]: [f64; 2], a: V3, b: V3) -> Self {
+        let value = [0, 1, 2].map(|i| x * a[i] - y * b[i]);
+        Self { value, products: x.abs() * length(a) + y.abs() * length(b) }
+    }
+
+    fn size(&self) -> f64 {
+        length(self.value)
+    }
+
+    /// Its direction, and the error of that in floats.
+    fn direction(&self) -> (V3, f64) {
+        let size = self.size();
+        (self.value.map(|x| x / size), 8.0 * U * self.products / size + UNIT)
+    }
+
+    /// Its quotient by the area, and the error of that in floats.
+    fn over(&self, area: f64, area_error: f64) -> (V3, f64) {
+        let share = area_error / area;
+        let error = ((share + 7.0 * U) * self.size() + 5.0 * U * self.products) / area;
+        (self.value.map(|x| x / area), error / (1.0 - share))
+    }
 }
 
 pub fn sub(a: V3, b: V3) -> V3 {

@@ -1,4 +1,4 @@
-//! Packs meshes into buffers of any layout, runs `Average` on them and reads the results. Shared by all test files.
+//! Packs meshes into buffers of any layout, runs `Average` and `Lengyel` on them and reads the results. Shared by all test files.
 
 #![allow(dead_code, reason = "every test file uses only a part")]
 
@@ -10,6 +10,7 @@ pub mod scalar;
 use std::io::Write;
 use std::sync::OnceLock;
 
+use darboux::Method;
 use darboux_gpu::{
     Average, AverageOfMesh, Destination, FrameLayout, Gpu, MeshBuffers, MikkTSpace, Search, VertexLayout,
 };
@@ -116,18 +117,23 @@ fn bytes(words: &[u32]) -> Vec<u8> {
     words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
 
-/// Runs once with 32-bit indices.
+/// Runs the method `Average` once with 32-bit indices.
 pub fn run(gpu: &Gpu, search: Search, packed: &Packed, place: Place) -> Found {
+    run_method(gpu, (Method::Average, search), packed, place)
+}
+
+/// Runs `Average` or `Lengyel` once with 32-bit indices.
+pub fn run_method(gpu: &Gpu, method: (Method, Search), packed: &Packed, place: Place) -> Found {
     let usage = BufferUsages::STORAGE;
     let indices = buffer(gpu, if packed.indices.is_empty() { &[0] } else { &packed.indices }, usage);
     let count = packed.indices.len() as u32;
-    run_with(gpu, search, packed, (&indices, IndexFormat::Uint32, 0, count), place)
+    run_with(gpu, method, packed, (&indices, IndexFormat::Uint32, 0, count), place)
 }
 
 /// Runs with any indices: their buffer, format, first index and count.
 pub fn run_with(
     gpu: &Gpu,
-    search: Search,
+    method: (Method, Search),
     packed: &Packed,
     (indices, index_format, first_index, index_count): (&Buffer, IndexFormat, u32, u32),
     place: Place,
@@ -150,18 +156,21 @@ pub fn run_with(
             (Destination::Buffer { buffer: &frames, stride: APART_STRIDE, layout: APART }, &frames)
         }
     };
-    let average = average(gpu, search).of_mesh(&mesh, &destination).unwrap_or_else(|error| panic!("{error}"));
+    let average =
+        compiled(gpu, method).of_mesh(&mesh, &destination).unwrap_or_else(|error| panic!("{error}"));
     read(gpu, &average, written)
 }
 
-/// `Average`, compiled once per adapter and search.
-fn average(gpu: &Gpu, search: Search) -> Average {
-    static COMPILED: OnceLock<Vec<[Average; 2]>> = OnceLock::new();
-    let both =
-        |gpu: &Gpu| [Search::BruteForce, Search::Adjacency].map(|search| Average::new(&gpu.device, search));
-    let compiled = COMPILED.get_or_init(|| gpus().iter().map(both).collect());
+/// A method, compiled once per adapter and search.
+fn compiled(gpu: &Gpu, (method, search): (Method, Search)) -> Average {
+    static COMPILED: OnceLock<Vec<[[Average; 2]; 2]>> = OnceLock::new();
+    let all = |gpu: &Gpu| {
+        [Average::new, Average::lengyel]
+            .map(|of| [Search::BruteForce, Search::Adjacency].map(|search| of(&gpu.device, search)))
+    };
+    let compiled = COMPILED.get_or_init(|| gpus().iter().map(all).collect());
     let at = gpus().iter().position(|other| other.device == gpu.device).expect("an adapter of the list");
-    compiled[at][usize::from(search == Search::Adjacency)].clone()
+    compiled[at][usize::from(method == Method::Lengyel)][usize::from(search == Search::Adjacency)].clone()
 }
 
 fn read(gpu: &Gpu, average: &AverageOfMesh, written: &Buffer) -> Found {
