@@ -7,7 +7,7 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, inspect};
 use darboux_io::image::RgbaImage;
 
-use crate::code::Code;
+use crate::code::{Code, Family};
 use crate::facets::FacetVotes;
 use crate::finding::{Finding, Place};
 use crate::instances::distinct;
@@ -174,7 +174,7 @@ fn check_surface(surface: &Surface) -> Vec<Finding> {
 
 /// Tangents that nothing reads make no picture wrong.
 fn worst_severity(code: Code, surface: &Surface) -> Severity {
-    let is_unread = code.name().starts_with("tangent-") && !surface.needs_tangents;
+    let is_unread = code.family() == Family::Tangents && !surface.needs_tangents;
     if is_unread { Severity::Warning } else { Severity::Error }
 }
 

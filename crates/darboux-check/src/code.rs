@@ -16,48 +16,65 @@ enum Fix {
     Leave(&'static str),
 }
 
-/// Defines the codes and their sections from one list: what it means, what it looks like, how it comes about, the cure, and what a repair does.
+/// What a finding is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Family {
+    Tangents,
+    Positions,
+    Normals,
+    Uvs,
+    Maps,
+    Transforms,
+}
+
+/// Defines the codes, by family, and their sections from one list: what it means, what it looks like, how it comes about, the cure, and what a
+/// repair does.
 macro_rules! codes {
-    ($($code:ident $name:literal $severity:ident { $meaning:literal $looks:literal $cause:literal $cure:literal $fix:ident $clause:literal })*) => {
+    ($([$family:ident] $($code:ident $name:literal $severity:ident { $meaning:literal $looks:literal $cause:literal $cure:literal $fix:ident $clause:literal })*)*) => {
         /// The kind of a finding. The names are stable.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[non_exhaustive]
         pub enum Code {
-            $(#[doc = $meaning] $code,)*
+            $($(#[doc = $meaning] $code,)*)*
         }
 
         impl Code {
             /// All codes, in the order of the documentation.
-            pub const ALL: &[Self] = &[$(Self::$code,)*];
+            pub const ALL: &[Self] = &[$($(Self::$code,)*)*];
 
             /// The name, such as `tangent-zero`.
             pub fn name(self) -> &'static str {
-                match self { $(Self::$code => $name,)* }
+                match self { $($(Self::$code => $name,)*)* }
+            }
+
+            /// What it is about.
+            pub(crate) fn family(self) -> Family {
+                match self { $($(Self::$code => Family::$family,)*)* }
             }
 
             /// The usual severity; a finding may have a lower one.
             pub fn severity(self) -> Severity {
-                match self { $(Self::$code => Severity::$severity,)* }
+                match self { $($(Self::$code => Severity::$severity,)*)* }
             }
 
             /// What it means, in one sentence.
             pub fn meaning(self) -> &'static str {
-                match self { $(Self::$code => $meaning,)* }
+                match self { $($(Self::$code => $meaning,)*)* }
             }
 
             /// What it looks like on screen.
             pub fn looks_like(self) -> &'static str {
-                match self { $(Self::$code => $looks,)* }
+                match self { $($(Self::$code => $looks,)*)* }
             }
 
             /// How it comes about.
             pub fn cause(self) -> &'static str {
-                match self { $(Self::$code => $cause,)* }
+                match self { $($(Self::$code => $cause,)*)* }
             }
 
             /// The cure: what the reader can do, in a modelling program, a baker or with this command.
             pub fn cure(self) -> &'static str {
-                match self { $(Self::$code => $cure,)* }
+                match self { $($(Self::$code => $cure,)*)* }
             }
 
             /// What a repair changes, as a clause; none where it leaves the finding.
@@ -77,13 +94,14 @@ macro_rules! codes {
             }
 
             fn fix(self) -> Fix {
-                match self { $(Self::$code => Fix::$fix($clause),)* }
+                match self { $($(Self::$code => Fix::$fix($clause),)*)* }
             }
         }
     };
 }
 
 codes! {
+    [Tangents]
     TangentNotFinite "tangent-not-finite" Error {
         "Tangents contain NaN or infinity."
         "Black or flickering spots, or holes, where the vertex is used."
@@ -196,6 +214,7 @@ codes! {
         "Leave them out when exporting, if no other material is put on the mesh."
         Leave "another material may need them"
     }
+    [Positions]
     PositionNotFinite "position-not-finite" Error {
         "Positions contain NaN or infinity."
         "Faces are missing, or stretch across the picture; the whole model may vanish, because its bounds are not finite."
@@ -203,6 +222,7 @@ codes! {
         "Find these vertices in the modelling program, and delete or move them."
         Leave "where these vertices should be is not in the file"
     }
+    [Normals]
     NormalMissing "normal-missing" Info {
         "The primitive has no normals."
         "Renderers draw flat faces."
@@ -231,6 +251,7 @@ codes! {
         "Recompute normals outside in the modelling program and export again."
         Repair "what is reversed is turned over, the faces or the normals"
     }
+    [Uvs]
     UvMissing "uv-missing" Error {
         "The normal texture uses a UV set that the primitive does not have."
         "The normal map is not shown, or one texel of it is smeared over the surface."
@@ -266,6 +287,7 @@ codes! {
         "None needed. For a bake, move all but one of the parts by a whole tile."
         Leave "it is no mistake"
     }
+    [Maps]
     MapGreenFlipped "map-green-flipped" Error {
         "The normal map's green points the wrong way for the format."
         "Dents look like bumps when the light is above or below, and right when it is beside."
@@ -357,6 +379,7 @@ codes! {
         "Save the image again as PNG, JPEG or WebP."
         Leave "there are no texels to repair"
     }
+    [Transforms]
     TransformMirrors "transform-mirrors" Warning {
         "KHR_texture_transform turns or mirrors the normal texture."
         "Renderers disagree on whether tangents follow the transformed UVs, so that some light the bumps from a wrong side."

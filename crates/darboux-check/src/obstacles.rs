@@ -2,7 +2,7 @@
 
 use darboux_io::image::PngImage;
 
-use crate::code::Code;
+use crate::code::{Code, Family};
 use crate::finding::Finding;
 use crate::orientation::{ONLY_A_PART, Reversal};
 use crate::rule::Measured;
@@ -27,7 +27,7 @@ pub fn of_surface(finding: &Finding, measured: &Measured<'_>) -> Option<String> 
             }
             Reversal::Unknown(reason) => Some(reason.to_owned()),
         },
-        code if code.name().starts_with("tangent-") => {
+        code if code.family() == Family::Tangents => {
             no_tangents(surface).or_else(|| undecided_side(measured.reversal?))
         }
         _ => None,

@@ -10,7 +10,7 @@ use super::outcome::{FixedDocument, FixedFinding, is_same, outcome};
 use super::pairs::LeftPairs;
 use super::{normals, tangents};
 use crate::check::check_surfaces;
-use crate::code::Code;
+use crate::code::{Code, Family};
 use crate::finding::Finding;
 use crate::instances::primitives_of;
 use crate::severity::Severity;
@@ -101,7 +101,7 @@ impl Work<'_> {
     fn is_only_sign(&self, finding: &Finding, all: &[Finding]) -> bool {
         let are_all = finding.evidence.iter().any(|number| number.unit == "%" && number.value == 100.0);
         let is_other_work = |other: &Finding| {
-            let is_about_tangents = other.code.name().starts_with("tangent-") && other.code != finding.code;
+            let is_about_tangents = other.code.family() == Family::Tangents && other.code != finding.code;
             is_about_tangents && place(other) == place(finding) && self.is_wanted(other)
         };
         finding.code == Code::TangentSignFlipped && are_all && !all.iter().any(is_other_work)
@@ -109,7 +109,7 @@ impl Work<'_> {
 
     /// Repairs normals, then signs that are all flipped, and then tangents.
     fn attempt(&self, document: &mut Document) -> Result<Attempt, Error> {
-        let is_about_normals = |finding: &&Finding| finding.code.name().starts_with("normal-");
+        let is_about_normals = |finding: &&Finding| finding.code.family() == Family::Normals;
         let is_wanted = |finding: &&Finding| self.is_wanted(finding);
         let of_normals: Vec<&Finding> =
             self.findings.iter().filter(is_about_normals).filter(is_wanted).collect();
