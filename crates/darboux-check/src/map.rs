@@ -12,6 +12,8 @@ use crate::facets::{Arrangement, FacetVotes};
 pub struct Map {
     /// The judgement, or why the image could not be decoded.
     pub judgement: Result<MapJudgement, String>,
+    /// In bytes; 0 where the file itself could not be read.
+    pub file_size: usize,
     /// Where the texels look as if they had gone through the transfer function of sRGB once too often: the judgement on them as they were before.
     pub before_srgb: Option<MapJudgement>,
     /// Where green should point.
@@ -43,9 +45,10 @@ impl Map {
                 let judgement = judgement.map_err(|error| error.to_string());
                 let mistake = judgement.as_ref().ok().and_then(MapJudgement::srgb_mistake);
                 let before_srgb = mistake.and_then(|mistake| judge_without(mistake, &image));
-                Self { judgement, before_srgb, wanted, facets: vote.map(|vote| vote(&image)) }
+                let facets = vote.map(|vote| vote(&image));
+                Self { judgement, file_size: file.len(), before_srgb, wanted, facets }
             }
-            Err(error) => Self::unreadable(error.to_string(), wanted),
+            Err(error) => Self { file_size: file.len(), ..Self::unreadable(error.to_string(), wanted) },
         }
     }
 
@@ -62,7 +65,7 @@ impl Map {
 
     /// A map that cannot be read, and why, as a clause.
     pub fn unreadable(problem: String, wanted: BitangentDirection) -> Self {
-        Self { judgement: Err(problem), before_srgb: None, wanted, facets: None }
+        Self { judgement: Err(problem), file_size: 0, before_srgb: None, wanted, facets: None }
     }
 }
 

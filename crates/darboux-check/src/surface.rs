@@ -141,6 +141,16 @@ impl Surface {
         self.is_used().into_iter().filter(|is_used| *is_used).count()
     }
 
+    /// A number of vertices in percent of those that triangles use.
+    pub fn percent_of_vertices(&self, count: usize) -> f64 {
+        100.0 * count as f64 / self.used_count().max(1) as f64
+    }
+
+    /// A number of triangles in percent of all.
+    pub fn percent_of_triangles(&self, count: usize) -> f64 {
+        300.0 * count as f64 / self.vertex_of_corner.len().max(1) as f64
+    }
+
     /// Per vertex whether a triangle uses it.
     fn is_used(&self) -> Vec<bool> {
         let mut is_used = vec![false; self.positions.len()];

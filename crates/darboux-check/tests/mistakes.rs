@@ -101,6 +101,10 @@ fn broken_images_are_named() {
     for broken in [file, Vec::new(), b"no image".to_vec()] {
         let findings = check_map(&broken, &CheckOptions::default()).findings;
         assert_eq!(codes(&findings, |_| true), BTreeSet::from([Code::MapUnreadable]));
+        assert_eq!(
+            (findings[0].evidence[0].value, findings[0].evidence[0].unit),
+            (broken.len() as f64, "bytes")
+        );
     }
 }
 

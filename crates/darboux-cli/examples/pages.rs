@@ -111,7 +111,7 @@ const SAID: &[(Code, &str)] = &[
     ),
     (
         Code::TangentMissing,
-        "tangents get lost at export, and a warning names no model (KhronosGroup/glTF-Blender-IO 172, playcanvas 2787, bevyengine/bevy 11831)",
+        "tangents get lost at export, and a warning names no model (KhronosGroup/glTF-Blender-IO 172, playcanvas/engine 2787, bevyengine/bevy 11831)",
     ),
     (
         Code::TangentUnused,

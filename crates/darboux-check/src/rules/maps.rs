@@ -33,7 +33,8 @@ const SURE_PERCENT: f64 = 90.0;
 
 fn unreadable(map: &Map) -> Option<Finding> {
     let problem = map.judgement.as_ref().err()?;
-    Some(Finding::new(Code::MapUnreadable, format!("it {problem}")))
+    let bytes = map.file_size as f64;
+    Some(Finding::new(Code::MapUnreadable, format!("it {problem}")).with_evidence("file", bytes, "bytes"))
 }
 
 /// The judgement on a map, if it is of any use.
@@ -117,7 +118,9 @@ fn srgb(map: &Map) -> Option<Finding> {
     let text = format!(
         "its commonest texel is {red}, {green} instead of 128, 128: linear values were {what} as sRGB"
     );
-    Some(Finding::new(Code::MapSrgb, text).with_count(judgement.commonest_count))
+    let share = percent(judgement, judgement.commonest_count);
+    let finding = Finding::new(Code::MapSrgb, text).with_count(judgement.commonest_count);
+    Some(finding.with_evidence("texels of this colour", share, "%"))
 }
 
 fn not_normal(map: &Map) -> Option<Finding> {
@@ -132,8 +135,10 @@ fn not_normal(map: &Map) -> Option<Finding> {
 }
 
 fn two_channel(map: &Map) -> Option<Finding> {
-    judged(map).filter(|judgement| kind(map, judgement) == Kind::TwoChannel)?;
-    Some(Finding::new(Code::MapTwoChannel, "its blue channel has one value only"))
+    let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::TwoChannel)?;
+    let share = percent(judgement, judgement.wrong_z);
+    let finding = Finding::new(Code::MapTwoChannel, "its blue channel has one value only");
+    Some(finding.with_evidence("texels with another z than red and green give", share, "%"))
 }
 
 /// The arrangement that the derivatives show: that of a map with no (or both) channels inverted, or with one.
@@ -307,7 +312,9 @@ fn flat_off(map: &Map) -> Option<Finding> {
 fn flat(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| judgement.verdict == MapVerdict::Flat)?;
     let is_plain = kind(map, judgement) == Kind::Normals;
-    is_plain.then(|| Finding::new(Code::MapFlat, "all its texels are the same"))
+    let share = percent(judgement, judgement.commonest_count);
+    let finding = || Finding::new(Code::MapFlat, "all its texels are the same");
+    is_plain.then(|| finding().with_evidence("texels of the commonest colour", share, "%"))
 }
 
 #[cfg(test)]
@@ -332,7 +339,7 @@ mod tests {
             judge_normal_map(&texels, [128; 2], TexelLayout::RGB).map_err(|error| error.to_string());
         let arrangement = candidates(judgement.as_ref().expect("a judgement"))[1];
         let facets = Some(FacetVotes::only(arrangement, 7.0));
-        Map { judgement, before_srgb: None, wanted: BitangentDirection::Up, facets }
+        Map { judgement, file_size: 0, before_srgb: None, wanted: BitangentDirection::Up, facets }
     }
 
     /// Facets that vote for exchanged channels do not outweigh derivatives that show a gradient.

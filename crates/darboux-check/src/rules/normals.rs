@@ -14,8 +14,16 @@ pub const RULES: &[SurfaceRule] = &[missing, not_finite, not_unit, against_windi
 pub const UNIT: f64 = 0.02;
 
 fn missing(measured: &Measured<'_>) -> Vec<Finding> {
-    let is_missing = measured.surface.normals.is_none();
-    is_missing.then(|| Finding::new(Code::NormalMissing, "it has no normals")).into_iter().collect()
+    let surface = measured.surface;
+    let finding = || {
+        let vertices = surface.used_count() as f64;
+        Finding::new(Code::NormalMissing, "it has no normals").with_evidence(
+            "without normals",
+            vertices,
+            "vertices",
+        )
+    };
+    surface.normals.is_none().then(finding).into_iter().collect()
 }
 
 fn is_finite(normal: [f32; 3]) -> bool {
@@ -28,13 +36,10 @@ fn not_finite(measured: &Measured<'_>) -> Vec<Finding> {
     if found.is_empty() {
         return Vec::new();
     }
-    vec![
-        Finding::new(
-            Code::NormalNotFinite,
-            counted(found.len(), "normal contains NaN or infinity", "normals contain NaN or infinity"),
-        )
-        .with_items(&found),
-    ]
+    let share = measured.surface.percent_of_vertices(found.len());
+    let text = counted(found.len(), "normal contains NaN or infinity", "normals contain NaN or infinity");
+    let finding = Finding::new(Code::NormalNotFinite, text).with_items(&found);
+    vec![finding.with_evidence("part of all vertices", share, "%")]
 }
 
 fn not_unit(measured: &Measured<'_>) -> Vec<Finding> {
@@ -47,7 +52,9 @@ fn not_unit(measured: &Measured<'_>) -> Vec<Finding> {
     let smallest = found.iter().map(|&vertex| length(normals[vertex])).fold(f64::INFINITY, f64::min);
     let severity = if smallest < 0.1 { Severity::Error } else { Severity::Warning };
     let text = counted(found.len(), "normal has another length than 1", "normals have another length than 1");
-    vec![Finding::new(Code::NormalNotUnit, text).with_items(&found).with_severity(severity).with_evidence(
+    let share = measured.surface.percent_of_vertices(found.len());
+    let finding = Finding::new(Code::NormalNotUnit, text).with_items(&found).with_severity(severity);
+    vec![finding.with_evidence("part of all vertices", share, "%").with_evidence(
         "smallest length",
         smallest,
         "",
@@ -62,7 +69,7 @@ fn against_winding(measured: &Measured<'_>) -> Vec<Finding> {
         return Vec::new();
     }
     let finding = |triangles: &[usize], place: String| {
-        let share = 300.0 * triangles.len() as f64 / surface.vertex_of_corner.len() as f64;
+        let share = surface.percent_of_triangles(triangles.len());
         let what = counted(triangles.len(), "triangle", "triangles");
         let verb = if triangles.len() == 1 { "points to its back" } else { "point to their back" };
         let text = format!("the normals of {what}{place} {verb}");

@@ -16,5 +16,7 @@ fn not_finite(measured: &Measured<'_>) -> Vec<Finding> {
         return Vec::new();
     }
     let text = counted(found.len(), "position contains NaN or infinity", "positions contain NaN or infinity");
-    vec![Finding::new(Code::PositionNotFinite, text).with_items(&found)]
+    let share = surface.percent_of_vertices(found.len());
+    let finding = Finding::new(Code::PositionNotFinite, text).with_items(&found);
+    vec![finding.with_evidence("part of all vertices", share, "%")]
 }

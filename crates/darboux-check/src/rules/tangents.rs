@@ -34,10 +34,13 @@ const MAX_PERCENT_OF_PART: f64 = 1.0;
 const MAX_DEGREES_FROM_PLANE: [f64; 2] = [2.0, 15.0];
 
 fn missing(measured: &Measured<'_>) -> Vec<Finding> {
-    let Surface { needs_tangents, tangents, .. } = measured.surface;
-    let is_missing = *needs_tangents && tangents.is_none();
-    let text = "its material has a normal map, and it has no tangents";
-    is_missing.then(|| Finding::new(Code::TangentMissing, text)).into_iter().collect()
+    let surface = measured.surface;
+    let is_missing = surface.needs_tangents && surface.tangents.is_none();
+    let finding = || {
+        Finding::new(Code::TangentMissing, "its material has a normal map, and it has no tangents")
+            .with_evidence("without tangents", surface.used_count() as f64, "vertices")
+    };
+    is_missing.then(finding).into_iter().collect()
 }
 
 fn unused(measured: &Measured<'_>) -> Vec<Finding> {
@@ -62,7 +65,7 @@ fn vertices(
     if found.is_empty() {
         return Vec::new();
     }
-    let share = 100.0 * found.len() as f64 / surface.used_count() as f64;
+    let share = surface.percent_of_vertices(found.len());
     let finding = Finding::new(code, counted(found.len(), one, many)).with_items(&found);
     vec![finding.with_evidence("part of all vertices", share, "%")]
 }
@@ -145,7 +148,9 @@ fn shared_across_mirror(measured: &Measured<'_>) -> Vec<Finding> {
     }
     let vertices = counted(found.len(), "vertex serves", "vertices serve");
     let text = format!("{vertices} both sides of mirrored UV seams");
-    vec![Finding::new(Code::TangentSharedAcrossMirror, text).with_items(&found)]
+    let share = measured.surface.percent_of_vertices(found.len());
+    let finding = Finding::new(Code::TangentSharedAcrossMirror, text).with_items(&found);
+    vec![finding.with_evidence("part of all vertices", share, "%")]
 }
 
 fn sign_mixed(measured: &Measured<'_>) -> Vec<Finding> {
@@ -161,7 +166,9 @@ fn sign_mixed(measured: &Measured<'_>) -> Vec<Finding> {
     }
     let triangles = counted(found.len(), "triangle has", "triangles have");
     let text = format!("{triangles} corners with both signs");
-    vec![Finding::new(Code::TangentSignMixed, text).with_items(&found)]
+    let share = surface.percent_of_triangles(found.len());
+    let finding = Finding::new(Code::TangentSignMixed, text).with_items(&found);
+    vec![finding.with_evidence("part of all triangles", share, "%")]
 }
 
 /// The rules that one measurement decides: at most one of them is true.

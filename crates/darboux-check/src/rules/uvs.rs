@@ -18,10 +18,8 @@ fn missing(measured: &Measured<'_>) -> Vec<Finding> {
     if !needs_tangents || uv_sets.contains_key(uv_set) {
         return Vec::new();
     }
-    vec![Finding::new(
-        Code::UvMissing,
-        format!("its normal texture uses TEXCOORD_{uv_set}, which it does not have"),
-    )]
+    let text = format!("its normal texture uses TEXCOORD_{uv_set}, which it does not have");
+    vec![Finding::new(Code::UvMissing, text).with_evidence("present", uv_sets.len() as f64, "UV sets")]
 }
 
 /// UVs of any set: every texture may use it. Those of the normal texture decide the tangents, too.
@@ -33,7 +31,11 @@ fn not_finite(measured: &Measured<'_>) -> Vec<Finding> {
         let severity = if decides { Severity::Error } else { Severity::Warning };
         let what = counted(found.len(), "vertex has", "vertices have");
         let text = format!("{what} NaN or infinity in TEXCOORD_{set}");
-        let finding = || Finding::new(Code::UvNotFinite, text).with_items(&found).with_severity(severity);
+        let share = surface.percent_of_vertices(found.len());
+        let finding = || {
+            let finding = Finding::new(Code::UvNotFinite, text).with_items(&found).with_severity(severity);
+            finding.with_evidence("part of all vertices", share, "%")
+        };
         (!found.is_empty()).then(finding)
     };
     surface.uv_sets.iter().filter_map(of_set).collect()
@@ -52,7 +54,9 @@ fn degenerate(measured: &Measured<'_>) -> Vec<Finding> {
     }
     let triangles = counted(found.len(), "triangle has", "triangles have");
     let text = format!("{triangles} no area in TEXCOORD_{}", surface.uv_set);
-    vec![Finding::new(Code::UvDegenerate, text).with_items(&found)]
+    let share = surface.percent_of_triangles(found.len());
+    let finding = Finding::new(Code::UvDegenerate, text).with_items(&found);
+    vec![finding.with_evidence("part of all triangles", share, "%")]
 }
 
 /// Triangles whose UVs turn the other way than glTF's images do.
@@ -67,7 +71,9 @@ fn mirrored(measured: &Measured<'_>) -> Vec<Finding> {
         return Vec::new();
     }
     let text = counted(found.len(), "triangle has mirrored UVs", "triangles have mirrored UVs");
-    vec![Finding::new(Code::UvMirrored, text).with_items(&found)]
+    let share = surface.percent_of_triangles(found.len());
+    let finding = Finding::new(Code::UvMirrored, text).with_items(&found);
+    vec![finding.with_evidence("part of all triangles", share, "%")]
 }
 
 /// Triangles that share UV space with others.

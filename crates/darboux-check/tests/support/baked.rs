@@ -84,6 +84,7 @@ fn row(mistake: &BakedMistake, models: &[Model]) -> Row {
         let findings =
             check_document(&mut model.document(), &CheckOptions::default()).expect("a valid document");
         let errors = codes(&findings, |severity| severity == Severity::Error);
+        row.require_evidence(&healthy.name, &findings);
         row.named += usize::from(errors.contains(&code));
         if errors != BTreeSet::from_iter(named.iter().copied()) {
             row.with_other_errors += 1;

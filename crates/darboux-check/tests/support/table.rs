@@ -165,9 +165,19 @@ impl Row {
         Self { code, how, models: 0, named: 0, with_other_errors: 0, repaired, failures: Vec::new() }
     }
 
+    /// Notes the findings of a check that state no number.
+    pub fn require_evidence(&mut self, model: &str, findings: &[Finding]) {
+        let is_without = |finding: &&Finding| {
+            finding.evidence.is_empty() || finding.evidence.iter().any(|number| !number.value.is_finite())
+        };
+        let without = findings.iter().filter(is_without);
+        self.failures.extend(without.map(|finding| format!("{} on {model} has no evidence", finding.code)));
+    }
+
     /// Counts a check of a model.
     fn count(&mut self, model: &str, findings: &[Finding]) {
         let code = self.code;
+        self.require_evidence(model, findings);
         let (all, errors) =
             (codes(findings, |_| true), codes(findings, |severity| severity == Severity::Error));
         self.named += usize::from(all.contains(&code));
