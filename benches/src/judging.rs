@@ -34,18 +34,32 @@ pub struct Row {
     pub memory: Option<f64>,
 }
 
-/// Every task on a map and on a model, in `rounds` rounds.
+/// What the codes of a map's texels have beside the shape. A PNG without noise is decoded faster.
+#[derive(Clone, Copy)]
+enum Texels {
+    /// Noise of one code, as the rounding of bakers and of painted detail leaves it.
+    Noisy,
+    Smooth,
+}
+
+/// Every task on maps and on a model, in `rounds` rounds.
 pub fn measure(sizes: &Sizes, rounds: usize) -> Vec<Row> {
-    let mut rows = on_map(sizes.side, rounds);
+    let mut rows = on_map(Texels::Noisy, sizes.side, rounds);
+    rows[2].memory = memory_of_a_child(sizes.side);
+    rows.extend(on_map(Texels::Smooth, sizes.side, rounds));
     rows.extend(on_model(sizes.triangles, rounds));
     rows
 }
 
-fn on_map(side: usize, rounds: usize) -> Vec<Row> {
-    let file = bumps(side);
+fn on_map(texels: Texels, side: usize, rounds: usize) -> Vec<Row> {
+    let file = bumps(texels, side);
     let image = RgbaImage::decode(&file, &DecodeLimits::default()).expect("a valid PNG");
-    let subject = format!("map of {side} x {side} texels, {} bytes", file.len());
-    let mut rows = in_turns(
+    let kind = match texels {
+        Texels::Noisy => "with noise",
+        Texels::Smooth => "without noise",
+    };
+    let subject = format!("map {kind} of {side} x {side} texels, {} bytes", file.len());
+    in_turns(
         &subject,
         rounds,
         [
@@ -53,9 +67,7 @@ fn on_map(side: usize, rounds: usize) -> Vec<Row> {
             ("judge", &mut || _ = black_box(judge_normal_map(&image.texels, [side; 2], TexelLayout::RGBA))),
             ("decode + judge + rules", &mut || drop(black_box(check(&file)))),
         ],
-    );
-    rows[2].memory = memory_of_a_child(side);
-    rows
+    )
 }
 
 fn on_model(triangles: usize, rounds: usize) -> Vec<Row> {
@@ -105,8 +117,12 @@ fn in_turns<const N: usize>(
     tasks.iter().enumerate().map(row).collect()
 }
 
-/// A PNG of bumps with noise of one code, as the rounding of bakers and of painted detail leaves it.
-fn bumps(side: usize) -> Vec<u8> {
+/// A PNG of bumps.
+fn bumps(texels: Texels, side: usize) -> Vec<u8> {
+    let amplitude = match texels {
+        Texels::Noisy => 1.5,
+        Texels::Smooth => 0.0,
+    };
     let texel = |i: usize| {
         let (x, y) = ((i % side) as f32 / 17.0, (i / side) as f32 / 17.0);
         let normal = [-x.cos() * y.sin() / 4.0, x.sin() * y.cos() / 4.0, 1.0];
@@ -115,7 +131,7 @@ fn bumps(side: usize) -> Vec<u8> {
         normal.map(|x| {
             bits = (bits ^ bits >> 16).wrapping_mul(0x7feb_352d);
             bits = (bits ^ bits >> 15).wrapping_mul(0x846c_a68b);
-            let noise = bits as f32 / u32::MAX as f32 * 3.0 - 1.5;
+            let noise = amplitude * (bits as f32 / u32::MAX as f32 * 2.0 - 1.0);
             (127.5 + 127.5 * x / length + noise) as u8
         })
     };
@@ -124,7 +140,7 @@ fn bumps(side: usize) -> Vec<u8> {
     image.to_bytes().expect("an image can be encoded")
 }
 
-/// The peak of a check over the file and the decoded map, measured in a child process; none if the system does not report it.
+/// The peak of a check of the map with noise over the file and the decoded map, measured in a child process; none if the system does not report it.
 fn memory_of_a_child(side: usize) -> Option<f64> {
     let mut command = Command::new(std::env::current_exe().ok()?);
     command.args(["--check", "--only-memory", "--map-side", &side.to_string()]);
@@ -132,9 +148,9 @@ fn memory_of_a_child(side: usize) -> Option<f64> {
     String::from_utf8(output.stdout).ok()?.trim().parse().ok()
 }
 
-/// The child process: checks the map once and returns the peak, the file included, over the file and the decoded map.
+/// The child process: checks the map with noise once and returns the peak, the file included, over the file and the decoded map.
 pub fn memory_of_this_process(side: usize) -> Option<f64> {
-    let file = bumps(side);
+    let file = bumps(Texels::Noisy, side);
     let growth = memory::growth(|| drop(black_box(check(&file))))?;
     Some((growth + file.len() as f64) / (file.len() + 4 * side * side) as f64)
 }
