@@ -34,6 +34,24 @@ impl VertexAccumulator {
         self.fingerprint = [0; 4];
     }
 
+    /// Adds to the sum of weighted tangents.
+    #[inline(always)]
+    pub fn add_sum(&mut self, term: &[f32; 4]) {
+        for lane in 0..4 {
+            self.sum[lane] += term[lane];
+        }
+    }
+
+    /// Adds to both sums. `fingerprint`: a reference, because a copy on the stack, written in pieces and read as a whole, stalls the
+    /// processor.
+    #[inline(always)]
+    pub fn add(&mut self, term: [f32; 4], fingerprint: &[u32; 4]) {
+        self.add_sum(&term);
+        for lane in 0..4 {
+            self.fingerprint[lane] = self.fingerprint[lane].wrapping_add(fingerprint[lane]);
+        }
+    }
+
     /// Replaces the sums by the result.
     #[inline(always)]
     pub fn finish(&mut self, [x, y, z]: [f32; 3], sign: f32, flags: u32) {
@@ -94,22 +112,19 @@ impl<'a> VertexRange<'a> {
     }
 }
 
-/// Adds a block's first `count` triangles, in order, to those of their vertices that are in `range`.
+/// Adds a block's first `count` triangles, in order, to their vertices.
 #[inline(always)]
-pub(crate) fn scatter(block: &TriangleBlock, count: usize, range: &mut VertexRange<'_>) {
-    let VertexRange { first, vertices, marks } = range;
+pub(crate) fn scatter(
+    block: &TriangleBlock,
+    count: usize,
+    vertices: &mut [VertexAccumulator],
+    marks: &mut [u32],
+) {
     let marks = &mut marks[..vertices.len()];
     for i in 0..count.min(BLOCK_SIZE) {
         for k in 0..3 {
-            let at = block.vertex[k][i].wrapping_sub(*first) as usize;
-            let Some(vertex) = vertices.get_mut(at) else { continue };
-            for lane in 0..4 {
-                vertex.sum[lane] += block.sum[k][i][lane];
-            }
-            for lane in 0..4 {
-                vertex.fingerprint[lane] =
-                    vertex.fingerprint[lane].wrapping_add(block.fingerprint[k][i][lane]);
-            }
+            let at = block.vertex[k][i] as usize;
+            vertices[at].add(block.sum[k][i], &block.fingerprint[k][i]);
             marks[at] |= block.marks[k][i];
         }
     }
@@ -120,10 +135,7 @@ pub(crate) fn scatter(block: &TriangleBlock, count: usize, range: &mut VertexRan
 pub(crate) fn scatter_sums(block: &TriangleBlock, count: usize, vertices: &mut [VertexAccumulator]) {
     for i in 0..count.min(BLOCK_SIZE) {
         for k in 0..3 {
-            let vertex = &mut vertices[block.vertex[k][i] as usize];
-            for lane in 0..4 {
-                vertex.sum[lane] += block.sum[k][i][lane];
-            }
+            vertices[block.vertex[k][i] as usize].add_sum(&block.sum[k][i]);
         }
     }
 }

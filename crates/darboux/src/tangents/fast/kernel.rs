@@ -15,6 +15,9 @@ use crate::tangents::fast::proof::{
 /// Triangles per block.
 pub(crate) const BLOCK_SIZE: usize = if cfg!(small_limits) { 2 } else { 64 };
 
+/// The vertex of a corner of a triangle, the next vertex of the triangle, and the one before.
+pub(crate) type CornerVertices = [u32; 3];
+
 /// The arrays of one block, with one element per triangle. The outer arrays of three have one element per corner or per coordinate.
 #[derive(Debug)]
 pub(crate) struct TriangleBlock {
@@ -341,6 +344,17 @@ impl TriangleBlock {
             self.fingerprint[0][i] = difference(f1, f2);
             self.fingerprint[1][i] = difference(f2, f0);
             self.fingerprint[2][i] = difference(f0, f1);
+        }
+    }
+
+    /// As [`Self::fingerprints`], of single corners: what corner number `i` adds is then `fingerprint[0][i]`.
+    #[inline(always)]
+    pub fn corner_fingerprints(&mut self, corners: &[CornerVertices]) {
+        let key = self.fingerprint_key;
+        self.set(corners, 0);
+        for i in 0..BLOCK_SIZE {
+            let [next, before] = [1, 2].map(|k| fingerprint(self.vertex[k][i], key));
+            self.fingerprint[0][i] = difference(next, before);
         }
     }
 }

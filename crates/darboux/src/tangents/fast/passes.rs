@@ -20,7 +20,7 @@ use crate::tangents::fast::accumulator::{
 };
 use crate::tangents::fast::edge_tail::TailCells;
 use crate::tangents::fast::exceptions::Exceptions;
-use crate::tangents::fast::kernel::{BLOCK_SIZE, TriangleBlock};
+use crate::tangents::fast::kernel::{BLOCK_SIZE, CornerVertices, TriangleBlock};
 use crate::tangents::fast::proof::{UNDECIDED, decided_sign, first_ray_count};
 use crate::tangents::fast::triangle_list::TriangleList;
 use crate::tangents::fast::vertex_record::{VertexSlices, VertexValues};
@@ -35,8 +35,8 @@ pub(crate) struct PassInput<'a, P> {
     pub limits: RunLimits<'a>,
 }
 
-/// What the corners of a triangle add to their vertices: the weighted tangent, and a fourth number that the pass defines.
-pub(crate) type TriangleTerms = [[f32; 4]; 3];
+/// What a corner adds to its vertex: the weighted tangent, and a fourth number that the pass defines.
+pub(crate) type Term = [f32; 4];
 
 /// What a pass over the triangles computes. The passes are types, so that a program without plans contains no code of [`Replay`].
 pub(crate) trait Pass: Copy + Sync {
@@ -53,13 +53,13 @@ pub(crate) trait Pass: Copy + Sync {
     );
 
     /// What is stored of corner `k` of triangle `i` of an evaluated block, for [`Pass::scatter_stored`].
-    fn stored_term(self, block: &TriangleBlock, k: usize, i: usize) -> [f32; 4];
+    fn stored_term(self, block: &TriangleBlock, k: usize, i: usize) -> Term;
 
-    /// Adds up to [`BLOCK_SIZE`] triangles, whose terms were stored before, to those of their vertices that are in `range`.
+    /// Adds up to [`BLOCK_SIZE`] corners, whose terms were stored before, to their vertices, all of which are in `range`.
     fn scatter_stored(
         self,
-        triangles: &[[u32; 3]],
-        terms: &[TriangleTerms],
+        corners: &[CornerVertices],
+        terms: &[Term],
         block: &mut TriangleBlock,
         range: &mut VertexRange<'_>,
     );
@@ -92,12 +92,12 @@ impl Pass for Discover<'_> {
         vertices: &mut [VertexAccumulator],
         marks: &mut [u32],
     ) {
-        scatter(block, count, &mut VertexRange { first: 0, vertices, marks });
+        scatter(block, count, vertices, marks);
     }
 
     /// The weighted tangent and the marks.
     #[inline(always)]
-    fn stored_term(self, block: &TriangleBlock, k: usize, i: usize) -> [f32; 4] {
+    fn stored_term(self, block: &TriangleBlock, k: usize, i: usize) -> Term {
         let [x, y, z, _] = block.sum[k][i];
         [x, y, z, f32::from_bits(block.marks[k][i])]
     }
@@ -105,21 +105,21 @@ impl Pass for Discover<'_> {
     #[inline(always)]
     fn scatter_stored(
         self,
-        triangles: &[[u32; 3]],
-        terms: &[TriangleTerms],
+        corners: &[CornerVertices],
+        terms: &[Term],
         block: &mut TriangleBlock,
         range: &mut VertexRange<'_>,
     ) {
-        block.set(triangles, 0);
-        block.fingerprints();
-        for (i, terms) in terms.iter().enumerate() {
-            for k in 0..3 {
-                let [x, y, z, marks] = terms[k];
-                block.marks[k][i] = marks.to_bits();
-                block.sum[k][i] = [x, y, z, first_ray_count(marks.to_bits())];
-            }
+        block.corner_fingerprints(corners);
+        let VertexRange { first, vertices, marks } = range;
+        let marks = &mut marks[..vertices.len()];
+        for (i, (corner, term)) in corners.iter().zip(terms).take(BLOCK_SIZE).enumerate() {
+            let at = corner[0].wrapping_sub(*first) as usize;
+            let [x, y, z, new_marks] = *term;
+            let new_marks = new_marks.to_bits();
+            vertices[at].add([x, y, z, first_ray_count(new_marks)], &block.fingerprint[0][i]);
+            marks[at] |= new_marks;
         }
-        scatter(block, triangles.len(), range);
     }
 
     fn mark_quads(self, list: &TriangleList<'_>, triangles: Range<usize>, range: &mut VertexRange<'_>) {
@@ -166,26 +166,20 @@ impl Pass for Replay<'_> {
     }
 
     #[inline(always)]
-    fn stored_term(self, block: &TriangleBlock, k: usize, i: usize) -> [f32; 4] {
+    fn stored_term(self, block: &TriangleBlock, k: usize, i: usize) -> Term {
         block.sum[k][i]
     }
 
     #[inline(always)]
     fn scatter_stored(
         self,
-        triangles: &[[u32; 3]],
-        terms: &[TriangleTerms],
+        corners: &[CornerVertices],
+        terms: &[Term],
         _block: &mut TriangleBlock,
         range: &mut VertexRange<'_>,
     ) {
-        for (triangle, terms) in triangles.iter().zip(terms) {
-            for k in 0..3 {
-                let at = triangle[k].wrapping_sub(range.first) as usize;
-                let Some(vertex) = range.vertices.get_mut(at) else { continue };
-                for lane in 0..4 {
-                    vertex.sum[lane] += terms[k][lane];
-                }
-            }
+        for (corner, term) in corners.iter().zip(terms) {
+            range.vertices[corner[0].wrapping_sub(range.first) as usize].add_sum(term);
         }
     }
 
@@ -270,35 +264,60 @@ impl<P: Pass> Task for AddTriangles<'_, P> {
     }
 }
 
-/// Stores what each corner adds to its vertex.
+/// Counts the corners of triangles in every bucket of vertices.
+pub(crate) struct CountBuckets<'a> {
+    pub triangles: &'a [[u32; 3]],
+    pub bucket_bits: u32,
+    pub counts: &'a mut [u32],
+}
+
+impl Task for CountBuckets<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for vertex in self.triangles.as_flattened() {
+            self.counts[(vertex >> self.bucket_bits) as usize] += 1;
+        }
+    }
+}
+
+/// Stores what each corner adds to its vertex, sorted by bucket.
 pub(crate) struct StoreTerms<'a, P> {
     pub pass: P,
     pub triangles: &'a [[u32; 3]],
     pub block: &'a mut TriangleBlock,
     /// All vertices of the mesh.
     pub vertices: &'a [VertexAccumulator],
-    pub out: &'a mut [TriangleTerms],
+    pub bucket_bits: u32,
+    /// Where the next corner of each bucket is stored.
+    pub next: &'a mut [u32],
+    pub corners: &'a mut [CornerVertices],
+    pub terms: &'a mut [Term],
 }
 
 impl<P: Pass> Task for StoreTerms<'_, P> {
     #[inline(always)]
     fn run(self) {
-        for (triangles, out) in self.triangles.chunks(BLOCK_SIZE).zip(self.out.chunks_mut(BLOCK_SIZE)) {
+        let corners = &mut self.corners[..self.terms.len()];
+        for triangles in self.triangles.chunks(BLOCK_SIZE) {
             evaluate(self.pass, triangles, (0, self.vertices), self.block);
-            for k in 0..3 {
-                for (i, out) in out.iter_mut().take(BLOCK_SIZE).enumerate() {
-                    out[k] = self.pass.stored_term(self.block, k, i);
+            for (i, &[a, b, c]) in triangles.iter().take(BLOCK_SIZE).enumerate() {
+                for (k, corner) in [[a, b, c], [b, c, a], [c, a, b]].into_iter().enumerate() {
+                    let next = &mut self.next[(corner[0] >> self.bucket_bits) as usize];
+                    let at = *next as usize;
+                    *next += 1;
+                    corners[at] = corner;
+                    self.terms[at] = self.pass.stored_term(self.block, k, i);
                 }
             }
         }
     }
 }
 
-/// Adds the terms that [`StoreTerms`] wrote to those vertices that are in `range`.
+/// Adds the terms that [`StoreTerms`] stored for one bucket.
 pub(crate) struct AddStoredTerms<'a, P> {
     pub pass: P,
-    pub triangles: &'a [[u32; 3]],
-    pub terms: &'a [TriangleTerms],
+    pub corners: &'a [CornerVertices],
+    pub terms: &'a [Term],
     pub block: &'a mut TriangleBlock,
     pub range: VertexRange<'a>,
 }
@@ -306,9 +325,8 @@ pub(crate) struct AddStoredTerms<'a, P> {
 impl<P: Pass> Task for AddStoredTerms<'_, P> {
     #[inline(always)]
     fn run(mut self) {
-        let blocks = self.triangles.chunks(BLOCK_SIZE).zip(self.terms.chunks(BLOCK_SIZE));
-        for (triangles, terms) in blocks {
-            self.pass.scatter_stored(triangles, terms, self.block, &mut self.range);
+        for (corners, terms) in self.corners.chunks(BLOCK_SIZE).zip(self.terms.chunks(BLOCK_SIZE)) {
+            self.pass.scatter_stored(corners, terms, self.block, &mut self.range);
         }
     }
 }

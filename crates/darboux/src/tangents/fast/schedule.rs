@@ -3,7 +3,8 @@
 use crate::exec::simd::{Task, Width};
 use crate::exec::threads::{self, split_range, split_slice};
 use crate::exec::windows::{Partition, Window, accumulate_bounds, overlap_too_much, partitions};
-use crate::tangents::fast::passes::{Pass, PassInput, TriangleTerms};
+use crate::tangents::fast::passes::{Pass, PassInput};
+use crate::tangents::fast::scattered::ScatteredBuffers;
 use crate::tangents::fast::triangle_list::TriangleList;
 use crate::tangents::fast::worker::Worker;
 use crate::tangents::fast::{scattered, streamed};
@@ -13,8 +14,8 @@ use crate::tangents::fast::{scattered, streamed};
 pub(crate) struct Schedule {
     /// What each thread does in a streamed pass.
     pub partitions: Vec<Partition>,
-    /// What triangles add in a scattered pass, where the output array does not have one element per entry.
-    terms: Vec<TriangleTerms>,
+    /// The memory of scattered passes.
+    scattered: ScatteredBuffers,
 }
 
 impl Schedule {
@@ -29,7 +30,7 @@ impl Schedule {
         self.partitions.clear();
         self.partitions.extend(partitions(input.windows, vertex_count, workers.len()));
         if self.is_scattered(input.windows) {
-            return scattered::run(input, vertex_count, workers, &mut self.terms, out);
+            return scattered::run(input, vertex_count, workers, &mut self.scattered, out);
         }
         let ranges = self.partitions.iter().map(|partition| input.list.corners_of(partition.windows.clone()));
         let jobs = self.partitions.iter().zip(split_slice(&mut *out, 0, ranges));
