@@ -33,16 +33,19 @@ pub(crate) fn run<W: Send, P: Send>(
 ///
 /// `threads`: the number of threads, at least 1.
 pub(crate) fn for_each<T: Send>(threads: usize, list: &mut [T], with: impl Fn(&mut T) + Sync) {
-    for_each_with(&mut vec![(); threads], list, |(), element| with(element));
+    for_each_with(&mut vec![(); threads], list.iter_mut(), |(), element| with(element));
 }
 
-/// As [`for_each`], on as many threads as there are workers. Each thread uses a worker of its own.
-pub(crate) fn for_each_with<W: Send, T: Send>(
+/// As [`for_each`], with the elements of an iterator, on as many threads as there are workers. Each thread uses a worker of its own.
+pub(crate) fn for_each_with<W: Send, T>(
     workers: &mut [W],
-    list: &mut [T],
-    with: impl Fn(&mut W, &mut T) + Sync,
+    elements: impl Iterator<Item = T> + Send,
+    with: impl Fn(&mut W, T) + Sync,
 ) {
-    let rest = Mutex::new(list.iter_mut());
+    if let [worker] = workers {
+        return elements.for_each(|element| with(worker, element));
+    }
+    let rest = Mutex::new(elements);
     let parts = std::iter::repeat_n((), workers.len());
     run(workers, parts, |worker, ()| {
         while let Ok(Some(element)) = rest.lock().map(|mut rest| rest.next()) {

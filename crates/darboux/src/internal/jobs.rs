@@ -30,7 +30,7 @@ pub fn map_with<T: Sync, R: Send>(
     of: impl Fn(&T, &mut Context) -> R + Sync,
 ) -> Vec<R> {
     let mut results: Vec<(&T, Option<R>)> = list.iter().map(|element| (element, None)).collect();
-    threads::for_each_with(contexts, &mut results, |context, (element, result)| {
+    threads::for_each_with(contexts, results.iter_mut(), |context, (element, result)| {
         *result = Some(of(element, context));
     });
     results.into_iter().filter_map(|(_, result)| result).collect()

@@ -135,14 +135,20 @@ impl CellBuckets {
         self.ends.truncate(CELL_COUNT);
     }
 
-    /// The points of each cell, cell after cell.
+    /// The number of all points.
+    pub fn point_count(&self) -> usize {
+        self.points.len()
+    }
+
+    /// The points of each cell that has some, cell after cell.
     pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut [Point]> {
         let (mut rest, mut start) = (&mut self.points[..], 0);
-        self.ends.iter().map(move |&end| {
+        let cells = self.ends.iter().map(move |&end| {
             let (cell, later) = std::mem::take(&mut rest).split_at_mut((end - start) as usize);
             (rest, start) = (later, end);
             cell
-        })
+        });
+        cells.filter(|points| !points.is_empty())
     }
 }
 

@@ -26,6 +26,7 @@
 //! The first points are found in passing: the pass over the triangles sets the flag `IN_TAIL` (`accumulator.rs`) of vertices in the cells
 //! when it finishes them, and lists their corners when it writes these (`exceptions.rs`).
 
+use crate::exec::threads;
 use crate::topology::neighbours::tail_order_matters;
 use crate::topology::weld::{Bounds, CELL_COUNT, CellBuckets, Cells, Point, for_each_final_range};
 use crate::util::radix_sort::{first, pair, second, sort};
@@ -35,7 +36,13 @@ use crate::tangents::fast::triangle_list::{TriangleBuffer, TriangleList};
 /// The number of triangles of the first tail, where triangles that share vertices are near each other in the list.
 const FIRST_TAIL: usize = if cfg!(small_limits) { 1 } else { 4 };
 /// The number of triangles of the first tail of a shuffled list, in which fewer triangles have vertices that are named after the end.
-const FIRST_TAIL_SHUFFLED: usize = 8 * FIRST_TAIL;
+const FIRST_TAIL_SHUFFLED: usize = 4 * FIRST_TAIL;
+/// The same of a short list, in which any tail has vertices in most cells, so that a second one would cost as much as a run.
+const FIRST_TAIL_SHORT: usize = 8 * FIRST_TAIL;
+/// Lists of fewer triangles are short.
+const SHORT: usize = if cfg!(small_limits) { 4 } else { 1024 };
+/// Cells with fewer points are divided on one thread.
+const POINTS_FOR_THREADS: usize = if cfg!(small_limits) { 4 } else { 4096 };
 
 /// The cells in which a triangle tail has vertices.
 #[derive(Debug)]
@@ -76,7 +83,11 @@ impl TailCells {
 
     /// The cells of the first tail to examine: a few triangles that have edges, and the degenerate triangles between and after them.
     pub fn first(list: &TriangleList<'_>, bounds: &Bounds, is_shuffled: bool) -> Self {
-        let tail = if is_shuffled { FIRST_TAIL_SHUFFLED } else { FIRST_TAIL };
+        let tail = match is_shuffled {
+            true if list.count() < SHORT => FIRST_TAIL_SHORT,
+            true => FIRST_TAIL_SHUFFLED,
+            false => FIRST_TAIL,
+        };
         let mut with_edges = (0..list.count()).rev().filter(|&triangle| {
             let positions = list.triangle(triangle as u32).map(|vertex| list.position(vertex));
             !are_degenerate(positions)
@@ -147,19 +158,35 @@ fn sorted<T: PartialOrd>(a: T, b: T) -> (T, T) {
 pub(crate) struct TailBuffers {
     points: Vec<Point>,
     buckets: CellBuckets,
+    /// Those of each thread.
+    naming: Vec<NamingBuffers>,
+    edges: Vec<Edge>,
+    /// The names of the last edges' upper vertices, ascending.
+    upper_names: Vec<u32>,
+}
+
+/// The lists of one thread that names vertices.
+#[derive(Debug, Default)]
+struct NamingBuffers {
     /// Pairs of an entry and a name: the entries of vertices that are named after a corner of the tail.
     named: Vec<u64>,
     /// Pairs of a vertex and the index of its point in one range.
     of_range: Vec<u64>,
-    edges: Vec<Edge>,
-    /// The names of the last edges' upper vertices, ascending.
-    upper_names: Vec<u32>,
+}
+
+impl TailBuffers {
+    /// Prepares a search on up to `threads` threads, at least one.
+    pub fn set_threads(&mut self, threads: usize) {
+        self.naming.resize_with(threads.max(1), NamingBuffers::default);
+    }
 }
 
 /// The mesh in which the last edges are searched.
 #[derive(Clone, Copy)]
 pub(crate) struct EdgeTail<'a> {
     pub list: TriangleList<'a>,
+    /// The number of welded vertices.
+    pub vertex_count: usize,
     /// The bounds of the positions of all used vertices.
     pub bounds: &'a Bounds,
 }
@@ -175,14 +202,12 @@ impl EdgeTail<'_> {
         buffers: &mut TailBuffers,
     ) -> Option<LastEdges> {
         match points {
-            Some(points) => buffers.buckets.sort(&cells.cells, points),
-            None => self.sort_points(&cells, buffers),
+            Some(points) => self.list_edges_among(&cells, points, buffers),
+            None => self.list_edges(&cells, buffers),
         }
-        self.list_edges(&cells, buffers);
         while buffers.edges.is_empty() && cells.start > 0 {
             let tail = 4 * (self.list.count() - cells.start);
             cells = TailCells::new(&self.list, self.bounds, self.list.count().saturating_sub(tail));
-            self.sort_points(&cells, buffers);
             self.list_edges(&cells, buffers);
         }
         LastEdges::of(buffers)
@@ -190,10 +215,20 @@ impl EdgeTail<'_> {
 
     /// Lists one edge of every triangle that has two or three vertices named after corners of the tail.
     fn list_edges(&self, cells: &TailCells, buffers: &mut TailBuffers) {
-        self.list_named(cells, buffers);
-        buffers.edges.clear();
-        let triangles = buffers.named.chunk_by(|&a, &b| first(a) / 3 == first(b) / 3);
-        buffers.edges.extend(triangles.filter_map(|entries| self.highest_edge(entries)));
+        let mut points = std::mem::take(&mut buffers.points);
+        self.list_points(cells, &mut points);
+        self.list_edges_among(cells, &points, buffers);
+        buffers.points = points;
+    }
+
+    /// As [`Self::list_edges`]. `points`: the entries of all vertices in the cells, ascending.
+    fn list_edges_among(&self, cells: &TailCells, points: &[Point], buffers: &mut TailBuffers) {
+        let TailBuffers { buckets, naming, edges, .. } = buffers;
+        buckets.sort(&cells.cells, points);
+        self.list_named(cells, buckets, naming);
+        edges.clear();
+        let triangles = naming[0].named.chunk_by(|&a, &b| first(a) / 3 == first(b) / 3);
+        edges.extend(triangles.filter_map(|entries| self.highest_edge(entries)));
     }
 
     /// The welded vertex at an entry.
@@ -201,46 +236,53 @@ impl EdgeTail<'_> {
         self.list.vertex(self.list.corner(entry))
     }
 
-    /// Sorts the entries of all vertices in the cells by cell.
-    fn sort_points(&self, cells: &TailCells, buffers: &mut TailBuffers) {
+    /// Lists the entries of all vertices in the cells, ascending. Positions are tested once per vertex: a test per corner would wait for
+    /// memory at each of them.
+    fn list_points(&self, cells: &TailCells, points: &mut Vec<Point>) {
+        let position = |vertex| self.list.position(vertex);
+        let is_inside: Vec<bool> =
+            (0..self.vertex_count as u32).map(|vertex| cells.contain(position(vertex))).collect();
         let mut triangle_buffer = TriangleBuffer::default();
-        buffers.points.clear();
+        points.clear();
         for range in self.list.windows() {
             let first = 3 * range.start as u32;
             let triangles = self.list.triangles(range, &mut triangle_buffer);
-            for (entry, &vertex) in (first..).zip(triangles.as_flattened()) {
-                let position = self.list.position(vertex);
-                if cells.contain(position) {
-                    buffers.points.push(Point { position, entry });
-                }
-            }
+            let inside =
+                (first..).zip(triangles.as_flattened()).filter(|(_, vertex)| is_inside[**vertex as usize]);
+            points.extend(inside.map(|(entry, &vertex)| Point { position: position(vertex), entry }));
         }
-        buffers.buckets.sort(&cells.cells, &buffers.points);
     }
 
-    /// Lists the entries of all vertices that are named after a corner of the tail, ascending.
-    fn list_named(&self, cells: &TailCells, buffers: &mut TailBuffers) {
-        let TailBuffers { buckets, named, of_range, .. } = buffers;
+    /// Lists the entries of all vertices that are named after a corner of the tail, ascending, in the first of `naming`.
+    fn list_named(&self, cells: &TailCells, buckets: &mut CellBuckets, naming: &mut [NamingBuffers]) {
+        naming.iter_mut().for_each(|buffers| buffers.named.clear());
+        let threads = if buckets.point_count() < POINTS_FOR_THREADS { 1 } else { naming.len() };
+        threads::for_each_with(&mut naming[..threads], buckets.iter_mut(), |buffers, points| {
+            self.list_named_of_cell(cells, points, buffers);
+        });
+        let (all, others) = naming.split_first_mut().expect("the buffers of a thread");
+        others.iter_mut().for_each(|other| all.named.append(&mut other.named));
+        sort(&mut all.named);
+    }
+
+    fn list_named_of_cell(&self, cells: &TailCells, points: &mut [Point], buffers: &mut NamingBuffers) {
+        let NamingBuffers { named, of_range } = buffers;
         let in_tail = |entry: u32| entry as usize >= 3 * cells.start;
         let is_wanted = |points: &[Point]| points.iter().any(|point| in_tail(point.entry));
-        named.clear();
-        for points in buckets.iter_mut() {
-            for_each_final_range(points, &is_wanted, &mut |points| {
-                let place = |(at, point): (u32, &Point)| pair(self.vertex(point.entry), at);
-                of_range.clear();
-                of_range.extend((0..).zip(points).map(place));
-                // By vertex, in the order of the range: the corner at the first entry of each vertex is its name.
-                sort(of_range);
-                let entry = |place: u64| points[second(place) as usize].entry;
-                for same in of_range.chunk_by(|&a, &b| first(a) == first(b)) {
-                    if in_tail(entry(same[0])) {
-                        let name = self.list.corner(entry(same[0]));
-                        named.extend(same.iter().map(|&place| pair(entry(place), name)));
-                    }
+        for_each_final_range(points, &is_wanted, &mut |points| {
+            let place = |(at, point): (u32, &Point)| pair(self.vertex(point.entry), at);
+            of_range.clear();
+            of_range.extend((0..).zip(points).map(place));
+            // By vertex, in the order of the range: the corner at the first entry of each vertex is its name.
+            sort(of_range);
+            let entry = |place: u64| points[second(place) as usize].entry;
+            for same in of_range.chunk_by(|&a, &b| first(a) == first(b)) {
+                if in_tail(entry(same[0])) {
+                    let name = self.list.corner(entry(same[0]));
+                    named.extend(same.iter().map(|&place| pair(entry(place), name)));
                 }
-            });
-        }
-        sort(named);
+            }
+        });
     }
 
     /// The edge between the two vertices of a triangle with the largest names, if at least two are named. `entries`: those of the triangle.

@@ -169,9 +169,11 @@ fn is_difference_of_two(sum: [u32; 4]) -> bool {
 /// How many values of a + b are tried; a vertex with more candidates is left to the general path.
 const CANDIDATES: u64 = 64;
 
-/// The inverse of an odd number modulo 2^32, by Newton's iteration: each step doubles the number of right bits, 3 at the start.
+/// The inverse of an odd number modulo 2^32, by Newton's iteration: each step doubles the number of right bits, 5 at the start.
 fn inverse(odd: u32) -> u32 {
-    (0..4).fold(odd, |inverse, _| inverse.wrapping_mul(2u32.wrapping_sub(odd.wrapping_mul(inverse))))
+    (0..3).fold(odd.wrapping_mul(3) ^ 2, |inverse, _| {
+        inverse.wrapping_mul(2u32.wrapping_sub(odd.wrapping_mul(inverse)))
+    })
 }
 
 #[cfg(test)]

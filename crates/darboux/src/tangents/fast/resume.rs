@@ -2,7 +2,7 @@
 
 use crate::Mesh;
 use crate::tangents::options::Mode;
-use crate::topology::weld::{Bounds, Point};
+use crate::topology::weld::Bounds;
 
 use crate::tangents::fast::edge_tail::{TailCells, are_degenerate};
 use crate::tangents::fast::proof::UNDECIDED;
@@ -25,7 +25,7 @@ impl FastPath {
         self.exceptions.undecided.extend(undecided);
         self.tail_runs.clear();
         if mode != Mode::Corrected && mesh.corner_count() > 0 {
-            self.search_last_edges_by_vertex(mesh, out);
+            self.search_last_edges_in_mesh(mesh, out);
         }
         self.list_copied_triangles(mesh, out);
     }
@@ -59,22 +59,14 @@ impl FastPath {
         self.exceptions.undecided.dedup();
     }
 
-    /// Searches for the last edges whose order changes the result. Positions are tested once per vertex; a test per corner would take as
-    /// long as a whole run.
-    fn search_last_edges_by_vertex(&mut self, mesh: &Mesh<'_>, out: &mut [[f32; 4]]) {
+    /// Searches for the last edges whose order changes the result.
+    fn search_last_edges_in_mesh(&mut self, mesh: &Mesh<'_>, out: &mut [[f32; 4]]) {
+        let mut is_used = vec![false; mesh.vertex_count()];
+        (0..mesh.corner_count()).for_each(|corner| is_used[mesh.vertex_of_corner(corner)] = true);
         let position = |vertex| mesh.positions().get(vertex);
-        let mut is_listed = vec![false; mesh.vertex_count()];
-        (0..mesh.corner_count()).for_each(|corner| is_listed[mesh.vertex_of_corner(corner)] = true);
-        let mut used = (0..is_listed.len()).filter(|&vertex| is_listed[vertex]).map(position);
+        let mut used = (0..is_used.len()).filter(|&vertex| is_used[vertex]).map(position);
         let bounds = Bounds::of(used.next().unwrap_or_default(), used);
         let cells = TailCells::first(&self.list(mesh), &bounds, true);
-        for (vertex, is_listed) in is_listed.iter_mut().enumerate() {
-            *is_listed = cells.contain(position(vertex));
-        }
-        let vertices = (0..).zip((0..mesh.corner_count()).map(|corner| mesh.vertex_of_corner(corner)));
-        let in_tail = vertices.filter(|(_, vertex)| is_listed[*vertex]);
-        let point = |(entry, vertex)| Point { position: position(vertex), entry };
-        self.exceptions.in_tail.extend(in_tail.map(point));
-        self.undecide_last_edges(mesh, &bounds, cells, true, out);
+        self.undecide_last_edges(mesh, &bounds, cells, false, out);
     }
 }

@@ -140,18 +140,13 @@ fn store<P: Pass>(
     parts: &mut [Part],
     mut terms: &mut [Term],
 ) {
-    let mut with_terms: Vec<_> = parts
-        .iter_mut()
-        .map(|part| {
-            let entries = 3 * input.list.triangles_of(part.windows.clone()).len();
-            let (own, rest) = std::mem::take(&mut terms).split_at_mut(entries);
-            terms = rest;
-            (part, own)
-        })
-        .collect();
-    threads::for_each_with(workers, &mut with_terms, |worker, (part, terms)| {
+    let parts = parts.iter_mut().map(|part| {
+        let entries = 3 * input.list.triangles_of(part.windows.clone()).len();
+        (part, terms.split_off_mut(..entries).expect("the terms are those of all parts"))
+    });
+    threads::for_each_with(workers, parts, |worker, (part, terms)| {
         part.count(input, bits, vertices.len(), worker);
-        let Part { windows, corners, ends } = &mut **part;
+        let Part { windows, corners, ends } = part;
         corners.resize(terms.len(), CornerVertices::default());
         for at in windows.clone() {
             let triangles = input.list.triangles(input.list.window(at), &mut worker.triangles);
@@ -202,19 +197,19 @@ fn add_stored<P: Pass>(
     marks: &mut [u32],
 ) {
     let size = 1 << bits;
-    let mut buckets: Vec<_> = vertices.chunks_mut(size).zip(marks.chunks_mut(size)).enumerate().collect();
-    threads::for_each_with(workers, &mut buckets, |worker, (bucket, (vertices, marks))| {
-        let first = (*bucket << bits) as u32;
+    let buckets = vertices.chunks_mut(size).zip(marks.chunks_mut(size)).enumerate();
+    threads::for_each_with(workers, buckets, |worker, (bucket, (vertices, marks))| {
+        let first = (bucket << bits) as u32;
         let mut rest = terms;
         for part in parts {
-            let (terms, range) = (rest, part.bucket(*bucket));
+            let (terms, range) = (rest, part.bucket(bucket));
             rest = &rest[part.corners.len()..];
             input.limits.width.run(AddStoredTerms {
                 pass: input.pass,
                 corners: &part.corners[range.clone()],
                 terms: &terms[range],
                 block: &mut worker.block,
-                range: VertexRange { first, vertices, marks },
+                range: VertexRange { first, vertices: &mut *vertices, marks: &mut *marks },
             });
         }
     });

@@ -89,9 +89,10 @@ impl FastPath {
         is_listed: bool,
         out: &mut [[f32; 4]],
     ) {
+        self.tail_buffers.set_threads(self.workers.len());
         let Self { weld, split, exceptions, tail_buffers, names, tail_runs, .. } = self;
         let list = triangle_list(mesh, weld, split);
-        let tail = EdgeTail { list, bounds };
+        let tail = EdgeTail { list, vertex_count: weld.count, bounds };
         let points = if is_listed { Some(&exceptions.in_tail[..]) } else { None };
         if let Some(last) = tail.find(cells, points, tail_buffers) {
             *tail_runs = names.tail_runs(&tail, &last, weld.count, &exceptions.undecided);
