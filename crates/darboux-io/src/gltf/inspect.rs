@@ -1,6 +1,6 @@
 //! Describes every primitive of a document: its attributes, and the tangents that it could have.
 
-use darboux::{Context, Convention, CornerTangents};
+use darboux::{Context, Convention};
 use serde::Serialize;
 
 use super::primitives::canonical::CanonicalAccessors;
@@ -103,8 +103,8 @@ fn describe(document: &Document, candidate: &TangentCandidate) -> PrimitiveInfo 
 }
 
 /// Counts triangles whose sign is that of a mirrored texture.
-fn mirrored_triangles(tangents: &CornerTangents) -> usize {
+fn mirrored_triangles(tangents: &[[f32; 4]]) -> usize {
     let to_gltf = Convention::GLTF.generated().to(Convention::GLTF);
-    let triangles = tangents.per_corner().as_chunks::<3>().0.iter();
+    let triangles = tangents.as_chunks::<3>().0.iter();
     triangles.filter(|[first, ..]| to_gltf.tangent(*first)[3] < 0.0).count()
 }

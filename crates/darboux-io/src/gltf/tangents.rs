@@ -10,6 +10,7 @@
 //! ```
 
 pub(super) mod compute;
+mod corner_memory;
 mod encoding;
 mod group_computation;
 pub(super) mod groups;

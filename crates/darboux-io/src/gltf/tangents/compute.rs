@@ -3,10 +3,9 @@
 use std::borrow::Cow;
 use std::{fmt, mem};
 
-use darboux::{
-    Context, CornerTangents, Mesh, Plan, Report, TangentOptions, Tangents, generate_tangents_with,
-};
+use darboux::{Context, Mesh, Plan, Report, TangentOptions, Tangents, write_tangents};
 
+use super::corner_memory::CornerMemory;
 use super::encoding::TangentEncoding;
 use super::groups::{Group, Job};
 use super::options::AddTangentsOptions;
@@ -79,7 +78,7 @@ pub struct JobResult<'a> {
     /// The indices after the last complete triangle.
     pub rest: Vec<u32>,
     /// The tangents in the convention of generation.
-    pub tangents: CornerTangents,
+    pub tangents: CornerMemory,
     pub report: Report,
     /// The plan that evaluates morph targets, if there are any.
     pub plan: Option<Plan>,
@@ -87,7 +86,7 @@ pub struct JobResult<'a> {
 
 /// What computes the tangents of meshes without morph targets.
 pub enum Generate<'a> {
-    /// [`darboux::generate_tangents_with`]. Threads share large meshes, and take small ones each for itself.
+    /// [`darboux::write_tangents`]. Threads share large meshes, and take small ones each for itself.
     OnCpu,
     /// Another function, one mesh after the other; a failure is one sentence.
     With(&'a mut GenerateFn<'a>),
@@ -112,10 +111,17 @@ impl Generate<'_> {
         mesh: &Mesh<'_>,
         options: &TangentOptions,
         context: &mut Context,
-    ) -> Result<Tangents, String> {
+    ) -> Result<(CornerMemory, Report), String> {
         match self {
-            Self::OnCpu => generate_tangents_with(mesh, options, context).map_err(|error| error.to_string()),
-            Self::With(function) => function(mesh, options, context),
+            Self::OnCpu => {
+                let mut tangents = CornerMemory::new(mesh.corner_count());
+                let report = write_tangents(mesh, options, context, &mut tangents);
+                Ok((tangents, report.map_err(|error| error.to_string())?))
+            }
+            Self::With(function) => {
+                let Tangents { corners, report, .. } = function(mesh, options, context)?;
+                Ok((CornerMemory::Vector(corners.into_per_corner()), report))
+            }
         }
     }
 }
@@ -139,21 +145,21 @@ pub fn compute_job<'a>(
         other => IndexList::U32(other.corners(corners.into_u32()).into()),
     };
     let mesh = vertices.mesh(document, at, job, &corners)?;
-    let (tangents, plan) = if morphs {
+    let (mut tangents, report, plan) = if morphs {
         let plan = Plan::new_with(&mesh, &options.tangents, context)
             .map_err(|error| document.mesh_error(at, error))?;
-        (plan.base().clone(), Some(plan))
+        let Tangents { corners, report, .. } = plan.base().clone();
+        (CornerMemory::Vector(corners.into_per_corner()), report, Some(plan))
     } else {
         let tangents = generate.call(&mesh, &options.tangents, context);
-        (tangents.map_err(|sentence| document.invalid(at, sentence))?, None)
+        let (tangents, report) = tangents.map_err(|sentence| document.invalid(at, sentence))?;
+        (tangents, report, None)
     };
     if options.strict {
-        refuse_unusable(document, at, &tangents.report)?;
+        refuse_unusable(document, at, &report)?;
     }
-    let report = tangents.report;
-    let mut tangents = tangents.corners;
     if options.encoding != TangentEncoding::F32x4 {
-        tangents = tangents.map(|tangent| options.encoding.rounded(tangent));
+        tangents.iter_mut().for_each(|tangent| *tangent = options.encoding.rounded(*tangent));
     }
     Ok(JobResult { corners, rest, tangents, report, plan })
 }

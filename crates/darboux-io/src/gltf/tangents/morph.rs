@@ -136,7 +136,7 @@ pub fn offsets(
         let in_document = |error| document.mesh_error(&morph.at, error);
         let evaluated = plan.evaluate_with(&mesh, context).map_err(in_document)?;
         let regrouped = plan.count_regrouped_with(&mesh, context).map_err(in_document)?;
-        let tangents = evaluated.per_corner().iter().zip(result.tangents.per_corner());
+        let tangents = evaluated.per_corner().iter().zip(result.tangents.iter());
         let corners = split.vertices(job, result).zip(tangents);
         let conflicting = corners.filter(|&(vertex, (moved, base))| !field.set(vertex, moved, base)).count();
         stale_corners.push(StaleCorners { regrouped, conflicting });

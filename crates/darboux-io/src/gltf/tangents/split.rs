@@ -2,7 +2,7 @@
 
 use std::mem;
 
-use darboux::{Convention, SplitBuffer, Splitter};
+use darboux::{Convention, CornerTangentsRef, SplitBuffer, Splitter};
 
 use super::compute::{JobResult, Vertices};
 use super::groups::{Group, Job};
@@ -38,7 +38,7 @@ pub fn split(
     let mut corners = Vec::with_capacity(results.len());
     for (job, result) in group.jobs.iter().zip(results) {
         let mesh = vertices.mesh(document, at, job, &result.corners)?;
-        let added = splitter.add_or_keep(&mesh, &result.tangents);
+        let added = splitter.add_or_keep(&mesh, CornerTangentsRef::from_per_corner(&result.tangents));
         corners.push(added.map_err(|error| document.mesh_error(at, error))?);
     }
     let SplitBuffer { tangent_of_vertex: tangents, source_of_vertex: mut copies } =

@@ -21,8 +21,9 @@ pub(crate) type CornerVertices = [u32; 3];
 /// The arrays of one block, with one element per triangle. The outer arrays of three have one element per corner or per coordinate.
 #[derive(Debug)]
 pub(crate) struct TriangleBlock {
-    /// The vertices of each triangle.
+    /// The vertices of each triangle, counted from `first` on.
     pub vertex: [[u32; BLOCK_SIZE]; 3],
+    first: u32,
     /// The records of these vertices as they lie in memory, in two halves.
     pub packed: [[[[f32; 4]; BLOCK_SIZE]; 2]; 3],
     /// The records, one array per component.
@@ -54,6 +55,7 @@ impl Default for TriangleBlock {
     fn default() -> Self {
         Self {
             vertex: [[0; BLOCK_SIZE]; 3],
+            first: 0,
             packed: [[[[0.0; 4]; BLOCK_SIZE]; 2]; 3],
             record: [[[0.0; BLOCK_SIZE]; 8]; 3],
             angle: [[0.0; BLOCK_SIZE]; 3],
@@ -75,6 +77,7 @@ impl TriangleBlock {
     /// Sets the vertices of up to [`BLOCK_SIZE`] triangles, numbered from `first` on. Lanes beyond them keep their values.
     #[inline(always)]
     pub fn set(&mut self, triangles: &[[u32; 3]], first: u32) {
+        self.first = first;
         for (i, triangle) in triangles.iter().take(BLOCK_SIZE).enumerate() {
             for k in 0..3 {
                 self.vertex[k][i] = triangle[k].wrapping_sub(first);
@@ -338,9 +341,9 @@ impl TriangleBlock {
     /// Computes what each corner adds to its vertex's fingerprint: that of the next vertex of the triangle minus that of the one before.
     #[inline(always)]
     pub fn fingerprints(&mut self) {
-        let key = self.fingerprint_key;
+        let (key, first) = (self.fingerprint_key, self.first);
         for i in 0..BLOCK_SIZE {
-            let [f0, f1, f2] = [0, 1, 2].map(|k| fingerprint(self.vertex[k][i], key));
+            let [f0, f1, f2] = [0, 1, 2].map(|k| fingerprint(self.vertex[k][i].wrapping_add(first), key));
             self.fingerprint[0][i] = difference(f1, f2);
             self.fingerprint[1][i] = difference(f2, f0);
             self.fingerprint[2][i] = difference(f0, f1);

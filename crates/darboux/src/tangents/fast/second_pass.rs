@@ -9,6 +9,7 @@ use crate::exec::windows::{Partition, Window};
 use crate::tangents::fast::accumulator::{VertexAccumulator, gather};
 use crate::tangents::fast::kernel::{BLOCK_SIZE, TriangleBlock};
 use crate::tangents::fast::schedule::Schedule;
+use crate::tangents::fast::streamed::{self, first_vertex};
 use crate::tangents::fast::triangle_list::TriangleList;
 use crate::tangents::fast::worker::Worker;
 
@@ -24,7 +25,7 @@ pub(crate) trait VertexQuantity: Copy + Default + Send {
     fn finish(_width: Width, _vertices: &mut [Self]) {}
 }
 
-/// The mesh of the last run, whose workers still have its vertices.
+/// The mesh of the last run.
 pub(crate) struct SecondPass<'a> {
     pub list: TriangleList<'a>,
     pub windows: &'a [Window],
@@ -48,9 +49,13 @@ impl SecondPass<'_> {
         let vertices = partitions.iter().map(|partition| partition.vertices.clone());
         let jobs = partitions.iter().zip(split_slice(out, 0, vertices));
         threads::run(workers, jobs, |worker, (partition, quantities)| {
-            let Worker { block, vertices, triangles: buffer, first, .. } = worker;
-            let windows = partition.windows.start..partition.end_window;
-            for at in windows.take_while(|_| !limits.is_cancelled()) {
+            worker.begin(first_vertex(windows, partition), 0);
+            let numbers = partition.windows.start..partition.end_window;
+            for at in numbers.take_while(|_| !limits.is_cancelled()) {
+                let end = windows[at].vertices.end as usize;
+                worker.make_room(windows[at].lowest_from_here as usize, end);
+                streamed::read(&list, limits.width, worker, end);
+                let Worker { block, vertices, triangles: buffer, first, .. } = worker;
                 let triangles = list.triangles(list.window(at), buffer);
                 let (first, own, quantities) = (*first as u32, partition.vertices.clone(), &mut *quantities);
                 limits.width.run(AddQuantities { triangles, first, block, vertices, own, quantities });

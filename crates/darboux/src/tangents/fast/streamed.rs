@@ -1,14 +1,16 @@
-//! A pass in which every thread streams its own windows: each vertex is read before the first window that uses it and finished after
-//! the last, so that it stays in the cache in between.
+//! A pass in which every thread streams its own windows: each vertex is read before the first window that uses it, finished after the last,
+//! and dropped, so that it stays in the cache in between and its memory serves others.
 
 use std::ops::Range;
 
+use crate::exec::simd::Width;
 use crate::exec::windows::{Partition, WINDOW, Window};
 use crate::tangents::fast::accumulator::{VertexAccumulator, VertexRange};
 use crate::tangents::fast::exceptions::Exceptions;
 use crate::tangents::fast::passes::{
     AddTriangles, FinishVertices, Pass, PassInput, ReadVertices, WriteCorners, write_face,
 };
+use crate::tangents::fast::triangle_list::TriangleList;
 use crate::tangents::fast::worker::Worker;
 
 /// Streams the windows of one partition: reads the vertices that each window needs first, adds the window's triangles, finishes vertices
@@ -25,14 +27,18 @@ pub(crate) fn run<P: Pass>(
     let Range { start: first_window, end: end_window } = partition.windows;
     let own = partition.vertices.clone();
     let corner = |window: usize| input.list.corners_of(first_window..window).len();
-    worker.begin(vertices_to_read(input, partition));
+    let first = first_vertex(input.windows, partition);
+    worker.begin(first, own.start.max(first));
     let (mut finished, mut written) = (own.start.max(worker.first), first_window);
     worker.findings.unread = finished - own.start;
     for at in first_window..partition.end_window {
         if input.limits.is_cancelled() {
             break;
         }
-        read(input, worker, input.windows[at].vertices.end as usize);
+        let unwritten =
+            input.windows.get(written).map_or(finished, |window| window.lowest_from_here as usize);
+        worker.make_room(unwritten.min(finished), input.windows[at].vertices.end as usize);
+        read(&input.list, input.limits.width, worker, input.windows[at].vertices.end as usize);
         add(input, worker, at);
         let unfinished = match input.windows.get(at + 1) {
             Some(next) if at + 1 < partition.end_window => next.lowest_from_here as usize,
@@ -44,7 +50,7 @@ pub(crate) fn run<P: Pass>(
         while written <= at && written < end_window {
             let Window { vertices: Range { start, end }, .. } = &input.windows[written];
             if (*start as usize) < own.start || *end as usize > own.end {
-                worker.pending.push(written);
+                worker.list_pending(written, *end as usize);
             } else if *end as usize <= finished {
                 let Worker { vertices, first, exceptions, corner_vertices, .. } = &mut *worker;
                 let out = &mut out[corner(written)..corner(written + 1)];
@@ -58,16 +64,14 @@ pub(crate) fn run<P: Pass>(
     worker.findings.unread += own.end.saturating_sub(finished);
 }
 
-/// The vertices of all windows that a partition adds.
-fn vertices_to_read<P>(input: &PassInput<'_, P>, partition: &Partition) -> Range<usize> {
-    let windows = &input.windows[partition.windows.start..partition.end_window];
-    let lowest = windows.iter().map(|window| window.vertices.start).min().unwrap_or(0);
-    let end = windows.iter().map(|window| window.vertices.end).max().unwrap_or(0);
-    lowest as usize..end as usize
+/// The lowest vertex of all windows that a partition adds.
+pub(crate) fn first_vertex(windows: &[Window], partition: &Partition) -> usize {
+    let windows = &windows[partition.windows.start..partition.end_window];
+    windows.iter().map(|window| window.vertices.start).min().unwrap_or(0) as usize
 }
 
-/// Reads all vertices below `end` that have not been read yet.
-fn read<P>(input: &PassInput<'_, P>, worker: &mut Worker, end: usize) {
+/// Reads all vertices below `end` that have not been read yet. There is room for them.
+pub(crate) fn read(list: &TriangleList<'_>, width: Width, worker: &mut Worker, end: usize) {
     let mut start = worker.end();
     while start < end {
         let range = start..(start + WINDOW).min(end);
@@ -75,8 +79,8 @@ fn read<P>(input: &PassInput<'_, P>, worker: &mut Worker, end: usize) {
         worker.read = start - worker.first;
         let Worker { first, vertices, marks, slices, .. } = worker;
         let VertexRange { vertices, marks, .. } = VertexRange::new(range.clone(), *first, vertices, marks);
-        let values = input.list.values(range, slices);
-        input.limits.width.run(ReadVertices { values, vertices, marks });
+        let values = list.values(range, slices);
+        width.run(ReadVertices { values, vertices, marks });
     }
 }
 
@@ -144,12 +148,15 @@ pub(crate) fn write_pending<P>(
     workers: &mut [Worker],
     out: &mut [[f32; 4]],
 ) {
+    if input.limits.is_cancelled() {
+        return;
+    }
     let mut exceptions = Exceptions::default();
     let mut buffer = Vec::new();
     for &at in workers.iter().flat_map(|worker| &worker.pending) {
         let vertex = |number: u32| {
             let owner = partitions.partition_point(|partition| partition.vertices.end <= number as usize);
-            workers[owner].vertex(number)
+            workers[owner].pending_vertex(number)
         };
         let corners = input.list.corners_of(at..at + 1);
         let vertex_of_corner = input.list.vertices(corners.clone(), &mut buffer);

@@ -1,7 +1,5 @@
 //! The memory of one thread, reused from mesh to mesh, and what the thread has found.
 
-use std::ops::Range;
-
 use crate::topology::weld::Bounds;
 
 use crate::tangents::fast::accumulator::VertexAccumulator;
@@ -20,14 +18,20 @@ pub(crate) struct Worker {
     pub triangles: TriangleBuffer,
     /// The vertices of corners, where they are not contiguous in the mesh.
     pub corner_vertices: Vec<u32>,
-    /// The vertices from number `first` on. The first `read` of them hold values.
+    /// The vertices from number `first` on. The first `read` of them hold values. A streamed pass drops vertices that no later window needs,
+    /// so that the others stay in the cache.
     pub vertices: Vec<VertexAccumulator>,
     /// The marks of each vertex.
     pub marks: Vec<u32>,
     pub first: usize,
     pub read: usize,
+    /// Finished vertices that pending windows need: those from number `first_kept` on.
+    kept: Vec<VertexAccumulator>,
+    first_kept: usize,
     /// Windows with vertices that other threads finish.
     pub pending: Vec<usize>,
+    /// The end of their vertices.
+    pending_end: usize,
     pub exceptions: Exceptions,
     pub findings: Findings,
     /// The range of the values that the thread has hashed.
@@ -39,13 +43,13 @@ pub(crate) struct Worker {
 }
 
 impl Worker {
-    /// Prepares a pass over `vertices`.
-    pub fn begin(&mut self, vertices: Range<usize>) {
-        self.vertices.resize(vertices.len(), VertexAccumulator::default());
-        self.marks.resize(vertices.len(), 0);
-        (self.first, self.read) = (vertices.start, 0);
-        self.findings = Findings::default();
+    /// Prepares a pass whose thread reads the vertices from number `first` on, and finishes those from number `first_own` on.
+    pub fn begin(&mut self, first: usize, first_own: usize) {
+        (self.first, self.read) = (first, 0);
+        (self.first_kept, self.findings) = (first_own, Findings::default());
+        self.kept.clear();
         self.pending.clear();
+        self.pending_end = 0;
         self.exceptions.clear();
     }
 
@@ -54,11 +58,44 @@ impl Worker {
         self.first + self.read
     }
 
-    /// The vertex of a number.
-    pub fn vertex(&self, number: u32) -> &VertexAccumulator {
-        &self.vertices[number as usize - self.first]
+    /// Lists a window that other threads have to finish vertices for. `end`: the end of the window's vertices.
+    pub fn list_pending(&mut self, window: usize, end: usize) {
+        self.pending.push(window);
+        self.pending_end = self.pending_end.max(end);
+    }
+
+    /// Makes room for the vertices up to number `end`. Where there is none, those below number `needed` are dropped; all windows that are
+    /// pending because of lower vertices have been listed by then.
+    pub fn make_room(&mut self, needed: usize, end: usize) {
+        if end - self.first <= self.vertices.len() {
+            return;
+        }
+        let needed = needed.clamp(self.first, self.end());
+        let (kept, dropped) = (self.first_kept + self.kept.len(), needed.min(self.pending_end));
+        if kept < dropped {
+            self.kept.extend_from_slice(&self.vertices[kept - self.first..dropped - self.first]);
+        }
+        let moved = needed - self.first..self.read;
+        (self.first, self.read) = (needed, moved.len());
+        self.vertices.copy_within(moved.clone(), 0);
+        self.marks.copy_within(moved, 0);
+        // At least half of the room is free afterwards, so that few vertices are moved often.
+        let room = (2 * (end - self.first)).max(MIN_ROOM);
+        if room > self.vertices.len() {
+            self.vertices.resize(room, VertexAccumulator::default());
+            self.marks.resize(room, 0);
+        }
+    }
+
+    /// A vertex that a pending window needs.
+    pub fn pending_vertex(&self, number: u32) -> &VertexAccumulator {
+        let number = number as usize;
+        self.kept.get(number - self.first_kept).unwrap_or_else(|| &self.vertices[number - self.first])
     }
 }
+
+/// The least room for vertices of a streamed pass: a quarter of the second-level cache.
+const MIN_ROOM: usize = if cfg!(small_limits) { 4 } else { 4096 };
 
 /// What a thread finds when it finishes vertices.
 #[derive(Clone, Copy, Debug)]
