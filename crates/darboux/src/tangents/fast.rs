@@ -59,9 +59,9 @@
 //!
 //! # Memory and threads
 //!
-//! A vertex is one cache line. It is read when the first window that uses it begins, finished when the last has ended, and written to its
-//! corners then, so that a mesh in a sensible order stays in the cache from the first access to the output (`streamed.rs`). Each thread
-//! streams its own windows; triangles at the border of two threads are added by both. Where triangles that share vertices are far apart in the
+//! A vertex is one cache line. It is read when the first window that uses it begins, finished when the last has ended, written to its
+//! corners then, and dropped, so that a mesh in a sensible order stays in the cache from the first access to the output (`streamed.rs`). Each
+//! thread streams its own windows; triangles at the border of two threads are added by both. Where triangles that share vertices are far apart in the
 //! list, all threads share all windows instead (`scattered.rs`). A plan repeats the sums alone (`replay.rs`), a second pass adds the
 //! bitangents of full frames (`full_frames.rs`), and a GPU can take the place of the main pass (`resume.rs`).
 //! Measurements and failed attempts are in docs/notes/speed.md.
