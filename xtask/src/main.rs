@@ -3,6 +3,7 @@
 mod api;
 mod bake_pictures;
 mod bench;
+mod bench_files;
 mod ci;
 mod conformance;
 mod default_build;
@@ -58,6 +59,8 @@ measurements
   maps [...]       judge generated normal maps, and print how often the verdicts are right, and how sure they were; options: maps --help
   maps --real FOLDER ...
                    print the verdicts on the normal maps below folders, as they are and with green inverted
+  bench --files [SIDE]
+                   time tangents for a file of a grid, 708 quads per side by default, beside other tools (needs npm and GNU time)
   bench --gpu      time everything on every adapter: [--quick] [TRIANGLES ...]
   bench --bake SIZE THREADS [MODEL ...]
                    bake the same pairs with Blender's Cycles and with Darboux: errors in degrees and times (needs python3.11)
@@ -96,6 +99,7 @@ fn main() -> ExitCode {
         ["release", "--check", ref words @ ..] => release::check(words),
         ["docs", ref pages @ ..] => doc_blocks::run(pages),
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),
+        ["bench", "--files", ref words @ ..] => bench_files::bench(words),
         ["bench", "--gpu", ref options @ ..] => bench::bench_gpu(options),
         ["bench", "--bake", ref words @ ..] => bench::bench_bake(words),
         ["bench", ref options @ ..] => bench::bench(options),
