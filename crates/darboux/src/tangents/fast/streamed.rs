@@ -182,3 +182,35 @@ fn write_pending_faces<'a, const N: usize>(
         write_face(face, vertices.map(vertex), exceptions, out);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::tangents::fast::state::FastPath;
+    use crate::{Context, Mesh, MikkTSpaceOptions};
+
+    /// Right results would hide it if vertices lost their sums: the general path computes undecided ones.
+    #[test]
+    fn vertices_that_move_in_memory_stay_decided() {
+        let side = if cfg!(small_limits) { 20 } else { 150 };
+        let places = (0..=side).flat_map(|y| (0..=side).map(move |x| [x as f32, y as f32]));
+        let uvs: Vec<[f32; 2]> = places.collect();
+        let positions: Vec<[f32; 3]> = uvs.iter().map(|&[x, y]| [x, y, 0.1 * (x * y).sin()]).collect();
+        let normals = vec![[0.0, 0.0, 1.0]; uvs.len()];
+        let corners = (0..side * side).map(|cell| cell / side * (side + 1) + cell % side);
+        let indices: Vec<u32> = corners
+            .flat_map(|at| [at, at + 1, at + side + 1, at + 1, at + side + 2, at + side + 1])
+            .collect();
+        let mesh = Mesh::triangles(&positions, &normals, &uvs, &indices).expect("a valid mesh");
+        let mut out = vec![[0.0; 4]; indices.len()];
+        for threads in [1, 2, 3] {
+            let context = Context::new().with_max_threads(threads);
+            let mut path = FastPath::default();
+            assert!(path.run(&mesh, &MikkTSpaceOptions::new(), context.limits(), &mut out));
+            assert!(
+                path.exceptions.undecided.len() < 10,
+                "{} are undecided",
+                path.exceptions.undecided.len()
+            );
+        }
+    }
+}
