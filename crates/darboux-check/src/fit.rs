@@ -5,7 +5,7 @@
 use darboux::CornerDifference;
 
 use crate::expected::{is_measured, on_mirrored_seams};
-use crate::orientation::Reversal;
+use crate::orientation::{ONLY_A_PART, Reversal};
 use crate::surface::{Surface, cross, dot, indices_where, length, sub, uv_area, xyz};
 
 /// How the tangents of a file differ from MikkTSpace's.
@@ -59,7 +59,9 @@ struct Counts {
     along: usize,
     against: usize,
     across: usize,
-    /// Corners within one degree and with the same sign.
+    /// Corners within one degree.
+    near: usize,
+    /// Those of them that have the same sign.
     close: usize,
     /// Per orientation (unmirrored, mirrored): corners, and those whose sign differs.
     signs: [[usize; 2]; 2],
@@ -68,53 +70,81 @@ struct Counts {
     flipped_triangles: Vec<usize>,
 }
 
-/// Measures; none where the surface has no tangents, normals or UVs. `expected`: MikkTSpace's tangents of all corners. `is_on_seam`: per vertex
-/// whether it lies on a mirrored UV seam.
+/// Measures: how the directions differ, and how the signs do where that is a difference of its own. Nothing where the surface has no tangents,
+/// normals or UVs. `expected`: MikkTSpace's tangents of all corners. `is_on_seam`: per vertex whether it lies on a mirrored UV seam.
 pub fn measure(
     surface: &Surface,
     expected: &[[f32; 4]],
     is_on_seam: &[bool],
     reversal: Option<Reversal>,
-) -> Option<Fit> {
-    let own = Comparison::new(surface, surface.uv_set, (expected, is_on_seam), reversal)?.counts();
+) -> Vec<Fit> {
+    let comparison = Comparison::new(surface, surface.uv_set, (expected, is_on_seam), reversal);
+    let Some(own) = comparison.map(|comparison| comparison.counts()) else { return Vec::new() };
     let share = |part: usize| part as f64 / own.corners.max(1) as f64;
-    let flips = own.signs[0][1] + own.signs[1][1];
     let fit =
         |difference, supporting| Fit { difference, measured: own.corners, supporting, items: Vec::new() };
+    let signs = by_signs(&own);
+    let of_signs = || (signs != Difference::None).then(|| fit(signs, own.signs[0][1] + own.signs[1][1]));
     if own.corners == 0 {
-        return Some(fit(Difference::Unknown, 0));
+        return vec![fit(Difference::Unknown, 0)];
     }
-    let others = surface.uv_sets.keys().filter(|&&set| set != surface.uv_set && share(own.close) < MIN_SHARE);
-    for &set in others {
-        let Some(expected) = surface.expected_tangents(set) else { continue };
-        let is_on_seam = on_mirrored_seams(surface, set, &expected);
-        let other = Comparison::new(surface, set, (&expected, &is_on_seam), reversal);
-        let other = other.map(|comparison| comparison.counts());
-        if let Some(other) = other.filter(|other| share(other.close) >= MIN_SHARE) {
-            return Some(fit(Difference::OtherUvSet(set), other.close));
+    if let Some((set, other)) = other_uv_set(surface, &own, reversal) {
+        let of_signs = of_signs().filter(|_| by_signs(&other) != Difference::None);
+        return [fit(Difference::OtherUvSet(set), other.near)].into_iter().chain(of_signs).collect();
+    }
+    let turned = match () {
+        () if share(own.along) >= MIN_SHARE => {
+            let same = || partly(surface, &own).unwrap_or_else(|| fit(Difference::None, own.along));
+            return match of_signs() {
+                Some(signs) => [signs].into_iter().chain(partly_negated(surface)).collect(),
+                None => vec![same()],
+            };
         }
-    }
-    if share(own.along) >= MIN_SHARE {
-        return Some(match by_signs(&own) {
-            Difference::None => partly(surface, &own).unwrap_or_else(|| fit(Difference::None, own.along)),
-            difference => fit(difference, flips),
-        });
-    }
-    Some(match () {
         () if share(own.against) >= MIN_SHARE => fit(Difference::Negated, own.against),
         () if share(own.across) >= MIN_SHARE => fit(Difference::Rotated, own.across),
-        () => partly(surface, &own).unwrap_or_else(|| fit(Difference::Unknown, 0)),
-    })
+        () => return vec![partly(surface, &own).unwrap_or_else(|| fit(Difference::Unknown, 0))],
+    };
+    [turned].into_iter().chain(of_signs()).collect()
+}
+
+/// The other UV set that the tangents follow, and how they do: with its signs, or else in their directions alone.
+fn other_uv_set(surface: &Surface, own: &Counts, reversal: Option<Reversal>) -> Option<(usize, Counts)> {
+    let is_most = |part: usize, of: &Counts| part as f64 >= MIN_SHARE * of.corners.max(1) as f64;
+    if is_most(own.close, own) {
+        return None;
+    }
+    let counts = |&set: &usize| {
+        let expected = surface.expected_tangents(set)?;
+        let is_on_seam = on_mirrored_seams(surface, set, &expected);
+        let counts = Comparison::new(surface, set, (&expected, &is_on_seam), reversal)?.counts();
+        Some((set, counts))
+    };
+    let others = surface.uv_sets.keys().filter(|&&set| set != surface.uv_set);
+    let others: Vec<(usize, Counts)> = others.filter_map(counts).collect();
+    let with_signs = others.iter().position(|(_, other)| is_most(other.close, other));
+    let directions_alone =
+        || others.iter().position(|(_, other)| !is_most(own.near, own) && is_most(other.near, other));
+    let found = with_signs.or_else(directions_alone)?;
+    others.into_iter().nth(found)
 }
 
 /// A difference of a part of the surface.
 fn partly(surface: &Surface, counts: &Counts) -> Option<Fit> {
-    let fit = |difference, items: Vec<usize>, measured| {
+    let flipped =
+        Fit::of_part(Difference::SignPartlyFlipped, counts.flipped_triangles.clone(), counts.triangles);
+    flipped.or_else(|| partly_negated(surface))
+}
+
+fn partly_negated(surface: &Surface) -> Option<Fit> {
+    Fit::of_part(Difference::PartlyNegated, against_u(surface), surface.positions.len())
+}
+
+impl Fit {
+    /// None without items.
+    fn of_part(difference: Difference, items: Vec<usize>, measured: usize) -> Option<Self> {
         let supporting = items.len();
-        (supporting > 0).then_some(Fit { difference, measured, supporting, items })
-    };
-    let negated = || fit(Difference::PartlyNegated, against_u(surface), surface.positions.len());
-    fit(Difference::SignPartlyFlipped, counts.flipped_triangles.clone(), counts.triangles).or_else(negated)
+        (supporting > 0).then_some(Self { difference, measured, supporting, items })
+    }
 }
 
 /// The cosine to the u direction below which a tangent points against it. Sums of unit u directions with positive weights, as all methods
@@ -206,7 +236,8 @@ impl<'a> Comparison<'a> {
     ) -> Option<Self> {
         // Where a part of the surface is reversed, which sign is right depends on what is to be turned over.
         let mut has_sign = vec![true; expected.len() / 3];
-        if reversal.is_none() {
+        let is_part = reversal.is_none_or(|reversal| reversal == Reversal::Unknown(ONLY_A_PART));
+        if is_part {
             surface.triangles_against_normals().into_iter().for_each(|triangle| has_sign[triangle] = false);
         }
         Some(Self {
@@ -218,7 +249,7 @@ impl<'a> Comparison<'a> {
             is_on_seam,
             // MikkTSpace's sign is that of the UV area, which changes with the order of the corners; what is lit depends on the normal alone. So
             // signs are those of faces that are wound along their normals, unless it is the normals that are known to be reversed.
-            flips: reversal.is_some_and(|reversal| reversal != Reversal::Normals),
+            flips: !is_part && reversal != Some(Reversal::Normals),
             has_sign,
         })
     }
@@ -244,6 +275,7 @@ impl<'a> Comparison<'a> {
             let difference = CornerDifference::between(ours, theirs);
             let Some(angle) = difference.angle else { continue };
             counts.add_direction(self.normals[vertex], xyz(ours), xyz(theirs));
+            counts.near += usize::from(angle < 1.0);
             counts.close += usize::from(angle < 1.0 && !difference.flips_sign);
             if theirs[3].abs() >= MIN_SIGN && self.has_sign[number] {
                 let of_orientation = &mut counts.signs[usize::from(ours[3] < 0.0)];

@@ -20,8 +20,8 @@ pub struct Measured<'a> {
     pub is_mikktspace: bool,
     /// What is reversed; none where the faces agree with the normals.
     pub reversal: Option<Reversal>,
-    /// How its tangents differ from MikkTSpace's.
-    pub fit: Option<Fit>,
+    /// How its tangents differ from MikkTSpace's, in their directions and in their signs; empty where that cannot be measured.
+    pub fits: Vec<Fit>,
 }
 
 impl<'a> Measured<'a> {
@@ -35,7 +35,7 @@ impl<'a> Measured<'a> {
                 has_own_tangent: vec![false; surface.positions.len()],
                 is_mikktspace: false,
                 reversal,
-                fit: None,
+                fits: Vec::new(),
             };
         };
         let is_on_mirrored_seam = on_mirrored_seams(surface, surface.uv_set, &expected);
@@ -44,7 +44,7 @@ impl<'a> Measured<'a> {
             has_own_tangent: vertices_with_own_tangents(surface, &expected),
             is_mikktspace: are_those_of_the_file(surface, &expected),
             reversal,
-            fit: fit::measure(surface, &expected, &is_on_mirrored_seam, reversal),
+            fits: fit::measure(surface, &expected, &is_on_mirrored_seam, reversal),
             is_on_mirrored_seam,
         }
     }

@@ -3,9 +3,10 @@
 use darboux::{Convention, Mesh, Method, Recipe, RecipeMatch, RecipeRounding, recognise_recipe};
 
 use super::normals::UNIT;
+use super::tangents::SIGN;
 use crate::code::Code;
 use crate::finding::Finding;
-use crate::fit::Difference;
+use crate::fit::{Difference, Fit};
 use crate::rule::{Measured, SurfaceRule};
 use crate::severity::Severity;
 use crate::surface::{Surface, length};
@@ -28,14 +29,16 @@ struct Recognised {
 }
 
 fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
-    let is_fit = measured.fit.as_ref().is_some_and(|fit| {
-        matches!(fit.difference, Difference::None | Difference::Unknown) && fit.measured > 0
-    });
+    let is_turned = |fit: &Fit| matches!(fit.difference, Difference::Rotated | Difference::OtherUvSet(_));
+    let is_measured = measured.fits.iter().any(|fit| fit.measured > 0);
     // No recipe explains tangents better than one that gives all their bits.
-    if !is_fit || measured.reversal.is_some() || measured.is_mikktspace {
+    if !is_measured || measured.fits.iter().any(is_turned) || measured.is_mikktspace {
         return Vec::new();
     }
-    let Some(recognised) = recognise(measured.surface) else { return Vec::new() };
+    let tangents = tangents_without_other_mistakes(measured);
+    let Some(recognised) = tangents.and_then(|tangents| recognise(measured.surface, &tangents)) else {
+        return Vec::new();
+    };
     let Recognised { best, mikktspace, with_unit_normals } = &recognised;
     if is_mikktspace(best) && close(best) >= IS_MIKKTSPACE {
         return Vec::new();
@@ -87,13 +90,40 @@ fn obstacle(best: &RecipeMatch, severity: Severity) -> Option<String> {
     }
 }
 
-/// None where there are no tangents or none can be computed.
-fn recognise(surface: &Surface) -> Option<Recognised> {
+/// The tangents of corners as methods compute them, without what other rules name: signs that differ or are none become those of MikkTSpace,
+/// and negated directions are turned back. None where there are no tangents or none can be computed.
+fn tangents_without_other_mistakes(measured: &Measured<'_>) -> Option<Vec<[f32; 4]>> {
+    let surface = measured.surface;
     let of_vertex = surface.tangents.as_ref()?;
     let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
     let of_corner = |&vertex: &u32| to_generated.tangent(of_vertex[vertex as usize]);
-    let tangents: Vec<[f32; 4]> = surface.vertex_of_corner.iter().map(of_corner).collect();
-    let as_they_are = recognise_on(&surface.mesh(surface.uv_set)?, &tangents)?;
+    let mut tangents: Vec<[f32; 4]> = surface.vertex_of_corner.iter().map(of_corner).collect();
+    for fit in &measured.fits {
+        let is_negated = |vertex: usize| match fit.difference {
+            Difference::Negated => true,
+            Difference::PartlyNegated => fit.items.binary_search(&vertex).is_ok(),
+            _ => false,
+        };
+        for (tangent, &vertex) in tangents.iter_mut().zip(&surface.vertex_of_corner) {
+            if is_negated(vertex as usize) {
+                (0..3).for_each(|i| tangent[i] = -tangent[i]);
+            }
+        }
+    }
+    let differ = |fit: &Fit| !matches!(fit.difference, Difference::None | Difference::Unknown);
+    let is_no_sign = |tangent: &[f32; 4]| (tangent[3].abs() - 1.0).abs() > SIGN;
+    if measured.reversal.is_some() || measured.fits.iter().any(differ) || of_vertex.iter().any(is_no_sign) {
+        let expected = surface.expected_tangents(surface.uv_set)?;
+        for (tangent, expected) in tangents.iter_mut().zip(expected) {
+            tangent[3] = to_generated.tangent(expected)[3];
+        }
+    }
+    Some(tangents)
+}
+
+/// None where no recipe can be computed. `tangents`: of corners.
+fn recognise(surface: &Surface, tangents: &[[f32; 4]]) -> Option<Recognised> {
+    let as_they_are = recognise_on(&surface.mesh(surface.uv_set)?, tangents)?;
     if close(&as_they_are.best) >= IS_MIKKTSPACE {
         return Some(as_they_are);
     }
@@ -101,7 +131,7 @@ fn recognise(surface: &Surface) -> Option<Recognised> {
     let Some(unit) = unit_normals(surface) else { return Some(as_they_are) };
     let uvs = surface.uv_sets.get(&surface.uv_set)?;
     let mesh = Mesh::triangles(&surface.positions, &unit, uvs, &surface.vertex_of_corner).ok()?;
-    let on_unit = recognise_on(&mesh, &tangents)?;
+    let on_unit = recognise_on(&mesh, tangents)?;
     let is_better = on_unit.best.close > as_they_are.best.close;
     Some(if is_better { Recognised { with_unit_normals: true, ..on_unit } } else { as_they_are })
 }

@@ -25,6 +25,9 @@ pub const RULES: &[SurfaceRule] = &[
 /// How far lengths of tangents may be from 1: 8-bit tangents are up to 0.007 off.
 const UNIT: f64 = 0.02;
 
+/// How far the size of a sign w may be from 1.
+pub const SIGN: f32 = 0.01;
+
 /// The share in percent above which flipped signs of some triangles, or negated tangents of some vertices, are an error: each shows dents for
 /// bumps, and one in a hundred is seen on a model that fills the screen. Fewer may be slivers, whose UV area is rounding, so that programs
 /// differ in their sign.
@@ -100,7 +103,7 @@ fn not_unit(measured: &Measured<'_>) -> Vec<Finding> {
 }
 
 fn sign_not_one(measured: &Measured<'_>) -> Vec<Finding> {
-    let is_other = |tangent: [f32; 4]| is_finite(tangent) && (tangent[3].abs() - 1.0).abs() > 0.01;
+    let is_other = |tangent: [f32; 4]| is_finite(tangent) && (tangent[3].abs() - 1.0).abs() > SIGN;
     let text =
         ["tangent has a sign w that is neither 1 nor -1", "tangents have a sign w that is neither 1 nor -1"];
     vertices(measured.surface, Code::TangentSignNotOne, is_other, text)
@@ -171,14 +174,18 @@ fn sign_mixed(measured: &Measured<'_>) -> Vec<Finding> {
     vec![finding.with_evidence("part of all triangles", share, "%")]
 }
 
-/// The rules that one measurement decides: at most one of them is true.
+/// The rules that one measurement decides: at most one about all directions, or a part of them, and one about signs is true.
 fn direction_or_sign(measured: &Measured<'_>) -> Vec<Finding> {
-    let Some(Fit { difference, supporting, measured: all, items }) = &measured.fit else { return Vec::new() };
+    measured.fits.iter().filter_map(|fit| different(measured, fit)).collect()
+}
+
+fn different(measured: &Measured<'_>, fit: &Fit) -> Option<Finding> {
+    let Fit { difference, supporting, measured: all, items } = fit;
     let set = measured.surface.uv_set;
     let follows_from_normals =
         *difference == Difference::SignFlipped && measured.reversal == Some(Reversal::NormalsByTangents);
     let (code, text) = match *difference {
-        Difference::None | Difference::Unknown => return Vec::new(),
+        Difference::None | Difference::Unknown => return None,
         Difference::SignFlipped => {
             let which = if supporting == all { "all" } else { "nearly all" };
             let follows = if follows_from_normals {
@@ -217,5 +224,5 @@ fn direction_or_sign(measured: &Measured<'_>) -> Vec<Finding> {
     let is_small = is_partly && share <= MAX_PERCENT_OF_PART;
     let severity = if is_small || follows_from_normals { Severity::Warning } else { code.severity() };
     let finding = Finding::new(code, text).with_items(items).with_count(*supporting);
-    vec![finding.with_severity(severity).with_evidence(part, share, "%")]
+    Some(finding.with_severity(severity).with_evidence(part, share, "%"))
 }

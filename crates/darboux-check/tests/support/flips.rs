@@ -39,7 +39,7 @@ pub const FLIPS: &[Flip] = &[
         name: "UV winding",
         how: "u became 1 - u, the tangents stayed",
         make: |model| model.uvs[model.uv_set].iter_mut().for_each(|uv| uv[0] = 1.0 - uv[0]),
-        codes: &[Code::TangentNegated],
+        codes: &[Code::TangentSignFlipped, Code::TangentNegated],
     },
     Flip {
         name: "UV origin",

@@ -9,5 +9,6 @@ pub mod maps;
 pub mod mistakes;
 pub mod models;
 pub mod page;
+pub mod pairs;
 pub mod shown;
 pub mod table;
