@@ -135,7 +135,7 @@ interface Outcome {
 let tell: ((done: number) => void) | null | undefined;
 
 const bakeModule = load<BakeExports>(simd, () => import('./bake.scalar.js'), {
-  darboux: { progress: (done: number, total: number) => tell?.(done / total) },
+  progress: (done, total) => tell?.(done! / total!),
 });
 
 /** Resolves when the other functions can be called. */
@@ -150,11 +150,12 @@ export const ready: Promise<void> = bakeModule.ready;
  *
  * @param low The bytes of a GLB, or of a glTF whose buffers and images are embedded. Draco is decompressed, meshopt is not.
  * @param high The same of one high model, or of several.
- * @throws TypeError for another type. RangeError for an unknown choice. Error for a file that cannot be read, a model without normals, UVs or triangles, and numbers
- * out of range.
+ * @throws TypeError for another type. RangeError for an unknown choice, for numbers that cannot be read, and where WebAssembly has not enough memory. Error for a file that
+ * cannot be read, a model without normals, UVs or triangles, and numbers out of range.
  */
 export function bakeModels(low: Uint8Array, high: Uint8Array | readonly Uint8Array[], options?: BakeOptions | null): BakedMaps {
   const files = [low, ...(Array.isArray(high) ? (high as readonly Uint8Array[]) : [high as Uint8Array])];
+  if (files.length === 1) throw new RangeError('high is empty; give at least one model');
   files.forEach((file, at) => checkType(at ? 'high' : 'low', file, ['Uint8Array']));
   const chosen = optionsOf(options);
   const text = optionsText(chosen);
@@ -175,9 +176,19 @@ function sizeOf({ size }: BakeOptions): readonly [number, number] {
   return size ?? [1024, 1024];
 }
 
+/** Errors: a value that is not an array of two. */
+function checkPair(name: string, pair: readonly [number, number] | null | undefined): void {
+  if (pair == null) return;
+  checkType(name, pair, ['Array']);
+  if (pair.length !== 2) throw new RangeError(`${name} has ${(pair as readonly number[]).length} elements; it must have 2`);
+}
+
 /** The options as the JSON that the module reads. Errors: numbers that JSON or the module does not have. */
 function optionsText(options: BakeOptions): string {
   const { cageOffset, distance, maps, samples, padding, material, uvSet, aoRays, aoDistance } = options;
+  checkPair('size', options.size);
+  checkPair('distance', distance);
+  if (maps != null) checkType('maps', maps, ['Array']);
   const whole = { width: sizeOf(options)[0], height: sizeOf(options)[1], samples: samples ?? 1, padding, material, uvSet, aoRays: aoRays ?? 64 };
   for (const [name, value] of Object.entries(whole)) {
     if (value != null && !(Number.isInteger(value) && value >= 0 && value < 2 ** 32)) throw new RangeError(`${name} is ${value}; it must be a whole number from 0 on`);

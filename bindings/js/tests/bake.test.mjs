@@ -61,14 +61,26 @@ for (const [name, { bakeModels, TEXEL_STATES }] of Object.entries(forms)) {
     assert.throws(() => bakeModels('low.glb', shield), { name: 'TypeError', message: /^low must be a Uint8Array, not String$/ });
     assert.throws(() => bakeModels(shield, [shield, 1]), TypeError);
     assert.throws(() => bakeModels(shield, shield, { maps: ['colour'] }), RangeError);
+    assert.throws(() => bakeModels(shield, shield, { maps: 'normal' }), { name: 'TypeError', message: 'maps must be a Array, not String' });
+    assert.throws(() => bakeModels(shield, shield, { size: [4] }), { name: 'RangeError', message: 'size has 1 elements; it must have 2' });
+    assert.throws(() => bakeModels(shield, shield, { distance: 0.1 }), { name: 'TypeError' });
+    assert.throws(() => bakeModels(shield, []), { name: 'RangeError', message: 'high is empty; give at least one model' });
     assert.throws(() => bakeModels(shield, shield, { samples: 1.5 }), RangeError);
     assert.throws(() => bakeModels(shield, shield, { cageOffset: NaN }), RangeError);
-    assert.throws(() => bakeModels(shield, shield, { cageOffset: -1 }), /must not be|negative|distance/);
-    assert.throws(() => bakeModels(shield, shield, { size: [0, 4] }), Error);
+    assert.throws(() => bakeModels(shield, shield, { cageOffset: -1 }), /^Error: rays cannot begin -1 outside the low surface/);
+    assert.throws(() => bakeModels(shield, shield, { size: [0, 4] }), /^Error: an image of 0 x 4 texels cannot be made/);
     assert.throws(() => bakeModels(shield, shield, { convention: 'quake' }), /^Error: convention: /);
     assert.throws(() => bakeModels(shield, new Uint8Array([1, 2, 3])), /the high model/);
     assert.throws(() => bakeModels(bytes(0, { hasUvs: false }), shield), /the low model has no UVs/);
     assert.equal(bakeModels(bytes(0), bytes(0), { size: [4, 4] }).report.missedTexels, 0, 'and the next call works');
+  });
+
+  test(`${name}: an error of onProgress ends the bake, and the next call works`, () => {
+    const fails = () => {
+      throw new Error('enough');
+    };
+    assert.throws(() => bakeModels(bytes(0), bytes(0), { size: [4, 4], onProgress: fails }), /^Error: enough$/);
+    assert.equal(bakeModels(bytes(0), bytes(0), { size: [4, 4] }).report.missedTexels, 0);
   });
 }
 

@@ -52,14 +52,26 @@ function seeded<E extends Exports>(instance: WebAssembly.Instance): E {
   return exports;
 }
 
-/** Starts to load a module. The form without SIMD is imported only where the one with SIMD does not compile. `imports`: what the module calls. */
+/** Starts to load a module. The form without SIMD is imported only where the one with SIMD does not compile. `callbacks`: the functions that the module imports. */
 export function load<E extends Exports>(
   simd: Uint8Array<ArrayBuffer>,
   scalar: () => Promise<{ default: Uint8Array<ArrayBuffer> }>,
-  imports?: WebAssembly.Imports,
+  callbacks: Record<string, (...numbers: number[]) => void> = {},
 ): WasmModule<E> {
   let module: WebAssembly.Module;
   let exports: E | undefined;
+  /** Whether a callback is running, or has ended the call with an error. */
+  let isInCallback = false;
+
+  const watched = Object.entries(callbacks).map(([name, callback]) => {
+    const call = (...numbers: number[]) => {
+      isInCallback = true;
+      callback(...numbers);
+      isInCallback = false;
+    };
+    return [name, call];
+  });
+  const imports = { darboux: Object.fromEntries(watched) };
 
   async function start(): Promise<void> {
     module = await compile(simd).catch(async () => compile((await scalar()).default));
@@ -76,15 +88,16 @@ export function load<E extends Exports>(
   function call<R>(work: (exports: E) => R): R {
     const exported = shared();
     let isUsable = false;
+    isInCallback = false;
     try {
       const result = work(exported);
       isUsable = true;
       return result;
     } catch (error) {
-      isUsable = !isTrap(error);
-      throw isUsable ? error : outOfMemory(error);
+      isUsable = !isTrap(error) && !isInCallback;
+      throw isTrap(error) ? outOfMemory(error) : error;
     } finally {
-      // A trap leaves the instance in an unspecified state.
+      // A trap, or an error of a callback, leaves the instance in an unspecified state.
       if (!isUsable || exported.memory.buffer.byteLength > MAX_KEPT_MEMORY) exports = instantiate();
     }
   }
