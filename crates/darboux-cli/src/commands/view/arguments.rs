@@ -7,7 +7,7 @@ use clap::Args;
 use crate::options::reading::ReadOptions;
 
 pub const ABOUT: &str = "\
-Show a model in the browser: its normal map lit with the tangents of two sources side by side, its frames, signs and seams, and a report.
+Show a model in the browser: its normal map lit with the tangents of two sources side by side, its frames, signs and seams, and what `darboux check` finds in it.
 
 The page and the model are served on a random port of this machine, and only under the printed address, which contains a secret; nothing \
 leaves the machine. Ctrl-C ends the viewer. Without a model the page shows a sample. Models can be dropped onto the page.
