@@ -118,9 +118,11 @@ test('a bake can be ended, and the next change starts another one', async () => 
   await viewer.page.selectOption('#bake-size', '2048');
   await viewer.page.waitForSelector('#bake-cancel', { state: 'visible' });
   await viewer.page.waitForFunction(() => document.getElementById('bake-progress').value > 0);
-  await viewer.click('#bake-cancel');
+  await viewer.page.focus('#bake-cancel');
+  await viewer.page.keyboard.press('Enter');
+  await viewer.page.waitForSelector('#bake-cancel', { state: 'hidden' });
   assert.match(await viewer.text('bake-result'), /^The bake was ended/);
-  assert.equal(await viewer.page.isVisible('#bake-cancel'), false);
+  assert.equal(await viewer.page.evaluate(() => document.activeElement.id), 'bake-rays', 'the focus stays in the panel');
   await viewer.page.selectOption('#bake-samples', '1');
   await viewer.page.waitForSelector('#bake-cancel', { state: 'visible' });
   await viewer.page.selectOption('#bake-size', '256');
@@ -149,10 +151,46 @@ test('a high model for the open one by button, and the sentence about a pair tha
   assert.match(await viewer.text('bake-result'), /^Rays of /);
 });
 
+test('what cannot be a high model is refused in a sentence, and the low model is still checked', async () => {
+  writeFileSync(path('text_high.glb'), 'no model');
+  writeFileSync(path('picture.png'), 'no model either');
+  for (const [high, sentence] of [['text_high.glb', /^text_high\.glb: is neither glTF nor GLB; give /], ['picture.png', /^There is no model in these files \(picture\.png\); open /]]) {
+    await viewer.give('files', [path('plate_low.gltf')]);
+    await viewer.give('high', [path(high)]);
+    assert.match(await viewer.text('error'), sentence);
+  }
+  write('nothing_high.gltf', { attributes: plate(2, 0).attributes, indices: new Uint32Array() });
+  await viewer.give('high', [path('nothing_high.gltf')]);
+  assert.match(await viewer.text('bake-result'), /^There is no map: the high model has no triangles; /);
+  assert.equal(await viewer.page.isDisabled('#bake-save'), true);
+  await viewer.give('files', [path('plate_low.gltf'), path('text_high.glb')]);
+  assert.match(await viewer.text('error'), /^text_high\.glb: /);
+  assert.doesNotMatch(await viewer.text('findings-summary'), /text_high/);
+  assert.equal(await viewer.page.isVisible('#bake-controls'), false);
+});
+
+test('a model with several materials is baked for one of them', async () => {
+  const low = JSON.parse(gltf(plate(2, 0)));
+  const [one] = low.meshes[0].primitives;
+  low.materials = [{ name: 'wood' }, {}];
+  // Both primitives lie over the whole map.
+  low.meshes[0].primitives = [{ ...one, material: 0 }, { ...one, material: 1 }];
+  writeFileSync(path('two_low.gltf'), JSON.stringify(low));
+  await viewer.give('files', [path('two_low.gltf'), path('plate_high.gltf')]);
+  assert.deepEqual(await viewer.page.locator('#bake-material option').allTextContents(), ['All, on one map', 'wood', 'Material 1']);
+  assert.match(await viewer.text('bake-result'), /Several triangles share/);
+  await viewer.choose('bake-material', '1');
+  assert.doesNotMatch(await viewer.text('bake-result'), /Several triangles share/);
+  await viewer.click('#reset');
+  assert.match(await viewer.text('bake-result'), /Several triangles share/);
+});
+
 test('the address of the page names a pair', async () => {
-  const page = await Viewer.open(chromium, `${server.address}?file=shield.glb&high=shield.glb`);
+  const page = await Viewer.open(chromium, `${server.address}?file=shield.glb&high=shield.glb#bake-size=128&bake-misses=0`);
   assert.deepEqual([await page.text('error'), await page.page.inputValue('#right')], ['', 'baked']);
   assert.match(await page.text('bake-result'), /^Rays of /);
+  const asked = await page.page.evaluate(() => [document.getElementById('bake-map').width, document.getElementById('bake-misses').checked]);
+  assert.deepEqual(asked, [128, false], 'as the address asks');
   assert.deepEqual(page.faults, []);
   await page.close();
 });

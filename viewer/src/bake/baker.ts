@@ -12,6 +12,8 @@ export interface ShownBake {
   normals: Uint8ClampedArray<ArrayBuffer>;
   /** Red where no ray hit, orange where rays met triangles from behind, transparent elsewhere. */
   misses: Uint8ClampedArray<ArrayBuffer>;
+  /** The index of the only material that was baked; null: all were. */
+  material: number | null;
   report: BakeReport;
   warnings: string[];
   /** The time of the bake in seconds. */
@@ -40,7 +42,7 @@ const functions = {
     const seconds = (performance.now() - start) / 1000;
     const [width, height] = baked.size;
     const { report, warnings } = baked;
-    return { width, height, normals: texels(baked.normal!), misses: missesOf(baked.states), report, warnings, seconds };
+    return { width, height, normals: texels(baked.normal!), misses: missesOf(baked.states), material: options.material ?? null, report, warnings, seconds };
   },
 };
 

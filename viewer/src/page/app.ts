@@ -88,6 +88,8 @@ export class App {
   private isPosing = false;
   /** The number of the current opening. Results of older openings are dropped. */
   private opening = 0;
+  /** The number of the current opening of a high model. Results of older ones are dropped. */
+  private openingHigh = 0;
   /** The number of the current comparison. Results of older comparisons are dropped. */
   private comparing = 0;
 
@@ -203,12 +205,13 @@ export class App {
       this.isLinkRead = true;
       this.light();
       await nextPicture();
-      if (high) await this.openHigh(high);
     } catch (error) {
       if (!isOutdated()) this.examination.fail(error);
       throw error;
     }
-    await this.examination.examine(model);
+    // A high model that cannot be opened does not keep the low one from being checked.
+    if (high) await this.attempt(() => this.openHigh(high));
+    if (!isOutdated()) await this.examination.examine(model);
   }
 
   /** Shows a coarse copy of a large model while its tangents are computed. */
@@ -307,17 +310,19 @@ export class App {
   /** Opens a high model and bakes its detail onto the open one. */
   private async openHigh(bundle: FileBundle): Promise<void> {
     const { model, opening } = this;
+    const turn = ++this.openingHigh;
+    showProgress('Opening the high model', null);
     if (!model) throw new Error('There is no low model to bake onto; open it first.');
     const high = await openModel(bundle, showProgress);
     const parts = partsOf(high.scene, high.kind);
     await call('open', 'high', parts.map((part) => part.surface));
     const comparisons = await Promise.all(parts.map((_, at) => call('compare', 'high', at, ['file', 'file'])));
     const models = { low: await documentOf(model), high: [await documentOf(high)] };
-    if (opening !== this.opening) return;
+    if (opening !== this.opening || turn !== this.openingHigh) return;
     this.highView.setParts(parts, comparisons);
     chooseBaked();
     await this.compare();
-    this.bakePanel.open(models, model.name, this.view.bounds().getSize(new Vector3()).length());
+    this.bakePanel.open(models, model.name, this.view.bounds().getSize(new Vector3()).length(), materialsOf(this.parts));
   }
 
   /** Shows a baked map, or none, in place of the one before. */
@@ -422,6 +427,13 @@ function rounded(at: number[]): string {
 /** Resolves when what was asked for is on screen. */
 async function nextPicture(): Promise<void> {
   for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
+}
+
+/** The names of materials by their indices in the file. */
+function materialsOf(parts: Part[]): Map<number, string> {
+  const named = new Map<number, string>();
+  for (const { origin, material } of parts) if (origin && origin.material !== null) named.set(origin.material, material.name || `Material ${origin.material}`);
+  return named;
 }
 
 function trianglesOf(parts: Part[]): number {

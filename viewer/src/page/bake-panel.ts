@@ -17,7 +17,7 @@ export interface BakeHost {
 }
 
 /** The choices that ask for another bake. */
-const OPTIONS = ['bake-rays', 'bake-distance', 'bake-inwards', 'bake-size', 'bake-samples', 'bake-back-faces'];
+const OPTIONS = ['bake-material', 'bake-rays', 'bake-distance', 'bake-inwards', 'bake-size', 'bake-samples', 'bake-back-faces'];
 
 export class BakePanel {
   private readonly baker = new Baker((done) => (element<HTMLProgressElement>('bake-progress').value = done));
@@ -51,10 +51,14 @@ export class BakePanel {
     return this.models !== null;
   }
 
-  /** Bakes a pair of models. `name`: the low one's; `diagonal`: of the box around it. */
-  open(models: BakedModels, name: string, diagonal: number): void {
+  /** Bakes a pair of models. `name`: the low one's; `diagonal`: of the box around it; `materials`: their names by their indices in the file. */
+  open(models: BakedModels, name: string, diagonal: number, materials: ReadonlyMap<number, string>): void {
     this.close();
+    offerMaterials(materials);
     Object.assign(this, { models, name, diagonal });
+    element<HTMLButtonElement>('bake-save').disabled = true;
+    element('bake-figure').hidden = true;
+    element('bake-result').textContent = '';
     element('bake-controls').hidden = false;
     this.changed();
   }
@@ -105,6 +109,8 @@ export class BakePanel {
     this.isRunning = isRunning;
     element('bake').ariaBusy = String(isRunning);
     element<HTMLProgressElement>('bake-progress').value = 0;
+    // The button is about to disappear, which would lose the focus.
+    if (!isRunning && document.activeElement === element('bake-cancel')) element('bake-rays').focus();
     element('bake-running').hidden = !isRunning;
   }
 
@@ -113,18 +119,21 @@ export class BakePanel {
     const [outwards, inwards] = ['bake-distance', 'bake-inwards'].map((id) => shareOf(id) * this.diagonal);
     const isCage = element<HTMLSelectElement>('bake-rays').value === 'cage';
     const rays = isCage ? { cageOffset: outwards } : { distance: [outwards, inwards] as const };
-    return { size: [side, side], samples: numberOf('bake-samples'), backFaces: isOn('bake-back-faces'), ...rays };
+    const chosen = element<HTMLSelectElement>('bake-material').value;
+    return { material: chosen === '' ? null : Number(chosen), size: [side, side], samples: numberOf('bake-samples'), backFaces: isOn('bake-back-faces'), ...rays };
   }
 
   private fail(error: Error): void {
     this.baked = null;
     this.host.show(null);
+    element<HTMLButtonElement>('bake-save').disabled = true;
     element('bake-figure').hidden = true;
     element('bake-result').textContent = `There is no map: ${error.message}.`;
   }
 
   private show(bake: ShownBake): void {
     this.baked = bake;
+    element<HTMLButtonElement>('bake-save').disabled = false;
     drawMap(bake, isOn('bake-misses'));
     element('bake-result').textContent = [sentence(bake), ...bake.warnings].join('. ');
     this.host.show(bake);
@@ -136,6 +145,14 @@ export class BakePanel {
     element<HTMLCanvasElement>('bake-map').toBlob((blob) => blob && save(nameLike(this.name, '.normal.png'), blob), 'image/png');
     drawMap(this.baked, isOn('bake-misses'));
   }
+}
+
+/** Offers each material of the low model, if there are several. */
+function offerMaterials(materials: ReadonlyMap<number, string>): void {
+  const select = element<HTMLSelectElement>('bake-material');
+  select.replaceChildren(select.options[0], ...[...materials].map(([index, name]) => new Option(name, String(index))));
+  select.value = '';
+  element('bake-material-label').hidden = materials.size < 2;
 }
 
 /** The share of the model's diagonal that a slider chooses. Its scale is logarithmic, in percent. */

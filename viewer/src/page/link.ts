@@ -4,7 +4,10 @@ import type { Viewport } from '../scene/viewport';
 import { element } from './elements';
 
 /** The controls whose values a link carries. */
-const CONTROLS = ['left', 'right', 'split', 'lines-tangent', 'lines-bitangent', 'lines-normal', 'seams', 'layout', 'wireframe', 'length', 'light-around', 'light-above', 'light', 'surroundings', 'pattern', 'bake-rays', 'bake-distance', 'bake-inwards', 'bake-size', 'bake-samples', 'bake-back-faces'];
+const CONTROLS = ['left', 'right', 'split', 'lines-tangent', 'lines-bitangent', 'lines-normal', 'seams', 'layout', 'wireframe', 'length', 'light-around', 'light-above', 'light', 'surroundings', 'pattern', 'bake-rays', 'bake-distance', 'bake-inwards', 'bake-size', 'bake-samples', 'bake-back-faces', 'bake-misses'];
+
+/** A choice that depends on the model, which a link does not carry. */
+const OF_MODEL = 'bake-material';
 
 /** The buttons whose state a link carries. */
 const BUTTONS = ['flip-green', 'flip-w', 'flip-v'];
@@ -47,7 +50,7 @@ export function readView(viewport: Viewport): void {
 
 /** Sets the controls back to what they were when the page opened, except the sources of tangents. */
 export function resetControls(): void {
-  for (const id of CONTROLS) {
+  for (const id of [...CONTROLS, OF_MODEL]) {
     const control = element<HTMLInputElement>(id);
     if (control.type === 'checkbox') control.checked = control.defaultChecked;
     else if (defaultOf(control) !== undefined) {

@@ -21,6 +21,11 @@ export class BakedMap {
     private readonly showsMisses: boolean,
   ) {}
 
+  /** Whether the map was baked for a part. */
+  covers({ origin }: Part): boolean {
+    return this.bake.material === null || origin?.material === this.bake.material;
+  }
+
   /** Sets the map as the normal map of a part's material. */
   applyTo(material: MeshStandardMaterial, part: Part): void {
     material.normalMap = this.textureOf(part);

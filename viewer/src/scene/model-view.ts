@@ -105,16 +105,17 @@ export class ModelView {
       const hasTangents = isVertexData(compared, settings, at);
       const geometry = geometriesOf(compared, settings)[at];
       const isShaded = settings.paint === 'shaded';
+      const map = baked?.covers(part) ? baked : null;
       for (const copy of part.copies) {
-        const material = isShaded ? sideMaterial(part, hasTangents, settings.pattern, mistakes, baked) : frameMaterial(settings.paint, copy.place, false);
+        const material = isShaded ? sideMaterial(part, hasTangents, settings.pattern, mistakes, map) : frameMaterial(settings.paint, copy.place, false);
         const mesh = placedMesh(copy, geometry, material);
         mesh.userData.part = number;
         side.model.add(mesh);
-        const misses = isShaded ? baked?.missesOf(part) : null;
+        const misses = isShaded ? map?.missesOf(part) : null;
         if (misses) side.model.add(placedMesh(copy, geometry, misses));
         if (settings.wireframe) side.model.add(placedMesh(copy, geometry, new MeshBasicMaterial(WIRES)));
       }
-      if (settings.layout) addLayout(side, part, geometry, isShaded ? 'sign' : settings.paint, baked);
+      if (settings.layout) addLayout(side, part, geometry, isShaded ? 'sign' : settings.paint, map);
       this.addLines(side, at, compared, geometry, settings, radius);
     }
     return side;
