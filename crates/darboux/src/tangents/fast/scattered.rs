@@ -54,7 +54,7 @@ pub(crate) fn run<P: Pass>(
     buffers: &mut ScatteredBuffers,
     out: &mut [[f32; 4]],
 ) {
-    workers.iter_mut().for_each(|worker| worker.begin(0, 0));
+    workers.iter_mut().for_each(|worker| worker.begin(0..0, 0));
     let (mut vertices, mut marks) =
         (std::mem::take(&mut workers[0].vertices), std::mem::take(&mut workers[0].marks));
     vertices.resize(vertex_count, VertexAccumulator::default());

@@ -9,7 +9,7 @@ use crate::exec::windows::{Partition, Window};
 use crate::tangents::fast::accumulator::{VertexAccumulator, gather};
 use crate::tangents::fast::kernel::{BLOCK_SIZE, TriangleBlock};
 use crate::tangents::fast::schedule::Schedule;
-use crate::tangents::fast::streamed::{self, first_vertex};
+use crate::tangents::fast::streamed::{self, vertices_to_read};
 use crate::tangents::fast::triangle_list::TriangleList;
 use crate::tangents::fast::worker::Worker;
 
@@ -49,7 +49,7 @@ impl SecondPass<'_> {
         let vertices = partitions.iter().map(|partition| partition.vertices.clone());
         let jobs = partitions.iter().zip(split_slice(out, 0, vertices));
         threads::run(workers, jobs, |worker, (partition, quantities)| {
-            worker.begin(first_vertex(windows, partition), 0);
+            worker.begin(vertices_to_read(windows, partition), 0);
             let numbers = partition.windows.start..partition.end_window;
             for at in numbers.take_while(|_| !limits.is_cancelled()) {
                 let end = windows[at].vertices.end as usize;

@@ -27,8 +27,8 @@ pub(crate) fn run<P: Pass>(
     let Range { start: first_window, end: end_window } = partition.windows;
     let own = partition.vertices.clone();
     let corner = |window: usize| input.list.corners_of(first_window..window).len();
-    let first = first_vertex(input.windows, partition);
-    worker.begin(first, own.start.max(first));
+    let vertices = vertices_to_read(input.windows, partition);
+    worker.begin(vertices.clone(), own.start.max(vertices.start));
     let (mut finished, mut written) = (own.start.max(worker.first), first_window);
     worker.findings.unread = finished - own.start;
     for at in first_window..partition.end_window {
@@ -64,10 +64,12 @@ pub(crate) fn run<P: Pass>(
     worker.findings.unread += own.end.saturating_sub(finished);
 }
 
-/// The lowest vertex of all windows that a partition adds.
-pub(crate) fn first_vertex(windows: &[Window], partition: &Partition) -> usize {
+/// The vertices of all windows that a partition adds.
+pub(crate) fn vertices_to_read(windows: &[Window], partition: &Partition) -> Range<usize> {
     let windows = &windows[partition.windows.start..partition.end_window];
-    windows.iter().map(|window| window.vertices.start).min().unwrap_or(0) as usize
+    let lowest = windows.iter().map(|window| window.vertices.start).min().unwrap_or(0);
+    let end = windows.iter().map(|window| window.vertices.end).max().unwrap_or(0);
+    lowest as usize..end as usize
 }
 
 /// Reads all vertices below `end` that have not been read yet. There is room for them.

@@ -1,5 +1,7 @@
 //! The memory of one thread, reused from mesh to mesh, and what the thread has found.
 
+use std::ops::Range;
+
 use crate::topology::weld::Bounds;
 
 use crate::tangents::fast::accumulator::VertexAccumulator;
@@ -25,6 +27,8 @@ pub(crate) struct Worker {
     pub marks: Vec<u32>,
     pub first: usize,
     pub read: usize,
+    /// The end of the vertices that the pass reads.
+    last_end: usize,
     /// Finished vertices that pending windows need: those from number `first_kept` on.
     kept: Vec<VertexAccumulator>,
     first_kept: usize,
@@ -43,9 +47,9 @@ pub(crate) struct Worker {
 }
 
 impl Worker {
-    /// Prepares a pass whose thread reads the vertices from number `first` on, and finishes those from number `first_own` on.
-    pub fn begin(&mut self, first: usize, first_own: usize) {
-        (self.first, self.read) = (first, 0);
+    /// Prepares a pass whose thread reads `vertices`, and finishes those from number `first_own` on.
+    pub fn begin(&mut self, vertices: Range<usize>, first_own: usize) {
+        (self.first, self.read, self.last_end) = (vertices.start, 0, vertices.end);
         (self.first_kept, self.findings) = (first_own, Findings::default());
         self.kept.clear();
         self.pending.clear();
@@ -80,7 +84,7 @@ impl Worker {
         self.vertices.copy_within(moved.clone(), 0);
         self.marks.copy_within(moved, 0);
         // At least half of the room is free afterwards, so that few vertices are moved often.
-        let room = (2 * (end - self.first)).max(MIN_ROOM);
+        let room = (2 * (end - self.first)).max(MIN_ROOM).min(self.last_end - self.first);
         if room > self.vertices.len() {
             self.vertices.resize(room, VertexAccumulator::default());
             self.marks.resize(room, 0);
