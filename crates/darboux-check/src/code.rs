@@ -341,7 +341,7 @@ codes! {
         "The normal map stores x and y only, and the format wants three channels."
         "Bumps are far too strong or the surface is black, as z is wrong."
         "The map was packed for an engine that reconstructs z (BC5, DXT5nm)."
-        "`darboux convert map.png --from opengl --to opengl --layout rg --to-layout rgb`."
+        "`darboux convert map.png --from opengl --to opengl --layout rg --to-layout rgb`, or `--layout ag` where x is in alpha (DXT5nm)."
         Repair "blue is computed from red and green"
     }
     MapNotUnit "map-not-unit" Warning {

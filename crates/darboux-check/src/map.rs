@@ -16,6 +16,8 @@ pub struct Map {
     pub file_size: usize,
     /// Where the texels look as if they had gone through the transfer function of sRGB once too often: the judgement on them as they were before.
     pub before_srgb: Option<MapJudgement>,
+    /// What the two channels hold that would be x and y of a map without z; none where three channels vary.
+    pub two_channels: Option<TwoChannels>,
     /// Where green should point.
     pub wanted: BitangentDirection,
     /// What the facets of the meshes that use the map say; none for a map that is checked alone.
@@ -32,6 +34,34 @@ pub struct MapDirections {
     pub green: BitangentDirection,
 }
 
+/// Two channels of an image that may be a map without z, and the judgement on them.
+#[derive(Clone, Copy, Debug)]
+pub enum TwoChannels {
+    /// Red and green; blue has one value.
+    RedGreen(MapJudgement),
+    /// Alpha and green ("DXT5nm"); red has one value.
+    AlphaGreen(MapJudgement),
+}
+
+impl TwoChannels {
+    /// `judgement`: that on red, green and blue.
+    fn of(image: &RgbaImage, judgement: &MapJudgement) -> Option<Self> {
+        let size = [image.width, image.height].map(|side| side as usize);
+        let judge = |[x, y]: [usize; 2]| {
+            let layout = TexelLayout::new(x, y, None)?;
+            judge_normal_map(&image.texels, size, layout).ok()
+        };
+        let [first_red, .., first_alpha] = image.texels.first()?;
+        let is_red_constant = image.texels.iter().all(|[red, ..]| red == first_red);
+        let is_alpha_varying = image.texels.iter().any(|[.., alpha]| alpha != first_alpha);
+        match () {
+            () if is_red_constant && is_alpha_varying => judge([3, 1]).map(Self::AlphaGreen),
+            () if judgement.is_two_channel() => judge([0, 1]).map(Self::RedGreen),
+            () => None,
+        }
+    }
+}
+
 /// Gives the votes of the meshes that use a map.
 pub type Vote<'a> = &'a dyn Fn(&RgbaImage) -> FacetVotes;
 
@@ -44,9 +74,11 @@ impl Map {
                 let judgement = judge_normal_map(&image.texels, size, TexelLayout::RGBA);
                 let judgement = judgement.map_err(|error| error.to_string());
                 let mistake = judgement.as_ref().ok().and_then(MapJudgement::srgb_mistake);
+                let two_channels =
+                    judgement.as_ref().ok().and_then(|judgement| TwoChannels::of(&image, judgement));
                 let before_srgb = mistake.and_then(|mistake| judge_without(mistake, &image));
                 let facets = vote.map(|vote| vote(&image));
-                Self { judgement, file_size: file.len(), before_srgb, wanted, facets }
+                Self { judgement, file_size: file.len(), before_srgb, two_channels, wanted, facets }
             }
             Err(error) => Self { file_size: file.len(), ..Self::unreadable(error.to_string(), wanted) },
         }
@@ -65,7 +97,14 @@ impl Map {
 
     /// A map that cannot be read, and why, as a clause.
     pub fn unreadable(problem: String, wanted: BitangentDirection) -> Self {
-        Self { judgement: Err(problem), file_size: 0, before_srgb: None, wanted, facets: None }
+        Self {
+            judgement: Err(problem),
+            file_size: 0,
+            before_srgb: None,
+            two_channels: None,
+            wanted,
+            facets: None,
+        }
     }
 }
 

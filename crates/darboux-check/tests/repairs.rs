@@ -488,3 +488,20 @@ fn turned_faces_stay_shared() {
     };
     assert_eq!(indices(&document).len(), 1);
 }
+
+/// Blue of one value alone does not make a map of two channels: red and green have to be the slopes of a surface.
+#[test]
+fn blue_is_computed_only_for_slopes() {
+    let map = healthy_models().remove(0).map;
+    let code_of = |texels: Vec<[u8; 3]>| {
+        let file = map.with_texels(texels).file;
+        let options = FixOptions::default();
+        let FixedMap { image, findings, .. } =
+            fix_map("map", &file, &LoadOptions::default(), &options).expect("an image");
+        (findings.iter().map(|fixed| fixed.finding.code).collect::<Vec<_>>(), image.is_some())
+    };
+    let slopes = map.texels.iter().map(|[r, g, _]| [*r, *g, 0]).collect();
+    assert_eq!(code_of(slopes), (vec![Code::MapTwoChannel], true));
+    let occlusion = map.texels.iter().map(|[r, g, _]| [255 - r / 4, *g, 0]).collect();
+    assert_eq!(code_of(occlusion), (vec![Code::MapNotNormal], false));
+}

@@ -5,7 +5,7 @@ use darboux::{BitangentDirection, MapJudgement, MapVerdict, SrgbMistake, Tangent
 use crate::code::Code;
 use crate::facets::Arrangement;
 use crate::finding::Finding;
-use crate::map::{Map, MapDirections};
+use crate::map::{Map, MapDirections, TwoChannels};
 use crate::rule::MapRule;
 use crate::severity::Severity;
 
@@ -61,11 +61,35 @@ fn kind(map: &Map, judgement: &MapJudgement) -> Kind {
         // The encoding turns a nearly flat map's blue into 255 everywhere, as in a map of two channels, and flat texels tell them apart.
         // A part that leans may have the colour of an encoded flat one, but undoing an encoding that never was makes vectors of other lengths than 1.
         () if map.before_srgb.is_some_and(|before| before.not_unit < judgement.not_unit) => Kind::Srgb,
-        () if judgement.is_two_channel() => Kind::TwoChannel,
+        () if is_encoded_and_inverted(judgement) => Kind::Srgb,
+        () if map.two_channels.is_some_and(|of| !may_be_normals(of)) => Kind::Other,
+        () if map.two_channels.is_some() => Kind::TwoChannel,
         () if judgement.is_object_space() => Kind::ObjectSpace,
         () if is_no_map(judgement) => Kind::Other,
         () => Kind::Normals,
     }
+}
+
+/// Whether the commonest texel and the mean are those of a flat map whose values were encoded as sRGB, of which one was inverted after that.
+fn is_encoded_and_inverted(judgement: &MapJudgement) -> bool {
+    let [mean_red, mean_green, mean_blue] = judgement.mean.map(|x| 127.5 * (x + 1.0));
+    let is_near = |codes: [u8; 2]| {
+        let is_commonest = (0..2).all(|i| judgement.commonest[i].abs_diff(codes[i]) <= 3);
+        let means = [mean_red, mean_green];
+        is_commonest && (0..2).all(|i| (means[i] - f32::from(codes[i])).abs() <= 10.0)
+    };
+    mean_blue > 224.0 && (is_near([188, 67]) || is_near([67, 188]))
+}
+
+/// How far x and y of a map may lean on average, for it to be a map without z: the slopes of a surface cancel.
+const MAX_MEAN_OF_TWO: f32 = 0.2;
+
+/// Whether two channels may be x and y of unit vectors: they are not beyond the unit circle, do not lean on average, and contradict no surface.
+fn may_be_normals(of: TwoChannels) -> bool {
+    let (TwoChannels::RedGreen(judgement) | TwoChannels::AlphaGreen(judgement)) = of;
+    let is_surface = judgement.verdict != MapVerdict::NoGradient || judgement.has_exchanged_channels();
+    let is_within = percent(&judgement, judgement.not_unit) <= 1.0;
+    is_surface && is_within && judgement.mean[..2].iter().all(|lean| lean.abs() <= MAX_MEAN_OF_TWO)
 }
 
 /// The share of texels, in percent, from which on vectors of other lengths that point below the surface, too, are no normals.
@@ -110,18 +134,22 @@ fn object_space(map: &Map) -> Option<Finding> {
 fn srgb(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Srgb)?;
     let [red, green] = judgement.commonest;
-    let what = match judgement.srgb_mistake()? {
-        SrgbMistake::Encoded => "encoded",
-        SrgbMistake::Decoded => "decoded",
-        _ => return None,
+    let (what, obstacle) = match judgement.srgb_mistake() {
+        Some(SrgbMistake::Encoded) => ("encoded as sRGB", None),
+        Some(SrgbMistake::Decoded) => ("decoded as sRGB", None),
+        None => ("encoded as sRGB, and red or green was inverted after that", Some(INVERTED_CODE)),
+        Some(_) => return None,
     };
-    let text = format!(
-        "its commonest texel is {red}, {green} instead of 128, 128: linear values were {what} as sRGB"
-    );
+    let text =
+        format!("its commonest texel is {red}, {green} instead of 128, 128: linear values were {what}");
     let share = percent(judgement, judgement.commonest_count);
     let finding = Finding::new(Code::MapSrgb, text).with_count(judgement.commonest_count);
+    let finding = finding.with_obstacle(obstacle.map(str::to_owned));
     Some(finding.with_evidence("texels of this colour", share, "%"))
 }
+
+/// Why a map that was encoded and then inverted is left.
+const INVERTED_CODE: &str = "invert the channel near 67 again first: `darboux convert map.png --from directx --to opengl` inverts green";
 
 fn not_normal(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Other)?;
@@ -135,11 +163,25 @@ fn not_normal(map: &Map) -> Option<Finding> {
 }
 
 fn two_channel(map: &Map) -> Option<Finding> {
-    let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::TwoChannel)?;
-    let share = percent(judgement, judgement.wrong_z);
-    let finding = Finding::new(Code::MapTwoChannel, "its blue channel has one value only");
-    Some(finding.with_evidence("texels with another z than red and green give", share, "%"))
+    judged(map).filter(|judgement| kind(map, judgement) == Kind::TwoChannel)?;
+    let (text, judgement, obstacle) = match map.two_channels? {
+        TwoChannels::RedGreen(judgement) => ("its blue channel has one value only", judgement, None),
+        TwoChannels::AlphaGreen(judgement) => {
+            ("its x is in alpha (DXT5nm): its red channel has one value only", judgement, Some(X_IN_ALPHA))
+        }
+    };
+    let is_unclear = judgement.verdict == MapVerdict::CannotTell;
+    let obstacle = obstacle.or(is_unclear.then_some(UNCLEAR_CHANNELS)).map(str::to_owned);
+    let finding = Finding::new(Code::MapTwoChannel, text).with_obstacle(obstacle);
+    Some(finding.with_evidence("z score of its two channels", judgement.z_score.into(), ""))
 }
+
+/// Why a map with x in alpha is left.
+const X_IN_ALPHA: &str = "alpha may be wanted for something else; if it is x, `darboux convert map.png --from opengl --to opengl --layout ag --to-layout rgb` computes blue";
+
+/// Why a map without z is left whose derivatives say nothing.
+const UNCLEAR_CHANNELS: &str =
+    "its red and green are too few or too even to tell the slopes of a surface from other data";
 
 /// The arrangement that the derivatives show: that of a map with no (or both) channels inverted, or with one.
 fn arrangement(judgement: &MapJudgement) -> Option<Arrangement> {
@@ -339,7 +381,14 @@ mod tests {
             judge_normal_map(&texels, [128; 2], TexelLayout::RGB).map_err(|error| error.to_string());
         let arrangement = candidates(judgement.as_ref().expect("a judgement"))[1];
         let facets = Some(FacetVotes::only(arrangement, 7.0));
-        Map { judgement, file_size: 0, before_srgb: None, wanted: BitangentDirection::Up, facets }
+        Map {
+            judgement,
+            file_size: 0,
+            before_srgb: None,
+            two_channels: None,
+            wanted: BitangentDirection::Up,
+            facets,
+        }
     }
 
     /// Facets that vote for exchanged channels do not outweigh derivatives that show a gradient.
