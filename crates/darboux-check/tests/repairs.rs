@@ -505,3 +505,16 @@ fn blue_is_computed_only_for_slopes() {
     let occlusion = map.texels.iter().map(|[r, g, _]| [255 - r / 4, *g, 0]).collect();
     assert_eq!(code_of(occlusion), (vec![Code::MapNotNormal], false));
 }
+
+/// Once exchanged channels are back in their places, a channel that was inverted, too, may be either of them.
+#[test]
+fn exchanged_and_inverted_channels_are_left() {
+    let map = healthy_models().remove(0).map;
+    let file = map.with_texels(map.texels.iter().map(|[r, g, b]| [*g, 255 - r, *b]).collect()).file;
+    let made = fix_map("map", &file, &LoadOptions::default(), &FixOptions::default()).expect("an image");
+    let is_left = |fixed: &FixedFinding| {
+        let reason = fixed.finding.left_because.as_deref().unwrap_or_default();
+        !fixed.repaired && reason.contains("either green is inverted or red")
+    };
+    assert!(made.image.is_none() && made.findings.iter().any(is_left), "{:?}", made.findings);
+}

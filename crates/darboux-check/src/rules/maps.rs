@@ -291,6 +291,9 @@ fn facets_show_exchange(judgement: &MapJudgement, map: &Map) -> bool {
     decided[1] && exchanged > 2.0 * straight
 }
 
+/// Why exchanged channels are left of which one is inverted.
+const INVERTED_TOO: &str = "one channel is inverted, too, and no faces of a model show which: once red and green are exchanged back, either green is inverted or red is";
+
 fn channels_swapped(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Normals)?;
     let by_derivatives = judgement.has_exchanged_channels();
@@ -300,7 +303,9 @@ fn channels_swapped(map: &Map) -> Option<Finding> {
         (true, _) => "its derivatives are those of a map with red and green exchanged",
         (false, true) => "its texels follow the faces of the mesh with red and green exchanged",
     };
+    let is_undecided = judgement.z_score < 0.0 && map.decide(Arrangement::ExchangedAndInverted).is_none();
     let finding = Finding::new(Code::MapChannelsSwapped, text)
+        .with_obstacle(is_undecided.then(|| INVERTED_TOO.to_owned()))
         .with_evidence("half the log of unmixed over mixed energy", judgement.log_energy_ratio.into(), "")
         .with_evidence("z score", judgement.z_score.into(), "");
     Some(match by_facets {
