@@ -197,7 +197,8 @@ impl Runs {
         let tangents = meshes.low.tangents();
         let surface = LowSurface::new(meshes.low.mesh(), &tangents)?.with_cage(&meshes.cage)?;
         let (high, options) = (meshes.high.high(), self.options(meshes, 1));
-        let found = verify(&[surface], &[high], &baked.images, &texture, &options, &mut Context::new())?;
+        let found =
+            verify(&[surface], &[high], &baked.images, &texture, &options, &mut Context::new(), &mut |_| {})?;
         Ok(Outcome { median: found.all.median, p99: found.all.p99, seconds })
     }
 }

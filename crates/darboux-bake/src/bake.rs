@@ -143,16 +143,29 @@ fn bake_bands(
 ) -> Result<BakeReport, BakeError> {
     let mut bands: Vec<(Band<'_>, BakeReport)> =
         images.bands(BLOCK).into_iter().map(|band| (band, BakeReport::default())).collect();
+    for_each_band(context, &mut bands, progress, |(band, report)| *report = stages.band(band))?;
+    Ok(bands.into_iter().map(|(_, report)| report).fold(BakeReport::default(), BakeReport::plus))
+}
+
+/// Calls a function for every row of blocks, on all threads, and tells the progress after each.
+///
+/// Errors: the context's token was cancelled.
+pub(crate) fn for_each_band<T: Send>(
+    context: &Context,
+    bands: &mut [T],
+    progress: &mut (dyn FnMut(BakeProgress) + Send),
+    with: impl Fn(&mut T) + Sync,
+) -> Result<(), BakeError> {
     let (total, progress) = (bands.len(), Mutex::new((0, progress)));
-    jobs::for_each(context, &mut bands, |(band, report)| {
-        *report = stages.band(band);
+    jobs::for_each(context, bands, |band| {
+        with(band);
         if let Ok(mut progress) = progress.lock() {
             let (done, tell) = &mut *progress;
             *done += 1;
             tell(BakeProgress { done: *done, total });
         }
     })?;
-    Ok(bands.into_iter().map(|(_, report)| report).fold(BakeReport::default(), BakeReport::plus))
+    Ok(())
 }
 
 /// Stage 7: fills texels without a hit.

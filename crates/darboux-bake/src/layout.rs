@@ -153,6 +153,18 @@ impl Layout {
         }
     }
 
+    /// The area of all triangles in square texels, in all their tiles: the number of pairs of a texel and a triangle that covers it, on average.
+    pub fn charted_area(&self, low: &[LowSurface<'_>]) -> f64 {
+        let is_first =
+            |pair: &[Placed]| (pair[0].surface, pair[0].triangle) != (pair[1].surface, pair[1].triangle);
+        let firsts = self.placed.first().into_iter();
+        let firsts = firsts.chain(self.placed.windows(2).filter(|pair| is_first(pair)).map(|pair| &pair[1]));
+        let twice_in_steps = firsts.map(|placed| {
+            area(steps(self.texels(&low[placed.surface as usize], placed))).unsigned_abs() as f64
+        });
+        twice_in_steps.sum::<f64>() / (2 * STEPS * STEPS) as f64
+    }
+
     pub fn blocks_per_row(&self) -> usize {
         self.size[0].div_ceil(BLOCK)
     }

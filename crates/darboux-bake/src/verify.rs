@@ -13,12 +13,11 @@ mod points;
 mod summary;
 
 use darboux::Context;
-use darboux::internal::jobs;
 
-use crate::bake::{check_memory, check_options, check_surfaces, group_surfaces};
+use crate::bake::{check_memory, check_options, check_surfaces, for_each_band, group_surfaces};
 use crate::layout::Layout;
-use crate::{BakeError, BakeOptions, HighSurface, Images, LowSurface, NormalTexture, memory};
-use points::{BandPoints, Points};
+use crate::{BakeError, BakeOptions, BakeProgress, HighSurface, Images, LowSurface, NormalTexture, memory};
+use points::{BandPoints, Points, cell_side};
 use summary::summarize;
 
 pub use errors::ErrorStatistics;
@@ -26,11 +25,11 @@ pub use places::{Mistake, VerifiedPlace};
 pub use summary::Verification;
 
 /// Compares what a renderer shows with the high surfaces, at one random point per texel and triangle (fewer where the map has more than 2048
-/// rows or columns).
+/// rows or columns, or where there would be more than 8,388,608 points: then one texel in each square of several is compared).
 ///
 /// `low`: as the renderer has them; `baked`: the images of [`bake`](crate::bake()) with these options; `written`: the normal map as it is in its
 /// file, in the options' conventions. The truth at a point is the normal where its ray hits, also between texels, so that the error of resolution and
-/// filter is part of the result. Errors: as of [`bake`](crate::bake()); images without a normal map or of another size.
+/// filter is part of the result. `progress` is called on any thread, after each row of blocks. Errors: as of [`bake`](crate::bake()); images without a normal map or of another size.
 pub fn verify(
     low: &[LowSurface<'_>],
     high: &[HighSurface<'_>],
@@ -38,6 +37,7 @@ pub fn verify(
     written: &NormalTexture,
     options: &BakeOptions,
     context: &mut Context,
+    progress: &mut (dyn FnMut(BakeProgress) + Send),
 ) -> Result<Verification, BakeError> {
     check_options(options)?;
     check_surfaces(low, high)?;
@@ -57,9 +57,10 @@ pub fn verify(
         states: &baked.states,
         written,
         unrounded: &unrounded,
+        cell_side: cell_side(&layout, low),
     };
     let mut bands: Vec<(usize, BandPoints)> =
         (0..points.band_count()).map(|row| (row, BandPoints::default())).collect();
-    jobs::for_each(context, &mut bands, |(row, band)| *band = points.band(*row))?;
+    for_each_band(context, &mut bands, progress, |(row, band)| *band = points.band(*row))?;
     Ok(summarize(bands.into_iter().map(|(_, band)| band).collect(), points.heat_size()))
 }

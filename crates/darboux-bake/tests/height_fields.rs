@@ -46,7 +46,7 @@ fn median_error(surface: Surface, size: u32) -> f64 {
     let rounded = |normal: &[f32; 3]| layout.vector(layout.texel::<u16>(*normal));
     let texels = baked.images.normal.iter().flatten().map(rounded).collect();
     let map = NormalTexture::new([size; 2], texels, Convention::GLTF, Convention::GLTF).expect("a map");
-    let errors = verify(&lows, &highs, &baked.images, &map, &options, &mut Context::new());
+    let errors = verify(&lows, &highs, &baked.images, &map, &options, &mut Context::new(), &mut |_| {});
     let errors = errors.expect("valid input").all;
     let line = format!("{surface:?} at {size}: median {:.4}, 99 % {:.4} degrees", errors.median, errors.p99);
     writeln!(std::io::stdout(), "{line}").expect("standard output");

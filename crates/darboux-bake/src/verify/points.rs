@@ -19,6 +19,10 @@ use crate::{BakeOptions, Bitangent, LowSurface, NormalTexture};
 /// The largest side of the picture of errors; of larger maps one texel in each cell is compared.
 const MAX_HEAT_SIDE: usize = 2048;
 
+/// The most points that are expected. Where charts cover the image more often than twice at its largest side, as those of repeated textures do, one
+/// texel in larger cells is compared.
+const MAX_POINTS: f64 = (2 * MAX_HEAT_SIDE * MAX_HEAT_SIDE) as f64;
+
 /// What all bands share.
 pub struct Points<'a> {
     pub low: &'a [LowSurface<'a>],
@@ -28,6 +32,16 @@ pub struct Points<'a> {
     pub states: &'a [TexelState],
     pub written: &'a NormalTexture,
     pub unrounded: &'a NormalTexture,
+    /// Texels per side of a cell, in which one texel is compared.
+    pub cell_side: usize,
+}
+
+/// The least side of cells, in texels, with which the picture of errors has no more than [`MAX_HEAT_SIDE`] rows and columns, and about
+/// [`MAX_POINTS`] points at most are compared.
+pub fn cell_side(layout: &Layout, low: &[LowSurface<'_>]) -> usize {
+    let by_picture = layout.size[0].max(layout.size[1]).div_ceil(MAX_HEAT_SIDE);
+    let by_points = (layout.charted_area(low) / MAX_POINTS).sqrt().ceil();
+    by_picture.max(by_points as usize)
 }
 
 /// The errors at a point, in degrees.
@@ -56,14 +70,9 @@ impl Points<'_> {
         self.layout.size[1].div_ceil(BLOCK)
     }
 
-    /// Texels per side of a cell.
-    fn cell_side(&self) -> usize {
-        self.layout.size[0].max(self.layout.size[1]).div_ceil(MAX_HEAT_SIDE)
-    }
-
     /// The cells per row, and their rows.
     pub fn heat_size(&self) -> [u32; 2] {
-        self.layout.size.map(|side| side.div_ceil(self.cell_side()) as u32)
+        self.layout.size.map(|side| side.div_ceil(self.cell_side) as u32)
     }
 
     /// Compares the points of a row of blocks.
@@ -74,7 +83,7 @@ impl Points<'_> {
         for column in 0..self.layout.blocks_per_row() {
             let random = |i: u64| turn_of(3 * (row * self.layout.blocks_per_row() + column) as u64 + i);
             let sample = [0, 1].map(|i| (random(i) * STEPS as f64) as i64);
-            let side = self.cell_side();
+            let side = self.cell_side;
             let of_cell = (random(2) * (side * side) as f64) as usize;
             coverage.clear();
             for placed in self.layout.block(column, row) {
@@ -152,7 +161,7 @@ impl Points<'_> {
     }
 
     fn cell(&self, place: Place) -> u32 {
-        let [x, y] = place.map(|x| x as usize / self.cell_side());
+        let [x, y] = place.map(|x| x as usize / self.cell_side);
         (y * self.heat_size()[0] as usize + x) as u32
     }
 }

@@ -22,6 +22,9 @@ use crate::json::{VERSION, print_report};
 use crate::terminal::Messages;
 use crate::{exit, interrupt};
 
+/// The share of the progress bar that baking has, and so has comparing.
+pub const PROGRESS_UNITS: u64 = 1 << 20;
+
 /// Runs the command and returns its exit code.
 pub fn run(arguments: &BakeArguments) -> u8 {
     let messages = Messages::new(arguments.messages.quiet);
@@ -106,7 +109,7 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
     let verification = match &written.normal {
         Some(normal) if arguments.verify => {
             let surfaces = (&surfaces[..], &high_surfaces[..]);
-            let mut verified = Verified::new(arguments, surfaces, &baked.images, normal, &options)?;
+            let mut verified = Verified::new(arguments, surfaces, &baked.images, normal, &options, messages)?;
             verified.write_model(arguments, &low)?;
             Some(verified)
         }
@@ -176,8 +179,8 @@ fn bake_surfaces(
     if let Some(jobs) = arguments.jobs {
         context.set_max_threads(usize::from(jobs.get()));
     }
-    messages.start(1 << 20);
-    let progress = messages.file(&arguments.output.display().to_string(), 1 << 20);
+    messages.start(PROGRESS_UNITS * (1 + u64::from(arguments.verify)));
+    let progress = messages.file(&arguments.output.display().to_string(), PROGRESS_UNITS);
     let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
     bake(low, high, options, &mut context, &mut tell).map_err(|error| error.to_string())
 }

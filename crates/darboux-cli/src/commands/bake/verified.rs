@@ -2,8 +2,8 @@
 
 use darboux::{Context, Convention};
 use darboux_bake::{
-    BakeOptions, ErrorStatistics, HighSurface, Images, LowModel, LowSurface, Mistake, NormalTexture,
-    Verification, VerifiedPlace, verify,
+    BakeOptions, BakeProgress, ErrorStatistics, HighSurface, Images, LowModel, LowSurface, Mistake,
+    NormalTexture, Verification, VerifiedPlace, verify,
 };
 use darboux_io::image::{Channels, PngImage, normal_vectors};
 use serde::Serialize;
@@ -11,7 +11,9 @@ use serde::Serialize;
 use super::arguments::BakeArguments;
 use super::model::write_painted;
 use super::pictures;
+use super::run::PROGRESS_UNITS;
 use super::write::save;
+use crate::terminal::Messages;
 
 /// The part of the report about errors. json.md documents its fields.
 #[derive(Debug, Serialize)]
@@ -30,6 +32,7 @@ impl Verified {
         baked: &Images,
         map: &PngImage,
         options: &BakeOptions,
+        messages: &Messages,
     ) -> Result<Self, String> {
         let texels = normal_vectors(map, Channels::RGB).map_err(|error| error.to_string())?;
         let written = NormalTexture::new(map.size(), texels, options.map_convention, Convention::GLTF)
@@ -38,8 +41,10 @@ impl Verified {
         if let Some(jobs) = arguments.jobs {
             context.set_max_threads(usize::from(jobs.get()));
         }
-        let errors =
-            verify(low, high, baked, &written, options, &mut context).map_err(|error| error.to_string())?;
+        let progress = messages.file(&format!("comparing {}", arguments.output.display()), PROGRESS_UNITS);
+        let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
+        let errors = verify(low, high, baked, &written, options, &mut context, &mut tell)
+            .map_err(|error| error.to_string())?;
         let draw = |path: &std::path::PathBuf| {
             let picture = pictures::heat_map(&path.display().to_string(), &errors)?;
             save(&picture, path, arguments.force)
