@@ -170,7 +170,7 @@ fn two_channel(map: &Map) -> Option<Finding> {
             ("its x is in alpha (DXT5nm): its red channel has one value only", judgement, Some(X_IN_ALPHA))
         }
     };
-    let is_unclear = judgement.verdict == MapVerdict::CannotTell;
+    let is_unclear = judgement.verdict == MapVerdict::CannotTell && map.facets.is_none();
     let obstacle = obstacle.or(is_unclear.then_some(UNCLEAR_CHANNELS)).map(str::to_owned);
     let finding = Finding::new(Code::MapTwoChannel, text).with_obstacle(obstacle);
     Some(finding.with_evidence("z score of its two channels", judgement.z_score.into(), ""))
@@ -179,7 +179,7 @@ fn two_channel(map: &Map) -> Option<Finding> {
 /// Why a map with x in alpha is left.
 const X_IN_ALPHA: &str = "alpha may be wanted for something else; if it is x, `darboux convert map.png --from opengl --to opengl --layout ag --to-layout rgb` computes blue";
 
-/// Why a map without z is left whose derivatives say nothing.
+/// Why a map without z is left whose derivatives say nothing, and which no material uses as a normal map.
 const UNCLEAR_CHANNELS: &str =
     "its red and green are too few or too even to tell the slopes of a surface from other data";
 
