@@ -16,14 +16,11 @@ use super::model::write_model;
 use super::open::{open_high, open_low};
 use super::pictures;
 use super::report::{BakeReport, advice, summary};
-use super::verified::Verified;
+use super::verified::{PROGRESS_UNITS, Verified};
 use super::write::{all_outputs, refuse_outputs, write_maps};
 use crate::json::{VERSION, print_report};
 use crate::terminal::Messages;
 use crate::{exit, interrupt};
-
-/// The share of the progress bar that baking has, and so has comparing.
-pub const PROGRESS_UNITS: u64 = 1 << 20;
 
 /// Runs the command and returns its exit code.
 pub fn run(arguments: &BakeArguments) -> u8 {

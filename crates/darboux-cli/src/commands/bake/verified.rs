@@ -11,9 +11,11 @@ use serde::Serialize;
 use super::arguments::BakeArguments;
 use super::model::write_painted;
 use super::pictures;
-use super::run::PROGRESS_UNITS;
 use super::write::save;
 use crate::terminal::Messages;
+
+/// The share of the progress bar that comparing has, and so has baking.
+pub const PROGRESS_UNITS: u64 = 1 << 20;
 
 /// The part of the report about errors. json.md documents its fields.
 #[derive(Debug, Serialize)]
