@@ -1,4 +1,4 @@
-//! `cargo xtask links`: links between the pages of the repository lead to files and headings that exist.
+//! `cargo xtask links`: links between the pages of the repository lead to files and headings that exist, and every page has a title.
 //!
 //! Links to other sites are not followed, so that the check needs no network.
 
@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+use pulldown_cmark::{Event, HeadingLevel, Options, Parser, Tag, TagEnd};
 
 use crate::run::{Outcome, output_of, program, root};
 
@@ -16,9 +16,11 @@ struct Page {
     headings: BTreeSet<String>,
     /// The targets of its links and images as they are written.
     links: Vec<String>,
+    /// True if its first heading is of level 1 and has a text.
+    has_title: bool,
 }
 
-/// Errors: links that lead nowhere, each with its page.
+/// Errors: links that lead nowhere, each with its page; pages without a title.
 pub fn check() -> Outcome {
     let pages = pages()?;
     let mut dead = Vec::new();
@@ -31,11 +33,25 @@ pub fn check() -> Outcome {
             }
         }
     }
-    if dead.is_empty() {
-        println!("{count} links of {} pages lead to something", pages.len());
+    if !dead.is_empty() {
+        return Err(format!("{} links lead nowhere:\n{}", dead.len(), dead.join("\n")));
+    }
+    require_titles(&pages)?;
+    println!("{count} links of {} pages lead to something", pages.len());
+    Ok(())
+}
+
+/// Errors: pages without a title. The site has a page of every Markdown file, and its menu shows their titles.
+fn require_titles(pages: &BTreeMap<PathBuf, Page>) -> Outcome {
+    let untitled = pages.iter().filter(|(_, page)| !page.has_title);
+    let untitled: Vec<String> = untitled.map(|(path, _)| path.display().to_string()).collect();
+    if untitled.is_empty() {
         return Ok(());
     }
-    Err(format!("{} links lead nowhere:\n{}", dead.len(), dead.join("\n")))
+    Err(format!(
+        "these pages do not begin with a heading of level 1 (a part of another page is a .txt file): {}",
+        untitled.join(", ")
+    ))
 }
 
 /// The paths of all Markdown files that git knows or would add.
@@ -55,7 +71,7 @@ fn pages() -> Result<BTreeMap<PathBuf, Page>, String> {
 }
 
 fn parse(text: &str) -> Page {
-    let mut page = Page { headings: BTreeSet::new(), links: Vec::new() };
+    let mut page = Page { headings: BTreeSet::new(), links: Vec::new(), has_title: false };
     let mut heading: Option<String> = None;
     for event in Parser::new_ext(text, Options::ENABLE_TABLES) {
         match event {
@@ -63,8 +79,11 @@ fn parse(text: &str) -> Page {
                 page.links.push(dest_url.into_string());
             }
             Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
-            Event::End(TagEnd::Heading(_)) => {
+            Event::End(TagEnd::Heading(level)) => {
                 let name = identifier(&heading.take().unwrap_or_default());
+                if page.headings.is_empty() {
+                    page.has_title = level == HeadingLevel::H1 && !name.is_empty();
+                }
                 let same = page.headings.iter().filter(|other| is_numbered(other, &name)).count();
                 page.headings.insert(if same == 0 { name } else { format!("{name}-{same}") });
             }
@@ -138,6 +157,17 @@ mod tests {
             parse("# A b\n[x](c.md#d) ![y](e.png)\n## A b\n\n`# no [z](f)`\n## The `code`, and more\n");
         assert_eq!(page.links, ["c.md#d", "e.png"]);
         assert_eq!(page.headings, ["a-b", "a-b-1", "the-code-and-more"].map(String::from).into());
+    }
+
+    #[test]
+    fn pages_without_a_title_are_named() {
+        let titled = BTreeMap::from([(PathBuf::from("a.md"), parse("text\n# A\n## B\n"))]);
+        assert_eq!(require_titles(&titled), Ok(()));
+        for text in ["", "a fragment", "## Part\n# A\n", "# \n## B"] {
+            let pages = BTreeMap::from([(PathBuf::from("part.md"), parse(text))]);
+            let error = require_titles(&pages).expect_err(text);
+            assert!(error.ends_with("a .txt file): part.md"), "{error}");
+        }
     }
 
     #[test]

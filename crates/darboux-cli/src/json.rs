@@ -1,4 +1,4 @@
-//! JSON reports as text, and the version that they carry. json.md documents their fields.
+//! JSON reports as text, and the version that they carry. json.txt documents their fields.
 
 use std::io;
 

@@ -63,16 +63,8 @@ impl Page {
         html::push_html(&mut page.body, out.into_iter());
         // A cell without a text heads nothing.
         page.body = page.body.replace("<th></th>", "<td></td>");
-        // Parts of other pages have no title of their own.
-        if !page.body.contains("<h1") {
-            page.body.insert_str(0, &format!("<h1>{}</h1>\n", escaped(&path.to_string_lossy())));
-        }
-        page.title = page
-            .sections
-            .iter()
-            .map(|section| section.title.clone())
-            .find(|title| !title.is_empty())
-            .unwrap_or_default();
+        let mut titles = page.sections.iter().map(|section| &section.title);
+        page.title = titles.find(|title| !title.is_empty()).cloned().unwrap_or_default();
         page
     }
 

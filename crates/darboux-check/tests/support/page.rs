@@ -10,7 +10,7 @@ use super::table::Row;
 
 /// The page of these results, up to the part about pairs.
 pub fn page(rows: &[Row]) -> String {
-    let mut text = include_str!("page.md").to_owned();
+    let mut text = include_str!("page.txt").to_owned();
     text += "| mistake | how it was made | models | named | with other errors | equal after `--fix` |\n|---|---|---|---|---|---|\n";
     for Row { code, how, models, named, with_other_errors, repaired, .. } in rows {
         let repaired = repaired.map_or_else(|| "left".to_owned(), |repaired| repaired.to_string());
@@ -18,13 +18,13 @@ pub fn page(rows: &[Row]) -> String {
         writeln!(text, "| {link} | {how} | {models} | {named} | {with_other_errors} | {repaired} |")
             .expect("text");
     }
-    text += include_str!("flips.md");
+    text += include_str!("flips.txt");
     text += "| flip | how it was made | what names it |\n|---|---|---|\n";
     for flip in FLIPS {
         let codes: Vec<String> = flip.codes.iter().map(|code| link(*code)).collect();
         writeln!(text, "| {} | {} | {} |", flip.name, flip.how, codes.join(" and ")).expect("text");
     }
-    text += include_str!("flips_after.md");
+    text += include_str!("flips_after.txt");
     text
 }
 
@@ -33,7 +33,7 @@ pub const PAIRS: &str = "\n## Pairs of mistakes\n";
 
 /// What follows it.
 pub fn pairs_section(pairs: &[PairRow]) -> String {
-    let mut text = include_str!("pairs.md").to_owned();
+    let mut text = include_str!("pairs.txt").to_owned();
     let count = |is_it: fn(&Outcome) -> bool| pairs.iter().filter(|pair| is_it(&pair.outcome)).count();
     let both = count(|outcome| matches!(outcome, Outcome::BothNamed));
     let same = count(|outcome| matches!(outcome, Outcome::SameFile(_)));

@@ -1,4 +1,4 @@
-//! The JSON reports of the subcommands that write files. json.md documents their fields, whose names are stable.
+//! The JSON reports of the subcommands that write files. json.txt documents their fields, whose names are stable.
 
 use std::path::PathBuf;
 

@@ -14,7 +14,7 @@ use crate::json::{VERSION, to_json};
 use crate::terminal::{Messages, write_stdout};
 use arguments::DevicesArguments;
 
-/// The JSON report. json.md documents its fields.
+/// The JSON report. json.txt documents its fields.
 #[derive(Serialize)]
 struct DevicesReport {
     command: &'static str,

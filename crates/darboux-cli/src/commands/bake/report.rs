@@ -9,7 +9,7 @@ use super::verified::Verified;
 use super::write::WrittenMap;
 use crate::text::{counted, nonzero_counts};
 
-/// The JSON report. json.md documents its fields.
+/// The JSON report. json.txt documents its fields.
 #[derive(Debug, Serialize)]
 pub struct BakeReport {
     pub command: &'static str,

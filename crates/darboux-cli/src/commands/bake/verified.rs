@@ -17,7 +17,7 @@ use crate::terminal::Messages;
 /// The share of the progress bar that comparing has, and so has baking.
 pub const PROGRESS_UNITS: u64 = 1 << 20;
 
-/// The part of the report about errors. json.md documents its fields.
+/// The part of the report about errors. json.txt documents its fields.
 #[derive(Debug, Serialize)]
 pub struct Verified {
     #[serde(flatten)]

@@ -1,4 +1,4 @@
-//! The JSON report of `darboux check`. json.md documents its fields.
+//! The JSON report of `darboux check`. json.txt documents its fields.
 
 use darboux::{BitangentDirection, MapJudgement, TangentDirection};
 use darboux_check::{CheckedMap, Code, Evidence, Finding, FixedFinding, MapDirections, Severity};

@@ -1,4 +1,4 @@
-//! The JSON report of `darboux compare`. json.md documents its fields.
+//! The JSON report of `darboux compare`. json.txt documents its fields.
 
 use serde::Serialize;
 

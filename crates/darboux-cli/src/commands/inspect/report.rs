@@ -1,4 +1,4 @@
-//! The JSON report of `darboux inspect`. json.md documents its fields.
+//! The JSON report of `darboux inspect`. json.txt documents its fields.
 
 use darboux_io::gltf::PrimitiveInfo;
 use serde::Serialize;

@@ -26,7 +26,7 @@ use crate::terminal::Messages;
 use crate::text::counted;
 use crate::{exit, interrupt};
 
-/// The JSON report. json.md documents its fields.
+/// The JSON report. json.txt documents its fields.
 #[derive(Serialize)]
 struct RenderReport {
     command: &'static str,

@@ -1,4 +1,4 @@
-//! The part of a file's report that only `darboux tangents` has. json.md documents its fields.
+//! The part of a file's report that only `darboux tangents` has. json.txt documents its fields.
 
 use darboux_io::gltf::{PrimitiveNormals, TangentsSummary};
 use indicatif::HumanCount;
