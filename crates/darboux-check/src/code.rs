@@ -251,6 +251,13 @@ codes! {
         "Recompute normals outside in the modelling program and export again."
         Repair "what is reversed is turned over, the faces or the normals"
     }
+    NormalOtherAxes "normal-other-axes" Error {
+        "Normals are in other axes than the positions."
+        "Light comes from a wrong side on the whole model: its top is lit as if it were its front, or its left side as if it were its right one."
+        "The positions were turned to another up axis (z to y) or mirrored, and the normals were not."
+        "Apply the rotation and the scale of the object in the modelling program and export again; or `darboux normals --overwrite`, which computes smooth normals from the faces."
+        Leave "what turned them may have turned the tangents and the morph targets, too: export again, or compute all with `darboux normals --overwrite`"
+    }
     [Uvs]
     UvMissing "uv-missing" Error {
         "The normal texture uses a UV set that the primitive does not have."

@@ -10,6 +10,7 @@ use darboux::TexelLayout;
 use darboux_io::gltf::{TextureUse, Wrap};
 use darboux_io::image::RgbaImage;
 
+use crate::other_axes::OtherAxes;
 use crate::surface::{Surface, cross, dot, length, sub};
 
 /// The smallest z score of a decision. Neighbouring triangles are not independent, so it is larger than that of a normal distribution.
@@ -47,9 +48,9 @@ pub struct FacetVotes {
 
 impl FacetVotes {
     /// Adds the votes of a surface on which the image is the normal map. `texture`: how its material uses the map; none for the UVs that
-    /// its tangents follow, repeated. A surface that is wound against its normals has no votes.
+    /// its tangents follow, repeated. A surface that is wound against its normals, or whose normals are in other axes, has no votes.
     pub fn add(&mut self, surface: &Surface, texture: Option<&TextureUse>, image: &RgbaImage) {
-        if surface.is_wound_against_normals() {
+        if surface.is_wound_against_normals() || OtherAxes::of(surface).is_some() {
             // Reversed normals lean the other way in both directions, as those of a map with red and green inverted.
             return;
         }

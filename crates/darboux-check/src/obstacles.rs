@@ -6,7 +6,6 @@ use crate::code::{Code, Family};
 use crate::finding::Finding;
 use crate::orientation::{ONLY_A_PART, Reversal};
 use crate::rule::Measured;
-use crate::severity::Severity;
 use crate::surface::Surface;
 
 /// Obstacles to the repair of a finding about a surface.
@@ -19,14 +18,18 @@ pub fn of_surface(finding: &Finding, measured: &Measured<'_>) -> Option<String> 
         Code::NormalNotFinite | Code::NormalNotUnit if surface.moves_normals => {
             Some("morph targets move these normals".to_owned())
         }
-        Code::NormalAgainstWinding if finding.severity < Severity::Error => Some(ONLY_A_PART.to_owned()),
-        Code::NormalAgainstWinding => match measured.reversal? {
-            Reversal::Faces => None,
-            Reversal::Normals | Reversal::NormalsByTangents => {
+        Code::NormalAgainstWinding => match measured.reversal {
+            Some(Reversal::Faces) => None,
+            Some(Reversal::Normals | Reversal::NormalsByTangents) => {
                 surface.moves_normals.then(|| "morph targets move these normals".to_owned())
             }
-            Reversal::Unknown(reason) => Some(reason.to_owned()),
+            Some(Reversal::Unknown(reason)) => Some(reason.to_owned()),
+            None => Some(ONLY_A_PART.to_owned()),
         },
+        code if code.family() == Family::Tangents && measured.other_axes.is_some() => Some(
+            "tangents depend on the normals, which are in other axes and have to be repaired first"
+                .to_owned(),
+        ),
         code if code.family() == Family::Tangents => {
             no_tangents(surface).or_else(|| undecided_side(measured.reversal?))
         }

@@ -7,6 +7,7 @@ use crate::finding::Finding;
 use crate::fit::{self, Fit};
 use crate::map::Map;
 use crate::orientation::Reversal;
+use crate::other_axes::OtherAxes;
 use crate::surface::Surface;
 
 /// A surface and what several rules ask about it.
@@ -20,14 +21,18 @@ pub struct Measured<'a> {
     pub is_mikktspace: bool,
     /// What is reversed; none where the faces agree with the normals.
     pub reversal: Option<Reversal>,
+    /// In which other axes its normals are; then nothing is measured that depends on them. None where they fit the faces, or in no axes.
+    pub other_axes: Option<OtherAxes>,
     /// How its tangents differ from MikkTSpace's, in their directions and in their signs; empty where that cannot be measured.
     pub fits: Vec<Fit>,
 }
 
 impl<'a> Measured<'a> {
     pub fn new(surface: &'a Surface) -> Self {
-        let reversal = Reversal::of(surface);
-        let expected = surface.tangents.as_ref().and_then(|_| surface.expected_tangents(surface.uv_set));
+        let other_axes = OtherAxes::of(surface);
+        let reversal = Reversal::of(surface).filter(|_| other_axes.is_none());
+        let has_tangents = surface.tangents.is_some() && other_axes.is_none();
+        let expected = has_tangents.then(|| surface.expected_tangents(surface.uv_set)).flatten();
         let Some(expected) = expected else {
             return Self {
                 surface,
@@ -35,6 +40,7 @@ impl<'a> Measured<'a> {
                 has_own_tangent: vec![false; surface.positions.len()],
                 is_mikktspace: false,
                 reversal,
+                other_axes,
                 fits: Vec::new(),
             };
         };
@@ -46,6 +52,7 @@ impl<'a> Measured<'a> {
             reversal,
             fits: fit::measure(surface, &expected, &is_on_mirrored_seam, reversal),
             is_on_mirrored_seam,
+            other_axes,
         }
     }
 }

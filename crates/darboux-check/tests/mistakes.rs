@@ -89,8 +89,49 @@ fn reversed_parts_are_named() {
         assert_eq!(errors, BTreeSet::from([Code::NormalAgainstWinding]), "{}: {findings:#?}", model.name);
         let found = findings.iter().find(|finding| finding.code == Code::NormalAgainstWinding);
         let found = found.expect("the finding");
-        assert_eq!((found.count, found.severity), (healthy.indices.len() / 3, Severity::Warning));
+        assert_eq!((found.count, found.severity), (healthy.indices.len() / 3, Severity::Error));
         assert!(found.text.contains("connected part") && !found.is_fixable(), "{}", found.text);
+    }
+}
+
+/// Normals of a part of a smooth surface, or of scattered vertices, which are in triangles with normals on both sides.
+#[test]
+fn reversed_normals_of_some_vertices_are_named() {
+    for healthy in healthy_models() {
+        let count = healthy.positions.len();
+        let chosen: [fn(usize, usize) -> bool; 3] = [
+            |vertex, count| 3 * vertex < count,
+            |vertex, _| vertex % 5 == 0,
+            |vertex, count| vertex == count / 2,
+        ];
+        for is_chosen in chosen {
+            let mut model = healthy.clone();
+            let normals = model.normals.as_mut().expect("normals");
+            let is_at = |other: usize| {
+                (0..count).any(|vertex| {
+                    is_chosen(vertex, count) && healthy.positions[vertex] == healthy.positions[other]
+                })
+            };
+            let reversed: Vec<bool> = (0..count).map(is_at).collect();
+            // Most of a model of few vertices is its majority.
+            if 2 * reversed.iter().filter(|reversed| **reversed).count() >= count {
+                continue;
+            }
+            let of_vertices = normals.iter_mut().zip(&reversed).filter(|(_, reversed)| **reversed);
+            of_vertices.for_each(|(normal, _)| *normal = normal.map(|x| -x));
+            let findings = check_document(&mut model.document(), &without_maps()).expect("a valid document");
+            let bad = codes(&findings, |severity| severity > Severity::Info);
+            assert_eq!(bad, BTreeSet::from([Code::NormalAgainstWinding]), "{}: {findings:#?}", model.name);
+            let triangles = healthy.indices.as_chunks::<3>().0.iter();
+            let expected =
+                triangles.filter(|triangle| triangle.iter().any(|&vertex| reversed[vertex as usize]));
+            let found = findings
+                .iter()
+                .find(|finding| finding.code == Code::NormalAgainstWinding)
+                .expect("the finding");
+            assert_eq!(found.count, expected.count(), "{}: {}", model.name, found.text);
+            assert!(!found.is_fixable(), "{}", found.text);
+        }
     }
 }
 

@@ -138,6 +138,10 @@ const SAID: &[(Code, &str)] = &[
         "what was mirrored has its normals backwards after the export (facebookincubator/FBX2glTF 31, KhronosGroup/glTF-Blender-IO 2454)",
     ),
     (
+        Code::NormalOtherAxes,
+        "the shading is wrong after the export although the shape is right, as if the light came from another side",
+    ),
+    (
         Code::UvMissing,
         "the texture does not show up; the map is on the second UV set, and the exporter knows one (KhronosGroup/glTF-Blender-IO 1438, KhronosGroup/glTF 1637)",
     ),

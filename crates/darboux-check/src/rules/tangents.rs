@@ -110,6 +110,9 @@ fn sign_not_one(measured: &Measured<'_>) -> Vec<Finding> {
 }
 
 fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
+    if measured.other_axes.is_some() {
+        return Vec::new();
+    }
     let (Some(tangents), Some(normals)) = (&measured.surface.tangents, &measured.surface.normals) else {
         return Vec::new();
     };

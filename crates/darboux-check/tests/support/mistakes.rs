@@ -242,6 +242,30 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
+        code: Code::NormalOtherAxes,
+        how: "normals stored as x, -z, y on a curved model",
+        make: |model| {
+            model.normals.iter_mut().flatten().for_each(|[_, y, z]| (*y, *z) = (-*z, *y));
+            ["wavy", "sphere"].iter().any(|curved| model.name.contains(curved))
+        },
+    },
+    Mistake {
+        code: Code::NormalOtherAxes,
+        how: "y and z of the normals exchanged on a curved model",
+        make: |model| {
+            model.normals.iter_mut().flatten().for_each(|[_, y, z]| std::mem::swap(y, z));
+            ["wavy", "sphere"].iter().any(|curved| model.name.contains(curved))
+        },
+    },
+    Mistake {
+        code: Code::NormalOtherAxes,
+        how: "x of the normals negated on a closed model",
+        make: |model| {
+            model.normals.iter_mut().flatten().for_each(|[x, ..]| *x = -*x);
+            model.is_closed()
+        },
+    },
+    Mistake {
         code: Code::UvMissing,
         how: "texCoord set to 3",
         make: |model| {
