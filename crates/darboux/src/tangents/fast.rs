@@ -62,8 +62,8 @@
 //! A vertex is one cache line. It is read when the first window that uses it begins, finished when the last has ended, written to its
 //! corners then, and dropped, so that a mesh in a sensible order stays in the cache from the first access to the output (`streamed.rs`). Each
 //! thread streams its own windows; triangles at the border of two threads are added by both. Where triangles that share vertices are far apart in the
-//! list, all threads share all windows instead (`scattered.rs`). A plan repeats the sums alone (`replay.rs`), a second pass adds the
-//! bitangents of full frames (`full_frames.rs`), and a GPU can take the place of the main pass (`resume.rs`).
+//! list, all threads share all windows instead (`scattered.rs`). A plan repeats the sums alone (`replay.rs`), the bitangents
+//! of full frames are added together with the tangents (`full_frames.rs`), and a GPU can take the place of the main pass (`resume.rs`).
 //! Measurements and failed attempts are in docs/notes/speed.md.
 
 mod accumulator;
@@ -86,10 +86,13 @@ mod streamed;
 mod triangle_list;
 mod vertex_hash;
 mod vertex_names;
+mod vertex_quantity;
 mod vertex_record;
 mod weld_corners;
 mod weld_vertices;
 mod worker;
+
+use std::marker::PhantomData;
 
 use crate::Frame;
 use crate::Mesh;
@@ -107,6 +110,7 @@ use crate::tangents::fast::schedule::find_windows;
 use crate::tangents::fast::second_pass::SecondPass;
 pub(crate) use crate::tangents::fast::state::FastPath;
 use crate::tangents::fast::state::triangle_list;
+use crate::tangents::fast::vertex_quantity::VertexQuantity;
 use crate::tangents::fast::worker::{Findings, Worker};
 use crate::tangents::options::{MikkTSpaceOptions, Mode};
 
@@ -123,18 +127,37 @@ impl FastPath {
         limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) -> bool {
-        let threads = limits.thread_count(triangle_count(mesh));
-        self.workers.resize_with(threads, Worker::default);
-        self.run_stages(mesh, options, limits, out).is_some()
+        self.run_stages::<()>(mesh, options, limits, &mut Vec::new(), out).is_some()
     }
 
-    fn run_stages(
+    /// As [`FastPath::run`], and computes the bitangents and magnitudes of all vertices.
+    pub fn run_with_bitangents(
         &mut self,
         mesh: &Mesh<'_>,
         options: &MikkTSpaceOptions,
         limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
+    ) -> bool {
+        let mut full_frames = std::mem::take(&mut self.full_frames);
+        let applies = self.run_stages(mesh, options, limits, full_frames.quantities(), out).is_some();
+        if applies && self.schedule.is_scattered(&self.windows) && !limits.is_cancelled() {
+            full_frames.compute(self.second_pass(mesh, limits));
+        }
+        self.full_frames = full_frames;
+        applies
+    }
+
+    /// `quantities`: receives one element per welded vertex; they are unspecified where the pass was scattered.
+    fn run_stages<Q: VertexQuantity>(
+        &mut self,
+        mesh: &Mesh<'_>,
+        options: &MikkTSpaceOptions,
+        limits: RunLimits<'_>,
+        quantities: &mut Vec<Q>,
+        out: &mut [[f32; 4]],
     ) -> Option<()> {
+        let threads = limits.thread_count(triangle_count(mesh));
+        self.workers.resize_with(threads, Worker::default);
         let threshold_cosine = cosine_of_degrees(options.threshold);
         if threshold_cosine >= LARGEST_COSINE || threshold_cosine.is_nan() {
             return None;
@@ -150,7 +173,7 @@ impl FastPath {
         let list = triangle_list(mesh, &self.weld, &self.split);
         find_windows(&list, limits.width, &mut self.workers, &mut self.windows);
         let tail = TailCells::first(&list, &self.weld.bounds, self.is_shuffled());
-        self.discover(mesh, &tail, limits, out);
+        self.discover(mesh, &tail, limits, quantities, out);
         self.tail_runs.clear();
         if options.mode != Mode::Corrected && !limits.is_cancelled() {
             self.search_last_edges(mesh, tail, out);
@@ -167,11 +190,21 @@ impl FastPath {
     }
 
     /// Adds all triangles to their vertices, decides the vertices, and writes the corners.
-    fn discover(&mut self, mesh: &Mesh<'_>, tail: &TailCells, limits: RunLimits<'_>, out: &mut [[f32; 4]]) {
+    fn discover<Q: VertexQuantity>(
+        &mut self,
+        mesh: &Mesh<'_>,
+        tail: &TailCells,
+        limits: RunLimits<'_>,
+        quantities: &mut Vec<Q>,
+        out: &mut [[f32; 4]],
+    ) {
         let list = triangle_list(mesh, &self.weld, &self.split);
-        let input = PassInput { list, windows: &self.windows, pass: Discover { tail }, limits };
+        let pass = Discover { tail, quantity: PhantomData };
+        let input = PassInput { list, windows: &self.windows, pass, limits };
         self.exceptions.clear();
-        self.schedule.run(&input, self.weld.count, &mut self.workers, out);
+        quantities.clear();
+        quantities.resize(self.weld.count, Q::default());
+        self.schedule.run(&input, &mut self.workers, quantities, out);
         self.workers.iter_mut().for_each(|worker| self.exceptions.append(&mut worker.exceptions));
         self.exceptions.sort(&list);
     }
@@ -212,13 +245,6 @@ impl FastPath {
         let pass = self.second_pass(mesh, limits);
         angle_bounds.undecide_wide_vertices(pass, threshold_cosine, &mut exceptions, out);
         (self.angle_bounds, self.exceptions) = (angle_bounds, exceptions);
-    }
-
-    /// Computes the bitangents and magnitudes of all vertices of the mesh of the last run.
-    pub fn compute_bitangents(&mut self, mesh: &Mesh<'_>, limits: RunLimits<'_>) {
-        let mut full_frames = std::mem::take(&mut self.full_frames);
-        full_frames.compute(self.second_pass(mesh, limits));
-        self.full_frames = full_frames;
     }
 
     /// Writes the bitangents and magnitudes of corners of the mesh of the last run, the first of which is corner number `first`. They are

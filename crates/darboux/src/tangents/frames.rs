@@ -234,7 +234,7 @@ fn run_fast(
     let TangentMemory { fast, frames: FrameMemory { tangents, decided, frames }, .. } = memory;
     frames.clear();
     tangents.resize(mesh.corner_count(), [0.0; 4]);
-    fast.run(mesh, options, limits, tangents).then(|| fast.compute_bitangents(mesh, limits))?;
+    fast.run_with_bitangents(mesh, options, limits, tangents).then_some(())?;
     decided.clear();
     if limits.is_cancelled() {
         return Some(Report::default());

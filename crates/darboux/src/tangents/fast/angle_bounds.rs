@@ -7,7 +7,8 @@
 
 use crate::tangents::fast::exceptions::Exceptions;
 use crate::tangents::fast::kernel::TriangleBlock;
-use crate::tangents::fast::second_pass::{SecondPass, VertexQuantity};
+use crate::tangents::fast::second_pass::SecondPass;
+use crate::tangents::fast::vertex_quantity::VertexQuantity;
 
 /// An allowance for rounding, as part of a dot product.
 ///
@@ -33,9 +34,11 @@ impl Default for DirectionBounds {
 }
 
 impl VertexQuantity for DirectionBounds {
+    const NEEDS_ANGLES: bool = false;
+
     #[inline(always)]
     fn evaluate(block: &mut TriangleBlock) {
-        block.evaluate_directions();
+        block.directions();
     }
 
     #[inline(always)]

@@ -1,4 +1,5 @@
-//! Full frames: a second pass adds up the bitangents and the derivatives' lengths that belong to the decided tangents.
+//! Full frames: the bitangents and the derivatives' lengths that belong to the decided tangents are added up with these, or in a second pass
+//! where the first was scattered.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
@@ -7,12 +8,13 @@ use crate::math::normalized_unless_zero;
 
 use crate::exec::simd::{Task, Width};
 use crate::tangents::fast::kernel::{BLOCK_SIZE, TriangleBlock};
-use crate::tangents::fast::second_pass::{SecondPass, VertexQuantity};
+use crate::tangents::fast::second_pass::SecondPass;
 use crate::tangents::fast::triangle_list::TriangleList;
+use crate::tangents::fast::vertex_quantity::VertexQuantity;
 
 /// What the corners of a vertex add up to, and after [`VertexQuantity::finish`] the vertex's own values.
 #[derive(Clone, Copy, Debug, Default)]
-struct FrameAccumulator {
+pub(crate) struct FrameAccumulator {
     /// The bitangent, and the sum of the weights.
     bitangent: [f32; 4],
     /// The lengths of dP/du and dP/dv.
@@ -24,6 +26,11 @@ struct FrameAccumulator {
 pub(crate) struct FullFrames(Vec<FrameAccumulator>);
 
 impl FullFrames {
+    /// The quantities of vertices, which a streamed pass adds up.
+    pub fn quantities(&mut self) -> &mut Vec<FrameAccumulator> {
+        &mut self.0
+    }
+
     /// Computes the bitangents and magnitudes of all vertices of a mesh.
     pub fn compute(&mut self, pass: SecondPass<'_>) {
         pass.run(&mut self.0);
@@ -44,9 +51,11 @@ impl FullFrames {
 }
 
 impl VertexQuantity for FrameAccumulator {
+    const NEEDS_ANGLES: bool = true;
+
     #[inline(always)]
     fn evaluate(block: &mut TriangleBlock) {
-        block.evaluate_bitangents();
+        block.bitangent_terms();
     }
 
     #[inline(always)]

@@ -108,22 +108,24 @@ impl TriangleBlock {
         self.pack::<false>();
     }
 
-    /// Computes what corners add to bitangents and magnitudes from records. The result is unspecified for triangles with
-    /// [`marks::NEEDS_GENERAL_PATH`].
+    /// Computes derivatives alone from records.
     #[inline(always)]
-    pub fn evaluate_bitangents(&mut self) {
-        self.unpack();
-        self.bitangent_derivatives();
-        self.angles();
-        self.bitangent_terms();
-    }
-
-    /// Computes from records the directions of tangents and bitangents in the planes of the corners' normals: six numbers in `sum` and
-    /// `magnitude_sum`. The result is unspecified for triangles with [`marks::NEEDS_GENERAL_PATH`].
-    #[inline(always)]
-    pub fn evaluate_directions(&mut self) {
+    pub fn evaluate_derivatives(&mut self) {
         self.unpack();
         self.derivatives();
+    }
+
+    /// As [`Self::evaluate_derivatives`], and the angles of the corners.
+    #[inline(always)]
+    pub fn evaluate_derivatives_and_angles(&mut self) {
+        self.evaluate_derivatives();
+        self.angles();
+    }
+
+    /// Computes from derivatives the directions of tangents and bitangents in the planes of the corners' normals: six numbers in `sum` and
+    /// `magnitude_sum`. The result is unspecified for triangles with [`marks::NEEDS_GENERAL_PATH`].
+    #[inline(always)]
+    pub fn directions(&mut self) {
         for k in 0..3 {
             for i in 0..BLOCK_SIZE {
                 let normal = self.normal(k, i);
@@ -201,12 +203,14 @@ impl TriangleBlock {
                 self.t[axis][i] = t[axis];
             }
             let size = area.abs();
+            let (s_magnitude, t_magnitude) = (s_length / size, t_length / size);
+            (self.magnitude[0][i], self.magnitude[1][i]) = (s_magnitude, t_magnitude);
             let [p0, p1, p2] = [0, 1, 2].map(|k| self.position(k, i));
             let is_good = (size > f32::MIN_POSITIVE)
                 & (s_length > f32::MIN_POSITIVE)
                 & (t_length > f32::MIN_POSITIVE)
-                & (s_length / size > f32::MIN_POSITIVE)
-                & (t_length / size > f32::MIN_POSITIVE)
+                & (s_magnitude > f32::MIN_POSITIVE)
+                & (t_magnitude > f32::MIN_POSITIVE)
                 & (size > MIN_AREA_RATIO * (left.abs() + right.abs()))
                 & !(same(p0, p1) | same(p1, p2) | same(p2, p0));
             let orientation = if area > 0.0 { marks::PRESERVES } else { marks::MIRRORS };
@@ -230,27 +234,10 @@ impl TriangleBlock {
         }
     }
 
-    /// The unit vector along dP/dv, and the lengths of both derivatives.
+    /// Computes from derivatives and angles what corners add to bitangents and magnitudes: in `sum` and `magnitude_sum`. The result is
+    /// unspecified for triangles with [`marks::NEEDS_GENERAL_PATH`].
     #[inline(always)]
-    fn bitangent_derivatives(&mut self) {
-        for i in 0..BLOCK_SIZE {
-            let ([e1, e2], [du1, dv1, du2, dv2], [left, right]) = self.edges(i);
-            let s = sub(scale(dv2, e1), scale(dv1, e2));
-            let t = add(scale(-du2, e1), scale(du1, e2));
-            let area = left - right;
-            let sign = if area > 0.0 { 1.0 } else { -1.0 };
-            let t_length = length(t);
-            let direction = scale(sign / t_length, t);
-            for axis in 0..3 {
-                self.t[axis][i] = direction[axis];
-            }
-            self.magnitude[0][i] = length(s) / area.abs();
-            self.magnitude[1][i] = t_length / area.abs();
-        }
-    }
-
-    #[inline(always)]
-    fn bitangent_terms(&mut self) {
+    pub fn bitangent_terms(&mut self) {
         for k in 0..3 {
             for i in 0..BLOCK_SIZE {
                 let t = [self.t[0][i], self.t[1][i], self.t[2][i]];

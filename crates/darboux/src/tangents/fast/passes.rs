@@ -8,6 +8,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
+use std::marker::PhantomData;
 use std::ops::Range;
 
 use crate::math::{dot, normalized_unless_zero};
@@ -23,6 +24,7 @@ use crate::tangents::fast::exceptions::Exceptions;
 use crate::tangents::fast::kernel::{BLOCK_SIZE, CornerVertices, TriangleBlock};
 use crate::tangents::fast::proof::{UNDECIDED, decided_sign, first_ray_count};
 use crate::tangents::fast::triangle_list::TriangleList;
+use crate::tangents::fast::vertex_quantity::{QuantityRange, VertexQuantity};
 use crate::tangents::fast::vertex_record::{VertexSlices, VertexValues};
 use crate::tangents::fast::worker::Findings;
 
@@ -40,6 +42,9 @@ pub(crate) type Term = [f32; 4];
 
 /// What a pass over the triangles computes. The passes are types, so that a program without plans contains no code of [`Replay`].
 pub(crate) trait Pass: Copy + Sync {
+    /// What a streamed pass adds up besides the tangents.
+    type Quantity: VertexQuantity;
+
     /// Computes what the corners of a block's triangles add to their vertices.
     fn evaluate(self, block: &mut TriangleBlock);
 
@@ -71,14 +76,17 @@ pub(crate) trait Pass: Copy + Sync {
     fn finish(self, range: &mut VertexRange<'_>, tangents: &TangentBlock, findings: &mut Findings);
 }
 
-/// The pass that decides which vertices have one tangent.
+/// The pass that decides which vertices have one tangent. `Q`: the further quantity of vertices.
 #[derive(Clone, Copy)]
-pub(crate) struct Discover<'a> {
+pub(crate) struct Discover<'a, Q> {
     /// The cells that the search for the last edges examines.
     pub tail: &'a TailCells,
+    pub quantity: PhantomData<Q>,
 }
 
-impl Pass for Discover<'_> {
+impl<Q: VertexQuantity> Pass for Discover<'_, Q> {
+    type Quantity = Q;
+
     #[inline(always)]
     fn evaluate(self, block: &mut TriangleBlock) {
         block.evaluate();
@@ -149,6 +157,8 @@ pub(crate) struct Replay<'a> {
 }
 
 impl Pass for Replay<'_> {
+    type Quantity = ();
+
     #[inline(always)]
     fn evaluate(self, block: &mut TriangleBlock) {
         block.evaluate_terms();
@@ -246,20 +256,23 @@ fn evaluate<P: Pass>(
 }
 
 /// Adds triangles to their vertices, all of which are in `range`.
-pub(crate) struct AddTriangles<'a, P> {
+pub(crate) struct AddTriangles<'a, P: Pass> {
     pub pass: P,
     pub triangles: &'a [[u32; 3]],
     pub block: &'a mut TriangleBlock,
     pub range: VertexRange<'a>,
+    /// The further quantities of the thread's own vertices.
+    pub own: QuantityRange<'a, P::Quantity>,
 }
 
 impl<P: Pass> Task for AddTriangles<'_, P> {
     #[inline(always)]
-    fn run(self) {
+    fn run(mut self) {
         let VertexRange { first, vertices, marks } = self.range;
         for triangles in self.triangles.chunks(BLOCK_SIZE) {
             evaluate(self.pass, triangles, (first, vertices), self.block);
             self.pass.scatter(self.block, triangles.len(), vertices, marks);
+            self.own.add(self.block, triangles.len(), first);
         }
     }
 }

@@ -120,7 +120,7 @@ impl FastPath {
             let list = TriangleList { mesh, weld: plan.weld.map(&self.records), split: &plan.split };
             let pass = Replay { signs: &plan.signs };
             let input = PassInput { list, windows: &plan.windows, pass, limits };
-            self.schedule.run(&input, plan.signs.len(), &mut self.workers, out);
+            self.schedule.run(&input, &mut self.workers, &mut vec![(); plan.signs.len()], out);
         }
         applies && self.workers.iter().all(|worker| worker.findings.all_usable)
     }

@@ -19,22 +19,25 @@ pub(crate) struct Schedule {
 }
 
 impl Schedule {
-    /// Runs a pass with one thread per worker. `out`: all corners.
+    /// Runs a pass with one thread per worker. `quantities`: one per vertex, all zero; a scattered pass leaves them. `out`: all corners.
     pub fn run<P: Pass>(
         &mut self,
         input: &PassInput<'_, P>,
-        vertex_count: usize,
         workers: &mut [Worker],
+        quantities: &mut [P::Quantity],
         out: &mut [[f32; 4]],
     ) {
         self.partitions.clear();
-        self.partitions.extend(partitions(input.windows, vertex_count, workers.len()));
+        self.partitions.extend(partitions(input.windows, quantities.len(), workers.len()));
         if self.is_scattered(input.windows) {
-            return scattered::run(input, vertex_count, workers, &mut self.scattered, out);
+            return scattered::run(input, quantities.len(), workers, &mut self.scattered, out);
         }
         let ranges = self.partitions.iter().map(|partition| input.list.corners_of(partition.windows.clone()));
-        let jobs = self.partitions.iter().zip(split_slice(&mut *out, 0, ranges));
-        threads::run(workers, jobs, |worker, (partition, out)| streamed::run(input, partition, worker, out));
+        let vertices = self.partitions.iter().map(|partition| partition.vertices.clone());
+        let parts = split_slice(quantities, 0, vertices).zip(split_slice(&mut *out, 0, ranges));
+        threads::run(workers, self.partitions.iter().zip(parts), |worker, (partition, (quantities, out))| {
+            streamed::run(input, partition, worker, quantities, out);
+        });
         streamed::write_pending(input, &self.partitions, workers, out);
     }
 

@@ -1,9 +1,7 @@
 //! A second pass over the triangles, after the tangents are decided: it adds up other quantities per vertex.
 
-use std::ops::Range;
-
 use crate::exec::limits::RunLimits;
-use crate::exec::simd::{Task, Width};
+use crate::exec::simd::Task;
 use crate::exec::threads::{self, split_slice};
 use crate::exec::windows::{Partition, Window};
 use crate::tangents::fast::accumulator::{VertexAccumulator, gather};
@@ -11,19 +9,8 @@ use crate::tangents::fast::kernel::{BLOCK_SIZE, TriangleBlock};
 use crate::tangents::fast::schedule::Schedule;
 use crate::tangents::fast::streamed::{self, vertices_to_read};
 use crate::tangents::fast::triangle_list::TriangleList;
+use crate::tangents::fast::vertex_quantity::{QuantityRange, VertexQuantity};
 use crate::tangents::fast::worker::Worker;
-
-/// A quantity of a vertex that the corners of triangles add to.
-pub(crate) trait VertexQuantity: Copy + Default + Send {
-    /// Computes what the corners of a block's triangles add.
-    fn evaluate(block: &mut TriangleBlock);
-
-    /// Adds what corner `k` of triangle `i` of an evaluated block has.
-    fn add(&mut self, block: &TriangleBlock, k: usize, i: usize);
-
-    /// Finishes vertices to which all corners have been added.
-    fn finish(_width: Width, _vertices: &mut [Self]) {}
-}
 
 /// The mesh of the last run.
 pub(crate) struct SecondPass<'a> {
@@ -57,43 +44,38 @@ impl SecondPass<'_> {
                 streamed::read(&list, limits.width, worker, end);
                 let Worker { block, vertices, triangles: buffer, first, .. } = worker;
                 let triangles = list.triangles(list.window(at), buffer);
-                let (first, own, quantities) = (*first as u32, partition.vertices.clone(), &mut *quantities);
-                limits.width.run(AddQuantities { triangles, first, block, vertices, own, quantities });
+                let own =
+                    QuantityRange { first: partition.vertices.start as u32, quantities: &mut *quantities };
+                limits.width.run(AddQuantities { triangles, first: *first as u32, block, vertices, own });
             }
             Q::finish(limits.width, quantities);
         });
     }
 }
 
-/// Adds triangles to the quantities of those of their vertices that are in `own`.
+/// Adds triangles to the quantities of their vertices.
 struct AddQuantities<'a, Q> {
     triangles: &'a [[u32; 3]],
     /// The number of the first of `vertices`.
     first: u32,
     block: &'a mut TriangleBlock,
     vertices: &'a [VertexAccumulator],
-    own: Range<usize>,
-    /// The quantities of the vertices in `own`.
-    quantities: &'a mut [Q],
+    own: QuantityRange<'a, Q>,
 }
 
 impl<Q: VertexQuantity> Task for AddQuantities<'_, Q> {
     #[inline(always)]
     fn run(self) {
-        let Self { triangles, first, block, vertices, own, quantities } = self;
-        let before = (own.start as u32).wrapping_sub(first);
+        let Self { triangles, first, block, vertices, mut own } = self;
         for triangles in triangles.chunks(BLOCK_SIZE) {
             block.set(triangles, first);
             gather(block, triangles.len(), vertices);
-            Q::evaluate(block);
-            for i in 0..triangles.len() {
-                for k in 0..3 {
-                    let at = block.vertex[k][i].wrapping_sub(before) as usize;
-                    if let Some(quantity) = quantities.get_mut(at) {
-                        quantity.add(block, k, i);
-                    }
-                }
+            if Q::NEEDS_ANGLES {
+                block.evaluate_derivatives_and_angles();
+            } else {
+                block.evaluate_derivatives();
             }
+            own.add(block, triangles.len(), first);
         }
     }
 }

@@ -11,17 +11,19 @@ use crate::tangents::fast::passes::{
     AddTriangles, FinishVertices, Pass, PassInput, ReadVertices, WriteCorners, write_face,
 };
 use crate::tangents::fast::triangle_list::TriangleList;
+use crate::tangents::fast::vertex_quantity::{QuantityRange, VertexQuantity};
 use crate::tangents::fast::worker::Worker;
 
 /// Streams the windows of one partition: reads the vertices that each window needs first, adds the window's triangles, finishes vertices
 /// that no later window needs, writes the corners of windows whose vertices are finished. Windows with vertices of other partitions stay
 /// pending.
 ///
-/// `out`: the corners of the partition's windows.
+/// `quantities`: those of the partition's vertices. `out`: the corners of its windows.
 pub(crate) fn run<P: Pass>(
     input: &PassInput<'_, P>,
     partition: &Partition,
     worker: &mut Worker,
+    quantities: &mut [P::Quantity],
     out: &mut [[f32; 4]],
 ) {
     let Range { start: first_window, end: end_window } = partition.windows;
@@ -39,13 +41,13 @@ pub(crate) fn run<P: Pass>(
             input.windows.get(written).map_or(finished, |window| window.lowest_from_here as usize);
         worker.make_room(unwritten.min(finished), input.windows[at].vertices.end as usize);
         read(&input.list, input.limits.width, worker, input.windows[at].vertices.end as usize);
-        add(input, worker, at);
+        add(input, worker, at, QuantityRange { first: own.start as u32, quantities });
         let unfinished = match input.windows.get(at + 1) {
             Some(next) if at + 1 < partition.end_window => next.lowest_from_here as usize,
             _ => own.end,
         };
         let end = unfinished.min(own.end).min(worker.end()).max(finished);
-        finish(input, worker, finished..end);
+        finish(input, worker, finished..end, QuantityRange { first: own.start as u32, quantities });
         finished = end;
         while written <= at && written < end_window {
             let Window { vertices: Range { start, end }, .. } = &input.windows[written];
@@ -86,8 +88,13 @@ pub(crate) fn read(list: &TriangleList<'_>, width: Width, worker: &mut Worker, e
     }
 }
 
-/// Adds the triangles of a window to their vertices.
-fn add<P: Pass>(input: &PassInput<'_, P>, worker: &mut Worker, at: usize) {
+/// Adds the triangles of a window to their vertices. `own`: the quantities of the thread's own vertices.
+fn add<P: Pass>(
+    input: &PassInput<'_, P>,
+    worker: &mut Worker,
+    at: usize,
+    own: QuantityRange<'_, P::Quantity>,
+) {
     let range = input.list.window(at);
     let Worker { block, first, vertices, marks, triangles, .. } = worker;
     let triangles = input.list.triangles(range.clone(), triangles);
@@ -97,16 +104,24 @@ fn add<P: Pass>(input: &PassInput<'_, P>, worker: &mut Worker, at: usize) {
         triangles,
         block,
         range: VertexRange { first, vertices, marks },
+        own,
     });
     input.pass.mark_quads(&input.list, range, &mut VertexRange { first, vertices, marks });
 }
 
-/// Finishes vertices that no later triangle uses.
-fn finish<P: Pass>(input: &PassInput<'_, P>, worker: &mut Worker, range: Range<usize>) {
+/// Finishes vertices that no later triangle uses. `own`: the quantities of the thread's own vertices.
+fn finish<P: Pass>(
+    input: &PassInput<'_, P>,
+    worker: &mut Worker,
+    range: Range<usize>,
+    own: QuantityRange<'_, P::Quantity>,
+) {
     if range.is_empty() {
         // The vertices that a partition reads can end below its own vertices, when it has none.
         return;
     }
+    let place = range.start - own.first as usize..range.end - own.first as usize;
+    P::Quantity::finish(input.limits.width, &mut own.quantities[place]);
     let Worker { first, vertices, marks, findings, .. } = worker;
     let range = VertexRange::new(range, *first, vertices, marks);
     input.limits.width.run(FinishVertices { pass: input.pass, range, findings });
