@@ -73,7 +73,7 @@ pub fn determinant() -> Figure {
     );
     let cases = [
         ([vec2(0.15, 0.15), vec2(0.85, 0.2), vec2(0.35, 0.68)], "face line", "w = +1"),
-        ([vec2(0.85, 0.15), vec2(0.15, 0.2), vec2(0.65, 0.68)], "mirrored line", "mirrored: w = -1"),
+        ([vec2(0.85, 0.15), vec2(0.15, 0.2), vec2(0.65, 0.68)], "mirrored line", "mirrored: w = −1"),
         (
             [vec2(0.12, 0.2), vec2(0.85, 0.62), vec2(0.5, 0.418_630_136_986_301_4)],
             "face line",

@@ -19,7 +19,7 @@ text.quiet { fill: #63636b; stroke: none; } text.ink { stroke: none; }
 .tangent { stroke: #b04008; fill: #b04008; } .bitangent { stroke: #00704b; fill: #00704b; } .normal { stroke: #0a5cad; fill: #0a5cad; }
 text.tangent, text.bitangent, text.normal { stroke: none; }
 .face { fill: #ecebe4; stroke: #24242a; } .other { fill: #dbe5f0; stroke: #24242a; } .mirrored { fill: #f3e0d3; stroke: #24242a; }
-.dark { fill: #24242a; stroke: #24242a; } .line { stroke-width: 1.6; } .curve { fill: none; } .arrow { stroke-width: 2.2; } .dashed { stroke-dasharray: 5 4; }
+.dark { fill: #24242a; stroke: #24242a; } .line { stroke-width: 1.6; } .line.curve { fill: none; } .arrow { stroke-width: 2.2; } .dashed { stroke-dasharray: 5 4; }
 @media (prefers-color-scheme: dark) {
 text { fill: #ececef; }
 .panel { fill: #1b1b20; stroke: #3a3a42; }

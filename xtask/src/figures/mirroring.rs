@@ -15,7 +15,7 @@ pub fn mirrored_seam() -> Figure {
     );
     let half = [vec2(0.0, 1.1), vec2(0.8, 0.9), vec2(0.72, 0.1), vec2(0.0, -0.55)];
     let seam = [1.1, 0.55, 0.0, -0.55];
-    for (x, gap) in [(165.0, 0.0), (525.0, 0.16)] {
+    for (x, gap) in [(180.0, 0.0), (530.0, 0.16)] {
         let view = View::new(x, 190.0, 130.0);
         for side in [1.0, -1.0] {
             let placed = |point: Vec2| view.at(vec2(side * (point.x + gap / 2.0), point.y));
