@@ -1,17 +1,23 @@
 // `darboux/bake`: maps of a low-poly model from the detail of high-poly ones. It has a WebAssembly module of its own.
 
-import { checkType, choice, optionsOf } from './core/checks.js';
-import { writeTexts } from './core/mesh.js';
+import { checkIndices, checkType, choice, optionsOf, rowCount } from './core/checks.js';
+import { checkedMesh, writeArrays, writeMesh, writeTexts, type Copy } from './core/mesh.js';
 import { load, type Exports } from './core/wasm-module.js';
-import type { Convention } from './types.js';
+import type { Convention, Indices } from './types.js';
 import simd from './wasm/bake.simd.wasm';
 
-/** The functions of the module; bindings/js/src/bake.rs documents them. */
+/** The functions of the module; bindings/js/src/bake.rs and bake_meshes.rs document them. */
 interface BakeExports extends Exports {
   begin_bake(): void;
   model_bytes(bytes: number): number;
   bake_options(bytes: number): number;
   bake_models(): number;
+  low_tangents(corners: number): number;
+  cage_positions(vertices: number): number;
+  high_positions(vertices: number): number;
+  high_normals(vertices: number): number;
+  high_indices(corners: number): number;
+  bake_meshes(): number;
   json_length(): number;
   baked_image(kind: number): number;
   baked_states(): number;
@@ -29,7 +35,33 @@ const KINDS = [
   ['position', 'position', 3],
 ] as const satisfies (readonly [MapKind, keyof BakedImages, number])[];
 
-/** Options of {@link bakeModels}. */
+/** A mesh of triangles that receives the detail. */
+export interface LowMesh {
+  /** 3 per vertex. */
+  positions: Float32Array;
+  /** 3 per vertex. They should have unit length. */
+  normals: Float32Array;
+  /** 2 per vertex. */
+  uvs: Float32Array;
+  /** The vertex of each corner. Without indices, the corners are the vertices in order. */
+  indices?: Indices | null;
+  /** 4 per corner, as `generateTangents` returns them, which is the default. */
+  tangents?: Float32Array | null;
+  /** Rays begin on the mesh with its vertices moved to these positions, 3 per vertex, in place of the inflated copy. */
+  cage?: Float32Array | null;
+}
+
+/** A mesh of triangles that has the detail. */
+export interface HighMesh {
+  /** 3 per vertex. */
+  positions: Float32Array;
+  /** 3 per vertex. Without normals, every triangle is flat. */
+  normals?: Float32Array | null;
+  /** The vertex of each corner, counter-clockwise as seen from the front. Without indices, the corners are the vertices in order. */
+  indices?: Indices | null;
+}
+
+/** Options of {@link bake}. */
 export interface BakeOptions {
   /** Width and height in texels. Default: [1024, 1024]. */
   size?: readonly [number, number] | null;
@@ -49,6 +81,18 @@ export interface BakeOptions {
   padding?: number | null;
   /** Whether rays also hit triangles from behind. Default: false. */
   backFaces?: boolean | null;
+  /** Rays of ambient occlusion per sample. Default: 64. */
+  aoRays?: number | null;
+  /** How far surfaces occlude each other. Default: any distance. */
+  aoDistance?: number | null;
+  /** The convention of the meshes, whose UVs and axes it describes. Default: 'gltf', which models are in. */
+  meshConvention?: Convention | null;
+  /** Called while the call runs, with the finished part from 0 to 1. */
+  onProgress?: ((done: number) => void) | null;
+}
+
+/** Options of {@link bakeModels}. */
+export interface BakeModelsOptions extends Omit<BakeOptions, 'meshConvention'> {
   /** The index of the only material of the low model that is baked. Default: all. */
   material?: number | null;
   /** The n of `TEXCOORD_n`. Default: the set that the normal map of each material uses. */
@@ -57,12 +101,6 @@ export interface BakeOptions {
   match?: 'nearest' | 'name' | null;
   /** Whether the normal maps of the high models count. Default: true. */
   highMaps?: boolean | null;
-  /** Rays of ambient occlusion per sample. Default: 64. */
-  aoRays?: number | null;
-  /** How far surfaces occlude each other. Default: any distance. */
-  aoDistance?: number | null;
-  /** Called while the call runs, with the finished part from 0 to 1. */
-  onProgress?: ((done: number) => void) | null;
 }
 
 /** The images of a bake, the top row first; null where a kind was not chosen. */
@@ -79,7 +117,7 @@ export interface BakedImages {
   position: Float32Array<ArrayBuffer> | null;
 }
 
-/** The result of {@link bakeModels}. */
+/** The result of {@link bake} and {@link bakeModels}. */
 export interface BakedMaps extends BakedImages {
   /** Width and height in texels. */
   size: readonly [number, number];
@@ -142,6 +180,39 @@ const bakeModule = load<BakeExports>(simd, () => import('./bake.scalar.js'), {
 export const ready: Promise<void> = bakeModule.ready;
 
 /**
+ * Bakes the detail of a high mesh into images over the UVs of a low mesh, as {@link bakeModels} does with files.
+ *
+ * @param low Arrays that fit together. Indices are of 8, 16 or 32 bits.
+ * @param high The same.
+ * @param options May be left out, undefined or null, and so may each option.
+ * @throws TypeError for an array of another type. RangeError for lengths that do not fit together, for an unknown choice, for numbers that cannot be
+ * read, and where WebAssembly has not enough memory. Error for an index out of range, meshes without triangles, and options out of range.
+ */
+export function bake(low: LowMesh, high: HighMesh, options?: BakeOptions | null): BakedMaps {
+  checkType('low', low, ['Object']);
+  checkType('high', high, ['Object']);
+  const chosen = optionsOf(options);
+  const text = optionsText({ ...chosen, material: null, uvSet: null, match: null, highMaps: null }, chosen.meshConvention);
+  const { positions, normals, uvs, indices, tangents, cage } = low;
+  const mesh = checkedMesh(positions, [['normals', normals, 3], ['uvs', uvs, 2]], indices, 3);
+  const corners = tangents ? rowCount('low.tangents', tangents, 4) : 0;
+  const places = cage ? rowCount('low.cage', cage, 3) : 0;
+  const highRows = { positions: rowCount('high.positions', high.positions, 3), normals: high.normals ? rowCount('high.normals', high.normals, 3) : 0 };
+  if (high.indices) checkIndices(high.indices, 'high.indices');
+  return call(chosen, (exports) => {
+    writeMesh(exports, mesh);
+    const floats: Copy<Float32Array>[] = [[high.positions, exports.high_positions(highRows.positions)]];
+    if (tangents) floats.push([tangents, exports.low_tangents(corners)]);
+    if (cage) floats.push([cage, exports.cage_positions(places)]);
+    if (high.normals) floats.push([high.normals, exports.high_normals(highRows.normals)]);
+    const integers: Copy<Indices>[] = high.indices ? [[high.indices, exports.high_indices(high.indices.length)]] : [];
+    writeArrays(exports, floats, integers);
+    writeTexts(exports, [text], exports.bake_options);
+    return exports.bake_meshes();
+  });
+}
+
+/**
  * Bakes the detail of high models into images over the UVs of a low model, as `darboux bake` does, with the same bits.
  *
  * From every texel that a triangle of the low model covers, a ray passes from outside through it; the first triangle of a high model that it hits
@@ -153,18 +224,25 @@ export const ready: Promise<void> = bakeModule.ready;
  * @throws TypeError for another type. RangeError for an unknown choice, for numbers that cannot be read, and where WebAssembly has not enough memory. Error for a file that
  * cannot be read, a model without normals, UVs or triangles, and numbers out of range.
  */
-export function bakeModels(low: Uint8Array, high: Uint8Array | readonly Uint8Array[], options?: BakeOptions | null): BakedMaps {
+export function bakeModels(low: Uint8Array, high: Uint8Array | readonly Uint8Array[], options?: BakeModelsOptions | null): BakedMaps {
   const files = [low, ...(Array.isArray(high) ? (high as readonly Uint8Array[]) : [high as Uint8Array])];
   if (files.length === 1) throw new RangeError('high is empty; give at least one model');
   files.forEach((file, at) => checkType(at ? 'high' : 'low', file, ['Uint8Array']));
   const chosen = optionsOf(options);
   const text = optionsText(chosen);
+  return call(chosen, (exports) => {
+    for (const file of files) writeBytes(exports, file);
+    writeTexts(exports, [text], exports.bake_options);
+    return exports.bake_models();
+  });
+}
+
+/** Calls the module. `run` writes the models and the options, and returns the address of the outcome. Errors: the module's sentence. */
+function call(chosen: BakeOptions, run: (exports: BakeExports) => number): BakedMaps {
   tell = chosen.onProgress;
   return bakeModule.call((exports) => {
     exports.begin_bake();
-    for (const file of files) writeBytes(exports, file);
-    writeTexts(exports, [text], exports.bake_options);
-    const { report, error } = readJson<Outcome>(exports, exports.bake_models());
+    const { report, error } = readJson<Outcome>(exports, run(exports));
     if (!report) throw new Error(error);
     const { counts, diagonal, distance, warnings } = report;
     const size = sizeOf(chosen);
@@ -184,7 +262,7 @@ function checkPair(name: string, pair: readonly [number, number] | null | undefi
 }
 
 /** The options as the JSON that the module reads. Errors: numbers that JSON or the module does not have. */
-function optionsText(options: BakeOptions): string {
+function optionsText(options: BakeModelsOptions, meshConvention?: Convention | null): string {
   const { cageOffset, distance, maps, samples, padding, material, uvSet, aoRays, aoDistance } = options;
   checkPair('size', options.size);
   checkPair('distance', distance);
@@ -205,6 +283,7 @@ function optionsText(options: BakeOptions): string {
     samples: whole.samples,
     isPerVertex: choice('bitangent', options.bitangent, ['pixel', 'vertex'], 'pixel') === 1,
     convention: options.convention ?? 'gltf',
+    meshConvention: meshConvention ?? 'gltf',
     padding: padding ?? null,
     backFaces: Boolean(options.backFaces),
     material: material ?? null,

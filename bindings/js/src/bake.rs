@@ -1,4 +1,4 @@
-//! `darboux/bake`: maps of a low model from the detail of high ones.
+//! `bakeModels` of `darboux/bake`: maps of a low model from the detail of high ones; and what `bake` shares with it.
 
 use darboux::{Context, Convention};
 use darboux_bake::{
@@ -10,6 +10,7 @@ use darboux_io::gltf::Document;
 use serde::{Deserialize, Serialize};
 
 use crate::arena::with_arena;
+use crate::bake_arrays::BakeArrays;
 use crate::inputs::resized;
 
 /// The cage's offset without options, as a share of the diagonal of the low model's box; as that of `darboux bake`.
@@ -26,10 +27,10 @@ unsafe extern "C" {
 #[cfg(not(target_family = "wasm"))]
 fn progress(_done: usize, _total: usize) {}
 
-/// Forgets the files of the call before.
+/// Forgets the models of the call before.
 #[unsafe(no_mangle)]
 pub extern "C" fn begin_bake() {
-    with_arena(|arena| arena.bake.files.clear());
+    with_arena(|arena| arena.bake.clear_models());
 }
 
 /// The bytes of the next file: the low model, then the high ones.
@@ -83,15 +84,16 @@ pub extern "C" fn baked_states() -> *const u8 {
 /// Options of a bake. bindings/js/lib/bake.ts documents them.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct Options {
+pub struct Options {
     size: [u32; 2],
     cage_offset: Option<f32>,
-    distance: Option<[f32; 2]>,
+    pub distance: Option<[f32; 2]>,
     /// Numbers in [`MapKind::ALL`].
     maps: Vec<usize>,
     samples: u32,
     is_per_vertex: bool,
     convention: String,
+    mesh_convention: String,
     padding: Option<u32>,
     back_faces: bool,
     material: Option<usize>,
@@ -105,12 +107,12 @@ struct Options {
 /// What a bake reports beside its images.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Report {
-    counts: BakeReport,
-    diagonal: f64,
-    distance: [f32; 2],
-    has_cage: bool,
-    warnings: Vec<String>,
+pub struct Report {
+    pub counts: BakeReport,
+    pub diagonal: f64,
+    pub distance: [f32; 2],
+    pub has_cage: bool,
+    pub warnings: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -126,21 +128,36 @@ enum Outcome {
 pub extern "C" fn bake_models() -> *const u8 {
     with_arena(|arena| {
         let arrays = &mut arena.bake;
-        let outcome = match bake_files(&arrays.files, &arrays.options, &mut arena.context) {
-            Ok((baked, report)) => {
-                arrays.states = baked.images.states.iter().map(|&state| code(state)).collect();
-                arrays.images = baked.images;
-                Outcome::Report(report)
-            }
-            Err(sentence) => Outcome::Error(sentence),
-        };
-        arrays.put_json(&outcome)
+        let result = bake_files(&arrays.files, &arrays.options, &mut arena.context);
+        put_outcome(arrays, result)
     })
+}
+
+/// Keeps the images and the report of a bake, or the sentence why there is none. Returns the address of the JSON.
+pub fn put_outcome(arrays: &mut BakeArrays, result: Result<(Baked, Report), String>) -> *const u8 {
+    let outcome = match result {
+        Ok((baked, report)) => {
+            arrays.states = baked.images.states.iter().map(|&state| code(state)).collect();
+            arrays.images = baked.images;
+            Outcome::Report(report)
+        }
+        Err(sentence) => Outcome::Error(sentence),
+    };
+    arrays.put_json(&outcome)
+}
+
+pub fn read_options(json: &[u8]) -> Result<Options, String> {
+    serde_json::from_slice(json).map_err(|error| format!("options: {error}"))
+}
+
+/// Tells JavaScript how much is done.
+pub fn tell(BakeProgress { done, total }: BakeProgress) {
+    progress(done, total);
 }
 
 /// Reads the models and bakes them. Errors: one sentence.
 fn bake_files(files: &[Vec<u8>], options: &[u8], context: &mut Context) -> Result<(Baked, Report), String> {
-    let options: Options = serde_json::from_slice(options).map_err(|error| format!("options: {error}"))?;
+    let options = read_options(options)?;
     let (low_file, high_files) = files.split_first().ok_or("there is no model to bake")?;
     let low_document = open("the low model", low_file)?;
     let high_documents: Vec<_> =
@@ -206,28 +223,31 @@ fn bake_read(
             None => surface,
         });
     }
-    let tell = &mut |BakeProgress { done, total }: BakeProgress| progress(done, total);
-    bake(&placed, &high_surfaces, &bake_settings(options, report.distance)?, context, tell).map_err(text)
+    let settings = bake_settings(options, report.distance)?;
+    bake(&placed, &high_surfaces, &settings, context, &mut tell).map_err(text)
 }
 
-fn bake_settings(options: &Options, distance: [f32; 2]) -> Result<BakeOptions, String> {
+pub fn bake_settings(options: &Options, distance: [f32; 2]) -> Result<BakeOptions, String> {
     let kinds: Vec<MapKind> =
         options.maps.iter().filter_map(|&kind| MapKind::ALL.get(kind).copied()).collect();
     let convention: Convention =
         options.convention.parse().map_err(|error| format!("convention: {error}"))?;
+    let mesh_convention: Convention =
+        options.mesh_convention.parse().map_err(|error| format!("meshConvention: {error}"))?;
     let bitangent = if options.is_per_vertex { Bitangent::PerVertex } else { Bitangent::PerPixel };
     Ok(BakeOptions::new(options.size, distance)
         .with_maps(MapSet::of(&kinds))
         .with_samples_per_axis(options.samples)
         .with_back_faces(options.back_faces)
         .with_bitangent(bitangent)
+        .with_surface_convention(mesh_convention)
         .with_map_convention(convention)
         .with_padding(options.padding)
         .with_occlusion(options.ao_rays, options.ao_distance.unwrap_or(f32::INFINITY)))
 }
 
 /// How far rays begin outside and end inside: the options', or a share of the model's diagonal.
-fn distance(options: &Options, diagonal: f64) -> [f32; 2] {
+pub fn distance(options: &Options, diagonal: f64) -> [f32; 2] {
     let by_size = (DEFAULT_SHARE * diagonal).max(f64::from(f32::MIN_POSITIVE)) as f32;
     options.distance.unwrap_or([options.cage_offset.unwrap_or(by_size); 2])
 }
@@ -275,6 +295,6 @@ fn sentence(error: darboux_io::Error) -> String {
     error.to_string()
 }
 
-fn text(error: darboux_bake::BakeError) -> String {
+pub fn text(error: darboux_bake::BakeError) -> String {
     error.to_string()
 }

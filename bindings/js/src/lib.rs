@@ -15,6 +15,8 @@ mod tangents;
 mod bake;
 #[cfg(feature = "bake")]
 mod bake_arrays;
+#[cfg(feature = "bake")]
+mod bake_meshes;
 #[cfg(feature = "check")]
 mod check;
 #[cfg(feature = "check")]

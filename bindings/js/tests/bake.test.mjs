@@ -24,10 +24,18 @@ function square(slope, { name = 'square', hasUvs = true } = {}) {
   return Buffer.from(JSON.stringify({ asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0, name }], meshes, accessors, bufferViews, buffers: [{ byteLength: floats.byteLength, uri }] }));
 }
 
+/** The same square as arrays. */
+function squareMesh(slope) {
+  const corners = [[0, 0], [1, 0], [1, 1], [0, 1]];
+  const arrays = [corners.map(([x, y]) => [x, y, slope * x]), corners.map(() => [-slope, 0, 1].map((c) => c / Math.hypot(slope, 1))), corners.map(([x, y]) => [x, 1 - y])];
+  const [positions, normals, uvs] = arrays.map((rows) => Float32Array.from(rows.flat()));
+  return { positions, normals, uvs, indices: Uint8Array.of(0, 1, 2, 0, 2, 3) };
+}
+
 const bytes = (...arguments_) => new Uint8Array(square(...arguments_));
 const results = [];
 
-for (const [name, { bakeModels, TEXEL_STATES }] of Object.entries(forms)) {
+for (const [name, { bake, bakeModels, TEXEL_STATES }] of Object.entries(forms)) {
   test(`${name}: a slope leans the normal against it`, () => {
     const progress = [];
     const maps = ['normal', 'object-normal', 'height', 'ao', 'position'];
@@ -55,6 +63,49 @@ for (const [name, { bakeModels, TEXEL_STATES }] of Object.entries(forms)) {
     assert.ok(Math.abs(named.normal[0] / named.normal[2] + 0.25) < 1e-6);
     assert.ok(bakeModels(shield, shield, { size: [64, 64], cageOffset: 0.01, highMaps: false }).normal.every((c, at) => Math.abs(c - (at % 3 === 2)) < 0.01));
     assert.ok(bakeModels(shield, shield, { size: [64, 64], cageOffset: 0.01 }).normal.some((c, at) => at % 3 !== 2 && Math.abs(c) > 0.1));
+  });
+
+  test(`${name}: arrays give the bits of models`, () => {
+    const options = { size: [32, 16], cageOffset: 1, maps: ['normal', 'object-normal', 'height', 'ao', 'position'], convention: 'directx' };
+    const progress = [];
+    const baked = bake(squareMesh(0), squareMesh(0.5), { ...options, onProgress: (done) => progress.push(done) });
+    assert.deepEqual(baked, bakeModels(bytes(0), bytes(0.5), options));
+    assert.equal(progress.at(-1), 1);
+    assert.deepEqual(bake(squareMesh(0), squareMesh(0.5), { size: [8, 8] }), bakeModels(bytes(0), bytes(0.5), { size: [8, 8] }));
+  });
+
+  test(`${name}: each array acts`, () => {
+    const [low, high] = [squareMesh(0), squareMesh(0.5)];
+    const lean = (low, high, options) => bake(low, high, { size: [4, 4], distance: [1, 1], ...options }).normal.slice(0, 3);
+    const [x, y, z] = lean(low, high);
+    const tangents = Float32Array.from([0, 1, 2, 3, 4, 5].flatMap(() => [0, 1, 0, -1]));
+    const close = (found, expected) => assert.ok(found.every((c, at) => Math.abs(c - expected[at]) < 1e-6), `${found}; expected ${expected}`);
+    close(lean({ ...low, tangents }, high), [y, -x, z]);
+    close(lean(low, high, { meshConvention: 'opengl' }), [x, -y, z]);
+    close(lean(low, { ...high, normals: null }), [x, y, z]);
+    const soup = (array) => Float32Array.from([...high.indices].flatMap((vertex) => [...array.subarray(3 * vertex, 3 * vertex + 3)]));
+    close(lean(low, { positions: soup(high.positions) }), [x, y, z]);
+    const cage = low.positions.map((c, at) => (at % 3 === 2 ? 1 : c));
+    assert.equal(bake({ ...low, cage }, high, { size: [8, 8] }).report.missedTexels, 0);
+    assert.ok(bake(low, high, { size: [8, 8] }).report.missedTexels > 0);
+  });
+
+  test(`${name}: arrays that do not fit together are refused in a sentence`, () => {
+    const [low, high] = [squareMesh(0), squareMesh(0.5)];
+    const floats = (length) => new Float32Array(length);
+    assert.throws(() => bake(shield, high), { name: 'TypeError', message: /^low must be a Object/ });
+    assert.throws(() => bake({ ...low, uvs: floats(6) }, high), { name: 'RangeError', message: /uvs has 3 elements/ });
+    assert.throws(() => bake(low, { ...high, positions: [0] }), { name: 'TypeError', message: /^high.positions/ });
+    assert.throws(() => bake(low, { ...high, indices: [0, 1, 2] }), { name: 'TypeError', message: /^high.indices/ });
+    assert.throws(() => bake({ ...low, tangents: floats(5) }, high), { name: 'RangeError', message: /^low.tangents/ });
+    assert.throws(() => bake({ ...low, tangents: floats(4) }, high), /^Error: .*tangents/);
+    assert.throws(() => bake({ ...low, cage: floats(3) }, high), /^Error: .*cage/);
+    assert.throws(() => bake({ ...low, indices: Uint8Array.of(0, 1, 9) }, high), /^Error: the low mesh: .*9/);
+    assert.throws(() => bake(low, { ...high, indices: Uint8Array.of(0, 1, 9) }), /^Error: the high mesh: .*9/);
+    assert.throws(() => bake(low, { ...high, normals: floats(3) }), /^Error: the high mesh: /);
+    assert.throws(() => bake(low, { ...high, indices: new Uint32Array(0) }), /^Error: .*no triangle/);
+    assert.throws(() => bake(low, high, { meshConvention: 'quake' }), /^Error: meshConvention: /);
+    assert.equal(bake(low, low, { size: [4, 4] }).report.missedTexels, 0, 'and the next call works');
   });
 
   test(`${name}: what cannot be baked is refused in a sentence`, () => {

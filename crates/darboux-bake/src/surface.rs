@@ -3,7 +3,7 @@
 use darboux::{Error, Faces, Indices, Mesh, NormalOptions, Strided, generate_normals};
 
 use crate::frame::ShadingFrame;
-use crate::vector::{Vector, add_scaled, narrow, weighted, wide};
+use crate::vector::{Vector, add_scaled, box_diagonal, narrow, weighted, wide};
 use crate::{BakeError, NormalTexture};
 
 /// A surface that receives the detail: triangles with normals, UVs and tangents.
@@ -52,6 +52,14 @@ impl<'a> LowSurface<'a> {
     /// The mesh.
     pub fn mesh(&self) -> &Mesh<'a> {
         &self.mesh
+    }
+
+    /// The diagonal of the box around all vertices, in units of the positions: a measure for the distances of rays.
+    ///
+    /// Coordinates that are not finite do not count; without any, it is 0.
+    pub fn diagonal(&self) -> f64 {
+        let vertices = 0..self.mesh.vertex_count();
+        box_diagonal(vertices.map(|vertex| self.mesh.positions().get(vertex)))
     }
 
     pub(crate) fn triangle_count(&self) -> usize {

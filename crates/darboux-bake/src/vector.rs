@@ -50,6 +50,19 @@ pub fn weighted<const N: usize>(weights: [f64; 3], corners: [[f32; N]; 3]) -> [f
     std::array::from_fn(|i| weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i])
 }
 
+/// The diagonal of the box around positions. Coordinates that are not finite do not count; without any, it is 0.
+pub fn box_diagonal(positions: impl Iterator<Item = [f32; 3]>) -> f64 {
+    let empty = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    let [low, high] = positions.fold(empty, |[mut low, mut high], position| {
+        for (axis, x) in wide(position).into_iter().enumerate().filter(|(_, x)| x.is_finite()) {
+            low[axis] = low[axis].min(x);
+            high[axis] = high[axis].max(x);
+        }
+        [low, high]
+    });
+    length([0, 1, 2].map(|axis| (high[axis] - low[axis]).max(0.0)))
+}
+
 /// Two unit vectors that with the unit `normal` make a right-handed frame (T. Duff et al., "Building an Orthonormal Basis, Revisited",
 /// JCGT 6(1), 2017, listing 3).
 pub fn perpendiculars([x, y, z]: Vector) -> [Vector; 2] {

@@ -1,6 +1,6 @@
 // A thread of its own for baking, which the page can end at any time.
 
-import { bakeModels, ready, TEXEL_STATES, type BakeOptions, type BakeReport } from 'darboux/bake';
+import { bakeModels, ready, TEXEL_STATES, type BakeModelsOptions, type BakeReport } from 'darboux/bake';
 
 import { answer, tellProgress } from '../worker/calls';
 
@@ -36,7 +36,7 @@ const functions = {
   },
 
   /** Bakes the normal map of the low model. */
-  bake(options: Omit<BakeOptions, 'maps' | 'onProgress'>): ShownBake {
+  bake(options: Omit<BakeModelsOptions, 'maps' | 'onProgress'>): ShownBake {
     const start = performance.now();
     const baked = bakeModels(files.low, files.high, { ...options, onProgress: tellProgress });
     const seconds = (performance.now() - start) / 1000;

@@ -1,6 +1,6 @@
 // The controls of a bake: every change of a slider bakes again, and the result is shown at once.
 
-import type { BakeOptions } from 'darboux/bake';
+import type { BakeModelsOptions } from 'darboux/bake';
 
 import type { ShownBake } from '../bake/baker';
 import { Baker, type BakedModels } from '../bake/client';
@@ -114,7 +114,7 @@ export class BakePanel {
     element('bake-running').hidden = !isRunning;
   }
 
-  private options(): BakeOptions {
+  private options(): BakeModelsOptions {
     const side = numberOf('bake-size');
     const [outwards, inwards] = ['bake-distance', 'bake-inwards'].map((id) => shareOf(id) * this.diagonal);
     const isCage = element<HTMLSelectElement>('bake-rays').value === 'cage';

@@ -148,7 +148,7 @@ pub const GROUPS: &[(&str, &[Row])] = &[
             "add normals": ["darboux_io::gltf::add_normals"]; []; []; ["Document.add_normals"]; []; ["darboux normals"],
             "describe": ["darboux_io::gltf::inspect"]; []; []; ["Document.inspect"]; []; ["darboux inspect"],
             "many files": []; []; []; ["batch", "process"]; []; ["darboux tangents"],
-            "bake surfaces": ["darboux_bake::bake"]; []; []; ["bake"]; []; [],
+            "bake surfaces": ["darboux_bake::bake"]; []; []; ["bake"]; ["bake:bake"]; [],
             "bake models": ["darboux_bake::LowModel::surfaces", "darboux_bake::HighModel::surfaces"]; []; []; [];
                 ["bake:bakeModels"]; ["darboux bake"],
             "errors of a baked map in degrees": ["darboux_bake::verify"]; []; []; []; []; ["darboux bake"],

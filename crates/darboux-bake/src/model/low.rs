@@ -9,6 +9,7 @@ use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 use super::placed::{PlacedPrimitive, places, vertices};
 use super::stored::StoredPrimitive;
 use crate::LowSurface;
+use crate::vector::box_diagonal;
 
 /// How the low model is read.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -151,12 +152,7 @@ impl<'a> LowModel<'a> {
 
     /// The diagonal of the box around the model, in units of its positions.
     pub fn diagonal(&self) -> f64 {
-        let positions = || self.parts.iter().flat_map(|part| part.primitive.positions.iter());
-        let finite = |i: usize| positions().map(move |p| f64::from(p[i])).filter(|x| x.is_finite());
-        let extent =
-            |i: usize| finite(i).fold(f64::NEG_INFINITY, f64::max) - finite(i).fold(f64::INFINITY, f64::min);
-        let square: f64 = [0, 1, 2].map(|i| extent(i).max(0.0).powi(2)).iter().sum();
-        square.sqrt()
+        box_diagonal(self.parts.iter().flat_map(|part| part.primitive.positions.iter().copied()))
     }
 }
 

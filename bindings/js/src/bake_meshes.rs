@@ -1,0 +1,103 @@
+//! `bake` of `darboux/bake`: maps of a low mesh from the detail of a high one, both as arrays.
+//!
+//! The low mesh lies in the arena as the meshes of other functions do.
+
+use darboux::{Context, Indices, Mesh, Strided, TangentOptions, write_tangents};
+use darboux_bake::{Baked, HighSurface, LowSurface, bake, inflated_cage};
+
+use crate::arena::{Arena, with_arena};
+use crate::bake::{Report, bake_settings, distance, put_outcome, read_options, tell, text};
+use crate::bake_arrays::BakeArrays;
+use crate::inputs::resized;
+use crate::mesh_arrays::{Surface, Vertices, rows};
+
+/// The tangents of the low mesh: four floats per corner.
+#[unsafe(no_mangle)]
+pub extern "C" fn low_tangents(corners: usize) -> *mut f32 {
+    with_arena(|arena| resized(arena.bake.low_tangents.get_or_insert_default(), 4 * corners))
+}
+
+/// The cage: three floats per vertex of the low mesh.
+#[unsafe(no_mangle)]
+pub extern "C" fn cage_positions(vertices: usize) -> *mut f32 {
+    with_arena(|arena| resized(arena.bake.cage.get_or_insert_default(), 3 * vertices))
+}
+
+/// Three floats per vertex of the high mesh.
+#[unsafe(no_mangle)]
+pub extern "C" fn high_positions(vertices: usize) -> *mut f32 {
+    with_arena(|arena| resized(&mut arena.bake.high_positions, 3 * vertices))
+}
+
+/// Three floats per vertex of the high mesh.
+#[unsafe(no_mangle)]
+pub extern "C" fn high_normals(vertices: usize) -> *mut f32 {
+    with_arena(|arena| resized(arena.bake.high_normals.get_or_insert_default(), 3 * vertices))
+}
+
+/// The vertex of each corner of the high mesh.
+#[unsafe(no_mangle)]
+pub extern "C" fn high_indices(corners: usize) -> *mut u32 {
+    with_arena(|arena| resized(arena.bake.high_indices.get_or_insert_default(), corners))
+}
+
+/// Bakes the meshes in the arena. Returns the address of the JSON.
+#[unsafe(no_mangle)]
+pub extern "C" fn bake_meshes() -> *const u8 {
+    with_arena(|arena| {
+        let Arena { vertices, surface, bake: arrays, context, .. } = arena;
+        let result = bake_arrays(vertices, surface, arrays, context);
+        put_outcome(arrays, result)
+    })
+}
+
+/// Errors: one sentence.
+fn bake_arrays(
+    vertices: &Vertices,
+    surface: &Surface,
+    arrays: &BakeArrays,
+    context: &mut Context,
+) -> Result<(Baked, Report), String> {
+    let options = read_options(&arrays.options)?;
+    let (normals, uvs) = (rows(&vertices.normals), rows(&surface.uvs));
+    let mesh = Mesh::triangles(vertices.positions(), normals, uvs, surface.indices());
+    let mesh = mesh.map_err(|error| format!("the low mesh: {error}"))?;
+    let tangents = match &arrays.low_tangents {
+        Some(given) => rows(given).to_vec(),
+        None => generated_tangents(&mesh, context)?,
+    };
+    let low = LowSurface::new(mesh, &tangents).map_err(text)?;
+    let distance = distance(&options, low.diagonal());
+    let inflated = match (&arrays.cage, options.distance) {
+        (None, None) => Some(inflated_cage(&mesh, distance[0]).map_err(text)?),
+        _ => None,
+    };
+    let cage = arrays.cage.as_deref().map(rows).or(inflated.as_deref());
+    let placed = cage.map_or(Ok(low), |cage| low.with_cage(cage)).map_err(text)?;
+    let high = high_surface(arrays)?;
+    let settings = bake_settings(&options, distance)?;
+    let baked = bake(&[placed], &[high], &settings, context, &mut tell).map_err(text)?;
+    let report = Report {
+        counts: baked.report,
+        diagonal: low.diagonal(),
+        distance,
+        has_cage: cage.is_some(),
+        warnings: Vec::new(),
+    };
+    Ok((baked, report))
+}
+
+/// MikkTSpace's tangents, as `generateTangents` gives them without options.
+fn generated_tangents(mesh: &Mesh<'_>, context: &mut Context) -> Result<Vec<[f32; 4]>, String> {
+    let mut tangents = vec![[0.0; 4]; mesh.corner_count()];
+    let written = write_tangents(mesh, &TangentOptions::default(), context, &mut tangents);
+    written.map_err(|error| format!("the low mesh: {error}"))?;
+    Ok(tangents)
+}
+
+fn high_surface(arrays: &BakeArrays) -> Result<HighSurface<'_>, String> {
+    let positions = rows(&arrays.high_positions);
+    let normals = arrays.high_normals.as_deref().map(|normals| Strided::from(rows(normals)));
+    let indices = arrays.high_indices.as_deref().map_or(Indices::Unindexed, Indices::U32);
+    HighSurface::new(positions, normals, indices).map_err(|error| format!("the high mesh: {error}"))
+}
