@@ -6,6 +6,8 @@ mod companions;
 #[cfg(feature = "obj")]
 mod document;
 #[cfg(feature = "obj")]
+mod faces;
+#[cfg(feature = "obj")]
 mod libraries;
 #[cfg(feature = "obj")]
 mod read;

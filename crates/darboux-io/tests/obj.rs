@@ -113,6 +113,32 @@ fn attributes_of_some_corners_are_a_warning() {
     );
 }
 
+/// The index lists of a model.
+fn indices(obj: &str) -> Vec<Vec<u32>> {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.obj"), obj).unwrap();
+    let model = read(&folder.path().join("a.obj"), &LoadOptions::default()).unwrap();
+    assert_eq!(model.warnings, [""; 0]);
+    let corners = model.document.corners().unwrap();
+    corners.iter().map(|corners| corners.vertices().to_vec()).collect()
+}
+
+#[test]
+fn concave_faces_do_not_fold_over() {
+    let elements = "v -2 -1 0\nv 0 1 0\nv 2 -1 0\nv 0 3 0\nv 3 3 0\n";
+    // An arrow whose second corner is its notch, beside a convex quad and a triangle.
+    assert_eq!(indices(&format!("{elements}f 1 2 3 4\n")), [[3, 0, 1, 1, 2, 3]]);
+    assert_eq!(indices(&format!("{elements}f 2 3 5 4\nf 1 2 4\n")), [[0, 1, 2, 0, 2, 3, 4, 0, 3]]);
+}
+
+#[test]
+fn faces_that_cross_themselves_are_a_warning() {
+    let elements = "v 0 0 0\nv 3 3 0\nv 3 0 0\nv 0 2 0\nv 9 9 9\n";
+    let [warning] = &warnings(&format!("{elements}f 1 2 3 4\n"), "")[..] else { panic!("one warning") };
+    assert!(warning.starts_with("1 face crosses itself or is too large to cut, and its triangles overlap"));
+    assert_eq!(warnings(&format!("{elements}f 1 1 1 1\nf 1 2 2 5\n"), ""), [""; 0]);
+}
+
 #[test]
 #[cfg(unix)]
 fn unreadable_libraries_are_a_warning() {

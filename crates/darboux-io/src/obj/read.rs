@@ -6,6 +6,7 @@ use tobj::{LoadError, Mesh, Model};
 
 use super::companions::{self, folder_of};
 use super::document::DocumentBuilder;
+use super::faces::triangulate;
 use super::libraries::MaterialLibraries;
 use crate::error::ContentError;
 use crate::gltf::Document;
@@ -25,7 +26,7 @@ const BYTES_PER_OBJECT: usize = 16 << 10;
 
 /// Reads an OBJ with the material libraries and textures in its folder or below.
 ///
-/// Polygons become triangles; points and lines are left out. Errors: a file that cannot be read, is not an OBJ, or has no faces; more
+/// Polygons become triangles, concave ones too; points and lines are left out. Errors: a file that cannot be read, is not an OBJ, or has no faces; more
 /// objects than [`LoadOptions::memory_limit`] permits; a document larger than a GLB can be.
 pub fn read(path: &Path, options: &LoadOptions) -> Result<ObjModel, Error> {
     let shown = path.display().to_string();
@@ -37,10 +38,13 @@ pub fn read(path: &Path, options: &LoadOptions) -> Result<ObjModel, Error> {
     // Comments and names may be in any encoding.
     let text = String::from_utf8_lossy(&bytes);
     let parser_options =
-        tobj::LoadOptions { triangulate: true, single_index: true, ignore_points: true, ignore_lines: true };
-    let (models, _) = check_indices(&text)
+        tobj::LoadOptions { triangulate: false, single_index: true, ignore_points: true, ignore_lines: true };
+    let (models, folded_faces) = check_indices(&text)
         .and_then(|()| {
-            tobj::load_obj_buf(&mut text.as_bytes(), &parser_options, |line| Ok(libraries.load(line)))
+            let load = |line: &Path| Ok(libraries.load(line));
+            let (mut models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &parser_options, load)?;
+            let folded_faces = triangulate(&mut models)?;
+            Ok((models, folded_faces))
         })
         .map_err(|error| invalid(format!("is not a valid OBJ ({error}); export it again")))?;
 
@@ -58,6 +62,7 @@ pub fn read(path: &Path, options: &LoadOptions) -> Result<ObjModel, Error> {
     }
     warnings.append(&mut builder.warnings);
     warnings.extend(incomplete_attributes(&models));
+    warnings.extend(folded_warning(folded_faces));
     let glb = builder.into_glb().map_err(|error| error.in_file(&shown))?;
     let document = Document::from_bytes(&shown, glb, None, options)?;
     Ok(ObjModel { document, warnings })
@@ -90,6 +95,16 @@ fn check_indices(text: &str) -> Result<(), LoadError> {
         }
     }
     Ok(())
+}
+
+/// A sentence if there are faces that no triangles cover without folds.
+fn folded_warning(faces: usize) -> Option<String> {
+    let faces = match faces {
+        0 => return None,
+        1 => "1 face crosses itself or is too large to cut, and its".to_owned(),
+        count => format!("{count} faces cross themselves or are too large to cut, and their"),
+    };
+    Some(format!("{faces} triangles overlap; split such faces in a modelling program"))
 }
 
 /// One sentence per attribute that some meshes have at some of their corners only, and therefore lose.

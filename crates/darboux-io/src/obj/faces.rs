@@ -1,0 +1,295 @@
+//! Cuts the faces of an OBJ into triangles.
+//!
+//! ```text
+//! plane   1  the axis along which the face looks largest, by its normal (M. E. Newell: the sum of the edges' areas per plane)
+//! fan     2  from the first corner; used where all its triangles face as the face does, as in convex faces
+//! ears    3  else ears are cut off (G. H. Meisters, "Polygons Have Ears", 1975), and used if fewer triangles are folded or empty
+//! ```
+//!
+//! Coordinates are compared without the one along the axis, not rotated: products of 32-bit numbers are then nearly exact in 64 bits.
+
+use tobj::{LoadError, Model};
+
+/// The most comparisons of a corner with an ear in one file. Ears of a face need at most the cube of its corners, in practice far fewer than the square.
+const MAX_COMPARISONS: u64 = 1 << 29;
+
+type Triangle = [usize; 3];
+
+/// Replaces the faces of all models by triangles. Returns the number of faces that are left with folded triangles, because they cross themselves.
+///
+/// Errors: a face without corners.
+pub fn triangulate(models: &mut [Model]) -> Result<usize, LoadError> {
+    let (mut folded, mut comparisons) = (0, MAX_COMPARISONS);
+    for mesh in models.iter_mut().map(|model| &mut model.mesh) {
+        if mesh.face_arities.is_empty() {
+            continue;
+        }
+        let mut triangles = Vec::with_capacity(mesh.indices.len());
+        let mut rest = &mesh.indices[..];
+        for arity in std::mem::take(&mut mesh.face_arities) {
+            let (corners, after) = rest.split_at(arity as usize);
+            rest = after;
+            let cut = match corners {
+                [] => return Err(LoadError::InvalidPolygon),
+                [_, _, _] => fan(3).collect(),
+                _ => {
+                    let positions: Vec<[f64; 3]> =
+                        corners.iter().map(|&v| position(&mesh.positions, v)).collect();
+                    let cut = cut(&positions, &mut comparisons);
+                    folded += usize::from(cut.is_folded);
+                    cut.triangles
+                }
+            };
+            triangles.extend(cut.into_iter().flatten().map(|corner| corners[corner]));
+        }
+        mesh.indices = triangles;
+    }
+    Ok(folded)
+}
+
+fn position(positions: &[f32], vertex: u32) -> [f64; 3] {
+    [0, 1, 2].map(|i| f64::from(positions[3 * vertex as usize + i]))
+}
+
+/// The triangles of a face, as numbers of its corners.
+struct Cut {
+    triangles: Vec<Triangle>,
+    /// Whether a triangle faces the other way than the face.
+    is_folded: bool,
+}
+
+fn cut(positions: &[[f64; 3]], comparisons: &mut u64) -> Cut {
+    let fan: Vec<Triangle> = fan(positions.len()).collect();
+    let Some(polygon) = Polygon::of(positions) else { return Cut { triangles: fan, is_folded: false } };
+    let faults = polygon.faults(&fan);
+    let ears = if faults > 0 { polygon.ears(comparisons) } else { None };
+    let triangles = ears.filter(|ears| polygon.faults(ears) < faults).unwrap_or(fan);
+    let is_folded = triangles.iter().any(|&triangle| polygon.area(triangle) < 0.0);
+    Cut { triangles, is_folded }
+}
+
+fn fan(corners: usize) -> impl Iterator<Item = Triangle> {
+    (2..corners).map(|corner| [0, corner - 1, corner])
+}
+
+/// A face as seen along an axis, counter-clockwise.
+struct Polygon {
+    corners: Vec<[f64; 2]>,
+}
+
+impl Polygon {
+    /// None: the face has no area, or coordinates that are not finite.
+    fn of(positions: &[[f64; 3]]) -> Option<Self> {
+        let normal = newell_normal(positions);
+        let axis = (0..3).max_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()))?;
+        if normal[axis] == 0.0 || !normal.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        let [x, y] = [(axis + 1) % 3, (axis + 2) % 3];
+        let [x, y] = if normal[axis] > 0.0 { [x, y] } else { [y, x] };
+        Some(Self { corners: positions.iter().map(|p| [p[x], p[y]]).collect() })
+    }
+
+    /// Twice the area of a triangle, negative if it is clockwise.
+    fn area(&self, [a, b, c]: Triangle) -> f64 {
+        let [a, b, c] = [a, b, c].map(|corner| self.corners[corner]);
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    }
+
+    /// The number of triangles that are folded or empty.
+    fn faults(&self, triangles: &[Triangle]) -> usize {
+        triangles.iter().filter(|&&triangle| self.area(triangle) <= 0.0).count()
+    }
+
+    /// Cuts off ears: triangles of neighbours that contain no other corner. Corners on a straight line are kept for other ears while there are any.
+    ///
+    /// None: no ear is left, because the face crosses itself, or the comparisons are used up.
+    fn ears(&self, comparisons: &mut u64) -> Option<Vec<Triangle>> {
+        let count = self.corners.len();
+        let mut ring = Ring::new(count);
+        let mut triangles = Vec::with_capacity(count - 2);
+        let (mut at, mut tried, mut takes_empty) = (0, 0, false);
+        while triangles.len() + 3 < count {
+            let ear = ring.triangle(at);
+            let area = self.area(ear);
+            let is_ear = match takes_empty {
+                true => area == 0.0,
+                false => area > 0.0 && self.is_clear(ear, &ring, comparisons)?,
+            };
+            if is_ear {
+                triangles.push(ear);
+                ring.remove(at);
+                (at, tried, takes_empty) = (ring.next[ring.next[at]], 0, false);
+                continue;
+            }
+            (at, tried) = (ring.next[at], tried + 1);
+            if tried == count - triangles.len() {
+                if takes_empty {
+                    return None;
+                }
+                (tried, takes_empty) = (0, true);
+            }
+        }
+        triangles.push(ring.triangle(at));
+        Some(triangles)
+    }
+
+    /// Whether no other corner of the ring lies in a triangle or on its border. Corners at the places of the triangle's own are allowed: they join
+    /// outlines and holes. None: the comparisons are used up.
+    fn is_clear(&self, ear: Triangle, ring: &Ring, comparisons: &mut u64) -> Option<bool> {
+        let [a, b, c] = ear;
+        let mut corner = ring.next[c];
+        while corner != a {
+            *comparisons = comparisons.checked_sub(1)?;
+            let is_inside =
+                [[a, b], [b, c], [c, a]].iter().all(|&[from, to]| self.area([from, to, corner]) >= 0.0);
+            if is_inside && ear.iter().all(|&own| self.corners[own] != self.corners[corner]) {
+                return Some(false);
+            }
+            corner = ring.next[corner];
+        }
+        Some(true)
+    }
+}
+
+/// The normal of a polygon: each component is twice the signed area that is seen along the axis.
+fn newell_normal(positions: &[[f64; 3]]) -> [f64; 3] {
+    let first = positions[0];
+    let from_first = |p: [f64; 3]| [0, 1, 2].map(|i| p[i] - first[i]);
+    positions.windows(2).fold([0.0; 3], |sum, edge| {
+        let [a, b] = [edge[0], edge[1]].map(from_first);
+        [0, 1, 2].map(|i| {
+            let [j, k] = [(i + 1) % 3, (i + 2) % 3];
+            sum[i] + a[j] * b[k] - a[k] * b[j]
+        })
+    })
+}
+
+/// The corners that are not cut off, in a ring.
+struct Ring {
+    next: Vec<usize>,
+    previous: Vec<usize>,
+}
+
+impl Ring {
+    fn new(count: usize) -> Self {
+        let next = (0..count).map(|corner| (corner + 1) % count).collect();
+        let previous = (0..count).map(|corner| (corner + count - 1) % count).collect();
+        Self { next, previous }
+    }
+
+    /// A corner between its neighbours.
+    fn triangle(&self, corner: usize) -> Triangle {
+        [self.previous[corner], corner, self.next[corner]]
+    }
+
+    fn remove(&mut self, corner: usize) {
+        let [before, _, after] = self.triangle(corner);
+        self.next[before] = after;
+        self.previous[after] = before;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flat(corners: &[[f64; 2]]) -> Vec<[f64; 3]> {
+        corners.iter().map(|&[x, y]| [x, y, 0.0]).collect()
+    }
+
+    /// The triangles of a face, which must cover it: all face as it does, and their areas add up to its own.
+    fn covering(positions: &[[f64; 3]]) -> Vec<Triangle> {
+        let cut = cut(positions, &mut MAX_COMPARISONS.clone());
+        let polygon = Polygon::of(positions).expect("the face has an area");
+        assert!(!cut.is_folded && polygon.faults(&cut.triangles) == 0, "{:?}", cut.triangles);
+        let area =
+            |triangles: &[Triangle]| triangles.iter().map(|&triangle| polygon.area(triangle)).sum::<f64>();
+        let all: Vec<Triangle> = fan(positions.len()).collect();
+        let [found, expected] = [area(&cut.triangles), area(&all)];
+        assert!((found - expected).abs() <= 1e-9 * expected, "{found}, not {expected}");
+        assert_eq!(cut.triangles.len(), positions.len() - 2);
+        cut.triangles
+    }
+
+    #[test]
+    fn convex_faces_are_fans() {
+        let round = |i: i32| {
+            let angle = f64::from(i) * 0.7;
+            [angle.cos(), angle.sin()]
+        };
+        let hexagon: Vec<[f64; 2]> = (0..8).map(round).collect();
+        assert_eq!(covering(&flat(&hexagon)), fan(8).collect::<Vec<_>>());
+        // The first corner sees all others, so the fan covers this concave face, too.
+        let arrow = [[0.0, 1.0], [-2.0, -1.0], [0.0, 3.0], [2.0, -1.0]];
+        let seen_from_inside = [arrow[0], arrow[3], arrow[2], arrow[1]];
+        assert_eq!(covering(&flat(&seen_from_inside)), [[0, 1, 2], [0, 2, 3]]);
+    }
+
+    #[test]
+    fn concave_faces_are_cut_into_ears() {
+        // A quad whose fan would fold over: the other diagonal.
+        let arrow = [[-2.0, -1.0], [0.0, 1.0], [2.0, -1.0], [0.0, 3.0]];
+        assert_eq!(covering(&flat(&arrow)).len(), 2);
+        // A comb with seven teeth, from every first corner, in both directions of view.
+        let tooth = |i: i32| [[f64::from(i), 5.0], [f64::from(i) + 0.5, 1.0]];
+        let mut comb: Vec<[f64; 2]> = (0..7).rev().flat_map(tooth).collect();
+        comb.extend([[-1.0, 0.0], [8.0, 0.0]]);
+        for first in 0..comb.len() {
+            comb.rotate_left(1);
+            covering(&flat(&comb));
+            let seen_from_below: Vec<[f64; 3]> = comb.iter().rev().map(|&[x, y]| [0.3 * x, 2.0, y]).collect();
+            assert_eq!(covering(&seen_from_below).len(), comb.len() - 2, "first corner {first}");
+        }
+    }
+
+    #[test]
+    fn corners_on_straight_lines_make_no_empty_triangles() {
+        let square = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 2.0], [0.0, 2.0], [0.0, 1.0]];
+        for first in 0..square.len() {
+            let mut square = square;
+            square.rotate_left(first);
+            covering(&flat(&square));
+        }
+    }
+
+    #[test]
+    fn a_hole_that_a_slit_joins_stays_open() {
+        let outline = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [0.0, 0.0]];
+        let hole = [[1.0, 1.0], [1.0, 3.0], [3.0, 3.0], [3.0, 1.0], [1.0, 1.0]];
+        let face = flat(&[&outline[..], &hole[..]].concat());
+        let triangles = covering(&face);
+        let middle = |triangle: &Triangle| {
+            [0, 1].map(|i| triangle.map(|corner| face[corner][i]).iter().sum::<f64>() / 3.0)
+        };
+        let is_in_hole = |[x, y]: [f64; 2]| (1.01..2.99).contains(&x) && (1.01..2.99).contains(&y);
+        assert!(!triangles.iter().any(|triangle| is_in_hole(middle(triangle))), "{triangles:?}");
+    }
+
+    #[test]
+    fn faces_that_are_not_planar_are_cut_as_their_shadow() {
+        let arrow = [[-2.0, -1.0, 0.3], [0.0, 1.0, -0.4], [2.0, -1.0, 0.2], [0.0, 3.0, 0.9]];
+        let [first, second] = covering(&arrow)[..] else { panic!("two triangles") };
+        assert!(first.contains(&1) && first.contains(&3) && second.contains(&1) && second.contains(&3));
+    }
+
+    #[test]
+    fn faces_without_an_area_and_crossed_ones_stay_fans() {
+        let whole = |positions: &[[f64; 3]]| cut(positions, &mut MAX_COMPARISONS.clone());
+        let line = whole(&flat(&[[0.0, 0.0], [1.0, 1.0], [3.0, 3.0], [2.0, 2.0]]));
+        assert!(!line.is_folded && line.triangles == [[0, 1, 2], [0, 2, 3]]);
+        let broken = whole(&flat(&[[0.0, 0.0], [f64::NAN, 1.0], [3.0, 3.0], [2.0, 2.0]]));
+        assert!(!broken.is_folded && broken.triangles == line.triangles);
+        let bow = whole(&flat(&[[0.0, 0.0], [3.0, 3.0], [3.0, 0.0], [0.0, 2.0]]));
+        assert!(bow.is_folded && bow.triangles == line.triangles);
+        // A corner twice at one place: any cut has an empty triangle, so the fan stays.
+        let doubled = whole(&flat(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]));
+        assert!(!doubled.is_folded && doubled.triangles == line.triangles);
+    }
+
+    #[test]
+    fn comparisons_are_limited() {
+        let arrow = flat(&[[-2.0, -1.0], [0.0, 1.0], [2.0, -1.0], [0.0, 3.0]]);
+        assert!(cut(&arrow, &mut 0).is_folded);
+    }
+}
