@@ -146,6 +146,8 @@ export interface BakeReport {
   backFacingTexels: number;
   /** Texels that more than one triangle covers. The first triangle owns them. */
   overlappingTexels: number;
+  /** The area of all charts in texels; greater than `chartedTexels` where charts overlap or repeat. */
+  chartArea: number;
   /** Texels at which the normal of the high model points to the back of its triangle. */
   invertedTexels: number;
   /** Texels at which the frame of the low model does not span space. */
@@ -172,9 +174,12 @@ interface Outcome {
 /** The receiver of the running call's progress. */
 let tell: ((done: number) => void) | null | undefined;
 
-const bakeModule = load<BakeExports>(simd, () => import('./bake.scalar.js'), {
-  progress: (done, total) => tell?.(done! / total!),
-});
+const bakeModule = load<BakeExports>(
+  simd,
+  () => import('./bake.scalar.js'),
+  { progress: (done, total) => tell?.(done! / total!) },
+  'the models and maps need more memory than WebAssembly can have; choose a smaller size, fewer maps, or high models with fewer triangles',
+);
 
 /** Resolves when the other functions can be called. */
 export const ready: Promise<void> = bakeModule.ready;

@@ -3,7 +3,7 @@
 use darboux::{Context, Convention};
 use darboux_bake::{
     BakeOptions, BakeProgress, BakeReport, Baked, Bitangent, HighModel, HighModelOptions, LowModel,
-    LowModelOptions, LowSurface, MapKind, MapSet, TexelState, bake, inflated_cage, match_names,
+    LowModelOptions, LowSurface, MapKind, MapSet, bake, default_cage_offset, group_by_name, inflated_cage,
 };
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
@@ -12,9 +12,6 @@ use serde::{Deserialize, Serialize};
 use crate::arena::with_arena;
 use crate::bake_arrays::BakeArrays;
 use crate::inputs::resized;
-
-/// The cage's offset without options, as a share of the diagonal of the low model's box; as that of `darboux bake`.
-const DEFAULT_SHARE: f64 = 0.02;
 
 #[cfg(target_family = "wasm")]
 #[link(wasm_import_module = "darboux")]
@@ -137,7 +134,7 @@ pub extern "C" fn bake_models() -> *const u8 {
 pub fn put_outcome(arrays: &mut BakeArrays, result: Result<(Baked, Report), String>) -> *const u8 {
     let outcome = match result {
         Ok((baked, report)) => {
-            arrays.states = baked.images.states.iter().map(|&state| code(state)).collect();
+            arrays.states = baked.images.states.iter().map(|state| state.number()).collect();
             arrays.images = baked.images;
             Outcome::Report(report)
         }
@@ -168,18 +165,13 @@ fn bake_files(files: &[Vec<u8>], options: &[u8], context: &mut Context) -> Resul
     let high_corners: Vec<_> =
         high_documents.iter().map(Document::corners).collect::<Result<_, _>>().map_err(sentence)?;
     let high_options = HighModelOptions::default().with_normal_maps(options.high_maps);
-    let highs: Vec<HighModel<'_>> = high_documents
-        .iter()
-        .zip(&high_corners)
-        .map(|(document, corners)| HighModel::read(document, corners, &high_options))
-        .collect::<Result<_, _>>()
-        .map_err(sentence)?;
+    let highs = HighModel::read_all(&high_documents, &high_corners, &high_options).map_err(sentence)?;
     let mut report = Report {
         counts: BakeReport::default(),
         diagonal: low.diagonal(),
         distance: distance(&options, low.diagonal()),
         has_cage: options.distance.is_none(),
-        warnings: warnings(&low, &highs)?,
+        warnings: warnings(&low, &highs),
     };
     let baked = bake_read(&low, &highs, &options, &mut report, context)?;
     report.counts = baked.report;
@@ -195,22 +187,13 @@ fn bake_read(
     context: &mut Context,
 ) -> Result<Baked, String> {
     let mut low_surfaces = low.surfaces().map_err(sentence)?;
-    let mut high_surfaces = Vec::new();
-    for high in highs {
-        high_surfaces.extend(high.surfaces().map_err(sentence)?);
-    }
+    let mut high_surfaces = HighModel::surfaces_of_all(highs).map_err(sentence)?;
     if options.matches_names {
-        let low_names: Vec<&str> = low.names().collect();
-        let high_names: Vec<&str> = highs.iter().flat_map(HighModel::names).collect();
-        let found = match_names(&low_names, &high_names);
-        for (surface, &group) in low_surfaces.iter_mut().zip(&found.group_of_low) {
-            *surface = surface.with_group(group);
+        let unpaired = group_by_name((low, &mut low_surfaces), (highs, &mut high_surfaces)).warnings();
+        if high_surfaces.is_empty() {
+            return Err(unpaired.join("; "));
         }
-        let grouped = high_surfaces.into_iter().zip(&found.group_of_high);
-        high_surfaces =
-            grouped.filter_map(|(surface, group)| group.map(|group| surface.with_group(group))).collect();
-        let alone = found.low_without_high.iter().map(|&part| low_names[part]);
-        report.warnings.extend(alone.map(|name| format!("no part of the high models belongs to {name}")));
+        report.warnings.extend(unpaired);
     }
     let cages = match report.has_cage {
         true => cages(&low_surfaces, report.distance[0])?,
@@ -248,20 +231,16 @@ pub fn bake_settings(options: &Options, distance: [f32; 2]) -> Result<BakeOption
 
 /// How far rays begin outside and end inside: the options', or a share of the model's diagonal.
 pub fn distance(options: &Options, diagonal: f64) -> [f32; 2] {
-    let by_size = (DEFAULT_SHARE * diagonal).max(f64::from(f32::MIN_POSITIVE)) as f32;
-    options.distance.unwrap_or([options.cage_offset.unwrap_or(by_size); 2])
+    options.distance.unwrap_or([options.cage_offset.unwrap_or(default_cage_offset(diagonal)); 2])
 }
 
 fn cages(low: &[LowSurface<'_>], offset: f32) -> Result<Vec<Vec<[f32; 3]>>, String> {
     low.iter().map(|surface| inflated_cage(surface.mesh(), offset).map_err(text)).collect()
 }
 
-/// What was left out. Errors: nothing of the low model can be baked.
-fn warnings(low: &LowModel<'_>, highs: &[HighModel<'_>]) -> Result<Vec<String>, String> {
+/// What was left out.
+fn warnings(low: &LowModel<'_>, highs: &[HighModel<'_>]) -> Vec<String> {
     let mut warnings: Vec<String> = highs.iter().flat_map(HighModel::warnings).cloned().collect();
-    if low.without_uvs > 0 && low.primitives().next().is_none() {
-        return Err("the low model has no UVs, so that no map fits it; unwrap it first".to_owned());
-    }
     if low.without_uvs > 0 {
         warnings
             .push(format!("{} primitives of the low model have no UVs and are not baked", low.without_uvs));
@@ -270,7 +249,7 @@ fn warnings(low: &LowModel<'_>, highs: &[HighModel<'_>]) -> Result<Vec<String>, 
         let count = low.materials.len();
         warnings.push(format!("the {count} materials of the low model share one map; where their charts overlap, the first triangle wins"));
     }
-    Ok(warnings)
+    warnings
 }
 
 fn open(name: &str, file: &[u8]) -> Result<Document, String> {
@@ -278,17 +257,6 @@ fn open(name: &str, file: &[u8]) -> Result<Document, String> {
     let mut document = Document::from_bytes(name, file.to_vec(), None, &options).map_err(sentence)?;
     document.decompress().map_err(sentence)?;
     Ok(document)
-}
-
-/// The number of a state in `BakedMaps.states`.
-fn code(state: TexelState) -> u8 {
-    match state {
-        TexelState::Baked => 1,
-        TexelState::Extended => 2,
-        TexelState::Missed => 3,
-        TexelState::MissedBehind => 4,
-        _ => 0,
-    }
 }
 
 fn sentence(error: darboux_io::Error) -> String {

@@ -122,7 +122,11 @@ for (const [name, { bake, bakeModels, TEXEL_STATES }] of Object.entries(forms)) 
     assert.throws(() => bakeModels(shield, shield, { size: [0, 4] }), /^Error: an image of 0 x 4 texels cannot be made/);
     assert.throws(() => bakeModels(shield, shield, { convention: 'quake' }), /^Error: convention: /);
     assert.throws(() => bakeModels(shield, new Uint8Array([1, 2, 3])), /the high model/);
-    assert.throws(() => bakeModels(bytes(0, { hasUvs: false }), shield), /the low model has no UVs/);
+    assert.throws(() => bakeModels(bytes(0, { hasUvs: false }), shield), /^Error: the low model: no triangles have UVs, onto which to bake; unwrap the model first$/);
+    assert.throws(() => bakeModels(shield, shield, { uvSet: 9 }), /^Error: the low model: no triangles have TEXCOORD_9, onto which to bake; choose one of TEXCOORD_0$/);
+    assert.throws(() => bakeModels(shield, shield, { material: 99 }), /^Error: the low model: no triangles have materials\[99\]; choose one of 0$/);
+    const [low, high] = ['a_low', 'b_high'].map((name) => bytes(0, { name }));
+    assert.throws(() => bakeModels(low, high, { match: 'name' }), /^Error: no part of the high models belongs to a_low; .*; no part of the low model belongs to b_high/);
     assert.equal(bakeModels(bytes(0), bytes(0), { size: [4, 4] }).report.missedTexels, 0, 'and the next call works');
   });
 

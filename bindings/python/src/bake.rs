@@ -3,7 +3,7 @@
 use darboux::{Cancel, Context, Convention};
 use darboux_bake::{
     BakeError, BakeOptions, BakeReport, Baked, Bitangent, HighSurface, LowSurface, MapKind, MapSet,
-    TexelState, bake as bake_surfaces, inflated_cage,
+    bake as bake_surfaces, inflated_cage,
 };
 use numpy::PyArray1;
 use numpy::prelude::*;
@@ -185,7 +185,7 @@ fn result(py: Python<'_>, baked: Baked) -> PyResult<Bound<'_, PyAny>> {
     let numbers = |image: Option<Vec<f32>>| {
         image.map(|image| PyArray1::from_vec(py, image).reshape([height, width])).transpose()
     };
-    let states: Vec<u8> = images.states.iter().map(|&state| code(state)).collect();
+    let states: Vec<u8> = images.states.iter().map(|state| state.number()).collect();
     let fields = (
         vectors(images.normal)?,
         vectors(images.object_normal)?,
@@ -198,23 +198,13 @@ fn result(py: Python<'_>, baked: Baked) -> PyResult<Bound<'_, PyAny>> {
     named(py, "BakedMaps", fields)
 }
 
-/// The number of a state in `BakedMaps.states`.
-fn code(state: TexelState) -> u8 {
-    match state {
-        TexelState::Baked => 1,
-        TexelState::Extended => 2,
-        TexelState::Missed => 3,
-        TexelState::MissedBehind => 4,
-        _ => 0,
-    }
-}
-
 fn report<'py>(py: Python<'py>, report: &BakeReport) -> PyResult<Bound<'py, PyAny>> {
     let fields = (
         report.charted_texels,
         report.missed_texels,
         report.back_facing_texels,
         report.overlapping_texels,
+        report.chart_area,
         report.inverted_texels,
         report.frameless_texels,
         report.below_horizon_texels,

@@ -187,6 +187,7 @@ fn count_triangles(
     groups: &[HighGroup<'_>],
 ) {
     report.low_triangles = low.iter().map(|surface| surface.triangle_count() as u64).sum();
+    report.chart_area = layout.charted_area(low).round() as u64;
     report.degenerate_triangles = layout.degenerate as u64;
     report.oversized_triangles = layout.oversized as u64;
     report.high_triangles = high.iter().map(|surface| surface.triangle_count() as u64).sum();

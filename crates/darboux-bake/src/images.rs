@@ -6,24 +6,30 @@ use crate::{BakeError, BakeOptions, MapKind};
 /// The cosine of the largest angle between neighbouring texels that is continued beyond a chart: 11 degrees.
 const SMOOTH: f64 = 0.98;
 
-/// What is in a texel.
+/// What is in a texel. The numbers are those of arrays of states in Python and JavaScript.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
+#[repr(u8)]
 pub enum TexelState {
     /// Outside the charts: the background, or filled from the nearest chart.
     #[default]
-    Outside,
-    /// Within a texel of a chart, where filters read it: baked on the surface, continued beyond the chart.
-    Extended,
-    /// In a chart, but no ray hit: filled from the nearest texel with a hit.
-    Missed,
-    /// As `Missed`, and rays hit triangles from behind: the high mesh is inside out there, or has a hole.
-    MissedBehind,
+    Outside = 0,
     /// Baked.
-    Baked,
+    Baked = 1,
+    /// Within a texel of a chart, where filters read it: baked on the surface, continued beyond the chart.
+    Extended = 2,
+    /// In a chart, but no ray hit: filled from the nearest texel with a hit.
+    Missed = 3,
+    /// As `Missed`, and rays hit triangles from behind: the high mesh is inside out there, or has a hole.
+    MissedBehind = 4,
 }
 
 impl TexelState {
+    /// The number of the state, from 0 to 4 in the order of the variants.
+    pub fn number(self) -> u8 {
+        self as u8
+    }
+
     /// Whether the texel's content comes from rays, not from another texel.
     pub fn has_content(self) -> bool {
         matches!(self, Self::Extended | Self::Baked)

@@ -41,19 +41,20 @@ mod skirt;
 mod space;
 mod surface;
 mod texel;
+mod text;
 mod vector;
 mod verify;
 
 pub use bake::{BakeProgress, Baked, bake};
 pub use error::BakeError;
 pub use images::{Images, TexelState};
-pub use model::{HighModel, HighModelOptions, LowModel, LowModelOptions};
+pub use model::{HighModel, HighModelOptions, LowModel, LowModelOptions, UnpairedParts, group_by_name};
 pub use name_match::{NameMatch, match_names};
 pub use normal_texture::NormalTexture;
 pub use options::{BakeOptions, Bitangent, MapKind, MapSet};
 pub use report::BakeReport;
 pub use space::{ConvertedSpace, NormalSpace, SpaceOptions, convert_space};
-pub use surface::{HighSurface, LowSurface, inflated_cage};
+pub use surface::{HighSurface, LowSurface, default_cage_offset, inflated_cage};
 pub use verify::{ErrorStatistics, Mistake, Verification, VerifiedPlace, verify};
 
 /// The example of README.md compiles.

@@ -3,11 +3,23 @@
 use crate::images::TexelState;
 use crate::{BakeOptions, HighSurface, MapKind, bvh, padding};
 
+/// The bytes of two decoded normal maps, of the compared points, and of the hierarchies over the high surfaces.
+pub fn needed_to_verify(high: &[HighSurface<'_>], options: &BakeOptions, of_points: u64) -> u64 {
+    texels(options) * 24 + of_points + of_hierarchies(high)
+}
+
 /// The bytes of the images, of what filling them needs, and of the hierarchies over the high surfaces.
 pub fn needed(high: &[HighSurface<'_>], options: &BakeOptions) -> u64 {
-    let texels = u64::from(options.size[0]) * u64::from(options.size[1]);
+    texels(options) * bytes_per_texel(options) + of_hierarchies(high)
+}
+
+fn texels(options: &BakeOptions) -> u64 {
+    u64::from(options.size[0]) * u64::from(options.size[1])
+}
+
+fn of_hierarchies(high: &[HighSurface<'_>]) -> u64 {
     let triangles: u64 = high.iter().map(|surface| surface.triangle_count() as u64).sum();
-    texels * bytes_per_texel(options) + triangles * bvh::BYTES_PER_TRIANGLE
+    triangles * bvh::BYTES_PER_TRIANGLE
 }
 
 fn bytes_per_texel(options: &BakeOptions) -> u64 {

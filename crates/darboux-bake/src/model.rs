@@ -3,8 +3,10 @@
 mod high;
 mod low;
 mod maps;
+mod parts;
 mod placed;
 mod stored;
 
 pub use high::{HighModel, HighModelOptions};
 pub use low::{LowModel, LowModelOptions};
+pub use parts::{UnpairedParts, group_by_name};

@@ -16,6 +16,9 @@ pub struct BakeReport {
     pub back_facing_texels: u64,
     /// Texels that more than one triangle covers. The first triangle owns them.
     pub overlapping_texels: u64,
+    /// The area of all charts in texels: the number of pairs of a texel and a triangle that covers it, on average over the places of texels.
+    /// Greater than `charted_texels` where charts overlap or repeat.
+    pub chart_area: u64,
     /// Texels at which the normal of the high mesh points to the back of its triangle: normals or winding are inverted there.
     pub inverted_texels: u64,
     /// Texels at which tangent, bitangent and normal of the low mesh do not span space. Their normal is (0, 0, 1).
@@ -45,6 +48,7 @@ impl BakeReport {
             missed_texels: self.missed_texels + other.missed_texels,
             back_facing_texels: self.back_facing_texels + other.back_facing_texels,
             overlapping_texels: self.overlapping_texels + other.overlapping_texels,
+            chart_area: self.chart_area + other.chart_area,
             inverted_texels: self.inverted_texels + other.inverted_texels,
             frameless_texels: self.frameless_texels + other.frameless_texels,
             below_horizon_texels: self.below_horizon_texels + other.below_horizon_texels,

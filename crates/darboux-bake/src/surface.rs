@@ -156,6 +156,11 @@ impl<'a> HighSurface<'a> {
     }
 }
 
+/// How far a cage lies outside a model without another choice: 2 % of the diagonal of the model's box, in the same unit.
+pub fn default_cage_offset(diagonal: f64) -> f32 {
+    (0.02 * diagonal).max(f64::from(f32::MIN_POSITIVE)) as f32
+}
+
 /// The vertices of a mesh, moved outwards by `offset`: a cage without gaps.
 ///
 /// Vertices at equal positions move in the same direction, the mean of the normals of their faces weighted by angle, also where the normals of

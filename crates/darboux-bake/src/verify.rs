@@ -17,7 +17,7 @@ use darboux::Context;
 use crate::bake::{check_memory, check_options, check_surfaces, for_each_band, group_surfaces};
 use crate::layout::Layout;
 use crate::{BakeError, BakeOptions, BakeProgress, HighSurface, Images, LowSurface, NormalTexture, memory};
-use points::{BandPoints, Points, cell_side};
+use points::{BYTES_PER_POINT, BandPoints, Points, cell_side};
 use summary::summarize;
 
 pub use errors::ErrorStatistics;
@@ -44,8 +44,12 @@ pub fn verify(
     let unrounded =
         baked.normal.clone().filter(|_| baked.size == options.size && written.size() == options.size);
     let unrounded = unrounded.ok_or(BakeError::NoMaps)?;
-    let limit = check_memory(memory::needed(high, options), options.memory_limit)?;
-    let layout = Layout::new(low, options.size, options.surface_convention, limit)?;
+    let layout =
+        Layout::new(low, options.size, options.surface_convention, options.memory_limit.unwrap_or(u64::MAX))?;
+    let cell_side = cell_side(&layout, low);
+    let points = layout.charted_area(low) / (cell_side * cell_side) as f64;
+    let needed = memory::needed_to_verify(high, options, points as u64 * BYTES_PER_POINT);
+    check_memory(needed, options.memory_limit)?;
     let unrounded =
         NormalTexture::new(options.size, unrounded, options.map_convention, options.surface_convention)?;
     let groups = group_surfaces(low, high, context)?;
@@ -57,7 +61,7 @@ pub fn verify(
         states: &baked.states,
         written,
         unrounded: &unrounded,
-        cell_side: cell_side(&layout, low),
+        cell_side,
     };
     let mut bands: Vec<(usize, BandPoints)> =
         (0..points.band_count()).map(|row| (row, BandPoints::default())).collect();

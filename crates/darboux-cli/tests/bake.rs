@@ -543,10 +543,12 @@ fn a_material_can_be_chosen_and_several_are_named() {
     assert!(all.stderr.contains("2 materials share this map"), "{}", all.stderr);
     let one = pair.bake(&["--json", "--force", "--material", "1"]).exits(0);
     assert!(!one.stderr.contains("materials share"), "{}", one.stderr);
-    let overlaps = |run: &Run| run.json()["counts"]["overlapping_texels"].clone();
-    assert_eq!([overlaps(&all), overlaps(&one)], [json!(256), json!(0)]);
+    let count = |run: &Run, name: &str| run.json()["counts"][name].clone();
+    assert_eq!(["overlapping_texels", "chart_area"].map(|name| count(&all, name)), [json!(256), json!(512)]);
+    assert_eq!(["overlapping_texels", "chart_area"].map(|name| count(&one, name)), [json!(0), json!(256)]);
+    assert!(all.stderr.contains("are covered 2.00 times on average"), "{}", all.stderr);
     let none = pair.bake(&["--force", "--material", "2"]).exits(1).stderr;
-    assert!(none.contains("no triangles have materials[2]"), "{none}");
+    assert!(none.contains("low.glb: no triangles have materials[2]; choose one of 0, 1"), "{none}");
 }
 
 #[test]
@@ -609,7 +611,7 @@ fn names_decide_what_parts_see() {
     fs::write(pair.path("low.glb"), named_plate([0.0, 0.0], &FULL, 1.0, "Roof_low")).expect("a file");
     let other = pair.path("other.glb");
     fs::write(pair.path("high.glb"), named_plate([0.0, 0.5], &FULL, 1.0, "roof_high")).expect("a file");
-    fs::write(&other, named_plate([0.75, 0.75], &FULL, 1.0, "floor_high")).expect("a file");
+    fs::write(&other, named_plate([0.75, 0.75], &FULL, 1.0, "roof2_high")).expect("a file");
     let heights = |more: &[&str]| {
         let all = ["--high", text(&other), "--force", "--map", "height"];
         pair.bake(&[&all, more].concat()).exits(0);
@@ -618,9 +620,52 @@ fn names_decide_what_parts_see() {
     // From 1 inside to 1 outside: the floor covers the roof.
     assert!((heights(&[]) - 0.875).abs() < 1e-4);
     assert!((heights(&["--match", "name"]) - (0.5 + 0.5 / 64.0)).abs() < 1e-4);
+    let named = ["--high", text(&other), "--force", "--match", "name"];
+    let left_out = pair.bake(&named).exits(0).stderr;
+    assert!(left_out.contains("no part of the low model belongs to roof2_high"), "{left_out}");
     fs::write(pair.path("low.glb"), named_plate([0.0, 0.0], &FULL, 1.0, "Wall_low")).expect("a file");
     let alone = pair.bake(&["--force", "--match", "name"]).exits(1);
     assert!(alone.stderr.contains("no part of the high models belongs to Wall_low"), "{}", alone.stderr);
+}
+
+#[test]
+fn a_model_that_is_low_and_high_is_warned_about_once() {
+    let pair = Pair::new();
+    let broken = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+        json["extensionsUsed"] = json!(["EXT_unheard_of"]);
+    });
+    fs::write(pair.path("low.glb"), broken).expect("a file");
+    let [low, map] = ["low.glb", "map.png"].map(|name| pair.path(name));
+    let line = ["bake", text(&low), "--high", text(&low), "-o", text(&map), "--size", "8", "--json"];
+    let report = darboux(&line).exits(0).json();
+    let warnings: Vec<String> =
+        report["warnings"].as_array().expect("a list").iter().map(Value::to_string).collect();
+    assert_eq!(warnings.iter().collect::<std::collections::HashSet<_>>().len(), warnings.len());
+}
+
+#[test]
+#[cfg(unix)]
+fn ctrl_c_ends_a_bake_without_files() {
+    use std::os::unix::process::ExitStatusExt;
+    use std::process::{Command, Stdio};
+
+    let pair = Pair::new();
+    let [low, high, map] = ["low.glb", "high.glb", "map.png"].map(|name| pair.path(name));
+    // Hours of rays.
+    let line =
+        ["bake", text(&low), "--high", text(&high), "-o", text(&map), "--size", "4096", "--samples", "256"];
+    let mut run = Command::new("env")
+        .args(["--default-signal=INT", env!("CARGO_BIN_EXE_darboux")])
+        .args([&line[..], &["--map", "normal,ao", "--ao-rays", "1000", "--jobs", "1"]].concat())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the command starts");
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    Command::new("kill").args(["-INT", &run.id().to_string()]).status().expect("a signal is sent");
+    let ended = run.wait().expect("it ends");
+    // Shells show 128 + 2.
+    assert_eq!(ended.signal(), Some(2), "{ended}");
+    assert_eq!(names_in(pair.folder.path()), ["high.glb", "low.glb"]);
 }
 
 #[test]
@@ -634,7 +679,7 @@ fn wrong_use_is_refused() {
     says(&["--samples", "5"], 2, "expected a square number");
     says(&["--bits", "12"], 2, "expected 8 or 16");
     says(&["--map", "curvature"], 2, "possible values");
-    says(&["--uv-set", "3"], 1, "no triangles have TEXCOORD_3");
+    says(&["--uv-set", "3"], 1, "no triangles have TEXCOORD_3, onto which to bake; choose one of TEXCOORD_0");
     fs::write(pair.path("low.glb"), plate([0.0, 0.0], &["POSITION", "TEXCOORD_0"], 1.0)).expect("a file");
     says(&[], 1, "has no normals");
     pair.bake(&["--normals", "smooth"]).exits(0);

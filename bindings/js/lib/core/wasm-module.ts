@@ -52,11 +52,12 @@ function seeded<E extends Exports>(instance: WebAssembly.Instance): E {
   return exports;
 }
 
-/** Starts to load a module. The form without SIMD is imported only where the one with SIMD does not compile. `callbacks`: the functions that the module imports. */
+/** Starts to load a module. The form without SIMD is imported only where the one with SIMD does not compile. `callbacks`: the functions that the module imports; `tooLarge`: the sentence where memory does not suffice. */
 export function load<E extends Exports>(
   simd: Uint8Array<ArrayBuffer>,
   scalar: () => Promise<{ default: Uint8Array<ArrayBuffer> }>,
   callbacks: Record<string, (...numbers: number[]) => void> = {},
+  tooLarge = 'the mesh needs more memory than WebAssembly can have; split it',
 ): WasmModule<E> {
   let module: WebAssembly.Module;
   let exports: E | undefined;
@@ -78,6 +79,7 @@ export function load<E extends Exports>(
     exports = seeded(await WebAssembly.instantiate(module, imports));
   }
 
+  const outOfMemory = (cause: unknown) => new RangeError(tooLarge, { cause });
   const instantiate = () => seeded<E>(new WebAssembly.Instance(module, imports));
 
   function shared(): E {
@@ -125,5 +127,3 @@ export function load<E extends Exports>(
 }
 
 const isTrap = (error: unknown) => error instanceof WebAssembly.RuntimeError;
-
-const outOfMemory = (cause: unknown) => new RangeError('the mesh needs more memory than WebAssembly can have; split it', { cause });

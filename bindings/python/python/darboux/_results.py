@@ -253,6 +253,8 @@ class BakeReport(NamedTuple):
     """Of the missed texels, those whose rays met triangles from behind."""
     overlapping_texels: int
     """Texels that several triangles cover."""
+    chart_area: int
+    """The area of all charts in texels; greater than charted_texels where charts overlap or repeat."""
     inverted_texels: int
     """Texels at which the high mesh's normal points to the back of its triangle."""
     frameless_texels: int

@@ -71,6 +71,25 @@ impl<'a> HighModel<'a> {
         Ok(Self { file: document.name().to_owned(), parts, textures })
     }
 
+    /// Reads several models. `corners`: [`Document::corners`] of each document. Errors: as of [`HighModel::read`].
+    pub fn read_all(
+        documents: &'a [Document],
+        corners: &'a [Vec<PrimitiveCorners<'a>>],
+        options: &HighModelOptions,
+    ) -> Result<Vec<Self>, Error> {
+        documents
+            .iter()
+            .zip(corners)
+            .map(|(document, corners)| Self::read(document, corners, options))
+            .collect()
+    }
+
+    /// The surfaces of several models, one model after the other. Errors: an index out of range.
+    pub fn surfaces_of_all(models: &[Self]) -> Result<Vec<HighSurface<'_>>, Error> {
+        let surfaces: Vec<_> = models.iter().map(HighModel::surfaces).collect::<Result<_, _>>()?;
+        Ok(surfaces.into_iter().flatten().collect())
+    }
+
     /// The surfaces. Errors: an index out of range.
     pub fn surfaces(&self) -> Result<Vec<HighSurface<'_>>, Error> {
         let mut surfaces = Vec::new();

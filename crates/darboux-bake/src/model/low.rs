@@ -1,6 +1,7 @@
 //! [`LowModel`]: the surfaces of a document that receive the detail, with their tangents.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 
 use darboux::{Indices, Mesh, TangentOptions};
 use darboux_io::Error;
@@ -9,6 +10,7 @@ use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 use super::placed::{PlacedPrimitive, places, vertices};
 use super::stored::StoredPrimitive;
 use crate::LowSurface;
+use crate::text::listed;
 use crate::vector::box_diagonal;
 
 /// How the low model is read.
@@ -72,7 +74,8 @@ struct LowPart<'a> {
 }
 
 impl<'a> LowModel<'a> {
-    /// Reads the model. `corners`: [`Document::corners`] of the same document. Errors: invalid data; a primitive without normals.
+    /// Reads the model. `corners`: [`Document::corners`] of the same document. Errors: invalid data; a primitive without normals;
+    /// no triangles with the chosen material; UVs of the chosen set at none of them.
     pub fn read(
         document: &'a Document,
         corners: &'a [PrimitiveCorners<'a>],
@@ -91,7 +94,12 @@ impl<'a> LowModel<'a> {
         let is_chosen = |corners: &PrimitiveCorners<'_>| {
             options.material.is_none_or(|material| corners.material() == Some(material))
         };
-        for corners in corners.iter().filter(|corners| !corners.is_empty() && is_chosen(corners)) {
+        let with_triangles = || corners.iter().filter(|corners| !corners.is_empty());
+        let chosen: Vec<_> = with_triangles().filter(|corners| is_chosen(corners)).collect();
+        if let (Some(material), []) = (options.material, &chosen[..]) {
+            return Err(without_material(document, material, with_triangles()));
+        }
+        for &corners in &chosen {
             let name = corners.name();
             let Some(place) = places.get(name.mesh).and_then(|places| places.first()) else { continue };
             let Some(primitive) = PlacedPrimitive::read(document, corners, place)? else { continue };
@@ -122,6 +130,9 @@ impl<'a> LowModel<'a> {
             }
             let (name, file) = (name.clone(), document.name());
             model.parts.push(LowPart { name, uv_set, file, primitive, normals, uvs, tangents });
+        }
+        if model.parts.is_empty() && model.without_uvs > 0 {
+            return Err(without_uvs(document, options.uv_set, &chosen));
         }
         Ok(model)
     }
@@ -170,4 +181,36 @@ fn without_normals(document: &Document, name: &PrimitiveName) -> Error {
         at: name.path(),
         problem: "has no normals, which the frames of a normal map need; generate them first".to_owned(),
     }
+}
+
+fn without_material<'a>(
+    document: &Document,
+    material: usize,
+    corners: impl Iterator<Item = &'a PrimitiveCorners<'a>>,
+) -> Error {
+    let materials: BTreeSet<usize> = corners.filter_map(PrimitiveCorners::material).collect();
+    let found = match materials.is_empty() {
+        true => "; none have a material".to_owned(),
+        false => format!("; choose one of {}", listed(materials.iter().map(usize::to_string))),
+    };
+    Error::Unsupported {
+        file: document.name().to_owned(),
+        at: String::new(),
+        problem: format!("no triangles have materials[{material}]{found}"),
+    }
+}
+
+fn without_uvs(document: &Document, chosen: Option<usize>, corners: &[&PrimitiveCorners<'_>]) -> Error {
+    let of_primitive = |corners: &&PrimitiveCorners<'_>| {
+        let name = corners.name();
+        let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
+        attributes.keys().filter(|semantic| semantic.starts_with("TEXCOORD_")).cloned().collect::<Vec<_>>()
+    };
+    let sets: BTreeSet<String> = corners.iter().flat_map(of_primitive).collect();
+    let wanted = chosen.map_or("the UVs of their normal map".to_owned(), |set| format!("TEXCOORD_{set}"));
+    let problem = match sets.is_empty() {
+        true => "no triangles have UVs, onto which to bake; unwrap the model first".to_owned(),
+        false => format!("no triangles have {wanted}, onto which to bake; choose one of {}", listed(sets)),
+    };
+    Error::Unsupported { file: document.name().to_owned(), at: String::new(), problem }
 }

@@ -56,6 +56,9 @@ pub struct PointErrors {
     pub mistakes: [f32; Mistake::ALL.len()],
 }
 
+/// The most bytes that an error takes: lists grow by doubling, and one statistic at a time has a list of its own.
+pub const BYTES_PER_POINT: u64 = 2 * size_of::<PointErrors>() as u64 + 8;
+
 /// The points of a row of blocks.
 #[derive(Debug, Default)]
 pub struct BandPoints {

@@ -2,7 +2,6 @@
 
 pub mod arguments;
 mod cage;
-mod matching;
 mod model;
 mod open;
 mod pictures;

@@ -1,15 +1,12 @@
 //! Where rays begin: at a distance along the normals, on a cage that is made here, or on one that is a file.
 
-use darboux_bake::{BakeError, HighModelOptions, LowSurface, inflated_cage};
+use darboux_bake::{BakeError, HighModelOptions, LowModel, LowSurface, default_cage_offset, inflated_cage};
 use darboux_io::gltf::Document;
 use serde::Serialize;
 
 use super::arguments::BakeArguments;
 use crate::documents::load;
 use crate::inputs::Input;
-
-/// The distance without options, as a share of the diagonal of the low model's box.
-const DEFAULT_SHARE: f64 = 0.02;
 
 /// How rays are chosen. In the models' unit.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -22,8 +19,8 @@ pub enum Rays {
 
 impl Rays {
     /// The choice of the command line; a distance from the model's size without one.
-    pub fn choose(arguments: &BakeArguments, diagonal: f64) -> Self {
-        let by_size = (DEFAULT_SHARE * diagonal).max(f64::from(f32::MIN_POSITIVE)) as f32;
+    pub fn choose(arguments: &BakeArguments, low: &LowModel<'_>) -> Self {
+        let by_size = default_cage_offset(low.diagonal());
         match (arguments.distance, arguments.cage_offset, &arguments.cage) {
             (Some([outwards, inwards]), ..) => Self::Normals { outwards, inwards },
             (_, Some(offset), _) => Self::Cage { offset, is_default: false },
@@ -45,15 +42,21 @@ impl Rays {
     pub fn describe(&self) -> String {
         match self {
             Self::Normals { outwards, inwards } => {
+                let [outwards, inwards] = [outwards, inwards].map(|distance| rounded(*distance));
                 format!("rays along normals from {outwards} outside to {inwards} inside")
             }
             Self::Cage { offset, is_default } => {
                 let why = if *is_default { ", 2 % of the model's diagonal" } else { "" };
-                format!("a cage at a distance of {offset}{why}")
+                format!("a cage at a distance of {}{why}", rounded(*offset))
             }
-            Self::CageFile { inwards } => format!("a cage from a file, to {inwards} inside"),
+            Self::CageFile { inwards } => format!("a cage from a file, to {} inside", rounded(*inwards)),
         }
     }
+}
+
+/// A distance with four significant digits.
+fn rounded(distance: f32) -> f64 {
+    format!("{distance:.3e}").parse().unwrap_or(f64::from(distance))
 }
 
 /// The positions of the cages of all surfaces; empty where rays follow normals.

@@ -1,17 +1,17 @@
 //! Runs `darboux bake`: reads the models, bakes, writes the maps, reports.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use darboux::Context;
 use darboux_bake::{
     BakeOptions, BakeProgress, Baked, HighModel, HighModelOptions, HighSurface, LowModel, LowModelOptions,
-    LowSurface, MapSet, bake,
+    LowSurface, MapSet, bake, group_by_name,
 };
-use darboux_io::gltf::Document;
+use darboux_io::gltf::{Document, PrimitiveCorners};
 
 use super::arguments::{BakeArguments, MatchChoice};
 use super::cage::{Cages, Rays};
-use super::matching::group_by_name;
 use super::model::write_model;
 use super::open::{open_high, open_low};
 use super::pictures;
@@ -54,60 +54,28 @@ fn check_usage(arguments: &BakeArguments) -> Result<(), String> {
 
 /// Reads, bakes and writes. Errors are one sentence each.
 fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeReport, String> {
-    let sentence = |error: darboux_io::Error| error.to_string();
     let mut warnings = Vec::new();
-    let low_document = open_low(arguments, &mut warnings)?;
-    let mut high_documents = Vec::new();
-    for path in &arguments.high {
-        high_documents.push(open_high(path, arguments, &mut warnings)?);
-    }
-    refuse_used(arguments, high_documents.iter().chain([&low_document]))?;
+    let documents = Documents::open(arguments, &mut warnings)?;
+    let corners = documents.corners()?;
+    let models = Models::read(arguments, &documents, &corners)?;
+    warnings.extend(advice::of_models(&models.low, documents.low.name(), &models.highs));
 
-    let low_corners = low_document.corners().map_err(sentence)?;
-    let low = LowModel::read(&low_document, &low_corners, &low_options(arguments)).map_err(sentence)?;
-    if low.primitives().next().is_none() && low.without_uvs > 0 {
-        let set = arguments.uv_set.map_or("UVs".to_owned(), |set| format!("TEXCOORD_{set}"));
-        let name = low_document.name();
-        return Err(format!(
-            "{name}: no triangles have {set}, onto which to bake; `darboux inspect` lists the UV sets"
-        ));
-    }
-    let high_options = HighModelOptions::default().with_normal_maps(!arguments.no_high_maps);
-    let high_corners: Vec<_> =
-        high_documents.iter().map(Document::corners).collect::<Result<_, _>>().map_err(sentence)?;
-    let highs: Vec<HighModel<'_>> = high_documents
-        .iter()
-        .zip(&high_corners)
-        .map(|(document, corners)| HighModel::read(document, corners, &high_options))
-        .collect::<Result<_, _>>()
-        .map_err(sentence)?;
-    if let Some(material) = arguments.material.filter(|_| low.materials.is_empty()) {
-        let name = low_document.name();
-        return Err(format!("{name}: no triangles have materials[{material}]; `darboux inspect` lists them"));
-    }
-    warnings.extend(advice::of_models(&low, low_document.name(), &highs));
-
-    let rays = Rays::choose(arguments, low.diagonal());
-    let surfaces = low.surfaces().map_err(sentence)?;
+    let rays = Rays::choose(arguments, &models.low);
+    let surfaces = models.low.surfaces().map_err(sentence)?;
     let cages = Cages::read(arguments, &rays, &surfaces)?;
     let mut surfaces = cages.around(surfaces).map_err(|error| error.to_string())?;
-    let mut high_surfaces = Vec::new();
-    for high in &highs {
-        high_surfaces.extend(high.surfaces().map_err(sentence)?);
-    }
-    if arguments.matching == MatchChoice::Name {
-        warnings.extend(group_by_name((&low, &mut surfaces), (&highs, &mut high_surfaces))?);
-    }
+    let high_surfaces = models.high_surfaces(arguments, &mut surfaces, &mut warnings)?;
+
     let options = options(arguments, &rays);
     let baked = bake_surfaces(arguments, messages, &surfaces, &high_surfaces, &options)?;
     let written = write_maps(arguments, &baked.images, &options)?;
     let misses = pictures::misses(arguments, &baked, &mut warnings)?;
-    let model = write_model(arguments, &low, written.normal.as_ref(), &mut warnings)?;
+    let model = write_model(arguments, &models.low, written.normal.as_ref(), &mut warnings)?;
     let verification = match &written.normal {
         Some(normal) if arguments.verify => {
             let surfaces = (&surfaces[..], &high_surfaces[..]);
             let mut verified = Verified::new(arguments, surfaces, &baked.images, normal, &options, messages)?;
-            verified.write_model(arguments, &low)?;
+            verified.write_model(arguments, &models.low)?;
             Some(verified)
         }
         _ => None,
@@ -126,8 +94,85 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
         misses,
         counts: baked.report,
         verification,
-        warnings,
+        warnings: distinct(warnings),
     })
+}
+
+/// Sentences in their order, each once: a model may be LOW and HIGH.
+fn distinct(sentences: Vec<String>) -> Vec<String> {
+    let mut seen = HashSet::new();
+    sentences.into_iter().filter(|sentence| seen.insert(sentence.clone())).collect()
+}
+
+/// The opened files of the low model and of the high ones.
+struct Documents {
+    low: Document,
+    highs: Vec<Document>,
+}
+
+/// The corners of all documents, in their order.
+struct Corners<'a> {
+    low: Vec<PrimitiveCorners<'a>>,
+    highs: Vec<Vec<PrimitiveCorners<'a>>>,
+}
+
+impl Documents {
+    /// Opens all files. Errors: a file that cannot be read; an output that the models use.
+    fn open(arguments: &BakeArguments, warnings: &mut Vec<String>) -> Result<Self, String> {
+        let low = open_low(arguments, warnings)?;
+        let mut highs = Vec::new();
+        for path in &arguments.high {
+            highs.push(open_high(path, arguments, warnings)?);
+        }
+        refuse_used(arguments, highs.iter().chain([&low]))?;
+        Ok(Self { low, highs })
+    }
+
+    fn corners(&self) -> Result<Corners<'_>, String> {
+        let highs = self.highs.iter().map(Document::corners).collect::<Result<_, _>>();
+        Ok(Corners { low: self.low.corners().map_err(sentence)?, highs: highs.map_err(sentence)? })
+    }
+}
+
+/// The low model and the high ones.
+struct Models<'a> {
+    low: LowModel<'a>,
+    highs: Vec<HighModel<'a>>,
+}
+
+impl<'a> Models<'a> {
+    fn read(
+        arguments: &BakeArguments,
+        documents: &'a Documents,
+        corners: &'a Corners<'a>,
+    ) -> Result<Self, String> {
+        let low = LowModel::read(&documents.low, &corners.low, &low_options(arguments)).map_err(sentence)?;
+        let high_options = HighModelOptions::default().with_normal_maps(!arguments.no_high_maps);
+        let highs = HighModel::read_all(&documents.highs, &corners.highs, &high_options);
+        Ok(Self { low, highs: highs.map_err(sentence)? })
+    }
+
+    /// The surfaces of the high models, in groups where names decide. Errors: no names match.
+    fn high_surfaces(
+        &self,
+        arguments: &BakeArguments,
+        low: &mut [LowSurface<'_>],
+        warnings: &mut Vec<String>,
+    ) -> Result<Vec<HighSurface<'_>>, String> {
+        let mut surfaces = HighModel::surfaces_of_all(&self.highs).map_err(sentence)?;
+        if arguments.matching == MatchChoice::Name {
+            let unpaired = group_by_name((&self.low, low), (&self.highs, &mut surfaces)).warnings();
+            if surfaces.is_empty() {
+                return Err(unpaired.join("; "));
+            }
+            warnings.extend(unpaired);
+        }
+        Ok(surfaces)
+    }
+}
+
+fn sentence(error: darboux_io::Error) -> String {
+    error.to_string()
 }
 
 fn low_options(arguments: &BakeArguments) -> LowModelOptions {

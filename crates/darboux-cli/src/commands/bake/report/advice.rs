@@ -74,8 +74,9 @@ pub fn of_report(report: &BakeReport, arguments: &BakeArguments, misses: Option<
     }
     if report.overlapping_texels > 0 {
         warnings.push(format!(
-            "{} covered by several triangles of the low model, of which the first is baked; charts may share texels only where their surfaces are equal",
-            counted(usize::try_from(report.overlapping_texels).unwrap_or(usize::MAX), "texel is", "texels are")
+            "{} covered by several triangles of the low model, of which the first is baked; all texels of charts together are covered {:.2} times on average; charts may share texels only where their surfaces are equal: otherwise choose UVs that neither overlap nor repeat (--uv-set), or unwrap the model anew",
+            counted(usize::try_from(report.overlapping_texels).unwrap_or(usize::MAX), "texel is", "texels are"),
+            share(report.chart_area)
         ));
     }
     let left_out = [
