@@ -473,6 +473,21 @@ fn faces_of_an_obj_with_many_corners_are_baked() {
 }
 
 #[test]
+fn an_obj_can_be_the_low_model() {
+    let pair = Pair::new();
+    let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n";
+    fs::write(pair.path("low.obj"), format!("{corners}f 1/1/1 2/2/1 3/3/1 4/4/1\n")).expect("a file");
+    let [obj, high, map, model] = ["low.obj", "high.glb", "obj.png", "obj.glb"].map(|name| pair.path(name));
+    let line = ["bake", text(&obj), "--high", text(&high), "-o", text(&map), "--size", "16"];
+    let more = ["--cage-offset", "1", "--bits", "16", "--write-model", text(&model)];
+    darboux(&[&line[..], &more].concat()).exits(0);
+    pair.bake(&["--bits", "16"]).exits(0);
+    assert_eq!(pair.texel("obj.png"), pair.texel("map.png"));
+    let of_model = darboux(&["compare", text(&model), "--method", "mikktspace", "--json"]).exits(0).json();
+    assert_eq!(of_model["verdict"], "identical");
+}
+
+#[test]
 fn an_obj_can_be_the_high_model() {
     let pair = Pair::new();
     let obj = "v 0 0 0\nv 1 0 0.5\nv 1 1 0.5\nv 0 1 0\nf 1 2 3 4\n";

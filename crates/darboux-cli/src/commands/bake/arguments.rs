@@ -42,7 +42,7 @@ Examples:
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("rays").args(["distance", "cage_offset", "cage"]))]
 pub struct BakeArguments {
-    /// The low model (.gltf, .glb, .vrm), which gets the maps
+    /// The low model (.gltf, .glb, .vrm, .obj), which gets the maps
     #[arg(value_name = "LOW")]
     pub low: PathBuf,
 

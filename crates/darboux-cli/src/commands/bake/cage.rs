@@ -5,8 +5,7 @@ use darboux_io::gltf::Document;
 use serde::Serialize;
 
 use super::arguments::BakeArguments;
-use crate::documents::load;
-use crate::inputs::Input;
+use super::open::open;
 
 /// How rays are chosen. In the models' unit.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -68,9 +67,7 @@ impl Cages {
         match (rays, &arguments.cage) {
             (Rays::Normals { .. }, _) => Ok(Self(Vec::new())),
             (Rays::CageFile { .. }, Some(path)) => {
-                let mut document = load(&Input::File(path.clone()), &arguments.reading)?;
-                let sentence = |error: darboux_io::Error| error.to_string();
-                document.decompress().map_err(sentence)?;
+                let document = open(path, arguments, &mut Vec::new())?;
                 of_document(&document, low).map(Self)
             }
             _ => {

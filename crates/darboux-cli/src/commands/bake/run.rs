@@ -13,7 +13,7 @@ use darboux_io::gltf::{Document, PrimitiveCorners};
 use super::arguments::{BakeArguments, MatchChoice};
 use super::cage::{Cages, Rays};
 use super::model::write_model;
-use super::open::{open_high, open_low};
+use super::open::{open, open_low};
 use super::pictures;
 use super::report::{BakeReport, advice, summary};
 use super::verified::{PROGRESS_UNITS, Verified};
@@ -122,7 +122,7 @@ impl Documents {
         let low = open_low(arguments, warnings)?;
         let mut highs = Vec::new();
         for path in &arguments.high {
-            highs.push(open_high(path, arguments, warnings)?);
+            highs.push(open(path, arguments, warnings)?);
         }
         refuse_used(arguments, highs.iter().chain([&low]))?;
         Ok(Self { low, highs })
