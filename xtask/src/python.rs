@@ -72,10 +72,20 @@ pub fn blender() -> Outcome {
     run(with(&python, "-m pytest --quiet").arg(format!("{PACKAGE}/tests/test_blender.py")))
 }
 
-/// An interpreter with the Blender whose bakes are compared.
+/// An interpreter with the Blender whose bakes are compared. Errors: no Python 3.11; a module that cannot be had or loaded.
 pub fn with_blender() -> Result<PathBuf, String> {
+    if !works(&mut program("python3.11 -m venv --help")) {
+        return Err(
+            "bench --bake needs python3.11 with venv: Blender's module exists for that version only".into()
+        );
+    }
     let python = environment_of("python3.11", "blender-bake")?;
-    run(pip(&python).arg("bpy==4.5.0"))?;
+    run(pip(&python).arg("bpy==4.5.0")).map_err(|error| {
+        format!("{error}; bench --bake needs Blender's module bpy 4.5.0, from pypi.org or as a wheel in the folder PIP_FIND_LINKS")
+    })?;
+    if !works(with(&python, "-c").arg("import bpy")) {
+        return Err("Blender's module bpy cannot be loaded; install the packages of Debian that CONTRIBUTING.md names beside bench --bake".into());
+    }
     Ok(python)
 }
 
