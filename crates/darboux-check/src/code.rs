@@ -107,84 +107,84 @@ codes! {
         "Black or flickering spots, or holes, where the vertex is used."
         "An exporter divided by a UV area of zero."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        Repair "all tangents of the primitive are computed again by MikkTSpace, or by the method that `--method` names"
+        Repair "these tangents are computed again in the way that the others were"
     }
     TangentZero "tangent-zero" Error {
         "Tangents have length zero."
         "Black spots or NaN in shaders that normalise the tangent; bumps vanish in others."
         "glTF-Transform writes zeros for faces without UV area (its issue 1859); so does the reference code of MikkTSpace."
         "Compute the tangents again: `darboux tangents --overwrite`; the default mode repairs such corners."
-        Repair "all tangents of the primitive are computed again by MikkTSpace, or by the method that `--method` names"
+        Repair "these tangents are computed again in the way that the others were"
     }
     TangentNotUnit "tangent-not-unit" Error {
         "Tangents do not have length 1."
         "Bumps along u are too strong or too weak in shaders that do not normalise."
         "A scaled node was applied to the tangents, or they were averaged without being normalised."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        Repair "all tangents of the primitive are computed again by MikkTSpace, or by the method that `--method` names"
+        Repair "these tangents get length 1"
     }
     TangentNotPerpendicular "tangent-not-perpendicular" Error {
         "Tangents lean towards or away from their normals."
         "Bumps are lit from a wrong side, more so at grazing angles."
         "Normals were changed after tangents were computed, for example by smoothing or by weighting."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        Repair "all tangents of the primitive are computed again by MikkTSpace, or by the method that `--method` names"
+        Repair "these tangents are laid into the planes of their normals"
     }
     TangentSignNotOne "tangent-sign-not-one" Error {
         "The sign w of tangents is neither 1 nor -1."
         "Bumps along v vanish (w = 0) or are scaled."
         "Tangents were exported with three components, or interpolated."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        Repair "all tangents of the primitive are computed again by MikkTSpace, or by the method that `--method` names"
+        Repair "these signs become those of the UVs"
     }
     TangentSignMixed "tangent-sign-mixed" Warning {
         "Faces have corners with both signs."
         "The bitangent turns over within the face: a smeared band."
         "Tangents were computed per vertex on a mesh with mirrored UVs (three.js computeTangents, many tutorials)."
         "Compute the tangents again: `darboux tangents --overwrite` splits the vertices."
-        Repair "the tangents are computed again, and vertices split where their corners need different ones"
+        Repair "the wrong signs are negated, and vertices split where their corners need both"
     }
     TangentSharedAcrossMirror "tangent-shared-across-mirror" Error {
         "One vertex serves both sides of a mirrored UV seam, so that it has a wrong tangent on one of them."
         "A line along the middle of the model where every second bump is lit from the wrong side."
         "Tangents of corners were written through the old index list (nvpro-samples/vk_gltf_renderer 33), or computed per vertex."
         "Split the vertices: `darboux tangents --overwrite`."
-        Repair "the vertices are split, and the tangents computed again"
+        Repair "the vertices are split, and the tangents of the other side computed in the way that the rest was"
     }
     TangentSignFlipped "tangent-sign-flipped" Error {
         "The sign w is that of the other convention everywhere."
         "Bumps are lit as if green were inverted: from below instead of from above."
         "The exporter did not negate w for glTF's v axis, which points down, or negated it twice (filament 528, three.js 11438)."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        Repair "the signs w are negated, or where more is wrong, all tangents of the primitive are computed again"
+        Repair "the signs are negated"
     }
     TangentSignFlippedWhereMirrored "tangent-sign-flipped-where-mirrored" Error {
         "The sign w is right on one side of the mirrored UVs and wrong on the other."
         "One half of a mirrored model looks right, the other one is lit from the wrong side."
         "The sign was dropped on the way: all w are equal (assimp 1892)."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        Repair "all tangents of the primitive are computed again by MikkTSpace, or by the method that `--method` names"
+        Repair "the wrong signs are negated"
     }
     TangentSignPartlyFlipped "tangent-sign-partly-flipped" Error {
         "The sign w is wrong on a part of the surface."
         "Some faces are lit as if green were inverted: their bumps look like dents when the light is above or below."
         "Parts with different conventions were joined, or vertices were merged or moved without their signs."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        Repair "all tangents of the primitive are computed again by MikkTSpace, or by the method that `--method` names"
+        Repair "the wrong signs are negated"
     }
     TangentRotated "tangent-rotated" Error {
         "Tangents point along v instead of u."
         "Bumps are lit as if the map were turned by 90 degrees."
         "Bitangents were stored as tangents, or u and v were exchanged."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        Repair "all tangents of the primitive are computed again by MikkTSpace, or by the method that `--method` names"
+        Repair "the tangents are computed again"
     }
     TangentNegated "tangent-negated" Error {
         "Tangents point against u."
         "Bumps are lit from the wrong side along u."
         "The u axis was mirrored after the tangents were computed, or tangents were negated with the handedness."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        Repair "all tangents of the primitive are computed again by MikkTSpace, or by the method that `--method` names"
+        Repair "these tangents are negated"
     }
     TangentOtherUvSet "tangent-other-uv-set" Error {
         "Tangents follow another UV set than the normal texture."
@@ -299,7 +299,7 @@ codes! {
         "The normal map's green points the wrong way for the format."
         "Dents look like bumps when the light is above or below, and right when it is beside."
         "A DirectX map was put into glTF, which wants OpenGL's (glTF-Sample-Models PR 336, BabylonJS/Exporters 940, glTF-Blender-IO 2626)."
-        "Export or bake the map with green up (OpenGL, +Y), or invert green: `darboux convert map.png --from directx --to opengl`."
+        "`darboux convert map.png --from directx --to opengl`."
         Repair "green is inverted"
     }
     MapRedFlipped "map-red-flipped" Error {
@@ -310,8 +310,8 @@ codes! {
         Repair "red is inverted"
     }
     MapChannelsSwapped "map-channels-swapped" Error {
-        "Channels of the normal map seem to be exchanged: red and green, or one of them and blue."
-        "Bumps are lit as if the map were turned by 90 degrees and mirrored; with blue exchanged, the whole surface is dark or lit from a side."
+        "Red and green of the normal map seem to be exchanged."
+        "Bumps are lit as if the map were turned by 90 degrees and mirrored."
         "Channels were packed in another order."
         "Exchange red and green: `darboux convert map.png --from opengl --to opengl --layout grb --to-layout rgb`."
         Repair "red and green are exchanged"
@@ -327,8 +327,8 @@ codes! {
         "A grey height or bump map is in the slot of the normal map."
         "The surface leans to one corner everywhere and looks noisy."
         "A bump map was put into the normal slot."
-        "Compute a normal map from it (GIMP: Filters, Generic, Normal Map; Blender: a Bump node, then bake), and put that into the slot."
-        Leave "how high the bumps are is not in the file, so a normal map has to be made from it first"
+        "Bake or compute a normal map from the height map."
+        Leave "a normal map has to be made from it first"
     }
     MapObjectSpace "map-object-space" Error {
         "The normal map is in object space."
@@ -339,9 +339,9 @@ codes! {
     }
     MapNotNormal "map-not-normal" Error {
         "The image in the slot of the normal map holds no normals."
-        "Lighting does not follow the surface: it is random for a picture, and tilted or black for one colour."
+        "Lighting is random."
         "Another texture was put into the slot."
-        "Put the normal map into the slot, or leave the slot empty if the material has none."
+        "Put the normal map into the slot."
         Leave "the right image is not in the file"
     }
     MapTwoChannel "map-two-channel" Error {
@@ -355,19 +355,19 @@ codes! {
         "Vectors of the normal map do not have length 1."
         "Lighting is weaker or stronger in renderers that do not normalise, and bumps are too flat or too steep."
         "The map was blended, scaled or resized without being normalised."
-        "Normalise the map in the program that made it, or let `darboux check map.png --fix` scale its vectors to length 1."
+        "Normalise the map in the program that made it."
         Repair "the vectors are scaled to length 1"
     }
     MapNegativeZ "map-negative-z" Warning {
         "Vectors of the normal map point below the surface."
-        "Dark or bright specks; where all vectors do, the surface is dark."
-        "The map was sharpened, painted on, or baked through the surface (KhronosGroup/glTF 2368); or blue was inverted."
+        "Dark or bright specks."
+        "The map was sharpened, painted on, or baked through the surface (KhronosGroup/glTF 2368)."
         "Bake again with a fitting cage, or clamp blue to at least 128."
         Leave "where these texels should point is lost"
     }
     MapFlatOff "map-flat-off" Warning {
-        "The flat parts of the normal map lean to one side, or the whole map is one colour that leans."
-        "A faint seam or gradient between charts, most visible in reflections; with one colour, the whole surface is lit from a wrong side."
+        "The flat parts of the normal map lean to one side."
+        "A faint seam or gradient between charts, most visible in reflections."
         "The flat colour was painted by hand or shifted by a colour profile."
         "Fill flat parts with 128, 128, 255."
         Leave "the surface may lean so on purpose"

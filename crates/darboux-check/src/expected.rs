@@ -8,6 +8,11 @@ use crate::surface::{Surface, uv_area};
 const ROUNDING: f64 = 0.1;
 const ROUNDING_OF_8_BITS: f64 = 1.0;
 
+/// The degrees between a tangent of the file and the same one before it was rounded.
+pub fn rounding(surface: &Surface) -> f64 {
+    if surface.tangent_size == 4 { ROUNDING_OF_8_BITS } else { ROUNDING }
+}
+
 /// Whether the tangents of the file are those of MikkTSpace at all corners, bit for bit.
 pub fn are_those_of_the_file(surface: &Surface, expected: &[[f32; 4]]) -> bool {
     let Some(tangents) = &surface.tangents else { return false };
@@ -24,7 +29,7 @@ pub fn vertices_with_own_tangents(surface: &Surface, expected: &[[f32; 4]]) -> V
     let mut is_own = vec![false; surface.positions.len()];
     let Some(tangents) = &surface.tangents else { return is_own };
     let Some(uvs) = surface.uv_sets.get(&surface.uv_set) else { return is_own };
-    let tolerance = if surface.tangent_size == 4 { ROUNDING_OF_8_BITS } else { ROUNDING };
+    let tolerance = rounding(surface);
     for (triangle, expected) in surface.triangles().zip(expected.as_chunks::<3>().0) {
         if surface.has_area(triangle) && uv_area(uvs, triangle) != 0.0 {
             continue;

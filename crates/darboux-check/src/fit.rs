@@ -211,6 +211,19 @@ fn by_signs(counts: &Counts) -> Difference {
     }
 }
 
+/// Whether no more than a part of a surface is wound against its normals.
+pub fn is_at_most_a_part(reversal: Option<Reversal>) -> bool {
+    reversal.is_none_or(|reversal| reversal == Reversal::Unknown(ONLY_A_PART))
+}
+
+/// Whether the right signs are the opposite of MikkTSpace's.
+///
+/// MikkTSpace's sign is that of the UV area, which changes with the order of the corners; what is lit depends on the normal alone. So signs are those
+/// of faces that are wound along their normals, unless it is the normals that are known to be reversed.
+pub fn flips_signs(reversal: Option<Reversal>) -> bool {
+    !is_at_most_a_part(reversal) && reversal != Some(Reversal::Normals)
+}
+
 /// The tangents of the file beside MikkTSpace's for one UV set.
 struct Comparison<'a> {
     surface: &'a Surface,
@@ -236,8 +249,7 @@ impl<'a> Comparison<'a> {
     ) -> Option<Self> {
         // Where a part of the surface is reversed, which sign is right depends on what is to be turned over.
         let mut has_sign = vec![true; expected.len() / 3];
-        let is_part = reversal.is_none_or(|reversal| reversal == Reversal::Unknown(ONLY_A_PART));
-        if is_part {
+        if is_at_most_a_part(reversal) {
             surface.triangles_against_normals().into_iter().for_each(|triangle| has_sign[triangle] = false);
         }
         Some(Self {
@@ -247,9 +259,7 @@ impl<'a> Comparison<'a> {
             uvs: surface.uv_sets.get(&uv_set)?,
             expected,
             is_on_seam,
-            // MikkTSpace's sign is that of the UV area, which changes with the order of the corners; what is lit depends on the normal alone. So
-            // signs are those of faces that are wound along their normals, unless it is the normals that are known to be reversed.
-            flips: !is_part && reversal != Some(Reversal::Normals),
+            flips: flips_signs(reversal),
             has_sign,
         })
     }

@@ -5,6 +5,7 @@
 
 mod attempt;
 mod attributes;
+mod correction;
 mod maps;
 mod normals;
 mod options;
@@ -21,6 +22,7 @@ use darboux_io::gltf::Document;
 
 use crate::finding::Finding;
 use attempt::fix_surfaces;
+use outcome::is_same;
 use pairs::LeftPairs;
 
 /// Repairs a document.
@@ -33,6 +35,7 @@ pub fn fix_document(
     findings: Vec<Finding>,
     options: &FixOptions,
 ) -> Result<FixedDocument, Error> {
+    let promised: Vec<Finding> = findings.iter().filter(|finding| finding.is_fixable()).cloned().collect();
     let (on_images, on_surfaces): (Vec<Finding>, Vec<Finding>) =
         findings.into_iter().partition(|finding| finding.place.image.is_some());
     let left = LeftPairs::new(document, &on_images, &on_surfaces, options)?;
@@ -40,5 +43,8 @@ pub fn fix_document(
     let on_images = maps::fix_images(document, left.mark(on_images), options)?;
     fixed.is_changed |= on_images.iter().any(|image| image.repaired);
     fixed.findings.extend(on_images);
+    for fixed in &mut fixed.findings {
+        fixed.fixable |= promised.iter().any(|promised| is_same(promised, &fixed.finding));
+    }
     Ok(fixed)
 }

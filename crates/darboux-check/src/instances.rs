@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 
-use crate::finding::Finding;
+use crate::finding::{Finding, Place};
 
 /// The accessors of semantics.
 type Semantics = BTreeMap<String, usize>;
@@ -20,8 +20,13 @@ fn surface_key(document: &Document, name: &PrimitiveName) -> SurfaceKey {
 
 /// The primitives about which a finding is: the one that it names, and all with the same data.
 pub fn primitives_of(document: &Document, finding: &Finding) -> Vec<PrimitiveName> {
-    let Some(named) = &finding.place.primitive else { return Vec::new() };
-    if finding.place.same_as == 0 {
+    primitives_at(document, &finding.place)
+}
+
+/// The primitive that a place names, and all with the same data.
+pub fn primitives_at(document: &Document, place: &Place) -> Vec<PrimitiveName> {
+    let Some(named) = &place.primitive else { return Vec::new() };
+    if place.same_as == 0 {
         return vec![named.clone()];
     }
     let key = surface_key(document, named);

@@ -18,7 +18,6 @@
 //! # Ok::<(), darboux_io::Error>(())
 //! ```
 
-mod cancelling;
 mod check;
 mod code;
 mod expected;
@@ -28,13 +27,11 @@ mod fit;
 mod fix;
 mod instances;
 mod map;
-mod map_kind;
 mod map_users;
 mod obstacles;
 mod orientation;
 mod other_axes;
 mod overlap;
-mod reordered;
 mod reversed;
 mod rule;
 mod rules;

@@ -9,6 +9,7 @@ pub mod vertex_progress;
 pub mod width_limit;
 
 pub use crate::measure::triangle_area;
+pub use crate::recipe::recipe_tangents;
 
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 pub use crate::util::random::seed_random;

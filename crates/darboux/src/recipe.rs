@@ -78,6 +78,23 @@ pub fn recognise_recipe_with(
     Ok(whole.sorted())
 }
 
+/// The tangents of all corners that a recipe gives, before they are rounded or written to vertices; MikkTSpace's on the triangles where the recipe
+/// wants quads and there are none.
+pub fn recipe_tangents(
+    mesh: &Mesh<'_>,
+    recipe: &Recipe,
+    context: &mut Context,
+) -> Result<Vec<[f32; 4]>, Error> {
+    let (limits, memory) = context.limits_and_memory();
+    let mut tangents = vec![[0.0; 4]; mesh.corner_count()];
+    let on_quads = recipe.from_quads && compute_on_quads(mesh, limits, memory, &mut tangents)?.is_some();
+    if !on_quads {
+        compute(mesh, recipe, limits, memory, &mut tangents)?;
+    }
+    limits.check()?;
+    Ok(tangents)
+}
+
 /// A recipe is computed for the whole mesh if its score in the sample is at least this part of the best score.
 const SAMPLE_MARGIN: f64 = 0.95;
 

@@ -1,10 +1,11 @@
 //! Repairs the surfaces of a document, and takes back the repairs that do not help.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveName};
 
+use super::correction::CORRECTED;
 use super::options::FixOptions;
 use super::outcome::{FixedDocument, FixedFinding, is_same, outcome};
 use super::pairs::LeftPairs;
@@ -30,7 +31,8 @@ pub fn fix_surfaces(
 ) -> Result<FixedDocument, Error> {
     let mut work = Work { findings, groups: BTreeMap::new(), left, options, refused: Refused::new() };
     if !work.findings.iter().any(|finding| options.repairs(finding)) {
-        return Ok(work.finish(&Attempt::default()));
+        let attempt = Attempt::new(&work.findings);
+        return Ok(work.finish(&attempt));
     }
     document.decompress()?;
     for finding in work.findings.iter().filter(|finding| finding.place.same_as > 0) {
@@ -54,6 +56,10 @@ fn key(name: &PrimitiveName) -> Key {
     (name.mesh, name.primitive)
 }
 
+fn is_about_normals(finding: &Finding) -> bool {
+    finding.code.family() == Family::Normals
+}
+
 /// The place of a finding on a surface.
 fn place(finding: &Finding) -> Option<Key> {
     finding.place.primitive.as_ref().map(key)
@@ -69,15 +75,36 @@ struct Work<'a> {
     refused: Refused,
 }
 
+/// Why a finding is left whose place was corrected as far as single tangents can be.
+const KEPT: &str = "the rest needs all tangents computed again, and those of this recipe are kept";
+
 /// What one attempt came to.
 #[derive(Default)]
 struct Attempt {
     /// Whether anything was changed.
     is_changed: bool,
-    /// The findings after normals were repaired and before tangents were.
-    between: Vec<Finding>,
+    /// All findings that were there before, between or after its steps, each once.
+    known: Vec<Finding>,
     /// The findings at the end.
     remaining: Vec<Finding>,
+    /// The primitives whose tangents were corrected, and are not all made again to repair the rest.
+    kept: BTreeSet<Key>,
+}
+
+impl Attempt {
+    fn new(findings: &[Finding]) -> Self {
+        Self { known: findings.to_vec(), remaining: findings.to_vec(), ..Self::default() }
+    }
+
+    /// Notes the findings after a step.
+    fn step(&mut self, mut remaining: Vec<Finding>) {
+        // Repairs of surfaces change no findings about materials.
+        remaining.extend(self.known.iter().filter(|finding| place(finding).is_none()).cloned());
+        let revealed = remaining.iter().filter(|new| !self.known.iter().any(|known| is_same(known, new)));
+        let revealed: Vec<Finding> = revealed.cloned().collect();
+        self.known.extend(revealed);
+        (self.is_changed, self.remaining) = (true, remaining);
+    }
 }
 
 impl Work<'_> {
@@ -94,7 +121,7 @@ impl Work<'_> {
                 *named = first.clone();
             }
         }
-        Ok(findings)
+        Ok(self.left.mark(findings))
     }
 
     /// Whether all signs w of a primitive are flipped, and nothing else is to be repaired about its tangents.
@@ -107,46 +134,80 @@ impl Work<'_> {
         finding.code == Code::TangentSignFlipped && are_all && !all.iter().any(is_other_work)
     }
 
-    /// Repairs normals, then signs that are all flipped, and then tangents.
+    /// Repairs normals, then signs that are all flipped, then tangents that are wrong, and then all tangents of primitives where that is not enough.
     fn attempt(&self, document: &mut Document) -> Result<Attempt, Error> {
-        let is_about_normals = |finding: &&Finding| finding.code.family() == Family::Normals;
-        let is_wanted = |finding: &&Finding| self.is_wanted(finding);
-        let of_normals: Vec<&Finding> =
-            self.findings.iter().filter(is_about_normals).filter(is_wanted).collect();
-        let mut between = self.findings.clone();
+        let mut attempt = Attempt::new(&self.findings);
+        let of_normals: Vec<&Finding> = self
+            .findings
+            .iter()
+            .filter(|finding| is_about_normals(finding) && self.is_wanted(finding))
+            .collect();
         if !of_normals.is_empty() {
             let without_tangents = normals::fix(document, &of_normals, self.options)?;
             tangents::make(document, &without_tangents, self.options)?;
-            between = self.left.mark(self.check(document)?);
+            attempt.step(self.check(document)?);
         }
-        let with_flipped_signs: Vec<&Finding> =
-            between.iter().filter(is_wanted).filter(|finding| self.is_only_sign(finding, &between)).collect();
-        let are_signs_negated = !with_flipped_signs.is_empty();
-        let current = match are_signs_negated {
-            true => {
-                tangents::negate_signs(document, &with_flipped_signs)?;
-                self.left.mark(self.check(document)?)
-            }
-            false => between.clone(),
+        let flipped = self.of_tangents(&attempt, |finding, all| self.is_only_sign(finding, all));
+        if !flipped.is_empty() {
+            tangents::negate_signs(document, &flipped)?;
+            attempt.step(self.check(document)?);
+        }
+        let wrong = self.of_tangents(&attempt, |finding, all| self.is_corrected(finding, all));
+        let corrected: BTreeSet<Key> = wrong.iter().filter_map(place).collect();
+        if !wrong.is_empty() {
+            tangents::correct(document, &wrong, self.options)?;
+            attempt.step(self.check(document)?);
+        }
+        let is_kept = |finding: &Finding, all: &[Finding]| {
+            place(finding).is_some_and(|at| corrected.contains(&at))
+                && self.is_corrected(finding, all)
+                && self.keeps_recipe(finding, all)
         };
-        let of_tangents: Vec<&Finding> =
-            current.iter().filter(|finding| !is_about_normals(finding)).filter(is_wanted).collect();
-        if !of_tangents.is_empty() {
-            tangents::fix(document, &of_tangents, self.options)?;
+        let kept = self.of_tangents(&attempt, is_kept);
+        attempt.kept = kept.iter().filter_map(place).collect();
+        let rest = self.of_tangents(&attempt, |finding, all| !is_kept(finding, all));
+        if !rest.is_empty() {
+            tangents::fix(document, &rest, self.options)?;
+            attempt.step(self.check(document)?);
         }
-        let is_changed = !of_normals.is_empty() || are_signs_negated || !of_tangents.is_empty();
-        let remaining = if is_changed { self.check(document)? } else { current.clone() };
-        // What the new signs revealed is reported, too.
-        let revealed = current.into_iter().filter(|new| !between.iter().any(|known| is_same(known, new)));
-        let revealed: Vec<Finding> = revealed.collect();
-        between.extend(revealed);
-        Ok(Attempt { is_changed, between, remaining })
+        Ok(attempt)
+    }
+
+    /// Those of the remaining findings about anything but normals that are to be repaired and fulfil a condition.
+    fn of_tangents(
+        &self,
+        attempt: &Attempt,
+        condition: impl Fn(&Finding, &[Finding]) -> bool,
+    ) -> Vec<Finding> {
+        let all = &attempt.remaining;
+        let is_chosen = |finding: &&Finding| {
+            !is_about_normals(finding) && self.is_wanted(finding) && condition(finding, all)
+        };
+        all.iter().filter(is_chosen).cloned().collect()
+    }
+
+    /// Whether everything that is to be repaired about the tangents of a primitive is corrected one by one.
+    fn is_corrected(&self, finding: &Finding, all: &[Finding]) -> bool {
+        let is_other_work = |other: &Finding| {
+            let is_about_tangents =
+                other.code.family() == Family::Tangents && !CORRECTED.contains(&other.code);
+            is_about_tangents && place(other) == place(finding) && self.is_wanted(other)
+        };
+        !all.iter().any(is_other_work)
+    }
+
+    /// Whether the tangents of a primitive were computed in another way than MikkTSpace, and are to stay so.
+    fn keeps_recipe(&self, finding: &Finding, all: &[Finding]) -> bool {
+        let is_other = |other: &Finding| {
+            other.code == Code::TangentOtherRecipe && place(other) == place(finding) && !self.is_wanted(other)
+        };
+        all.iter().any(is_other)
     }
 
     /// The primitives on which an attempt removed no finding, or ended in an error that was not there.
     fn refused_after(&self, attempt: &Attempt) -> Refused {
         let mut refused = Refused::new();
-        let known = || self.findings.iter().chain(&attempt.between);
+        let known = || attempt.known.iter();
         for at in known().filter(|finding| self.is_wanted(finding)).filter_map(place) {
             let is_here = |finding: &&Finding| place(finding) == Some(at);
             let remaining = || attempt.remaining.iter().filter(is_here);
@@ -172,27 +233,27 @@ impl Work<'_> {
         refused
     }
 
+    /// Why the place of a finding that was to be repaired is left, or a part of it is.
+    fn reason(&self, finding: &Finding, attempt: &Attempt) -> Option<String> {
+        let at = place(finding).filter(|_| self.options.repairs(finding))?;
+        let refused = self.refused.get(&at).cloned().flatten();
+        let remains = attempt.remaining.iter().any(|left| is_same(left, finding));
+        refused.or_else(|| (remains && attempt.kept.contains(&at)).then(|| KEPT.to_owned()))
+    }
+
     /// What became of the findings, and of those that the repairs revealed.
     fn finish(self, attempt: &Attempt) -> FixedDocument {
-        let revealed = attempt.between.iter();
-        let revealed = revealed.chain(attempt.remaining.iter().filter(|left| left.severity > Severity::Info));
-        let mut all: Vec<Finding> = self.findings.clone();
-        for new in revealed {
-            let is_known = |known: &Finding| known.code == new.code && place(known) == place(new);
-            if !all.iter().any(is_known) {
-                all.push(new.clone());
-            }
-        }
-        let became = |finding: Finding| {
-            let reason = place(&finding).and_then(|place| self.refused.get(&place)).cloned().flatten();
-            match reason.filter(|_| self.options.repairs(&finding)) {
-                Some(reason) => {
-                    FixedFinding { finding: finding.with_obstacle(Some(reason)), repaired: false }
-                }
-                None => outcome(finding, &attempt.remaining, self.options),
-            }
+        // What is only worth knowing in the repaired file is not reported of the one that was given.
+        let is_reported = |new: &&Finding| {
+            let is_original = self.findings.iter().any(|known| is_same(known, new));
+            let remains = attempt.remaining.iter().any(|left| is_same(left, new));
+            is_original || !remains || new.severity > Severity::Info
         };
-        let findings = all.into_iter().map(became).collect();
+        let became = |finding: Finding| match self.reason(&finding, attempt) {
+            Some(reason) => FixedFinding::left(finding, reason),
+            None => outcome(finding, &attempt.remaining, self.options),
+        };
+        let findings = attempt.known.iter().filter(is_reported).cloned().map(became).collect();
         FixedDocument { findings, is_changed: attempt.is_changed }
     }
 }

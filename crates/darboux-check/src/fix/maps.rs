@@ -113,10 +113,7 @@ fn fix_checked(
 
 /// An image that is not changed, and why.
 fn all_left(findings: Vec<Finding>, reason: &str) -> FixedMap {
-    let left = |finding: Finding| FixedFinding {
-        finding: finding.with_obstacle(Some(reason.to_owned())),
-        repaired: false,
-    };
+    let left = |finding: Finding| FixedFinding::left(finding, reason);
     FixedMap { image: None, findings: findings.into_iter().map(left).collect() }
 }
 
@@ -185,11 +182,6 @@ fn unit(texel: [f64; 3]) -> [f64; 3] {
     if is_grey || length < 0.05 { texel } else { vector.map(|x| (x / length + 1.0) / 2.0) }
 }
 
-/// A finding that an error prevented from being repaired.
-fn left(finding: &Finding, error: &Error) -> FixedFinding {
-    FixedFinding { finding: finding.clone().with_obstacle(Some(error.to_string())), repaired: false }
-}
-
 /// Repairs the images of a document that findings name.
 pub fn fix_images(
     document: &mut Document,
@@ -204,7 +196,7 @@ pub fn fix_images(
         let of_image = findings.iter().filter(|finding| finding.place.image == image);
         let has_work = of_image.clone().any(|finding| options.repairs(finding));
         let (Some(index), true) = (image, has_work) else {
-            fixed.extend(of_image.map(|finding| outcome(finding.clone(), &[], options)));
+            fixed.extend(of_image.map(|finding| outcome(finding.clone(), &findings, options)));
             continue;
         };
         let file = document.image_bytes(index)?.into_owned();
@@ -218,7 +210,8 @@ pub fn fix_images(
         let made = match fix_checked(&name, &file, checked, &check, document.load_options(), options) {
             Ok(made) => made,
             Err(error) => {
-                fixed.extend(of_image.map(|finding| left(finding, &error)));
+                let reason = error.to_string();
+                fixed.extend(of_image.map(|finding| FixedFinding::left(finding.clone(), reason.as_str())));
                 continue;
             }
         };

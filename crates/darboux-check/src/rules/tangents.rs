@@ -23,7 +23,7 @@ pub const RULES: &[SurfaceRule] = &[
 ];
 
 /// How far lengths of tangents may be from 1: 8-bit tangents are up to 0.007 off.
-const UNIT: f64 = 0.02;
+pub const UNIT: f64 = 0.02;
 
 /// How far the size of a sign w may be from 1.
 pub const SIGN: f32 = 0.01;
@@ -34,7 +34,7 @@ pub const SIGN: f32 = 0.01;
 const MAX_PERCENT_OF_PART: f64 = 1.0;
 
 /// Degrees from the plane of the normal.
-const MAX_DEGREES_FROM_PLANE: [f64; 2] = [2.0, 15.0];
+pub const MAX_DEGREES_FROM_PLANE: [f64; 2] = [2.0, 15.0];
 
 fn missing(measured: &Measured<'_>) -> Vec<Finding> {
     let surface = measured.surface;
@@ -73,11 +73,13 @@ fn vertices(
     vec![finding.with_evidence("part of all vertices", share, "%")]
 }
 
-fn is_finite(tangent: [f32; 4]) -> bool {
+/// Whether all components are numbers.
+pub fn is_finite(tangent: [f32; 4]) -> bool {
     tangent.iter().all(|x| x.is_finite())
 }
 
-fn has_length(tangent: [f32; 4]) -> bool {
+/// Whether a tangent has a direction.
+pub fn has_length(tangent: [f32; 4]) -> bool {
     is_finite(tangent) && length(xyz(tangent)) > 0.1
 }
 

@@ -1,0 +1,151 @@
+//! The repair of single tangents leaves all others as they are, bit for bit, whatever recipe they come from.
+
+mod support;
+
+use darboux::Method;
+use darboux_check::{CheckOptions, Code, FixOptions, FixedFinding, check_document, fix_document};
+use darboux_io::gltf::Document;
+use support::models::{Model, healthy_models};
+use support::table::without_maps;
+
+/// Spoils a tangent.
+type Spoil = fn(&mut [f32; 4]);
+
+/// Mistakes in one tangent. The last two leave its direction.
+const SPOIL: [(Code, Spoil); 4] = [
+    (Code::TangentNotFinite, |tangent| tangent[0] = f32::NAN),
+    (Code::TangentZero, |tangent| tangent[..3].fill(0.0)),
+    (Code::TangentSignNotOne, |tangent| tangent[3] = 0.0),
+    (Code::TangentNotUnit, |tangent| tangent[..3].iter_mut().for_each(|x| *x *= 1.5)),
+];
+
+fn named(name: &str) -> Model {
+    healthy_models().into_iter().find(|model| model.name == name).expect("a healthy model of that name")
+}
+
+fn fixed(document: &mut Document, codes: impl IntoIterator<Item = Code>) -> Vec<FixedFinding> {
+    let findings = check_document(document, &CheckOptions::default()).expect("a valid document");
+    let options = FixOptions::default().with_check(without_maps()).with_codes(codes);
+    fix_document(document, findings, &options).expect("a valid document").findings
+}
+
+/// All codes but the one that keeps the recipe.
+fn without_recipe() -> impl Iterator<Item = Code> {
+    Code::ALL.iter().copied().filter(|code| *code != Code::TangentOtherRecipe)
+}
+
+/// The tangents of corners.
+fn tangents(document: &Document) -> Vec<[f32; 4]> {
+    let corners = document.corners().expect("valid indices");
+    let of =
+        |corners: &darboux_io::gltf::PrimitiveCorners<'_>| corners.vectors::<4>("TANGENT").expect("tangents");
+    corners.iter().flat_map(|corners| of(corners).unwrap_or_default()).collect()
+}
+
+fn distance(a: [f32; 4], b: [f32; 4]) -> f32 {
+    (0..4).map(|i| (a[i] - b[i]).abs()).fold(0.0, f32::max)
+}
+
+#[test]
+fn only_the_wrong_tangents_of_another_recipe_change() {
+    let healthy = named("wavy sphere");
+    let recipes = [
+        ("averages by area", healthy.computed(Method::Area, healthy.uv_set)),
+        ("MikkTSpace", healthy.tangents.clone().expect("tangents")),
+    ];
+    for (recipe, tangents_of_recipe) in recipes {
+        let of_recipe = Model { tangents: Some(tangents_of_recipe), ..healthy.clone() };
+        let before = tangents(&of_recipe.document());
+        for (code, spoil) in SPOIL {
+            let mut model = of_recipe.clone();
+            let wrong: Vec<usize> = (0..5).map(|i| 7 + 11 * i).collect();
+            wrong.iter().for_each(|&vertex| spoil(&mut model.tangents()[vertex]));
+            let mut document = model.document();
+            let findings = fixed(&mut document, without_recipe());
+            let repaired = findings.iter().any(|fixed| fixed.finding.code == code && fixed.repaired);
+            assert!(repaired, "{recipe}, {code}: {findings:#?}");
+            let after = tangents(&document);
+            for (corner, (old, new)) in before.iter().zip(&after).enumerate() {
+                let is_wrong = wrong.contains(&(model.indices[corner] as usize));
+                let is_same = old.map(f32::to_bits) == new.map(f32::to_bits);
+                assert!(is_same || is_wrong, "{recipe}, {code}: corner {corner} changed");
+                // The recipe is recognised, so that the new ones are those that were there before, up to rounding.
+                assert!(is_same || distance(*old, *new) < 1e-5, "{recipe}, {code}: corner {corner}");
+            }
+        }
+    }
+}
+
+/// A part of the signs, on tangents that no recipe explains.
+#[test]
+fn signs_of_a_part_are_negated_and_directions_kept() {
+    let mut model = named("wavy sphere");
+    // Turned in the plane of the normals, each by another angle below 20 degrees.
+    let normals = model.normals.clone().expect("normals");
+    for (number, (tangent, n)) in model.tangents().iter_mut().zip(&normals).enumerate() {
+        let [x, y, z, w] = *tangent;
+        let across = [n[1] * z - n[2] * y, n[2] * x - n[0] * z, n[0] * y - n[1] * x];
+        let (sin, cos) = (0.3 * (number as f32).sin()).sin_cos();
+        *tangent = [cos * x + sin * across[0], cos * y + sin * across[1], cos * z + sin * across[2], w];
+    }
+    let before = tangents(&model.document());
+    let count = model.positions.len() / 3;
+    model.tangents()[..count].iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
+    let mut document = model.document();
+    let findings = fixed(&mut document, without_recipe());
+    assert!(findings.iter().any(|fixed| fixed.repaired), "{findings:#?}");
+    let bits =
+        |tangents: Vec<[f32; 4]>| tangents.into_iter().map(|t| t.map(f32::to_bits)).collect::<Vec<_>>();
+    assert!(bits(tangents(&document)) == bits(before));
+}
+
+/// One vertex for both sides of a seam becomes two; nothing else changes.
+#[test]
+fn a_shared_vertex_is_split_and_the_rest_kept() {
+    let mut model = named("mirrored sheared wavy grid");
+    let (positions, normals, uvs, of_vertex, indices) = model.unsplit.clone().expect("an unsplit mesh");
+    (model.positions, model.normals, model.uvs) = (positions, Some(normals), uvs);
+    (model.tangents, model.indices) = (Some(of_vertex), indices);
+    // Of another recipe: MikkTSpace's, turned by 3 degrees.
+    let normals = model.normals.clone().expect("normals");
+    for (tangent, n) in model.tangents().iter_mut().zip(&normals) {
+        let [x, y, z, w] = *tangent;
+        let across = [n[1] * z - n[2] * y, n[2] * x - n[0] * z, n[0] * y - n[1] * x];
+        let (sin, cos) = 3f32.to_radians().sin_cos();
+        *tangent = [cos * x + sin * across[0], cos * y + sin * across[1], cos * z + sin * across[2], w];
+    }
+    let before = tangents(&model.document());
+    let vertices = model.positions.len();
+    let mut document = model.document();
+    let findings = fixed(&mut document, without_recipe());
+    let shared = findings.iter().find(|fixed| fixed.finding.code == Code::TangentSharedAcrossMirror);
+    let shared = shared.expect("the finding");
+    assert!(shared.repaired, "{findings:#?}");
+    let after = tangents(&document);
+    let changed = before.iter().zip(&after).filter(|(old, new)| old != new);
+    // Only on the side that the old tangent did not serve.
+    assert!(changed.clone().count() > 0 && changed.clone().all(|(old, new)| old[3] != new[3]));
+    let position = document.meshes()[0].primitives[0].attributes["POSITION"];
+    assert_eq!(document.accessors()[position].count, vertices + shared.finding.count);
+}
+
+/// What no repair was promised for is not called left, and what is gone is not called left either.
+#[test]
+fn outcomes_say_whether_a_repair_was_promised() {
+    let mut model = named("wavy sphere");
+    let vertices = model.detach_first_face();
+    let uv = model.uvs[model.uv_set][vertices[0]];
+    vertices.into_iter().for_each(|vertex| model.uvs[model.uv_set][vertex] = uv);
+    let vertex = model.indices[30] as usize;
+    model.tangents()[vertex][0] = f32::NAN;
+    let outcome = |findings: &[FixedFinding], code| {
+        let fixed = findings.iter().find(|fixed| fixed.finding.code == code).expect("the finding");
+        (fixed.repaired, fixed.fixable)
+    };
+    let findings = fixed(&mut model.document(), Code::ALL.iter().copied());
+    assert_eq!(outcome(&findings, Code::TangentNotFinite), (true, true));
+    assert_eq!(outcome(&findings, Code::UvDegenerate), (false, false));
+    let findings = fixed(&mut model.document(), [Code::UvDegenerate]);
+    assert_eq!(outcome(&findings, Code::TangentNotFinite), (false, true));
+    assert_eq!(outcome(&findings, Code::UvDegenerate), (false, false));
+}
