@@ -198,6 +198,7 @@ fn print_file<W: FileCommand>(report: &FileReport<W::Summary>, brief: bool, mess
         Status::Copied => format!("{input} -> {output}: unchanged copy"),
         Status::Written if input != output => format!("{input} -> {output}"),
         Status::Untouched => format!("{input}: unchanged, not written"),
+        Status::UpToDate => format!("{input} -> {output}: up to date, not written"),
         _ => input.clone(),
     };
     let warnings = W::warnings(summary);

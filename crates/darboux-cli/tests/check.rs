@@ -123,7 +123,7 @@ fn maps_are_judged_alone() {
     let down_again = map("down.png", -1.0);
     let arguments = ["check", text(&down_again), "--model", text(&plane)];
     let printed = darboux(&arguments).exits(1);
-    assert!(String::from_utf8_lossy(&printed.stdout).contains("repair both or none"));
+    assert!(String::from_utf8_lossy(&printed.stdout).contains("are flipped, too"));
     darboux(&["check", text(&up), "--model", "nothing.glb"]).exits(1);
 
     let broken = folder.path().join("broken.png");
@@ -219,10 +219,50 @@ fn what_is_left_is_said() {
     encoder.write_header().and_then(|mut writer| writer.write_image_data(&texels)).expect("a PNG");
     let repair = darboux(&["check", text(&grey), "--fix"]).exits(1);
     assert!(repair.stderr.contains("left map-height"), "{}", repair.stderr);
-    assert_eq!(
-        fs::read(folder.path().join("grey.fixed.png")).expect("a copy"),
-        fs::read(&grey).expect("a file")
-    );
+    assert!(repair.stderr.contains("0 findings repaired, 0 left, 1 beyond --fix"), "{}", repair.stderr);
+    assert!(!folder.path().join("grey.fixed.png").exists());
+    let copy = folder.path().join("copy.png");
+    darboux(&["check", text(&grey), "--fix", "-o", text(&copy)]).exits(1);
+    assert_eq!(fs::read(&copy).expect("a copy"), fs::read(&grey).expect("a file"));
+}
+
+/// Files in which nothing is repaired are not copied, and a second run over a folder changes nothing and fails on nothing.
+#[test]
+fn a_folder_can_be_repaired_twice() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    for (model, name) in [("made/shield.glb", "bad.glb"), ("Fox/Fox.glb", "good.glb")] {
+        fs::copy(asset(model), path(name)).expect("a copy");
+    }
+    darboux(&[
+        "convert",
+        text(&path("bad.glb")),
+        "--from",
+        "gltf",
+        "--to",
+        "gltf",
+        "-o",
+        text(&path("text.gltf")),
+    ])
+    .exits(0);
+    let run = || {
+        let run =
+            darboux(&["check", text(folder.path()), "--fix", "--no-maps", "--fail-on", "never"]).exits(0);
+        let mut files: Vec<_> = fs::read_dir(folder.path()).expect("files").flatten().collect();
+        files.sort_by_key(fs::DirEntry::file_name);
+        let of = |file: &fs::DirEntry| (file.file_name(), fs::read(file.path()).expect("a file"));
+        (run.stderr, files.iter().map(of).collect::<Vec<_>>())
+    };
+    let (first, files) = run();
+    assert!(!path("good.fixed.glb").exists() && path("bad.fixed.glb").exists(), "{first}");
+    assert!(path("text.fixed.gltf").exists(), "{first}");
+    let (second, again) = run();
+    assert!(files == again, "{second}");
+    assert_eq!(second.matches("up to date, not written").count(), 2, "{second}");
+    // An output of another content is not replaced.
+    fs::copy(path("good.glb"), path("bad.fixed.glb")).expect("a copy");
+    let third = darboux(&["check", text(&path("bad.glb")), "--fix", "--no-maps"]).exits(1);
+    assert!(third.stderr.contains("--force"), "{}", third.stderr);
 }
 
 /// A normal map of bumps; `up` is 1 for OpenGL and -1 for DirectX.
@@ -326,7 +366,7 @@ fn findings_that_an_earlier_run_left_count() {
     assert!(first.stderr.contains("left uv-missing"), "{}", first.stderr);
     let again = darboux(&run).exits(1);
     assert!(again.stderr.contains("up to date, 1 finding left"), "{}", again.stderr);
-    assert!(again.stderr.contains("0 findings repaired, 1 left"), "{}", again.stderr);
+    assert!(again.stderr.contains("0 findings repaired, 0 left, 1 beyond --fix"), "{}", again.stderr);
     darboux(&[&run[..], &["--fail-on", "never"]].concat()).exits(0);
 }
 
@@ -353,7 +393,7 @@ fn repairs_and_files_are_named() {
     let repair = darboux(&["check", text(&plane), "--fix", "-o", text(&out)]).exits(0);
     let lines = &repair.stderr;
     assert!(
-        lines.contains("repaired tangent-sign-flipped: all signs w are flipped; the signs w are negated"),
+        lines.contains("repaired tangent-sign-flipped: all signs w are flipped; the signs are negated"),
         "{lines}"
     );
     assert!(lines.contains("also written: ") && lines.contains("plane.bin"), "{lines}");
@@ -438,25 +478,4 @@ fn small_maps_are_told_why_they_stay_undecided() {
     let printed = darboux(&["check", text(&path)]).exits(0);
     let printed = String::from_utf8(printed.stdout).expect("text");
     assert!(printed.contains("at least 64 x 64 of them"), "{printed}");
-}
-
-/// A folder of textures says what to call, and formats without a decoder say what to do.
-#[test]
-fn folders_of_images_and_other_formats_say_what_to_do() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let map = folder.path().join("brick_normal.png");
-    fs::write(folder.path().join("brick_color.jpg"), b"a picture").expect("a file");
-    fs::write(&map, b"a map").expect("a file");
-    let run = darboux(&["check", text(folder.path())]).exits(1);
-    let advice = format!(
-        "it has 2 images (.png, .jpg, .webp): name those that are normal maps, as in `darboux check {}`",
-        text(&map)
-    );
-    assert!(run.stderr.contains(&advice), "{}", run.stderr);
-    for extension in ["tga", "BMP", "dds", "exr", "tif"] {
-        let image = folder.path().join(format!("map.{extension}"));
-        fs::write(&image, b"an image").expect("a file");
-        let run = darboux(&["check", text(&image)]).exits(1);
-        assert!(run.stderr.contains("save it as .png"), "{}", run.stderr);
-    }
 }

@@ -37,6 +37,11 @@ pub trait FileCommand: Sync {
     /// The options that affect outputs, as text; the journal compares these texts.
     fn options(&self) -> String;
 
+    /// Whether the command accepts an output that exists if it would write the same.
+    fn compares_existing(&self) -> bool {
+        false
+    }
+
     /// Reads, changes and writes a file. Errors are one sentence each.
     fn process(&self, job: &Job, progress: &FileProgress<'_>)
     -> Result<ProcessedFile<Self::Summary>, String>;

@@ -8,7 +8,6 @@ use super::journal::{OutputInputs, Record};
 use super::plan::{Job, Output};
 use super::report::{FileReport, Status, SummarySource};
 use crate::inputs::Input;
-use crate::options::files::FileOptions;
 use crate::terminal::{FileProgress, Messages};
 
 /// The journal's folder and its record of one output.
@@ -38,7 +37,7 @@ pub fn process_file<W: FileCommand>(
         (Some(entry), Input::File(input), Output::File(output)) => {
             resume(command, job, entry, (input, output), &progress)
         }
-        _ => refuse_existing(&job.output, command.files())
+        _ => refuse_existing(&job.output, command)
             .and_then(|()| command.process(job, &progress))
             .map(|processed| FinishedFile { report: report_of(job, processed), record: None }),
     });
@@ -97,10 +96,11 @@ fn report_of<S>(job: &Job, processed: ProcessedFile<S>) -> FileReport<S> {
     }
 }
 
-/// Refuses an output that exists, before any work.
-fn refuse_existing(output: &Output, files: &FileOptions) -> Result<(), String> {
+/// Refuses an output that exists, before any work, unless the command compares it.
+fn refuse_existing(output: &Output, command: &impl FileCommand) -> Result<(), String> {
+    let may_exist = command.files().may_replace() || command.compares_existing();
     match output {
-        Output::File(path) if path.exists() && !files.may_replace() => {
+        Output::File(path) if path.exists() && !may_exist => {
             Err(format!("{output}: exists; use --force to replace it, or name another output"))
         }
         _ => Ok(()),

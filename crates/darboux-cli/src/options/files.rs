@@ -78,6 +78,11 @@ impl FileOptions {
         self.force || self.in_place || self.resume
     }
 
+    /// Whether an option says where outputs go; otherwise they are written beside their inputs.
+    pub fn names_output(&self) -> bool {
+        self.output.is_some() || self.out_dir.is_some() || self.in_place
+    }
+
     /// How outputs are written.
     pub fn save_options(&self) -> SaveOptions {
         SaveOptions::default().with_force(self.may_replace()).with_run(self.resume.then_some(self.run))

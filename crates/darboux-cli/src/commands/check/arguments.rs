@@ -19,7 +19,9 @@ Checks the tangents, normals and UVs of every primitive, how the tangents were c
 up (OpenGL) or down (DirectX), and whether they are normals at all. Every finding has a code, numbers as evidence, what it looks like on screen and \
 the cure. Images (.png, .jpg, .webp) are checked as normal maps.\n\n\
 Without --fix no file is written. With --fix the repaired file is written beside its input, model.glb as model.fixed.glb, unless -o, --out-dir or \
---in-place says otherwise; what cannot be repaired without guessing is left, and the reason printed. Nothing is left to repair in the repaired file.\n\n\
+--in-place says otherwise; what cannot be repaired without guessing is left, and the reason printed. Nothing is left to repair in the repaired file. \
+Where nothing is repaired, only -o and --out-dir write a copy. In a folder, files named like repaired ones (model.fixed.glb) are skipped, and one that an \
+earlier run has written is kept if it is still what would be written.\n\n\
 The exit code is 1 if a file cannot be read, or if a finding that is not repaired is at least as severe as --fail-on says. docs/check.md lists all \
 codes.";
 
@@ -89,7 +91,7 @@ pub struct CheckArguments {
 
     /// Repair what is found, and write the result
     ///
-    /// Tangents are made again, vertices split, normals made or turned over, and the texels of PNG maps rewritten at their bit depth; a JPEG map
+    /// Wrong tangents are corrected in the way that the others were computed, all are made again where all are wrong, vertices split, normals made or turned over, and the texels of PNG maps rewritten at their bit depth; a JPEG map
     /// becomes a PNG. Only the findings that are reported are repaired (--only, --allow). Everything else in the file is kept, byte for
     /// byte; a compressed model is decompressed if its geometry is repaired.
     #[arg(long, help_heading = "Repair")]

@@ -1,7 +1,11 @@
 //! `darboux check --fix`: repairs models and normal maps, and says what was repaired.
 
+use std::fs;
+use std::path::Path;
+
 use darboux::TangentOptions;
 use darboux_check::{Code, FixOptions, FixedFinding, Severity, check_document, fix_document};
+use darboux_io::gltf::Document;
 use darboux_io::image::PngImage;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -10,7 +14,7 @@ use super::arguments::CheckArguments;
 use super::model::Model;
 use super::report::ReportedFinding;
 use crate::batch::command::{FileCommand, ProcessedFile};
-use crate::batch::plan::Job;
+use crate::batch::plan::{Job, Output};
 use crate::batch::report::{FileReport, Status, SummarySource};
 use crate::documents::{Source, save, save_image};
 use crate::inputs::{Input, output_suffix};
@@ -55,6 +59,10 @@ impl FileCommand for Repair<'_> {
         format!("{:?}", (self.arguments.fix_options(), &self.arguments.model))
     }
 
+    fn compares_existing(&self) -> bool {
+        !self.arguments.files.names_output()
+    }
+
     fn process(&self, job: &Job, _: &FileProgress<'_>) -> Result<ProcessedFile<FixSummary>, String> {
         let source = Source::new(&job.input)?;
         match source.image()? {
@@ -69,7 +77,7 @@ impl FileCommand for Repair<'_> {
     }
 
     fn note_up_to_date(recorded: &Map<String, Value>) -> Option<String> {
-        let left = Outcome::recorded(recorded).iter().filter(|finding| finding.is_left()).count();
+        let left = Outcome::recorded(recorded).iter().filter(|finding| finding.remains()).count();
         (left > 0).then(|| format!("{} left", counted(left, "finding", "findings")))
     }
 
@@ -90,10 +98,13 @@ impl FileCommand for Repair<'_> {
         let repaired =
             this_run.flat_map(|summary| &summary.findings).filter(|finding| finding.repaired == Some(true));
         let all: Vec<Outcome> = files.iter().flat_map(|file| Outcome::all_of(&file.summary)).collect();
-        let left = all.iter().filter(|finding| finding.is_left()).count();
-        let infos = all.iter().filter(|finding| !finding.repaired && !finding.is_left()).count();
+        let count =
+            |is_counted: fn(Outcome) -> bool| all.iter().filter(|finding| is_counted(**finding)).count();
+        let left = count(Outcome::is_left);
+        let beyond = count(|finding| finding.remains() && !finding.fixable);
+        let infos = count(|finding| !finding.repaired && !finding.is_left() && !finding.remains());
         let repaired = counted(repaired.count(), "finding repaired", "findings repaired");
-        format!("{repaired}, {left} left, {infos} worth knowing")
+        format!("{repaired}, {left} left, {beyond} beyond --fix, {infos} worth knowing")
     }
 }
 
@@ -102,6 +113,7 @@ impl FileCommand for Repair<'_> {
 struct Outcome {
     severity: Severity,
     repaired: bool,
+    fixable: bool,
 }
 
 impl Outcome {
@@ -113,7 +125,8 @@ impl Outcome {
     }
 
     fn of(finding: &ReportedFinding) -> Self {
-        Self { severity: finding.severity, repaired: finding.repaired == Some(true) }
+        let ReportedFinding { severity, fixable, repaired, .. } = *finding;
+        Self { severity, repaired: repaired == Some(true), fixable }
     }
 
     /// From the journal, which nobody but this command writes.
@@ -122,9 +135,14 @@ impl Outcome {
         findings.and_then(|findings| serde_json::from_value(findings).ok()).unwrap_or_default()
     }
 
-    /// Whether it is worth mentioning that the finding was not repaired.
-    fn is_left(self) -> bool {
+    /// Whether it is worth mentioning that the finding is still there.
+    fn remains(self) -> bool {
         !self.repaired && self.severity > Severity::Info
+    }
+
+    /// Whether the finding could have been repaired, and was not.
+    fn is_left(self) -> bool {
+        !self.repaired && self.fixable
     }
 }
 
@@ -133,7 +151,12 @@ fn line(finding: &ReportedFinding) -> Option<String> {
     let outcome = Outcome::of(finding);
     match (code.repair(), left_because) {
         (Some(repair), _) if outcome.repaired => Some(format!("{place}: repaired {code}: {text}; {repair}")),
-        (_, Some(reason)) if outcome.is_left() => Some(format!("{place}: left {code}: {text}; {reason}")),
+        (None, _) if outcome.repaired => {
+            Some(format!("{place}: gone {code}: {text}; with what was repaired"))
+        }
+        (_, Some(reason)) if outcome.remains() || outcome.is_left() => {
+            Some(format!("{place}: left {code}: {text}; {reason}"))
+        }
         _ => None,
     }
 }
@@ -143,6 +166,23 @@ fn error_line(finding: &ReportedFinding) -> Option<String> {
     let ReportedFinding { place, code, text, severity, .. } = finding;
     let is_left = *severity == Severity::Error && finding.repaired != Some(true);
     is_left.then(|| format!("{place}: {code}: {text}"))
+}
+
+/// What a document holds: its JSON, the values of its accessors and its images, wherever in its buffers they lie. None if it cannot be read.
+fn content(document: &Document) -> Option<(Value, Vec<Vec<u8>>)> {
+    let glb = document.to_glb().ok()?;
+    let length = u32::from_le_bytes(*glb.get(12..)?.first_chunk()?) as usize;
+    let mut json: Value = serde_json::from_slice(glb.get(20..)?.get(..length)?).ok()?;
+    let parts = json.as_object_mut()?;
+    parts.remove("buffers");
+    parts.remove("bufferViews");
+    let count = |name: &str| parts.get(name).and_then(Value::as_array).map_or(0, Vec::len);
+    let (accessors, images) = (count("accessors"), count("images"));
+    let written = Document::from_bytes(document.name(), glb, None, document.load_options()).ok()?;
+    let values = (0..accessors).map(|index| written.elements(index).ok().map(|elements| elements.bytes));
+    let texels = (0..images).map(|index| Some(written.image_bytes(index).ok()?.into_owned()));
+    let all: Option<Vec<Vec<u8>>> = values.chain(texels).collect();
+    Some((json, all?))
 }
 
 impl CheckArguments {
@@ -170,7 +210,14 @@ impl Repair<'_> {
             document = source.load(reading)?;
         }
         let warnings = document.warnings().to_vec();
-        let (status, files_written) = save(&document, &job.output, files, fixed.is_changed)?;
+        let is_written = |existing: &Path| {
+            let existing = reading.open(existing).ok().and_then(|existing| content(&existing));
+            existing.is_some() && existing == content(&document)
+        };
+        let (status, files_written) = match self.written_before(&job.output, fixed.is_changed, is_written)? {
+            Some(status) => (status, Vec::new()),
+            None => save(&document, &job.output, files, fixed.is_changed)?,
+        };
         Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, warnings) })
     }
 
@@ -186,12 +233,39 @@ impl Repair<'_> {
             ));
         }
         let image = fixed.image.or_else(|| PngImage::from_bytes(&name, file, &loading).ok());
-        let (status, files_written) = match image {
+        let is_written = |existing: &Path| {
+            let new = image.as_ref().and_then(|image| image.to_bytes().ok());
+            new.is_some_and(|new| fs::read(existing).is_ok_and(|existing| existing == new))
+        };
+        let is_changed = image.as_ref().is_some_and(PngImage::is_changed);
+        let status = self.written_before(&job.output, is_changed, is_written)?;
+        let (status, files_written) = match image.filter(|_| status.is_none()) {
             Some(image) => save_image(&image, &job.output, files)?,
             // Without a repair there is nothing to write but a copy, and copies are made of PNG images that can be written again.
-            None => (Status::Untouched, Vec::new()),
+            None => (status.unwrap_or(Status::Untouched), Vec::new()),
         };
         Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, Vec::new()) })
+    }
+
+    /// The status where nothing is to be written: without a named output, nothing was changed, or an earlier run has written the same; none otherwise.
+    /// Errors: an output exists that is another.
+    fn written_before(
+        &self,
+        output: &Output,
+        is_changed: bool,
+        is_written: impl FnOnce(&Path) -> bool,
+    ) -> Result<Option<Status>, String> {
+        let Output::File(path) = output else { return Ok(None) };
+        let files = &self.arguments.files;
+        match () {
+            () if files.names_output() => Ok(None),
+            () if !is_changed => Ok(Some(Status::Untouched)),
+            () if files.force || !path.exists() => Ok(None),
+            () if is_written(path) => Ok(Some(Status::UpToDate)),
+            () => Err(format!(
+                "{output}: exists, and other data would be written; use --force to replace it, or name another output"
+            )),
+        }
     }
 
     fn summary(&self, fixed: Vec<FixedFinding>, warnings: Vec<String>) -> FixSummary {

@@ -62,7 +62,7 @@ pub struct ReportedFinding {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repaired: Option<bool>,
     pub looks_like: &'static str,
-    pub cure: String,
+    pub cure: &'static str,
 }
 
 impl From<Finding> for ReportedFinding {
@@ -86,14 +86,14 @@ impl From<Finding> for ReportedFinding {
             repaired: None,
             text: finding.text,
             looks_like: finding.code.looks_like(),
-            cure: finding.cure.into_owned(),
+            cure: finding.code.cure(),
         }
     }
 }
 
 impl From<FixedFinding> for ReportedFinding {
     fn from(fixed: FixedFinding) -> Self {
-        Self { repaired: Some(fixed.repaired), ..fixed.finding.into() }
+        Self { repaired: Some(fixed.repaired), fixable: fixed.fixable, ..fixed.finding.into() }
     }
 }
 
