@@ -48,7 +48,7 @@ struct Reported {
     #[serde(flatten)]
     finding: Finding,
     looks_like: &'static str,
-    cure: &'static str,
+    cure: String,
     first_are: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     repaired: Option<bool>,
@@ -113,7 +113,7 @@ fn check_model(
 }
 
 fn reported(finding: Finding, repaired: Option<bool>) -> Reported {
-    let (looks_like, cure) = (finding.code.looks_like(), finding.code.cure());
+    let (looks_like, cure) = (finding.code.looks_like(), finding.cure.to_string());
     let first_are = if finding.code.counts_triangles() { "triangles" } else { "vertices" };
     Reported { finding, looks_like, cure, first_are, repaired }
 }

@@ -70,7 +70,7 @@ pub fn check<'py>(
 }
 
 fn finding(py: Python<'_>, finding: Finding) -> PyResult<Bound<'_, PyAny>> {
-    let Finding { code, severity, place, count, first, evidence, text, left_because, .. } = finding;
+    let Finding { code, severity, place, count, first, evidence, text, cure, left_because, .. } = finding;
     let primitive = place.primitive.as_ref();
     let evidence = evidence.iter().map(|number| (number.what, number.value, number.unit));
     let position = (
@@ -90,7 +90,7 @@ fn finding(py: Python<'_>, finding: Finding) -> PyResult<Bound<'_, PyAny>> {
         evidence.collect::<Vec<_>>(),
         text,
         code.looks_like(),
-        code.cure(),
+        cure,
         left_because.is_none(),
     );
     named(py, "Finding", fields)

@@ -7,6 +7,7 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, inspect};
 use darboux_io::image::RgbaImage;
 
+use crate::cancelling;
 use crate::code::{Code, Family};
 use crate::facets::FacetVotes;
 use crate::finding::{Finding, Place};
@@ -55,7 +56,8 @@ impl CheckOptions {
 /// Errors: invalid data of the document.
 pub fn check_document(document: &mut Document, options: &CheckOptions) -> Result<Vec<Finding>, Error> {
     let mut findings = check_surfaces(document)?;
-    findings.extend(check_materials(document, options)?);
+    let on_materials = check_materials(document, options, &mut findings)?;
+    findings.extend(on_materials);
     Ok(findings)
 }
 
@@ -105,6 +107,17 @@ impl ModelOfMaps {
     pub fn findings(&self) -> &[Finding] {
         &self.findings
     }
+
+    /// Marks findings on a map and on this model's surfaces that cancel each other, and returns the codes of those on the map.
+    fn mark_cancelling(&self, on_map: &mut [Finding], on_model: &mut [Finding]) -> Vec<Code> {
+        let mut cancelled = Vec::new();
+        for surface in &self.surfaces {
+            let mut on_surface: Vec<&mut Finding> =
+                on_model.iter_mut().filter(|finding| finding.place == surface.place).collect();
+            cancelled.extend(cancelling::mark(on_map, &mut on_surface));
+        }
+        cancelled
+    }
 }
 
 /// Checks the tangents, normals and UVs of a model that normal maps are to be put on, whatever maps it has itself. Errors: invalid data of the
@@ -125,7 +138,9 @@ pub fn check_model_of_maps(document: &mut Document) -> Result<ModelOfMaps, Error
 /// too, so that both mistakes cancel.
 pub fn check_map_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptions) -> CheckedMap {
     let mut checked = check_map_on_surfaces(file, model, options);
-    checked.findings.extend(model.findings.iter().cloned());
+    let mut on_model = model.findings.clone();
+    model.mark_cancelling(&mut checked.findings, &mut on_model);
+    checked.findings.extend(on_model);
     checked
 }
 
@@ -137,15 +152,16 @@ pub fn check_map_on_surfaces(file: &[u8], model: &ModelOfMaps, options: &CheckOp
         votes
     };
     let mut checked = check_map_with(file, options, Some(&vote));
-    if model.findings.iter().any(|finding| finding.code == Code::TangentSignFlipped) {
-        for finding in checked.findings.iter_mut().filter(|finding| finding.code == Code::MapGreenFlipped) {
-            finding.text += "; the signs w of the model are flipped, too, so that bumps look right until one of the two mistakes is repaired";
-            let together = "the signs w of the model have to be repaired with it; put the map on the model and repair that";
-            finding.left_because.get_or_insert_with(|| together.to_owned());
-        }
+    let cancelled = model.mark_cancelling(&mut checked.findings, &mut model.findings.clone());
+    for finding in checked.findings.iter_mut().filter(|finding| cancelled.contains(&finding.code)) {
+        finding.left_because.get_or_insert_with(|| ON_THE_MODEL_TOO.to_owned());
     }
     checked
 }
+
+/// Why one half of two mistakes that cancel is left.
+const ON_THE_MODEL_TOO: &str =
+    "the tangents of the model have to be repaired with it; put the map on the model and repair that";
 
 /// The result of [`check_map`].
 #[derive(Clone, Debug, PartialEq)]
@@ -178,8 +194,13 @@ fn worst_severity(code: Code, surface: &Surface) -> Severity {
     if is_unread { Severity::Warning } else { Severity::Error }
 }
 
-/// Checks materials and the images of their normal maps, each image once.
-fn check_materials(document: &Document, options: &CheckOptions) -> Result<Vec<Finding>, Error> {
+/// Checks materials and the images of their normal maps, each image once. `on_surfaces`: the other findings, in which those are marked that a mistake in a
+/// map cancels.
+fn check_materials(
+    document: &Document,
+    options: &CheckOptions,
+    on_surfaces: &mut [Finding],
+) -> Result<Vec<Finding>, Error> {
     let (mut findings, mut images) = (Vec::new(), BTreeMap::new());
     let appearances = document.appearances()?;
     for (index, appearance) in appearances.iter().enumerate() {
@@ -198,7 +219,12 @@ fn check_materials(document: &Document, options: &CheckOptions) -> Result<Vec<Fi
     let users = MapUsers::new(document, &appearances)?;
     for (image, material) in images {
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
-        let found = check_image(document, &users, image, options)?;
+        let mut found = check_image(document, &users, image, options)?;
+        for name in users.names(image) {
+            let is_there = |finding: &&mut Finding| finding.place.primitive.as_ref() == Some(name);
+            let mut on_surface: Vec<&mut Finding> = on_surfaces.iter_mut().filter(is_there).collect();
+            cancelling::mark(&mut found, &mut on_surface);
+        }
         findings.extend(found.into_iter().map(|finding| Finding { place: place.clone(), ..finding }));
     }
     Ok(findings)

@@ -177,7 +177,7 @@ codes! {
         "Bumps are lit as if the map were turned by 90 degrees."
         "Bitangents were stored as tangents, or u and v were exchanged."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        Repair "the tangents are computed again"
+        Repair "all tangents of the primitive are computed again by MikkTSpace, or by the method that `--method` names"
     }
     TangentNegated "tangent-negated" Error {
         "Tangents point against u."
@@ -299,7 +299,7 @@ codes! {
         "The normal map's green points the wrong way for the format."
         "Dents look like bumps when the light is above or below, and right when it is beside."
         "A DirectX map was put into glTF, which wants OpenGL's (glTF-Sample-Models PR 336, BabylonJS/Exporters 940, glTF-Blender-IO 2626)."
-        "`darboux convert map.png --from directx --to opengl`."
+        "Export or bake the map with green up (OpenGL, +Y), or invert green: `darboux convert map.png --from directx --to opengl`."
         Repair "green is inverted"
     }
     MapRedFlipped "map-red-flipped" Error {
@@ -310,8 +310,8 @@ codes! {
         Repair "red is inverted"
     }
     MapChannelsSwapped "map-channels-swapped" Error {
-        "Red and green of the normal map seem to be exchanged."
-        "Bumps are lit as if the map were turned by 90 degrees and mirrored."
+        "Channels of the normal map seem to be exchanged: red and green, or one of them and blue."
+        "Bumps are lit as if the map were turned by 90 degrees and mirrored; with blue exchanged, the whole surface is dark or lit from a side."
         "Channels were packed in another order."
         "Exchange red and green: `darboux convert map.png --from opengl --to opengl --layout grb --to-layout rgb`."
         Repair "red and green are exchanged"
@@ -327,8 +327,8 @@ codes! {
         "A grey height or bump map is in the slot of the normal map."
         "The surface leans to one corner everywhere and looks noisy."
         "A bump map was put into the normal slot."
-        "Bake or compute a normal map from the height map."
-        Leave "a normal map has to be made from it first"
+        "Compute a normal map from it (GIMP: Filters, Generic, Normal Map; Blender: a Bump node, then bake), and put that into the slot."
+        Leave "how high the bumps are is not in the file, so a normal map has to be made from it first"
     }
     MapObjectSpace "map-object-space" Error {
         "The normal map is in object space."
@@ -339,9 +339,9 @@ codes! {
     }
     MapNotNormal "map-not-normal" Error {
         "The image in the slot of the normal map holds no normals."
-        "Lighting is random."
+        "Lighting does not follow the surface: it is random for a picture, and tilted or black for one colour."
         "Another texture was put into the slot."
-        "Put the normal map into the slot."
+        "Put the normal map into the slot, or leave the slot empty if the material has none."
         Leave "the right image is not in the file"
     }
     MapTwoChannel "map-two-channel" Error {
@@ -355,19 +355,19 @@ codes! {
         "Vectors of the normal map do not have length 1."
         "Lighting is weaker or stronger in renderers that do not normalise, and bumps are too flat or too steep."
         "The map was blended, scaled or resized without being normalised."
-        "Normalise the map in the program that made it."
+        "Normalise the map in the program that made it, or let `darboux check map.png --fix` scale its vectors to length 1."
         Repair "the vectors are scaled to length 1"
     }
     MapNegativeZ "map-negative-z" Warning {
         "Vectors of the normal map point below the surface."
-        "Dark or bright specks."
-        "The map was sharpened, painted on, or baked through the surface (KhronosGroup/glTF 2368)."
+        "Dark or bright specks; where all vectors do, the surface is dark."
+        "The map was sharpened, painted on, or baked through the surface (KhronosGroup/glTF 2368); or blue was inverted."
         "Bake again with a fitting cage, or clamp blue to at least 128."
         Leave "where these texels should point is lost"
     }
     MapFlatOff "map-flat-off" Warning {
-        "The flat parts of the normal map lean to one side."
-        "A faint seam or gradient between charts, most visible in reflections."
+        "The flat parts of the normal map lean to one side, or the whole map is one colour that leans."
+        "A faint seam or gradient between charts, most visible in reflections; with one colour, the whole surface is lit from a wrong side."
         "The flat colour was painted by hand or shifted by a colour profile."
         "Fill flat parts with 128, 128, 255."
         Leave "the surface may lean so on purpose"

@@ -1,5 +1,6 @@
 //! [`Finding`]: one thing that is wrong, where, and the evidence.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use darboux_io::gltf::PrimitiveName;
@@ -71,6 +72,9 @@ pub struct Finding {
     pub evidence: Vec<Evidence>,
     /// What is wrong here, in one sentence.
     pub text: String,
+    /// The cure here: what the reader can do.
+    #[serde(skip)]
+    pub cure: Cow<'static, str>,
     /// Why a repair leaves it, as a clause; none where [`fix_document`](crate::fix_document) or [`fix_map`](crate::fix_map) repairs it.
     pub left_because: Option<String>,
 }
@@ -89,6 +93,7 @@ impl Finding {
             first: Vec::new(),
             evidence: Vec::new(),
             text: text.into(),
+            cure: code.cure().into(),
             left_because: code.left_because().map(str::to_owned),
         }
     }
@@ -122,6 +127,12 @@ impl Finding {
     #[must_use]
     pub fn with_severity(self, severity: Severity) -> Self {
         Self { severity, ..self }
+    }
+
+    /// The same with another cure than that of the code.
+    #[must_use]
+    pub fn with_cure(self, cure: impl Into<Cow<'static, str>>) -> Self {
+        Self { cure: cure.into(), ..self }
     }
 
     /// The same with a number.

@@ -18,6 +18,7 @@
 //! # Ok::<(), darboux_io::Error>(())
 //! ```
 
+mod cancelling;
 mod check;
 mod code;
 mod expected;
@@ -27,11 +28,13 @@ mod fit;
 mod fix;
 mod instances;
 mod map;
+mod map_kind;
 mod map_users;
 mod obstacles;
 mod orientation;
 mod other_axes;
 mod overlap;
+mod reordered;
 mod reversed;
 mod rule;
 mod rules;

@@ -1,12 +1,13 @@
 //! [`Map`]: a decoded normal map, the judgement on it and the votes of the meshes that use it, as the rules read them.
 
 use darboux::{
-    BitangentDirection, MapJudgement, NormalMapJudge, SrgbMistake, TangentDirection, TexelLayout,
+    BitangentDirection, MapJudgement, MapVerdict, NormalMapJudge, SrgbMistake, TangentDirection, TexelLayout,
     judge_normal_map,
 };
 use darboux_io::image::{DecodeLimits, RgbaImage, linear_to_srgb, srgb_to_linear};
 
 use crate::facets::{Arrangement, FacetVotes};
+use crate::reordered::Reordered;
 
 /// The normal map of a material, or one that is checked alone.
 pub struct Map {
@@ -18,6 +19,10 @@ pub struct Map {
     pub before_srgb: Option<MapJudgement>,
     /// What the two channels hold that would be x and y of a map without z; none where three channels vary.
     pub two_channels: Option<TwoChannels>,
+    /// Where the vectors point along another axis than z: which one.
+    pub reordered: Option<Reordered>,
+    /// Whether most texels have other lengths than 1, and red and green are light and dark together, as in pictures.
+    pub is_picture: bool,
     /// Where green should point.
     pub wanted: BitangentDirection,
     /// What the facets of the meshes that use the map say; none for a map that is checked alone.
@@ -78,7 +83,19 @@ impl Map {
                     judgement.as_ref().ok().and_then(|judgement| TwoChannels::of(&image, judgement));
                 let before_srgb = mistake.and_then(|mistake| judge_without(mistake, &image));
                 let facets = vote.map(|vote| vote(&image));
-                Self { judgement, file_size: file.len(), before_srgb, two_channels, wanted, facets }
+                let reordered =
+                    judgement.as_ref().ok().and_then(|judgement| Reordered::of(&image, judgement));
+                let is_picture = judgement.as_ref().is_ok_and(|judgement| is_picture(&image, judgement));
+                Self {
+                    judgement,
+                    file_size: file.len(),
+                    before_srgb,
+                    two_channels,
+                    reordered,
+                    is_picture,
+                    wanted,
+                    facets,
+                }
             }
             Err(error) => Self { file_size: file.len(), ..Self::unreadable(error.to_string(), wanted) },
         }
@@ -102,10 +119,33 @@ impl Map {
             file_size: 0,
             before_srgb: None,
             two_channels: None,
+            reordered: None,
+            is_picture: false,
             wanted,
             facets: None,
         }
     }
+}
+
+/// The smallest correlation between red and green of a picture. That of slopes in all directions is 0, and that of brightness is 1.
+const MIN_CORRELATION_OF_PICTURES: f64 = 0.8;
+
+/// Whether most texels have other lengths than 1, and red and green are light and dark together.
+fn is_picture(image: &RgbaImage, judgement: &MapJudgement) -> bool {
+    if 2 * judgement.not_unit <= judgement.texels - judgement.background
+        || judgement.verdict == MapVerdict::Flat
+    {
+        return false;
+    }
+    let mut sums = [0.0; 5];
+    for [red, green, ..] in &image.texels {
+        let [red, green] = [red, green].map(|code| f64::from(*code));
+        let terms = [red, green, red * red, green * green, red * green];
+        sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+    }
+    let [red, green, red_squared, green_squared, product] = sums.map(|sum| sum / image.texels.len() as f64);
+    let variances = (red_squared - red * red) * (green_squared - green * green);
+    variances > 0.0 && product - red * green >= MIN_CORRELATION_OF_PICTURES * variances.sqrt()
 }
 
 /// Judges an image after undoing a mistake; none for a mistake that is not known here.

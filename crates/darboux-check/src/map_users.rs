@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use darboux_io::Error;
-use darboux_io::gltf::{Appearance, Document, PrimitiveCorners, TextureUse};
+use darboux_io::gltf::{Appearance, Document, PrimitiveCorners, PrimitiveName, TextureUse};
 use darboux_io::image::RgbaImage;
 
 use crate::facets::FacetVotes;
@@ -37,6 +37,12 @@ impl<'a> MapUsers<'a> {
             primitives.push(corners);
         }
         Ok(Self { document, primitives, users })
+    }
+
+    /// The names of the primitives that use an image.
+    pub fn names(&self, image: usize) -> impl Iterator<Item = &PrimitiveName> {
+        let users = self.users.get(&image).into_iter().flat_map(BTreeMap::keys);
+        users.map(|&primitive| self.primitives[primitive].name())
     }
 
     /// Reads the surfaces that use an image. Errors: invalid data of primitives.

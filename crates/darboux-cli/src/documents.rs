@@ -1,6 +1,7 @@
 //! Reads and writes glTF documents and images. Errors are one sentence each.
 
 use std::borrow::Cow;
+use std::ffi::OsStr;
 use std::fs;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
@@ -83,6 +84,9 @@ pub fn load_any(input: &Input, reading: &ReadOptions) -> Result<Document, String
         Input::File(path) if path.is_file() && is_other_format(path) => Err(format!(
             "{input}: this command reads glTF files only; export the model as .glb (darboux view and darboux render also read OBJ)"
         )),
+        Input::File(path) if path.is_file() && is_other_image(path) => Err(format!(
+            "{input}: is an image in a format that is not read here; save it as .png (8 or 16 bits), .jpg or .webp, and darboux check judges it as a normal map"
+        )),
         Input::File(path) => reading.open(path).map_err(|error| error.to_string()),
         Input::Stdin => from_stdin(input, read_stdin()?, reading),
     }
@@ -97,7 +101,19 @@ fn from_stdin(input: &Input, bytes: Vec<u8>, reading: &ReadOptions) -> Result<Do
 fn is_other_format(path: &Path) -> bool {
     const OTHERS: [&str; 12] =
         ["3ds", "abc", "blend", "dae", "fbx", "obj", "ply", "stl", "usd", "usda", "usdc", "usdz"];
-    path.extension().is_some_and(|extension| OTHERS.iter().any(|other| extension.eq_ignore_ascii_case(other)))
+    has_extension(path, &OTHERS)
+}
+
+/// Whether the extension is that of an image without a decoder.
+fn is_other_image(path: &Path) -> bool {
+    const OTHERS: [&str; 14] =
+        ["avif", "bmp", "dds", "exr", "gif", "hdr", "jxl", "ktx", "ktx2", "psd", "tga", "tif", "tiff", "xcf"];
+    has_extension(path, &OTHERS)
+}
+
+fn has_extension(path: &Path, extensions: &[&str]) -> bool {
+    let is_any = |extension: &OsStr| extensions.iter().any(|other| extension.eq_ignore_ascii_case(other));
+    path.extension().is_some_and(is_any)
 }
 
 /// Reads all of standard input.

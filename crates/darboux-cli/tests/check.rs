@@ -123,7 +123,7 @@ fn maps_are_judged_alone() {
     let down_again = map("down.png", -1.0);
     let arguments = ["check", text(&down_again), "--model", text(&plane)];
     let printed = darboux(&arguments).exits(1);
-    assert!(String::from_utf8_lossy(&printed.stdout).contains("are flipped, too"));
+    assert!(String::from_utf8_lossy(&printed.stdout).contains("repair both or none"));
     darboux(&["check", text(&up), "--model", "nothing.glb"]).exits(1);
 
     let broken = folder.path().join("broken.png");
@@ -478,4 +478,25 @@ fn small_maps_are_told_why_they_stay_undecided() {
     let printed = darboux(&["check", text(&path)]).exits(0);
     let printed = String::from_utf8(printed.stdout).expect("text");
     assert!(printed.contains("at least 64 x 64 of them"), "{printed}");
+}
+
+/// A folder of textures says what to call, and formats without a decoder say what to do.
+#[test]
+fn folders_of_images_and_other_formats_say_what_to_do() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let map = folder.path().join("brick_normal.png");
+    fs::write(folder.path().join("brick_color.jpg"), b"a picture").expect("a file");
+    fs::write(&map, b"a map").expect("a file");
+    let run = darboux(&["check", text(folder.path())]).exits(1);
+    let advice = format!(
+        "it has 2 images (.png, .jpg, .webp): name those that are normal maps, as in `darboux check {}`",
+        text(&map)
+    );
+    assert!(run.stderr.contains(&advice), "{}", run.stderr);
+    for extension in ["tga", "BMP", "dds", "exr", "tif"] {
+        let image = folder.path().join(format!("map.{extension}"));
+        fs::write(&image, b"an image").expect("a file");
+        let run = darboux(&["check", text(&image)]).exits(1);
+        assert!(run.stderr.contains("save it as .png"), "{}", run.stderr);
+    }
 }

@@ -6,6 +6,7 @@ use crate::code::Code;
 use crate::facets::Arrangement;
 use crate::finding::Finding;
 use crate::map::{Map, MapDirections, TwoChannels};
+use crate::map_kind::{Kind, kind, percent};
 use crate::rule::MapRule;
 use crate::severity::Severity;
 
@@ -13,6 +14,7 @@ pub const RULES: &[MapRule] = &[
     unreadable,
     height,
     object_space,
+    reordered,
     srgb,
     not_normal,
     two_channel,
@@ -42,78 +44,6 @@ fn judged(map: &Map) -> Option<&MapJudgement> {
     map.judgement.as_ref().ok()
 }
 
-/// What a map is when it is no tangent-space map of unit vectors. Later rules ask for `Normals` only, so that each map has one such finding.
-#[derive(PartialEq, Eq)]
-enum Kind {
-    Grey,
-    ObjectSpace,
-    Srgb,
-    TwoChannel,
-    Other,
-    Normals,
-}
-
-fn kind(map: &Map, judgement: &MapJudgement) -> Kind {
-    match () {
-        () if judgement.is_grey() => Kind::Grey,
-        // The commonest colour of a colour texture may be near that of a flat map that was encoded. Decoding it does not give normals.
-        () if map.before_srgb.is_some_and(|before| !is_map(&before)) => Kind::Other,
-        // The encoding turns a nearly flat map's blue into 255 everywhere, as in a map of two channels, and flat texels tell them apart.
-        // A part that leans may have the colour of an encoded flat one, but undoing an encoding that never was makes vectors of other lengths than 1.
-        () if map.before_srgb.is_some_and(|before| before.not_unit < judgement.not_unit) => Kind::Srgb,
-        () if is_encoded_and_inverted(judgement) => Kind::Srgb,
-        () if map.two_channels.is_some_and(|of| !may_be_normals(of)) => Kind::Other,
-        () if map.two_channels.is_some() => Kind::TwoChannel,
-        () if judgement.is_object_space() => Kind::ObjectSpace,
-        () if is_no_map(judgement) => Kind::Other,
-        () => Kind::Normals,
-    }
-}
-
-/// Whether the commonest texel and the mean are those of a flat map whose values were encoded as sRGB, of which one was inverted after that.
-fn is_encoded_and_inverted(judgement: &MapJudgement) -> bool {
-    let [mean_red, mean_green, mean_blue] = judgement.mean.map(|x| 127.5 * (x + 1.0));
-    let is_near = |codes: [u8; 2]| {
-        let is_commonest = (0..2).all(|i| judgement.commonest[i].abs_diff(codes[i]) <= 3);
-        let means = [mean_red, mean_green];
-        is_commonest && (0..2).all(|i| (means[i] - f32::from(codes[i])).abs() <= 10.0)
-    };
-    mean_blue > 224.0 && (is_near([188, 67]) || is_near([67, 188]))
-}
-
-/// How far x and y of a map may lean on average, for it to be a map without z: the slopes of a surface cancel.
-const MAX_MEAN_OF_TWO: f32 = 0.2;
-
-/// Whether two channels may be x and y of unit vectors: they are not beyond the unit circle, do not lean on average, and contradict no surface.
-fn may_be_normals(of: TwoChannels) -> bool {
-    let (TwoChannels::RedGreen(judgement) | TwoChannels::AlphaGreen(judgement)) = of;
-    let is_surface = judgement.verdict != MapVerdict::NoGradient || judgement.has_exchanged_channels();
-    let is_within = percent(&judgement, judgement.not_unit) <= 1.0;
-    is_surface && is_within && judgement.mean[..2].iter().all(|lean| lean.abs() <= MAX_MEAN_OF_TWO)
-}
-
-/// The share of texels, in percent, from which on vectors of other lengths that point below the surface, too, are no normals.
-const NO_NORMALS: [f64; 2] = [50.0, 10.0];
-
-/// Whether texels are slopes of a surface, or most of them are unit vectors.
-fn is_map(judgement: &MapJudgement) -> bool {
-    let is_gradient =
-        matches!(judgement.verdict, MapVerdict::OpenGl | MapVerdict::DirectX | MapVerdict::Flat);
-    is_gradient || percent(judgement, judgement.not_unit) <= NO_NORMALS[0]
-}
-
-/// Whether texels are no slopes of a surface, and most of them cannot be normals or many of them are neither unit nor above the surface.
-fn is_no_map(judgement: &MapJudgement) -> bool {
-    let are_no_normals = [judgement.not_unit, judgement.negative_z].map(|count| percent(judgement, count));
-    let are_colours =
-        (0..2).all(|i| are_no_normals[i] > NO_NORMALS[i]) && !judgement.has_exchanged_channels();
-    judgement.verdict == MapVerdict::NoGradient && (judgement.holds_no_normals() || are_colours)
-}
-
-fn percent(judgement: &MapJudgement, count: usize) -> f64 {
-    100.0 * count as f64 / (judgement.texels - judgement.background).max(1) as f64
-}
-
 fn height(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Grey)?;
     let share = percent(judgement, judgement.grey);
@@ -129,6 +59,30 @@ fn object_space(map: &Map) -> Option<Finding> {
     let share = percent(judgement, judgement.negative_z);
     let finding = Finding::new(Code::MapObjectSpace, "its unit vectors point in all directions");
     Some(finding.with_count(judgement.negative_z).with_evidence("texels with negative z", share, "%"))
+}
+
+/// The vectors of a tangent-space map point along z on average. Those of a flat surface in object space may point along any axis.
+fn reordered(map: &Map) -> Option<Finding> {
+    let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Reordered)?;
+    let reordered = map.reordered.as_ref()?;
+    let (code, text, cure, obstacle) = match reordered.is_z() {
+        true => (
+            Code::MapNegativeZ,
+            "its vectors point into the surface: blue is inverted, or the whole image is a negative".to_owned(),
+            "Invert blue, or all three channels if the image is a negative: with blue alone, bumps of a negative become dents.".to_owned(),
+            "nothing says whether only blue is inverted or the whole image",
+        ),
+        false => (
+            Code::MapChannelsSwapped,
+            format!("its vectors point along {}, and those of a map in tangent space along blue: its channels are in another order{}, or it is in the object space of a flat surface", reordered.axis(), reordered.orders()),
+            reordered.cure(),
+            "nothing says for certain whether its channels are in another order or it is in object space",
+        ),
+    };
+    let lean = f64::from(judgement.mean[reordered.channel()]);
+    let finding = Finding::new(code, text).with_severity(Severity::Error).with_cure(cure);
+    let finding = finding.with_evidence("mean of that channel, from -1 to 1", lean, "");
+    Some(Finding { left_because: Some(obstacle.to_owned()), ..finding })
 }
 
 fn srgb(map: &Map) -> Option<Finding> {
@@ -154,12 +108,29 @@ const INVERTED_CODE: &str = "invert the channel near 67 again first: `darboux co
 fn not_normal(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Other)?;
     let share = percent(judgement, judgement.not_normal);
-    let text = match judgement.holds_no_normals() {
-        true => "most of its texels cannot be normals",
-        false => "its texels are no slopes of a surface, and most are no unit vectors",
+    let text = match () {
+        () if judgement.background == judgement.texels => {
+            "all its texels are black, white or middle grey, which are no normals: a flat map is 128, 128, 255"
+                .to_owned()
+        }
+        () if judgement.verdict == MapVerdict::Flat => {
+            format!("all its texels are about {}, which is no normal: a flat map is 128, 128, 255", colour(judgement))
+        }
+        () if judgement.holds_no_normals() => "most of its texels cannot be normals".to_owned(),
+        () if map.is_picture => {
+            "most of its texels have no length near 1, and red and green are light and dark together, as in a picture"
+                .to_owned()
+        }
+        () => "its texels are no slopes of a surface, and most are no unit vectors".to_owned(),
     };
     let finding = Finding::new(Code::MapNotNormal, text);
     Some(finding.with_count(judgement.not_normal).with_evidence("texels that are no normals", share, "%"))
+}
+
+/// The commonest red and green, and the mean blue, as 8-bit codes.
+fn colour(judgement: &MapJudgement) -> String {
+    let ([red, green], blue) = (judgement.commonest, 127.5 * (judgement.mean[2] + 1.0));
+    format!("{red}, {green}, {blue:.0}")
 }
 
 fn two_channel(map: &Map) -> Option<Finding> {
@@ -173,7 +144,7 @@ fn two_channel(map: &Map) -> Option<Finding> {
     let is_unclear = judgement.verdict == MapVerdict::CannotTell && map.facets.is_none();
     let obstacle = obstacle.or(is_unclear.then_some(UNCLEAR_CHANNELS)).map(str::to_owned);
     let finding = Finding::new(Code::MapTwoChannel, text).with_obstacle(obstacle);
-    Some(finding.with_evidence("z score of its two channels", judgement.z_score.into(), ""))
+    Some(finding.with_evidence(CERTAINTY, judgement.z_score.into(), "standard errors"))
 }
 
 /// Why a map with x in alpha is left.
@@ -210,6 +181,12 @@ pub fn directions_by_mesh(map: &Map) -> Option<MapDirections> {
     directions(judgement, map).filter(|_| is_decided)
 }
 
+/// What the z score of the derivatives is called: the mean agreement of the tiles over its standard error.
+const CERTAINTY: &str = "certainty (4 or more decide)";
+
+/// What the z score of the faces is called.
+const BY_FACES: &str = "agreement with the faces of the model (6 or more decide)";
+
 /// The finding with the evidence for the direction of the channels.
 fn with_directions(finding: Finding, judgement: &MapJudgement, map: &Map) -> Finding {
     let percent = 100.0 * f64::from(judgement.confidence);
@@ -219,12 +196,14 @@ fn with_directions(finding: Finding, judgement: &MapJudgement, map: &Map) -> Fin
         .with_severity(if is_sure { Severity::Error } else { Severity::Warning })
         .with_obstacle(unsure)
         .with_evidence("confidence", 100.0 * f64::from(judgement.confidence), "%")
-        .with_evidence("correlation of the mixed derivatives", judgement.correlation.into(), "")
-        .with_evidence("z score", judgement.z_score.into(), "");
+        .with_evidence(
+            "agreement of red and green as slopes, from -1 (DirectX) to 1 (OpenGL)",
+            judgement.correlation.into(),
+            "",
+        )
+        .with_evidence(CERTAINTY, judgement.z_score.into(), "standard errors");
     match arrangement(judgement).filter(|arrangement| map.decide(*arrangement).is_some()) {
-        Some(arrangement) => {
-            finding.with_evidence("z score of the mesh's facets", map.facet_score(arrangement), "")
-        }
+        Some(arrangement) => finding.with_evidence(BY_FACES, map.facet_score(arrangement), "standard errors"),
         None => finding,
     }
 }
@@ -254,7 +233,14 @@ fn green_flipped(map: &Map) -> Option<Finding> {
             (", or its red is inverted, which the texels alone do not show", Some(ONLY_THE_MODEL.to_owned()))
         }
     };
-    let finding = Finding::new(Code::MapGreenFlipped, format!("it is in the convention of {program}{doubt}"));
+    let cure = match map.wanted {
+        BitangentDirection::Up => Code::MapGreenFlipped.cure(),
+        BitangentDirection::Down => {
+            "Export or bake the map with green down (DirectX, -Y), or invert green: `darboux convert map.png --from opengl --to directx`."
+        }
+    };
+    let finding = Finding::new(Code::MapGreenFlipped, format!("it is in the convention of {program}{doubt}"))
+        .with_cure(cure);
     Some(with_directions(finding.with_obstacle(obstacle), judgement, map))
 }
 
@@ -300,31 +286,47 @@ fn channels_swapped(map: &Map) -> Option<Finding> {
     let by_facets = facets_show_exchange(judgement, map);
     let text = match (by_derivatives, by_facets) {
         (false, false) => return None,
-        (true, _) => "its derivatives are those of a map with red and green exchanged",
+        (true, _) => {
+            "its red changes from texel to texel as green should, and its green as red should: they are exchanged"
+        }
         (false, true) => "its texels follow the faces of the mesh with red and green exchanged",
     };
     let is_undecided = judgement.z_score < 0.0 && map.decide(Arrangement::ExchangedAndInverted).is_none();
     let finding = Finding::new(Code::MapChannelsSwapped, text)
         .with_obstacle(is_undecided.then(|| INVERTED_TOO.to_owned()))
-        .with_evidence("half the log of unmixed over mixed energy", judgement.log_energy_ratio.into(), "")
-        .with_evidence("z score", judgement.z_score.into(), "");
+        .with_evidence("logarithm of the changes along red's and green's own axes over those across (negative if exchanged)", judgement.log_energy_ratio.into(), "")
+        .with_evidence(CERTAINTY, judgement.z_score.into(), "standard errors");
     Some(match by_facets {
         true => {
             let z_score = map.facet_score(candidates(judgement)[1]);
-            finding.with_evidence("z score of the mesh's facets", z_score, "")
+            finding.with_evidence(BY_FACES, z_score, "standard errors")
         }
         false => finding,
     })
 }
 
+/// Why vectors of an image are not scaled that may be no normal map.
+const MAY_BE_NO_MAP: &str = "scaled to length 1, the texels of another kind of image would still be no normals; if this is a normal map, normalise it in the program that made it";
+
 fn not_unit(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Normals)?;
     let share = percent(judgement, judgement.not_unit);
+    let is_surface = matches!(judgement.verdict, MapVerdict::OpenGl | MapVerdict::DirectX | MapVerdict::Flat);
+    let is_doubtful = share > 50.0 && !is_surface;
+    let doubt = if is_doubtful {
+        ", and nothing shows that they are slopes of a surface: it may be another kind of image"
+    } else {
+        ""
+    };
     (share > MAX_PERCENT).then(|| {
-        Finding::new(Code::MapNotUnit, format!("{} texels are no unit vectors", judgement.not_unit))
-            .with_count(judgement.not_unit)
-            .with_evidence("texels", share, "%")
-            .with_evidence("mean length", judgement.mean_length.into(), "")
+        Finding::new(
+            Code::MapNotUnit,
+            format!("{} texels have another length than 1{doubt}", judgement.not_unit),
+        )
+        .with_count(judgement.not_unit)
+        .with_obstacle(is_doubtful.then(|| MAY_BE_NO_MAP.to_owned()))
+        .with_evidence("texels", share, "%")
+        .with_evidence("mean length", judgement.mean_length.into(), "")
     })
 }
 
@@ -341,24 +343,39 @@ fn negative_z(map: &Map) -> Option<Finding> {
 fn flat_off(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Normals)?;
     let code = judgement.commonest;
-    // Another commonest texel belongs to the surface; 127 is the other nearest code of zero.
-    let is_flat = code.iter().all(|code| (120..=136).contains(code));
+    // Another commonest texel belongs to the surface, unless there is no other; 127 is the other nearest code of zero.
+    let is_near = code.iter().all(|code| (120..=136).contains(code));
     let is_off = code.iter().any(|code| !(127..=128).contains(code));
+    let is_one_colour = judgement.verdict == MapVerdict::Flat;
     let share = percent(judgement, judgement.commonest_count);
-    (is_flat && is_off && share > MAX_PERCENT).then(|| {
-        let [red, green] = code;
-        let lean = code.map(|code| (f64::from(code) - 127.5) / 127.5);
-        let degrees = lean[0].hypot(lean[1]).min(1.0).asin().to_degrees();
-        Finding::new(Code::MapFlatOff, format!("its flat texels are {red}, {green} instead of 128, 128"))
-            .with_count(judgement.commonest_count)
-            .with_evidence("angle", degrees, "degrees")
-            .with_evidence("texels", share, "%")
-    })
+    let is_told = is_one_colour || is_near && share > MAX_PERCENT;
+    if !is_off || !is_told {
+        return None;
+    }
+    let [red, green] = code;
+    let lean = code.map(|code| (f64::from(code) - 127.5) / 127.5);
+    let degrees = lean[0].hypot(lean[1]).min(1.0).asin().to_degrees();
+    let finding = match is_one_colour {
+        true => {
+            let colour = colour(judgement);
+            let text = format!(
+                "all its texels are about {colour} instead of 128, 128, 255, so that the whole surface is lit as if it leaned by {degrees:.0} degrees"
+            );
+            Finding::new(Code::MapFlatOff, text)
+                .with_severity(if is_near { Severity::Warning } else { Severity::Error })
+                .with_cure("Leave the map out, or fill it with 128, 128, 255.")
+        }
+        false => {
+            Finding::new(Code::MapFlatOff, format!("its flat texels are {red}, {green} instead of 128, 128"))
+        }
+    };
+    let finding = finding.with_count(judgement.commonest_count).with_evidence("angle", degrees, "degrees");
+    Some(finding.with_evidence("texels", share, "%"))
 }
 
 fn flat(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| judgement.verdict == MapVerdict::Flat)?;
-    let is_plain = kind(map, judgement) == Kind::Normals;
+    let is_plain = kind(map, judgement) == Kind::Normals && flat_off(map).is_none();
     let share = percent(judgement, judgement.commonest_count);
     let finding = || Finding::new(Code::MapFlat, "all its texels are the same");
     is_plain.then(|| finding().with_evidence("texels of the commonest colour", share, "%"))
@@ -391,6 +408,8 @@ mod tests {
             file_size: 0,
             before_srgb: None,
             two_channels: None,
+            reordered: None,
+            is_picture: false,
             wanted: BitangentDirection::Up,
             facets,
         }

@@ -2,6 +2,7 @@
 
 pub mod arguments;
 mod fix;
+mod folder;
 mod model;
 mod report;
 mod text;
@@ -49,7 +50,10 @@ pub fn run(arguments: &CheckArguments) -> u8 {
     let mut files: Vec<CheckedFile> = found
         .failed
         .iter()
-        .map(|(path, reason)| failed(path.display().to_string(), format!("{}: {reason}", path.display())))
+        .map(|(path, reason)| {
+            let maps = folder::maps_instead(path).map_or(String::new(), |clause| format!("; {clause}"));
+            failed(path.display().to_string(), format!("{}: {reason}{maps}", path.display()))
+        })
         .collect();
     files.extend(check_all(&inputs, arguments, &model));
     files.iter().filter_map(|file| file.error.as_ref()).for_each(|error| messages.error(error));

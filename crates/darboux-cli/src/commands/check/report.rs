@@ -62,7 +62,7 @@ pub struct ReportedFinding {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repaired: Option<bool>,
     pub looks_like: &'static str,
-    pub cure: &'static str,
+    pub cure: String,
 }
 
 impl From<Finding> for ReportedFinding {
@@ -86,7 +86,7 @@ impl From<Finding> for ReportedFinding {
             repaired: None,
             text: finding.text,
             looks_like: finding.code.looks_like(),
-            cure: finding.code.cure(),
+            cure: finding.cure.into_owned(),
         }
     }
 }

@@ -58,8 +58,11 @@ fn verdict(map: &ReportedMap) -> String {
     match map.verdict {
         "opengl" => format!("green points up (OpenGL), {percent:.1} % sure"),
         "directx" => format!("green points down (DirectX) or red is inverted, {percent:.1} % sure"),
-        "flat" => "the map is flat".to_owned(),
-        "no_gradient" => "the texels are not the slope of a surface".to_owned(),
+        "flat" => "all its texels have one colour".to_owned(),
+        "no_gradient" => {
+            "red and green are not the slopes of a surface, as those of a normal map in tangent space are"
+                .to_owned()
+        }
         _ => format!(
             "whether green points up or down cannot be told from the texels: {}",
             undecided(map.z_score)

@@ -1,0 +1,139 @@
+//! What is said of maps that are no normal maps, or whose channels are in another order, and of mistakes that cancel.
+
+mod support;
+
+use darboux::BitangentDirection;
+use darboux_check::{CheckOptions, Code, Finding, Severity, check_document, check_map};
+use support::baked::baked_models;
+use support::maps::{Map, healthy_map, png};
+use support::models::healthy_models;
+
+/// A change of a texel.
+type Change = fn([u8; 3]) -> [u8; 3];
+
+/// Findings, each with its severity.
+type Expected<'a> = &'a [(Code, Severity)];
+
+/// The findings on a map alone that are worth a warning.
+fn found(file: &[u8]) -> Vec<Finding> {
+    let findings = check_map(file, &CheckOptions::default()).findings;
+    findings.into_iter().filter(|finding| finding.severity > Severity::Info).collect()
+}
+
+fn codes(findings: &[Finding]) -> Vec<(Code, Severity)> {
+    findings.iter().map(|finding| (finding.code, finding.severity)).collect()
+}
+
+fn through(map: &Map, change: Change) -> Vec<u8> {
+    map.with_texels(map.texels.iter().map(|texel| change(*texel)).collect()).file
+}
+
+/// One colour is harmless only where it is that of a flat map.
+#[test]
+fn maps_of_one_colour_are_wrong_unless_they_are_flat() {
+    let not_normal = [(Code::MapNotNormal, Severity::Error)];
+    let tilted = [(Code::MapFlatOff, Severity::Error)];
+    let cases: [([u8; 3], Expected<'_>); 11] = [
+        ([128, 128, 255], &[]),
+        ([127, 127, 255], &[]),
+        ([127, 128, 254], &[]),
+        ([255, 0, 0], &not_normal),
+        ([0, 0, 0], &not_normal),
+        ([255, 255, 255], &not_normal),
+        ([128, 128, 128], &not_normal),
+        ([128, 128, 0], &not_normal),
+        ([200, 128, 220], &tilted),
+        ([128, 190, 240], &tilted),
+        ([124, 128, 255], &[(Code::MapFlatOff, Severity::Warning)]),
+    ];
+    for (texel, expected) in cases {
+        let findings = found(&png(&[texel; 64 * 64]));
+        assert_eq!(codes(&findings), expected, "{texel:?}: {findings:#?}");
+        let names_flat = |finding: &Finding| finding.text.contains("128, 128, 255");
+        assert!(findings.iter().all(names_flat), "{texel:?}: {findings:#?}");
+    }
+}
+
+/// Maps whose blue is elsewhere point along another axis; no one order of the channels is certain, and nothing is repaired.
+#[test]
+fn channels_in_another_order_are_no_object_space() {
+    let orders: [(Change, &str); 4] = [
+        (|[r, g, b]| [b, g, r], "--layout bgr"),
+        (|[r, g, b]| [b, r, g], "--layout gbr"),
+        (|[r, g, b]| [r, b, g], "--layout rbg"),
+        (|[r, g, b]| [g, b, r], "--layout brg"),
+    ];
+    for map in (0..6).map(healthy_map) {
+        for (order, cure) in orders {
+            let findings = found(&through(&map, order));
+            assert_eq!(codes(&findings), [(Code::MapChannelsSwapped, Severity::Error)], "{findings:#?}");
+            assert!(findings[0].cure.contains(cure) && !findings[0].is_fixable(), "{cure}: {findings:#?}");
+        }
+        for invert in [|[r, g, b]: [u8; 3]| [r, g, 255 - b], |texel: [u8; 3]| texel.map(|code| 255 - code)] {
+            let findings = found(&through(&map, invert));
+            assert_eq!(codes(&findings), [(Code::MapNegativeZ, Severity::Error)], "{findings:#?}");
+            assert!(findings[0].text.contains("inverted") && !findings[0].is_fixable(), "{findings:#?}");
+        }
+    }
+}
+
+/// A bluish picture: brightness changes all channels together.
+#[test]
+fn blue_pictures_are_no_normal_maps() {
+    for (scale, seed) in [(9.0f32, 1u32), (17.0, 2), (31.0, 3)] {
+        let texel = |i: usize| {
+            let (x, y) = ((i % 128) as f32 / scale, (i / 128) as f32 / scale);
+            let grain = (i as u32).wrapping_mul(2_654_435_761).wrapping_add(seed) >> 29;
+            let light = (x + 0.3 * y).sin() + (1.7 * y - x).sin() + 0.1 * grain as f32;
+            [(90.0, 18.0), (125.0, 17.0), (200.0, 20.0)].map(|(mean, gain)| (mean + gain * light) as u8)
+        };
+        let findings = found(&png(&(0..128 * 128).map(texel).collect::<Vec<_>>()));
+        assert_eq!(codes(&findings), [(Code::MapNotNormal, Severity::Error)], "{scale}: {findings:#?}");
+    }
+}
+
+/// The cure is that of the convention asked for.
+#[test]
+fn the_cure_is_that_of_the_wanted_convention() {
+    let map = healthy_map(0);
+    let directx = CheckOptions::default().with_green(BitangentDirection::Down);
+    let inverted = through(&map, |[r, g, b]| [r, 255 - g, b]);
+    for (file, options, cure) in [
+        (&map.file, directx, "--from opengl --to directx"),
+        (&inverted, CheckOptions::default(), "--from directx --to opengl"),
+    ] {
+        let findings = check_map(file, &options).findings;
+        let green = findings.iter().find(|finding| finding.code == Code::MapGreenFlipped);
+        assert!(green.is_some_and(|green| green.cure.contains(cure)), "{cure}: {findings:#?}");
+    }
+    assert!(check_map(&inverted, &directx).findings.iter().all(|finding| finding.severity == Severity::Info));
+}
+
+/// Both findings of two mistakes that cancel say so, and findings that nothing cancels do not.
+#[test]
+fn mistakes_that_cancel_are_repaired_together_or_not() {
+    let check = |model: &support::models::Model| {
+        check_document(&mut model.document(), &CheckOptions::default()).expect("a valid document")
+    };
+    let says_so = |findings: &[Finding]| {
+        let marked = findings.iter().filter(|finding| finding.text.contains("repair both or none"));
+        let mut codes: Vec<Code> = marked.map(|finding| finding.code).collect();
+        codes.sort_unstable();
+        codes
+    };
+    let mut model = healthy_models().remove(9);
+    model.map = model.map.through(|[r, g, b]| [r, 1.0 - g, b]);
+    assert_eq!(says_so(&check(&model)), []);
+    model.negate_signs();
+    assert_eq!(says_so(&check(&model)), [Code::TangentSignFlipped, Code::MapGreenFlipped]);
+
+    let mut model = baked_models().remove(0);
+    model.map = model.map.through(|[r, g, b]| [1.0 - r, g, b]);
+    model.tangents().iter_mut().for_each(|tangent| (0..4).for_each(|i| tangent[i] = -tangent[i]));
+    let all = [Code::TangentSignFlipped, Code::TangentNegated, Code::MapRedFlipped];
+    assert_eq!(says_so(&check(&model)), all, "{:#?}", check(&model));
+    model.map = model.map.through(|[r, g, b]| [r, 1.0 - g, b]);
+    assert_eq!(says_so(&check(&model)), []);
+    model.negate_signs();
+    assert_eq!(says_so(&check(&model)), [Code::TangentNegated, Code::MapGreenFlipped, Code::MapRedFlipped]);
+}
