@@ -92,6 +92,17 @@ fn blue_pictures_are_no_normal_maps() {
     }
 }
 
+/// Scaled vectors keep their direction, so those of a darkened map would still lean.
+#[test]
+fn darkened_maps_are_not_scaled() {
+    for map in (0..6).map(healthy_map) {
+        let findings = found(&through(&map, |texel| texel.map(|code| code / 4 * 3)));
+        let not_unit = findings.iter().find(|finding| finding.code == Code::MapNotUnit);
+        let not_unit = not_unit.unwrap_or_else(|| panic!("no finding among {findings:#?}"));
+        assert!(!not_unit.is_fixable() && not_unit.text.contains("lean to one side"), "{not_unit:#?}");
+    }
+}
+
 /// The cure is that of the convention asked for.
 #[test]
 fn the_cure_is_that_of_the_wanted_convention() {

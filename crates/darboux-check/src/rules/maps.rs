@@ -182,10 +182,10 @@ pub fn directions_by_mesh(map: &Map) -> Option<MapDirections> {
 }
 
 /// What the z score of the derivatives is called: the mean agreement of the tiles over its standard error.
-const CERTAINTY: &str = "certainty (4 or more decide)";
+const CERTAINTY: &str = "certainty (4 or more decide, or -4 or less)";
 
 /// What the z score of the faces is called.
-const BY_FACES: &str = "agreement with the faces of the model (6 or more decide)";
+const BY_FACES: &str = "agreement with the faces of the model (6 or more decide, or -6 or less)";
 
 /// The finding with the evidence for the direction of the channels.
 fn with_directions(finding: Finding, judgement: &MapJudgement, map: &Map) -> Finding {
@@ -305,6 +305,18 @@ fn channels_swapped(map: &Map) -> Option<Finding> {
     })
 }
 
+/// How far x and y of a map may lean on average; the slopes of a surface cancel.
+const MAX_MEAN_LEAN: f32 = 0.25;
+
+/// What is said of vectors that lean on average, and why they are not scaled.
+const LEANS: &str =
+    ", and they lean to one side on average, as after a change of brightness, contrast or colours";
+const LEANS_TOO: &str = "scaled to length 1, the vectors would still lean; undo the change of the colours, or export the map again";
+
+/// What is said of vectors that show no surface.
+const NO_SLOPES: &str =
+    ", and nothing shows that they are slopes of a surface: it may be another kind of image";
+
 /// Why vectors of an image are not scaled that may be no normal map.
 const MAY_BE_NO_MAP: &str = "scaled to length 1, the texels of another kind of image would still be no normals; if this is a normal map, normalise it in the program that made it";
 
@@ -312,19 +324,21 @@ fn not_unit(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Normals)?;
     let share = percent(judgement, judgement.not_unit);
     let is_surface = matches!(judgement.verdict, MapVerdict::OpenGl | MapVerdict::DirectX | MapVerdict::Flat);
-    let is_doubtful = share > 50.0 && !is_surface;
-    let doubt = if is_doubtful {
-        ", and nothing shows that they are slopes of a surface: it may be another kind of image"
-    } else {
-        ""
+    let leans = judgement.mean[..2].iter().any(|mean| mean.abs() > MAX_MEAN_LEAN);
+    let doubt = match () {
+        () if share <= 50.0 => None,
+        () if leans => Some((LEANS, LEANS_TOO)),
+        () if !is_surface => Some((NO_SLOPES, MAY_BE_NO_MAP)),
+        () => None,
     };
+    let clause = doubt.map_or("", |(clause, _)| clause);
     (share > MAX_PERCENT).then(|| {
         Finding::new(
             Code::MapNotUnit,
-            format!("{} texels have another length than 1{doubt}", judgement.not_unit),
+            format!("{} texels have another length than 1{clause}", judgement.not_unit),
         )
         .with_count(judgement.not_unit)
-        .with_obstacle(is_doubtful.then(|| MAY_BE_NO_MAP.to_owned()))
+        .with_obstacle(doubt.map(|(_, obstacle)| obstacle.to_owned()))
         .with_evidence("texels", share, "%")
         .with_evidence("mean length", judgement.mean_length.into(), "")
     })

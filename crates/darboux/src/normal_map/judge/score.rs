@@ -28,6 +28,10 @@ const MAX_EXCHANGED_RATIO: f64 = -0.02;
 const MAX_EXCHANGED_RATIO_Z_SCORE: f64 = -3.0;
 const MIN_EXCHANGED_Z_SCORE: f64 = 2.0;
 
+/// The largest log energy ratio of a map without a sign that is called no gradient: it is 0 for noise, whose derivatives are independent, and for
+/// pictures, whose red and green change together. Slopes of threads or grooves along u and v have little mixed energy and much more unmixed energy.
+const MAX_RATIO_OF_NOISE: f64 = 0.3;
+
 /// The steepness of the confidence over the z score, less that of the level that contradicts it most.
 const STEEPNESS: f64 = 1.1;
 
@@ -124,7 +128,9 @@ impl Evidence {
             () if self.is_exchanged() => MapVerdict::NoGradient,
             () if self.is_decided() && self.z_score > 0.0 => MapVerdict::OpenGl,
             () if self.is_decided() => MapVerdict::DirectX,
-            () if !has_sign && self.has_enough_signal => MapVerdict::NoGradient,
+            () if !has_sign && self.has_enough_signal && self.log_energy_ratio <= MAX_RATIO_OF_NOISE => {
+                MapVerdict::NoGradient
+            }
             () => MapVerdict::CannotTell,
         }
     }
@@ -187,6 +193,18 @@ mod tests {
             let clear = combine_levels(&[5.0, -4.0, 1.0].map(|z_score| level(sign * z_score)));
             assert!((clear.z_score * sign - 5.0).abs() < 1e-9, "{clear:?}");
             assert!((clear.correlation * sign - 0.05).abs() < 1e-9, "{clear:?}");
+        }
+    }
+
+    /// Maps with a signal and no sign are noise where their energies are equal, and undecided where the unmixed one is much larger.
+    #[test]
+    fn threads_along_the_axes_are_not_called_noise() {
+        for (ratio, verdict) in [(0.0, MapVerdict::NoGradient), (1.5, MapVerdict::CannotTell)] {
+            let mut noise = level(1.0);
+            noise.tile_sums.tiles = MIN_TILES_FOR_NO_GRADIENT;
+            (noise.tile_sums.energy, noise.tile_sums.texels) = (1.0, 1.0);
+            noise.tile_sums.log_energy_ratios = ratio * MIN_TILES_FOR_NO_GRADIENT as f64;
+            assert_eq!(combine_levels(&[noise]).verdict(), verdict, "{ratio}");
         }
     }
 
