@@ -100,6 +100,7 @@ fn darkened_maps_are_not_scaled() {
         let not_unit = findings.iter().find(|finding| finding.code == Code::MapNotUnit);
         let not_unit = not_unit.unwrap_or_else(|| panic!("no finding among {findings:#?}"));
         assert!(!not_unit.is_fixable() && not_unit.text.contains("lean to one side"), "{not_unit:#?}");
+        assert!(not_unit.cure.contains("brightness"), "{not_unit:#?}");
     }
 }
 

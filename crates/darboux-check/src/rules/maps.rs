@@ -327,18 +327,28 @@ fn not_unit(map: &Map) -> Option<Finding> {
     let leans = judgement.mean[..2].iter().any(|mean| mean.abs() > MAX_MEAN_LEAN);
     let doubt = match () {
         () if share <= 50.0 => None,
-        () if leans => Some((LEANS, LEANS_TOO)),
-        () if !is_surface => Some((NO_SLOPES, MAY_BE_NO_MAP)),
+        () if leans => Some((
+            LEANS,
+            LEANS_TOO,
+            "Undo the change of brightness or colours, or export the map again as it was.",
+        )),
+        () if !is_surface => Some((
+            NO_SLOPES,
+            MAY_BE_NO_MAP,
+            "Put the normal map into the slot; if this is one, normalise it in the program that made it.",
+        )),
         () => None,
     };
-    let clause = doubt.map_or("", |(clause, _)| clause);
+    let clause = doubt.map_or("", |(clause, ..)| clause);
+    let cure = doubt.map_or(Code::MapNotUnit.cure(), |(.., cure)| cure);
     (share > MAX_PERCENT).then(|| {
         Finding::new(
             Code::MapNotUnit,
             format!("{} texels have another length than 1{clause}", judgement.not_unit),
         )
         .with_count(judgement.not_unit)
-        .with_obstacle(doubt.map(|(_, obstacle)| obstacle.to_owned()))
+        .with_cure(cure)
+        .with_obstacle(doubt.map(|(_, obstacle, _)| obstacle.to_owned()))
         .with_evidence("texels", share, "%")
         .with_evidence("mean length", judgement.mean_length.into(), "")
     })
