@@ -6,6 +6,7 @@ use darboux::Context;
 use darboux::internal::jobs;
 
 use crate::band::Bake;
+use crate::budget::Budget;
 use crate::high::HighGroup;
 use crate::images::{Band, Images, TexelState};
 use crate::layout::{BLOCK, Layout};
@@ -71,11 +72,11 @@ pub fn bake(
 ) -> Result<Baked, BakeError> {
     check_options(options)?;
     check_surfaces(low, high)?;
-    let needed = memory::needed(high, options);
-    let limit = check_memory(needed, options.memory_limit)?;
-    let layout = Layout::new(low, options.size, options.surface_convention, limit)?;
+    let mut budget = Budget::new(options.memory_limit);
+    budget.add(memory::of_bake(high, options))?;
+    let layout = Layout::new(low, options.size, options.surface_convention, &mut budget)?;
     let groups = group_surfaces(low, high, context)?;
-    let mut images = Images::background(options, needed)?;
+    let mut images = Images::background(options, &budget)?;
     let stages = Bake {
         low,
         groups: &groups,
@@ -113,15 +114,6 @@ pub(crate) fn check_surfaces(low: &[LowSurface<'_>], high: &[HighSurface<'_>]) -
         return Err(BakeError::NoHighTriangles);
     }
     Ok(())
-}
-
-/// Returns the bytes that are left for lists whose length is not known yet. Errors: more memory than the limit.
-pub(crate) fn check_memory(needed: u64, limit: Option<u64>) -> Result<u64, BakeError> {
-    match limit {
-        Some(limit) if needed > limit => Err(BakeError::Memory { needed, limit: Some(limit) }),
-        Some(limit) => Ok(limit - needed),
-        None => Ok(u64::MAX),
-    }
 }
 
 /// The high surfaces by group, for every group of the low surfaces.

@@ -116,13 +116,13 @@ impl fmt::Display for BakeError {
             }
             Self::Memory { needed, limit: Some(limit) } => write!(
                 f,
-                "the bake needs {} MiB of memory, which is more than the limit of {} MiB; choose a smaller size or fewer maps, or raise the limit",
+                "the run needs {} MiB of memory, which is more than the limit of {} MiB; choose a smaller size or fewer maps, or raise the limit",
                 mebibytes(needed),
                 mebibytes(limit)
             ),
             Self::Memory { needed, limit: None } => write!(
                 f,
-                "the bake needs {} MiB of memory, which the system refuses; choose a smaller size or fewer maps",
+                "the run needs {} MiB of memory, which the system refuses; choose a smaller size or fewer maps",
                 mebibytes(needed)
             ),
         }

@@ -1,5 +1,6 @@
 //! The images of a run, while they are filled and when they are done.
 
+use crate::budget::Budget;
 use crate::vector::{dot, narrow, scale, sub, unit, wide};
 use crate::{BakeError, BakeOptions, MapKind};
 
@@ -62,16 +63,16 @@ pub struct Images {
 }
 
 impl Images {
-    /// Images of the background. `needed`: the bytes of the run, for the error. Errors: the system refuses the memory.
-    pub(crate) fn background(options: &BakeOptions, needed: u64) -> Result<Self, BakeError> {
+    /// Images of the background. Errors: the system refuses the memory.
+    pub(crate) fn background(options: &BakeOptions, budget: &Budget) -> Result<Self, BakeError> {
         let count = options.size.map(|side| side as usize).iter().product();
         let vectors = |kind, background| {
             let filled = options.maps.has(kind).then(|| filled(count, background));
-            filled.transpose().map_err(|_| BakeError::Memory { needed, limit: None })
+            filled.transpose().map_err(|_| budget.refused())
         };
         let numbers = |kind, background| {
             let filled = options.maps.has(kind).then(|| filled(count, background));
-            filled.transpose().map_err(|_| BakeError::Memory { needed, limit: None })
+            filled.transpose().map_err(|_| budget.refused())
         };
         Ok(Self {
             size: options.size,
@@ -80,8 +81,7 @@ impl Images {
             height: numbers(MapKind::Height, 0.0)?,
             occlusion: numbers(MapKind::Occlusion, 1.0)?,
             position: vectors(MapKind::Position, [0.0; 3])?,
-            states: filled(count, TexelState::Outside)
-                .map_err(|_| BakeError::Memory { needed, limit: None })?,
+            states: filled(count, TexelState::Outside).map_err(|_| budget.refused())?,
         })
     }
 

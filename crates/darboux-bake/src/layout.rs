@@ -2,6 +2,7 @@
 
 use darboux::{Convention, UvOrigin};
 
+use crate::budget::Budget;
 use crate::samples::STEPS;
 use crate::{BakeError, LowSurface};
 
@@ -24,6 +25,14 @@ pub struct Placed {
     pub tile: [i32; 2],
 }
 
+/// Why a triangle has no place in the image.
+enum LeftOut {
+    /// It has no area, or is not finite.
+    Degenerate,
+    /// It touches too many tiles, or lies too far away.
+    Oversized,
+}
+
 /// The triangles of every block of the image.
 #[derive(Debug)]
 pub struct Layout {
@@ -41,12 +50,12 @@ pub struct Layout {
 impl Layout {
     /// Places all triangles. Those without an area, not finite or across too many tiles are left out and counted.
     ///
-    /// Errors: more memory than `limit` bytes.
+    /// `budget`: the lists of the layout are added to it. Errors: they exceed it.
     pub fn new(
         low: &[LowSurface<'_>],
         [width, height]: [u32; 2],
         convention: Convention,
-        limit: u64,
+        budget: &mut Budget,
     ) -> Result<Self, BakeError> {
         let mut layout = Self {
             size: [width as usize, height as usize],
@@ -57,22 +66,40 @@ impl Layout {
             degenerate: 0,
             oversized: 0,
         };
-        for (surface, low) in low.iter().enumerate() {
-            for triangle in 0..low.triangle_count() {
-                layout.place(low, surface as u32, triangle as u32);
-            }
-        }
-        layout.fill_blocks(low, limit)?;
+        layout.place_all(low, budget)?;
+        layout.fill_blocks(low, budget)?;
         Ok(layout)
     }
 
-    /// Adds a triangle for every tile that its bounding box touches.
-    fn place(&mut self, low: &LowSurface<'_>, surface: u32, triangle: u32) {
-        let placed = Placed { surface, triangle, tile: [0; 2] };
+    /// Adds every triangle once for each of its tiles, and counts those that are left out.
+    fn place_all(&mut self, low: &[LowSurface<'_>], budget: &mut Budget) -> Result<(), BakeError> {
+        let mut count = 0;
+        for placed in triangles(low) {
+            match self.tiles(low, placed) {
+                Ok([first, last]) => {
+                    count += (0..2).map(|i| (last[i] - first[i] + 1) as u64).product::<u64>()
+                }
+                Err(LeftOut::Degenerate) => self.degenerate += 1,
+                Err(LeftOut::Oversized) => self.oversized += 1,
+            }
+        }
+        budget.add(count * size_of::<Placed>() as u64)?;
+        let mut list = Vec::with_capacity(count as usize);
+        for placed in triangles(low) {
+            let Ok([first, last]) = self.tiles(low, placed) else { continue };
+            let tiles = (first[1]..=last[1]).flat_map(|y| (first[0]..=last[0]).map(move |x| [x, y]));
+            list.extend(tiles.map(|tile| Placed { tile, ..placed }));
+        }
+        self.placed = list;
+        Ok(())
+    }
+
+    /// The first and the last tile, by column and row, that the bounding box of a triangle touches.
+    fn tiles(&self, low: &[LowSurface<'_>], placed: Placed) -> Result<[[i32; 2]; 2], LeftOut> {
+        let low = &low[placed.surface as usize];
         let texels = self.texels(low, &placed);
         if !texels.as_flattened().iter().all(|x| x.is_finite()) {
-            self.degenerate += 1;
-            return;
+            return Err(LeftOut::Degenerate);
         }
         let [from, to] = bounds(texels);
         let first = [0, 1].map(|i| (from[i] / self.size[i] as f64).floor());
@@ -80,19 +107,13 @@ impl Layout {
         let last = [0, 1].map(|i| ((to[i] / self.size[i] as f64).ceil() - 1.0).max(first[i]));
         let is_near = |x: &f64| x.abs() < f64::from(1 << 24);
         if !first.iter().chain(&last).all(is_near) || (0..2).any(|i| last[i] - first[i] >= MAX_TILES as f64) {
-            self.oversized += 1;
-            return;
+            return Err(LeftOut::Oversized);
         }
         let at_first = Placed { tile: first.map(|x| x as i32), ..placed };
         if area(steps(self.texels(low, &at_first))) == 0 {
-            self.degenerate += 1;
-            return;
+            return Err(LeftOut::Degenerate);
         }
-        for y in first[1] as i32..=last[1] as i32 {
-            for x in first[0] as i32..=last[0] as i32 {
-                self.placed.push(Placed { tile: [x, y], ..placed });
-            }
-        }
+        Ok([first, last].map(|tile| tile.map(|x| x as i32)))
     }
 
     /// The corners of a triangle in texels from the upper left corner of the image.
@@ -113,7 +134,7 @@ impl Layout {
     }
 
     /// Sorts the triangles into blocks: counts, starts, lists.
-    fn fill_blocks(&mut self, low: &[LowSurface<'_>], limit: u64) -> Result<(), BakeError> {
+    fn fill_blocks(&mut self, low: &[LowSurface<'_>], budget: &mut Budget) -> Result<(), BakeError> {
         let mut counts = vec![0u64; self.block_count() + 1];
         for placed in &self.placed {
             self.visit_blocks(&low[placed.surface as usize], placed, |block| counts[block] += 1);
@@ -122,10 +143,7 @@ impl Layout {
         for count in &mut counts {
             sum += std::mem::replace(count, sum);
         }
-        let needed = 4 * sum + 16 * self.placed.len() as u64;
-        if needed > limit {
-            return Err(BakeError::Memory { needed, limit: Some(limit) });
-        }
+        budget.add(4 * sum)?;
         let mut lists = vec![0; sum as usize];
         let mut ends = counts.clone();
         for (index, placed) in self.placed.iter().enumerate() {
@@ -179,6 +197,15 @@ impl Layout {
         let range = self.starts[block] as usize..self.starts[block + 1] as usize;
         self.lists[range].iter().map(|&index| &self.placed[index as usize])
     }
+}
+
+/// All triangles, each in the first tile.
+fn triangles(low: &[LowSurface<'_>]) -> impl Iterator<Item = Placed> {
+    low.iter().enumerate().flat_map(|(surface, low)| {
+        let placed =
+            move |triangle| Placed { surface: surface as u32, triangle: triangle as u32, tile: [0; 2] };
+        (0..low.triangle_count()).map(placed)
+    })
 }
 
 /// The corners in steps: multiples of 1 / [`STEPS`] texel.

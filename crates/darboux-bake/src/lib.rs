@@ -17,6 +17,7 @@
 mod bake;
 mod band;
 mod beyond;
+mod budget;
 mod bvh;
 mod coverage;
 mod error;
@@ -55,7 +56,7 @@ pub use options::{BakeOptions, Bitangent, MapKind, MapSet};
 pub use report::BakeReport;
 pub use space::{ConvertedSpace, NormalSpace, SpaceOptions, convert_space};
 pub use surface::{HighSurface, LowSurface, default_cage_offset, inflated_cage};
-pub use verify::{ErrorStatistics, Mistake, Verification, VerifiedPlace, verify};
+pub use verify::{ErrorStatistics, Mistake, Verification, VerifiedPlace, check_verification, verify};
 
 /// The example of README.md compiles.
 #[cfg(doctest)]

@@ -1,16 +1,19 @@
-//! The memory of a run, estimated before anything is allocated.
+//! How many bytes runs need, estimated before anything large is allocated.
 
 use crate::images::TexelState;
 use crate::{BakeOptions, HighSurface, MapKind, bvh, padding};
 
-/// The bytes of two decoded normal maps, of the compared points, and of the hierarchies over the high surfaces.
-pub fn needed_to_verify(high: &[HighSurface<'_>], options: &BakeOptions, of_points: u64) -> u64 {
-    texels(options) * 24 + of_points + of_hierarchies(high)
-}
+/// The bytes per texel of the two normal maps that a verification compares.
+const BYTES_PER_COMPARED_TEXEL: u64 = 24;
 
 /// The bytes of the images, of what filling them needs, and of the hierarchies over the high surfaces.
-pub fn needed(high: &[HighSurface<'_>], options: &BakeOptions) -> u64 {
-    texels(options) * bytes_per_texel(options) + of_hierarchies(high)
+pub fn of_bake(high: &[HighSurface<'_>], options: &BakeOptions) -> u64 {
+    texels(options) * (bytes_of_images(options) + padding::BYTES_PER_TEXEL) + of_hierarchies(high)
+}
+
+/// The bytes of the baked images, of two decoded normal maps, and of the hierarchies over the high surfaces; without those of the points.
+pub fn of_verification(high: &[HighSurface<'_>], options: &BakeOptions) -> u64 {
+    texels(options) * (bytes_of_images(options) + BYTES_PER_COMPARED_TEXEL) + of_hierarchies(high)
 }
 
 fn texels(options: &BakeOptions) -> u64 {
@@ -22,11 +25,12 @@ fn of_hierarchies(high: &[HighSurface<'_>]) -> u64 {
     triangles * bvh::BYTES_PER_TRIANGLE
 }
 
-fn bytes_per_texel(options: &BakeOptions) -> u64 {
+/// The bytes per texel of the images.
+fn bytes_of_images(options: &BakeOptions) -> u64 {
     let bytes = |kind: &MapKind| match kind {
         MapKind::Height | MapKind::Occlusion => 4,
         MapKind::Normal | MapKind::ObjectNormal | MapKind::Position => 12,
     };
     let of_maps: u64 = MapKind::ALL.iter().filter(|&&kind| options.maps.has(kind)).map(bytes).sum();
-    of_maps + size_of::<TexelState>() as u64 + padding::BYTES_PER_TEXEL
+    of_maps + size_of::<TexelState>() as u64
 }

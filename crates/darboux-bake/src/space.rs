@@ -4,7 +4,7 @@ use darboux::internal::jobs;
 use darboux::{Context, Convention};
 use serde::Serialize;
 
-use crate::bake::check_memory;
+use crate::budget::Budget;
 use crate::coverage::{Coverage, TEXELS};
 use crate::face::Face;
 use crate::frame::ShadingFrame;
@@ -132,9 +132,9 @@ pub fn convert_space(
     if low.iter().all(|surface| surface.triangle_count() == 0) {
         return Err(BakeError::NoLowTriangles);
     }
-    let limit =
-        check_memory(texels.len() as u64 * (12 + 1 + padding::BYTES_PER_TEXEL), options.memory_limit)?;
-    let layout = Layout::new(low, options.size, options.surface_convention, limit)?;
+    let mut budget = Budget::new(options.memory_limit);
+    budget.add(texels.len() as u64 * (12 + 1 + padding::BYTES_PER_TEXEL))?;
+    let layout = Layout::new(low, options.size, options.surface_convention, &mut budget)?;
     let converter = Converter { low, layout: &layout, texels, options };
     let mut converted = vec![[0.0; 3]; texels.len()];
     let mut states = vec![TexelState::Outside; texels.len()];

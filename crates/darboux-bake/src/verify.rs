@@ -14,7 +14,8 @@ mod summary;
 
 use darboux::Context;
 
-use crate::bake::{check_memory, check_options, check_surfaces, for_each_band, group_surfaces};
+use crate::bake::{check_options, check_surfaces, for_each_band, group_surfaces};
+use crate::budget::Budget;
 use crate::layout::Layout;
 use crate::{BakeError, BakeOptions, BakeProgress, HighSurface, Images, LowSurface, NormalTexture, memory};
 use points::{BYTES_PER_POINT, BandPoints, Points, cell_side};
@@ -29,7 +30,9 @@ pub use summary::Verification;
 ///
 /// `low`: as the renderer has them; `baked`: the images of [`bake`](crate::bake()) with these options; `written`: the normal map as it is in its
 /// file, in the options' conventions. The truth at a point is the normal where its ray hits, also between texels, so that the error of resolution and
-/// filter is part of the result. `progress` is called on any thread, after each row of blocks. Errors: as of [`bake`](crate::bake()); images without a normal map or of another size.
+/// filter is part of the result. `progress` is called on any thread, after each row of blocks.
+///
+/// Errors: as of [`bake`](crate::bake()); images without a normal map or of another size.
 pub fn verify(
     low: &[LowSurface<'_>],
     high: &[HighSurface<'_>],
@@ -39,17 +42,10 @@ pub fn verify(
     context: &mut Context,
     progress: &mut (dyn FnMut(BakeProgress) + Send),
 ) -> Result<Verification, BakeError> {
-    check_options(options)?;
-    check_surfaces(low, high)?;
+    let Plan { layout, cell_side } = Plan::new(low, high, options)?;
     let unrounded =
         baked.normal.clone().filter(|_| baked.size == options.size && written.size() == options.size);
     let unrounded = unrounded.ok_or(BakeError::NoMaps)?;
-    let layout =
-        Layout::new(low, options.size, options.surface_convention, options.memory_limit.unwrap_or(u64::MAX))?;
-    let cell_side = cell_side(&layout, low);
-    let points = layout.charted_area(low) / (cell_side * cell_side) as f64;
-    let needed = memory::needed_to_verify(high, options, points as u64 * BYTES_PER_POINT);
-    check_memory(needed, options.memory_limit)?;
     let unrounded =
         NormalTexture::new(options.size, unrounded, options.map_convention, options.surface_convention)?;
     let groups = group_surfaces(low, high, context)?;
@@ -67,4 +63,39 @@ pub fn verify(
         (0..points.band_count()).map(|row| (row, BandPoints::default())).collect();
     for_each_band(context, &mut bands, progress, |(row, band)| *band = points.band(*row))?;
     Ok(summarize(bands.into_iter().map(|(_, band)| band).collect(), points.heat_size()))
+}
+
+/// Refuses, before anything is baked, what [`verify`] would refuse after the bake: options out of range, no triangles, more memory than the limit.
+pub fn check_verification(
+    low: &[LowSurface<'_>],
+    high: &[HighSurface<'_>],
+    options: &BakeOptions,
+) -> Result<(), BakeError> {
+    Plan::new(low, high, options).map(|_| ())
+}
+
+/// Which points a verification compares.
+struct Plan {
+    layout: Layout,
+    /// Texels per side of a cell, in which one texel is compared.
+    cell_side: usize,
+}
+
+impl Plan {
+    /// Errors: as of [`check_verification`].
+    fn new(
+        low: &[LowSurface<'_>],
+        high: &[HighSurface<'_>],
+        options: &BakeOptions,
+    ) -> Result<Self, BakeError> {
+        check_options(options)?;
+        check_surfaces(low, high)?;
+        let mut budget = Budget::new(options.memory_limit);
+        budget.add(memory::of_verification(high, options))?;
+        let layout = Layout::new(low, options.size, options.surface_convention, &mut budget)?;
+        let cell_side = cell_side(&layout, low);
+        let points = layout.charted_area(low) / (cell_side * cell_side) as f64;
+        budget.add(points as u64 * BYTES_PER_POINT)?;
+        Ok(Self { layout, cell_side })
+    }
 }

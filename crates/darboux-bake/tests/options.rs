@@ -336,6 +336,13 @@ fn wrong_options_and_surfaces_are_refused() {
         error.to_string().contains("needs 21505 MiB of memory, which is more than the limit of 1024 MiB")
     );
     let none = Shape::default();
+    let tiled = plate(16.0);
+    let surface_of_tiles = LowSurface::new(tiled.mesh(), &tangents).expect("one tangent per corner");
+    let limited = good.with_memory_limit(Some(1 << 10));
+    let error = bake(&[surface_of_tiles], &[high.high()], &limited, &mut Context::new(), &mut |_| {});
+    let error = error.expect_err("refused");
+    let of_tiles = 2 * 16 * 16 * 16;
+    assert_eq!(error, BakeError::Memory { needed: 21 * 16 + 200 + of_tiles, limit: Some(1 << 10) });
     let options = options(4);
     let bake = |low: &[LowSurface<'_>], high: &[HighSurface<'_>]| {
         bake(low, high, &options, &mut Context::new(), &mut |_| {}).expect_err("refused")

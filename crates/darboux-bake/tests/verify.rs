@@ -6,8 +6,8 @@ use std::io::Write;
 
 use darboux::{Context, Convention, Mesh, Method, TexelLayout, generate_tangents};
 use darboux_bake::{
-    BakeOptions, BakeProgress, Baked, Bitangent, ErrorStatistics, HighSurface, LowSurface, Mistake,
-    NormalTexture, Verification, VerifiedPlace, bake, verify,
+    BakeError, BakeOptions, BakeProgress, Baked, Bitangent, ErrorStatistics, HighSurface, LowSurface,
+    Mistake, NormalTexture, Verification, VerifiedPlace, bake, check_verification, verify,
 };
 use darboux_io::image::srgb_to_linear;
 use support::{PAIRS, Shape, unit};
@@ -145,6 +145,36 @@ fn images_of_another_size_are_refused() {
     let refused =
         verify(&[low], &high, &baked.images, &written, &bench.options, &mut Context::new(), &mut |_| {});
     assert!(refused.is_err());
+}
+
+/// The bake needs less memory than the comparison.
+#[test]
+fn memory_for_the_comparison_is_checked_before_the_bake() {
+    let bench = Bench::new(0);
+    let tangents = bench.low.tangents();
+    let low = [LowSurface::new(bench.low.mesh(), &tangents).expect("one tangent per corner")];
+    let high = [bench.high.high()];
+    let refusal = |options: &BakeOptions| check_verification(&low, &high, options).err();
+    assert_eq!(refusal(&bench.options), None);
+    let baked = bench.bake();
+    let written = NormalTexture::new(
+        bench.options.size,
+        baked.images.normal.clone().expect("was chosen"),
+        bench.options.map_convention,
+        Convention::GLTF,
+    );
+    let written = written.expect("a texture");
+    let limited = |bytes: u64| bench.options.with_memory_limit(Some(bytes));
+    // Each refusal tells a part of the sum, the last one all of it.
+    let mut enough = 0;
+    while let Some(BakeError::Memory { needed, .. }) = refusal(&limited(enough)) {
+        enough = needed;
+    }
+    let options = limited(enough - 1);
+    let refused = verify(&low, &high, &baked.images, &written, &options, &mut Context::new(), &mut |_| {});
+    assert!(refusal(&options).is_some());
+    assert_eq!(refused.err(), refusal(&options));
+    assert!(bake(&low, &high, &options, &mut Context::new(), &mut |_| {}).is_ok());
 }
 
 /// Prints the table of docs/matching-your-baker.md: what each difference between baker and renderer costs, on the sphere with waves.

@@ -9,7 +9,7 @@ use super::ray::PreparedRay;
 use super::tree::Bvh;
 
 /// The most children of a cut. Twice as many gained nothing.
-const MOST: usize = 8;
+pub const MOST: usize = 8;
 
 /// The intervals of the values of some rays.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,7 @@ use std::path::Path;
 use darboux::Context;
 use darboux_bake::{
     BakeOptions, BakeProgress, Baked, HighModel, HighModelOptions, HighSurface, LowModel, LowModelOptions,
-    LowSurface, MapSet, bake, group_by_name,
+    LowSurface, MapSet, bake, check_verification, group_by_name,
 };
 use darboux_io::gltf::{Document, PrimitiveCorners};
 
@@ -67,6 +67,10 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
     let high_surfaces = models.high_surfaces(arguments, &mut surfaces, &mut warnings)?;
 
     let options = options(arguments, &rays);
+    if arguments.verify {
+        let check = check_verification(&surfaces, &high_surfaces, &options);
+        check.map_err(|error| format!("--verify cannot follow the bake: {error}"))?;
+    }
     let baked = bake_surfaces(arguments, messages, &surfaces, &high_surfaces, &options)?;
     let written = write_maps(arguments, &baked.images, &options)?;
     let misses = pictures::misses(arguments, &baked, &mut warnings)?;
