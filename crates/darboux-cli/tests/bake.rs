@@ -312,7 +312,10 @@ fn a_model_is_written_that_bakes_to_the_same_map() {
         assert_eq!(report["model"], text(&model));
         let map = fs::read(pair.path("map.png")).expect("a map");
         let checked = darboux(&["check", text(&model), "--json"]);
-        assert!(checked.code == 0, "{} {}", String::from_utf8_lossy(&checked.stdout), checked.stderr);
+        // The high surface leans as a whole, and so does its map of one colour. Nothing else is found.
+        let checked = checked.json();
+        let findings = checked["files"][0]["findings"].as_array().expect("a list");
+        assert!(findings.iter().all(|finding| finding["code"] == "map-flat-off"), "{findings:?}");
         let inspected = darboux(&["inspect", text(&model), "--json"]).exits(0).json().to_string();
         assert!(inspected.contains("\"has_tangents\":true"), "{inspected}");
         // Its own tangents give the same map.
