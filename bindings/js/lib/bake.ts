@@ -160,6 +160,8 @@ export interface BakeReport {
   degenerateTriangles: number;
   /** Triangles of the low model across more than 16 tiles of UVs. They are not baked. */
   oversizedTriangles: number;
+  /** Triangles of the low model with positions or normals that are not finite. They are not baked. */
+  nonFiniteLowTriangles: number;
   highTriangles: number;
   /** Triangles of the high models with positions that are not finite. No ray hits them. */
   nonFiniteTriangles: number;

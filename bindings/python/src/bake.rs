@@ -9,6 +9,7 @@ use numpy::PyArray1;
 use numpy::prelude::*;
 use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 use crate::arrays::Rows;
 use crate::choices::choice;
@@ -199,7 +200,7 @@ fn result(py: Python<'_>, baked: Baked) -> PyResult<Bound<'_, PyAny>> {
 }
 
 fn report<'py>(py: Python<'py>, report: &BakeReport) -> PyResult<Bound<'py, PyAny>> {
-    let fields = (
+    let fields = [
         report.charted_texels,
         report.missed_texels,
         report.back_facing_texels,
@@ -211,7 +212,8 @@ fn report<'py>(py: Python<'py>, report: &BakeReport) -> PyResult<Bound<'py, PyAn
         report.rays,
         report.degenerate_triangles,
         report.oversized_triangles,
+        report.non_finite_low_triangles,
         report.non_finite_triangles,
-    );
-    named(py, "BakeReport", fields)
+    ];
+    named(py, "BakeReport", PyTuple::new(py, fields)?)
 }

@@ -182,6 +182,7 @@ fn count_triangles(
     report.chart_area = layout.charted_area(low).round() as u64;
     report.degenerate_triangles = layout.degenerate as u64;
     report.oversized_triangles = layout.oversized as u64;
+    report.non_finite_low_triangles = layout.non_finite as u64;
     report.high_triangles = high.iter().map(|surface| surface.triangle_count() as u64).sum();
     report.non_finite_triangles = groups.iter().map(|group| group.non_finite as u64).sum();
 }

@@ -27,8 +27,10 @@ pub struct Placed {
 
 /// Why a triangle has no place in the image.
 enum LeftOut {
-    /// It has no area, or is not finite.
+    /// It has no area, or its UVs are not finite.
     Degenerate,
+    /// Its positions or normals are not finite.
+    NonFinite,
     /// It touches too many tiles, or lies too far away.
     Oversized,
 }
@@ -45,6 +47,7 @@ pub struct Layout {
     lists: Vec<u32>,
     pub degenerate: usize,
     pub oversized: usize,
+    pub non_finite: usize,
 }
 
 impl Layout {
@@ -65,6 +68,7 @@ impl Layout {
             lists: Vec::new(),
             degenerate: 0,
             oversized: 0,
+            non_finite: 0,
         };
         layout.place_all(low, budget)?;
         layout.fill_blocks(low, budget)?;
@@ -81,6 +85,7 @@ impl Layout {
                 }
                 Err(LeftOut::Degenerate) => self.degenerate += 1,
                 Err(LeftOut::Oversized) => self.oversized += 1,
+                Err(LeftOut::NonFinite) => self.non_finite += 1,
             }
         }
         budget.add(count * size_of::<Placed>() as u64)?;
@@ -97,6 +102,9 @@ impl Layout {
     /// The first and the last tile, by column and row, that the bounding box of a triangle touches.
     fn tiles(&self, low: &[LowSurface<'_>], placed: Placed) -> Result<[[i32; 2]; 2], LeftOut> {
         let low = &low[placed.surface as usize];
+        if !is_finite(low, placed.triangle) {
+            return Err(LeftOut::NonFinite);
+        }
         let texels = self.texels(low, &placed);
         if !texels.as_flattened().iter().all(|x| x.is_finite()) {
             return Err(LeftOut::Degenerate);
@@ -205,6 +213,14 @@ fn triangles(low: &[LowSurface<'_>]) -> impl Iterator<Item = Placed> {
         let placed =
             move |triangle| Placed { surface: surface as u32, triangle: triangle as u32, tile: [0; 2] };
         (0..low.triangle_count()).map(placed)
+    })
+}
+
+/// True where the positions and normals of a triangle's corners are finite.
+fn is_finite(low: &LowSurface<'_>, triangle: u32) -> bool {
+    (0..3).map(|corner| low.mesh.vertex_of_corner(3 * triangle as usize + corner)).all(|vertex| {
+        let (position, normal) = (low.mesh.positions().get(vertex), low.mesh.normals().get(vertex));
+        position.iter().chain(&normal).all(|x| x.is_finite())
     })
 }
 

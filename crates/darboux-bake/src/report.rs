@@ -33,6 +33,8 @@ pub struct BakeReport {
     pub degenerate_triangles: u64,
     /// Triangles of the low surfaces across more than 16 tiles of UVs. They are not baked.
     pub oversized_triangles: u64,
+    /// Triangles of the low surfaces with positions or normals that are not finite. They are not baked.
+    pub non_finite_low_triangles: u64,
     /// Triangles of the high surfaces.
     pub high_triangles: u64,
     /// Triangles of the high surfaces with positions that are not finite. No ray hits them.
@@ -56,6 +58,7 @@ impl BakeReport {
             low_triangles: self.low_triangles + other.low_triangles,
             degenerate_triangles: self.degenerate_triangles + other.degenerate_triangles,
             oversized_triangles: self.oversized_triangles + other.oversized_triangles,
+            non_finite_low_triangles: self.non_finite_low_triangles + other.non_finite_low_triangles,
             high_triangles: self.high_triangles + other.high_triangles,
             non_finite_triangles: self.non_finite_triangles + other.non_finite_triangles,
         }

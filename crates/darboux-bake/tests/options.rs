@@ -313,6 +313,18 @@ fn high_triangles_that_are_not_finite_are_counted() {
 }
 
 #[test]
+fn low_triangles_that_are_not_finite_are_counted_and_not_baked() {
+    let high = roof(0.2, 0.2);
+    let whole = baked(&plate(1.0), &high, &options(8)).report;
+    let mut broken = plate(1.0);
+    broken.positions[1][2] = f32::NAN;
+    let report = baked(&broken, &high, &options(8)).report;
+    assert_eq!(report.non_finite_low_triangles, 1);
+    assert!(report.charted_texels < whole.charted_texels);
+    assert_eq!(report.missed_texels, whole.missed_texels);
+}
+
+#[test]
 fn wrong_options_and_surfaces_are_refused() {
     let (low, high) = (plate(1.0), roof(0.2, 0.2));
     let tangents = low.tangents();

@@ -66,6 +66,27 @@ pub fn load(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
     in_gltf_convention(input, load_any(input, reading)?)
 }
 
+/// As [`load`], decompressed, also from an OBJ file, which becomes a document. Warnings have the name of the file, which tells several models apart.
+#[cfg(feature = "bake")]
+pub fn load_with_obj(
+    path: &Path,
+    reading: &ReadOptions,
+    warnings: &mut Vec<String>,
+) -> Result<Document, String> {
+    let sentence = |error: darboux_io::Error| error.to_string();
+    let is_obj = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
+    let (mut document, of_obj) = if is_obj {
+        let model = darboux_io::obj::read(path, &reading.load_options()).map_err(sentence)?;
+        (model.document, model.warnings)
+    } else {
+        (load(&Input::File(path.to_owned()), reading)?, Vec::new())
+    };
+    document.decompress().map_err(sentence)?;
+    let all = of_obj.iter().chain(document.warnings());
+    warnings.extend(all.map(|warning| format!("{}: {warning}", document.name())));
+    Ok(document)
+}
+
 fn in_gltf_convention(input: &Input, document: Document) -> Result<Document, String> {
     let convention = document.convention().map_err(|error| error.to_string())?;
     if convention == Convention::GLTF {
@@ -82,7 +103,7 @@ fn in_gltf_convention(input: &Input, document: Document) -> Result<Document, Str
 pub fn load_any(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
     match input {
         Input::File(path) if path.is_file() && is_other_format(path) => Err(format!(
-            "{input}: this command reads glTF files only; export the model as .glb (darboux view and darboux render also read OBJ)"
+            "{input}: this command reads glTF files only; export the model as .glb (darboux bake, view and render also read OBJ)"
         )),
         Input::File(path) if path.is_file() && is_other_image(path) => Err(format!(
             "{input}: is an image in a format that is not read here; save it as .png (8 or 16 bits), .jpg or .webp, and darboux check judges it as a normal map"

@@ -230,10 +230,22 @@ fn a_picture_shows_where_rays_missed() {
     // The roof rises to the right: its left is hit, its right is not.
     let pixel = |x: usize| rgb(&picture)[8 * 16 + x];
     assert_eq!([pixel(0), pixel(15)], [[96, 96, 96], [230, 40, 40]]);
-    // Turned inside out by a mirroring scale of its node, all is hit from behind.
-    fs::write(&high, plate([0.0, 0.5], &["POSITION"], -1.0)).expect("a file");
-    let inside_out = line(&high, &["--force", "--distance", "2,2"]);
-    assert!(inside_out.stderr.contains("hit nothing"), "{}", inside_out.stderr);
+    // A later run that hits everything says that the picture is not its own.
+    let whole = line(&high, &["--force", "--distance", "2,2"]).json();
+    assert!(whole["misses"].is_null());
+    assert!(whole["warnings"].to_string().contains("map.misses.png: is of an earlier run"), "{whole}");
+}
+
+#[test]
+fn a_bake_that_hits_nothing_fails_and_writes_nothing() {
+    let pair = Pair::new();
+    let [low, high, map] = ["low.glb", "high.obj", "map.png"].map(|name| pair.path(name));
+    fs::write(&high, "v 0 0 0\nv 1 0 0.5\nv 1 1 0.5\nv 0 1 0\nf 4 3 2 1\n").expect("a file");
+    let line = ["bake", text(&low), "--high", text(&high), "-o", text(&map), "--size", "16", "--verify"];
+    let failed = darboux(&[&line[..], &["--distance", "2,2"]].concat()).exits(1);
+    assert!(failed.stderr.contains("all rays hit nothing, and nothing was written"), "{}", failed.stderr);
+    assert!(failed.stderr.contains("turned inside out"), "{}", failed.stderr);
+    assert!(!map.exists() && !pair.path("map.misses.png").exists());
 }
 
 /// The pixels of an RGB picture with 8 bits.
@@ -427,7 +439,9 @@ fn every_option_that_changes_a_map_acts() {
         pair.path(name)
     };
     let leaning = obj("leaning.obj", LEANING);
-    let turned = obj("turned.obj", "v 0 0 0\nv 1 0 0.5\nv 1 1 0.5\nv 0 1 0\nf 4 3 2 1\n");
+    let half_turned =
+        "v 0 0 0\nv 0.5 0 0.2\nv 0.5 1 0.2\nv 0 1 0\nf 1 2 3 4\nv 1 0 0.5\nv 1 1 0.5\nf 3 6 5 2\n";
+    let half_turned = obj("half_turned.obj", half_turned);
     let step =
         obj("step.obj", &format!("{LEANING}v 0.31 0 0.6\nv 1 0 0.6\nv 1 1 0.7\nv 0.31 1 0.6\nf 5 6 7 8\n"));
     let wall = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nv 0.2 0 0\nv 0.2 1 0\nv 0.2 1 0.4\nv 0.2 0 0.4\nf 5 6 7 8\n";
@@ -451,7 +465,7 @@ fn every_option_that_changes_a_map_acts() {
         (&half, &leaning, &common, &["--padding", "1"]),
         (&low, &wall, &ao, &["--ao-rays", "7"]),
         (&low, &wall, &ao, &["--ao-distance", "0.05"]),
-        (&low, &turned, &common, &["--back-faces"]),
+        (&low, &half_turned, &common, &["--back-faces"]),
         (&shield, &shield, &near_only, &["--bitangent", "vertex"]),
     ];
     for (low, high, common, option) in cases {
@@ -488,6 +502,9 @@ fn an_obj_can_be_the_low_model() {
     assert_eq!(pair.texel("obj.png"), pair.texel("map.png"));
     let of_model = darboux(&["compare", text(&model), "--method", "mikktspace", "--json"]).exits(0).json();
     assert_eq!(of_model["verdict"], "identical");
+    let spaces = ["convert", text(&map), "--space", "object", "--model", text(&obj), "--from", "gltf"];
+    let output = pair.path("object.png");
+    darboux(&[&spaces[..], &["--to", "gltf", "-o", text(&output)]].concat()).exits(0);
 }
 
 #[test]

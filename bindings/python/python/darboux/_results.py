@@ -267,6 +267,8 @@ class BakeReport(NamedTuple):
     """Triangles of the low mesh without an area in the image."""
     oversized_triangles: int
     """Triangles of the low mesh across more than 16 tiles of UVs. They are not baked."""
+    non_finite_low_triangles: int
+    """Triangles of the low mesh with positions or normals that are not finite. They are not baked."""
     non_finite_triangles: int
     """Triangles of the high mesh with positions that are not finite. No ray hits them."""
 

@@ -27,7 +27,8 @@ impl ErrorStatistics {
             let last = angles.len().saturating_sub(1) as f64;
             angles.get((last * share) as usize).copied().map_or(0.0, f64::from)
         };
-        let sum: f64 = angles.iter().copied().map(f64::from).sum();
+        // The sum of nothing would be -0.
+        let sum = angles.iter().copied().map(f64::from).fold(0.0, |sum, angle| sum + angle);
         Self {
             points: angles.len() as u64,
             median: quantile(0.5),
@@ -49,6 +50,8 @@ mod tests {
         let expected =
             ErrorStatistics { points: 101, median: 50.0, mean: 50.0, p95: 95.0, p99: 99.0, worst: 100.0 };
         assert_eq!(statistics, expected);
-        assert_eq!(ErrorStatistics::of(Vec::new()), ErrorStatistics::default());
+        let of_none = ErrorStatistics::of(Vec::new());
+        assert_eq!(of_none, ErrorStatistics::default());
+        assert!(of_none.mean.is_sign_positive());
     }
 }

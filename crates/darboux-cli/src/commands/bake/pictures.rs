@@ -23,10 +23,16 @@ pub fn misses(
     baked: &Baked,
     warnings: &mut Vec<String>,
 ) -> Result<Option<String>, String> {
+    let path = arguments.output.with_extension("misses.png");
     if !advice::has_many_misses(&baked.report) {
+        if path.exists() {
+            warnings.push(format!(
+                "{}: is of an earlier run, whose rays missed; this run has no such picture",
+                path.display()
+            ));
+        }
         return Ok(None);
     }
-    let path = arguments.output.with_extension("misses.png");
     if path.exists() && !arguments.force {
         let shown = path.display();
         warnings.push(format!("{shown}: exists and does not show this run; use --force to replace it"));

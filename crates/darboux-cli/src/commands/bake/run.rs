@@ -13,11 +13,12 @@ use darboux_io::gltf::{Document, PrimitiveCorners};
 use super::arguments::{BakeArguments, MatchChoice};
 use super::cage::{Cages, Rays};
 use super::model::write_model;
-use super::open::{open, open_low};
+use super::open::open_low;
 use super::pictures;
 use super::report::{BakeReport, advice, summary};
 use super::verified::{PROGRESS_UNITS, Verified};
 use super::write::{all_outputs, refuse_outputs, write_maps};
+use crate::documents::load_with_obj;
 use crate::json::{VERSION, print_report};
 use crate::terminal::Messages;
 use crate::{exit, interrupt};
@@ -72,6 +73,9 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
         check.map_err(|error| format!("--verify cannot follow the bake: {error}"))?;
     }
     let baked = bake_surfaces(arguments, messages, &surfaces, &high_surfaces, &options)?;
+    if let Some(reason) = advice::failure(&baked.report, arguments) {
+        return Err(reason);
+    }
     let written = write_maps(arguments, &baked.images, &options)?;
     let misses = pictures::misses(arguments, &baked, &mut warnings)?;
     let model = write_model(arguments, &models.low, written.normal.as_ref(), &mut warnings)?;
@@ -126,7 +130,7 @@ impl Documents {
         let low = open_low(arguments, warnings)?;
         let mut highs = Vec::new();
         for path in &arguments.high {
-            highs.push(open(path, arguments, warnings)?);
+            highs.push(load_with_obj(path, &arguments.reading, warnings)?);
         }
         refuse_used(arguments, highs.iter().chain([&low]))?;
         Ok(Self { low, highs })

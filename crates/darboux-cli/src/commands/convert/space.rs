@@ -6,8 +6,7 @@ use darboux_io::image::{PngImage, normal_vectors, set_normal_vectors};
 
 use super::arguments::{ConvertArguments, SpaceChoice};
 use super::{SpaceSummary, space_name};
-use crate::documents::load;
-use crate::inputs::Input;
+use crate::documents::load_with_obj;
 
 impl ConvertArguments {
     /// Converts the vectors of an image to a space, with the frames of `--model`. Errors are one sentence each.
@@ -19,8 +18,7 @@ impl ConvertArguments {
     ) -> Result<SpaceSummary, String> {
         let sentence = |error: darboux_io::Error| error.to_string();
         let path = self.model.as_ref().ok_or("--space needs --model")?;
-        let mut document = load(&Input::File(path.clone()), &self.files.reading)?;
-        document.decompress().map_err(sentence)?;
+        let document = load_with_obj(path, &self.files.reading, warnings)?;
         let corners = document.corners().map_err(sentence)?;
         let options = LowModelOptions::default().with_uv_set(self.uv_set);
         let low = LowModel::read(&document, &corners, &options).map_err(sentence)?;

@@ -44,25 +44,33 @@ pub fn has_many_misses(report: &BakeReport) -> bool {
     report.missed_texels as f64 > NOTABLE * report.charted_texels as f64
 }
 
+/// The reason why maps of this bake would show nothing of the high models; none where they do.
+pub fn failure(report: &BakeReport, arguments: &BakeArguments) -> Option<String> {
+    if report.charted_texels == 0 {
+        return Some("no triangle of the low model covers a texel; check its UVs".to_owned());
+    }
+    (report.missed_texels == report.charted_texels).then(|| {
+        format!("all rays hit nothing, and nothing was written: {}", cause_of_misses(report, arguments))
+    })
+}
+
+fn cause_of_misses(report: &BakeReport, arguments: &BakeArguments) -> &'static str {
+    if 2 * report.back_facing_texels > report.missed_texels {
+        "most of these rays meet the high models from behind, so their faces are turned inside out; turn them, or use --back-faces"
+    } else if arguments.distance.is_some() {
+        "begin rays farther outside or end them farther inside (--distance), or use a cage (--cage-offset), and check that the models lie on each other"
+    } else {
+        "choose a larger --cage-offset, and check that the models lie on each other"
+    }
+}
+
 /// Warnings about the result.
 pub fn of_report(report: &BakeReport, arguments: &BakeArguments, misses: Option<&str>) -> Vec<String> {
     let share = |count: u64| count as f64 / report.charted_texels.max(1) as f64;
     let percent = |count: u64| format!("{:.1} %", 100.0 * share(count));
     let mut warnings = Vec::new();
-    if report.charted_texels == 0 {
-        warnings.push("no triangle of the low model covers a texel; check its UVs".to_owned());
-    }
     if has_many_misses(report) {
-        let missed = percent(report.missed_texels);
-        let why = match () {
-            () if 2 * report.back_facing_texels > report.missed_texels => {
-                "most of these rays meet the high models from behind, so their faces are turned inside out; turn them, or use --back-faces"
-            }
-            () if arguments.distance.is_some() => {
-                "begin rays farther outside or end them farther inside (--distance), or use a cage (--cage-offset), and check that the models lie on each other"
-            }
-            () => "choose a larger --cage-offset, and check that the models lie on each other",
-        };
+        let (missed, why) = (percent(report.missed_texels), cause_of_misses(report, arguments));
         let place = misses.map(|path| format!("; {path} shows where")).unwrap_or_default();
         warnings.push(format!("the rays of {missed} of the texels hit nothing: {why}{place}"));
     }
@@ -84,6 +92,11 @@ pub fn of_report(report: &BakeReport, arguments: &BakeArguments, misses: Option<
             report.oversized_triangles,
             "triangle of the low model spans more than 16 tiles of UVs and is not baked",
             "triangles of the low model span more than 16 tiles of UVs and are not baked",
+        ),
+        (
+            report.non_finite_low_triangles,
+            "triangle of the low model has positions or normals that are not finite and is not baked (darboux check says where)",
+            "triangles of the low model have positions or normals that are not finite and are not baked (darboux check says where)",
         ),
         (
             report.non_finite_triangles,
