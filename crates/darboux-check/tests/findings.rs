@@ -73,6 +73,36 @@ fn tangents_of_no_known_method_are_not_most_of_mikktspace() {
     }
 }
 
+/// Tangents of a part that are 46 degrees from MikkTSpace's are an error; 11 degrees are a warning.
+#[test]
+fn tangents_far_from_mikktspace_are_an_error() {
+    for (angle, severity) in [(0.8f32, Severity::Error), (0.2, Severity::Warning)] {
+        let mut model = model("large wavy grid");
+        let normals = model.normals.clone().expect("normals");
+        let (sin, cos) = angle.sin_cos();
+        for (tangent, n) in model.tangents().iter_mut().zip(&normals).take(normals.len() / 4) {
+            let [x, y, z, w] = *tangent;
+            let across = [n[1] * z - n[2] * y, n[2] * x - n[0] * z, n[0] * y - n[1] * x];
+            *tangent = [cos * x + sin * across[0], cos * y + sin * across[1], cos * z + sin * across[2], w];
+        }
+        let findings = check(&model);
+        let finding = find(&findings, Code::TangentOtherRecipe).expect("the finding");
+        assert_eq!(finding.severity, severity, "{finding:?}");
+        assert_eq!(finding.text.contains("wrong directions"), severity == Severity::Error);
+    }
+}
+
+/// Where a position was lost, tangents cannot be computed again, and nothing is said of how they were.
+#[test]
+fn tangents_beside_lost_positions_are_not_judged() {
+    let mut model = model("wavy grid");
+    model.tangents = Some(model.computed(Method::default(), model.uv_set));
+    model.positions[7][1] = f32::NAN;
+    let findings = check(&model);
+    assert!(find(&findings, Code::PositionNotFinite).is_some());
+    assert!(find(&findings, Code::TangentOtherRecipe).is_none(), "{findings:#?}");
+}
+
 /// Scaled normals do not hide how the tangents were computed.
 #[test]
 fn recipes_show_through_scaled_normals() {

@@ -428,9 +428,9 @@ fn truncated_images_are_unreadable() {
     darboux(&["check", text(&jpeg)]).exits(0);
 }
 
-/// With `--quiet` there is one line per error and nothing else.
+/// With `--quiet` there is one line per finding that makes the exit code 1, and nothing else.
 #[test]
-fn quiet_runs_print_errors_only() {
+fn quiet_runs_print_what_fails_only() {
     let shield = asset("made/shield.glb");
     let printed = darboux(&["check", text(&shield), "--quiet"]).exits(1);
     let printed = String::from_utf8(printed.stdout).expect("text");
@@ -442,6 +442,8 @@ fn quiet_runs_print_errors_only() {
     let healthy = asset("NormalTangentTest/NormalTangentTest.glb");
     let healthy = darboux(&["check", text(&healthy), "--quiet"]).exits(0);
     assert_eq!((healthy.stdout.as_slice(), healthy.stderr.as_str()), (&b""[..], ""));
+    let all = darboux(&["check", text(&shield), "--quiet", "--fail-on", "warning"]).exits(1);
+    assert!(all.stdout.len() > printed.len(), "{}", String::from_utf8_lossy(&all.stdout));
 
     let folder = tempfile::tempdir().expect("a folder");
     let map = folder.path().join("map.png");

@@ -3,13 +3,14 @@
 use darboux::{Convention, Mesh, Method, Recipe, RecipeMatch, RecipeRounding, recognise_recipe};
 
 use super::normals::UNIT;
-use super::tangents::SIGN;
+use super::tangents::{SIGN, has_length};
 use crate::code::Code;
+use crate::expected::is_measured;
 use crate::finding::Finding;
 use crate::fit::{Difference, Fit};
 use crate::rule::{Measured, SurfaceRule};
 use crate::severity::Severity;
-use crate::surface::{Surface, length};
+use crate::surface::{Surface, cross, dot, length, xyz};
 use crate::text::counted;
 
 pub const RULES: &[SurfaceRule] = &[other_recipe];
@@ -19,6 +20,13 @@ const IS_MIKKTSPACE: f64 = 99.0;
 
 /// The percentage from which on they are called those of another method.
 const IS_KNOWN: f64 = 90.0;
+
+/// Degrees to MikkTSpace's tangent beyond which a corner is lit from a visibly wrong direction: bumps lean by a third of their slope (the sine).
+const FAR: f64 = 20.0;
+
+/// The share of such corners, in percent, above which tangents of no known method are an error: one in a hundred is seen on a model that fills the
+/// screen.
+const MAX_PERCENT_FAR: f64 = 1.0;
 
 /// The best recipe and the best one of MikkTSpace on the triangles as they are.
 struct Recognised {
@@ -30,9 +38,13 @@ struct Recognised {
 
 fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
     let is_turned = |fit: &Fit| matches!(fit.difference, Difference::Rotated | Difference::OtherUvSet(_));
-    let is_measured = measured.fits.iter().any(|fit| fit.measured > 0);
+    let has_measured = measured.fits.iter().any(|fit| fit.measured > 0);
     // No recipe explains tangents better than one that gives all their bits.
-    if !is_measured || measured.fits.iter().any(is_turned) || measured.is_mikktspace {
+    if !has_measured || measured.fits.iter().any(is_turned) || measured.is_mikktspace {
+        return Vec::new();
+    }
+    // Tangents that were computed before positions were lost cannot be computed again.
+    if !measured.surface.positions.as_flattened().iter().all(|x| x.is_finite()) {
         return Vec::new();
     }
     let tangents = tangents_without_other_mistakes(measured);
@@ -45,9 +57,21 @@ fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
     }
     let (text, nearest) = description(best);
     let text = if *with_unit_normals { format!("{text}, on normals of length 1") } else { text };
-    let severity = if mikktspace.worst > 0.5 { Severity::Warning } else { Severity::Info };
-    let finding = Finding::new(Code::TangentOtherRecipe, text)
-        .with_severity(severity)
+    let is_known = !is_mikktspace(best) && close(best) >= IS_KNOWN;
+    let far = if is_known { 0.0 } else { percent_far(measured) };
+    let severity = match () {
+        () if far > MAX_PERCENT_FAR => Severity::Error,
+        () if mikktspace.worst > 0.5 => Severity::Warning,
+        () => Severity::Info,
+    };
+    let mut finding = Finding::new(Code::TangentOtherRecipe, text).with_severity(severity);
+    if severity == Severity::Error {
+        finding.text += ", and bumps are lit from wrong directions where they differ most";
+        finding = finding
+            .with_cure("Compute the tangents again: `darboux tangents --overwrite`.")
+            .with_evidence("corners more than 20 degrees from MikkTSpace", far, "%");
+    }
+    let finding = finding
         .with_count(mikktspace.corners - mikktspace.close)
         .with_evidence("corners within 0.1 degrees (1 with 8 bits) of MikkTSpace", close(mikktspace), "%")
         .with_evidence("largest angle to MikkTSpace", mikktspace.worst, "degrees");
@@ -56,6 +80,42 @@ fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
         None => finding,
     };
     vec![finding.with_obstacle(obstacle(best, severity))]
+}
+
+/// The corners that are more than [`FAR`] from MikkTSpace around the normal, in percent of those that lie in triangles with an area and not on
+/// mirrored seams. Tangents that are negated, or lean towards the normal, have findings of their own.
+fn percent_far(measured: &Measured<'_>) -> f64 {
+    let surface = measured.surface;
+    let (Some(tangents), Some(normals), Some(uvs), Some(expected)) = (
+        &surface.tangents,
+        &surface.normals,
+        surface.uv_sets.get(&surface.uv_set),
+        surface.expected_tangents(surface.uv_set),
+    ) else {
+        return 0.0;
+    };
+    let mut is_other = measured.is_on_mirrored_seam.clone();
+    for fit in measured.fits.iter().filter(|fit| fit.difference == Difference::PartlyNegated) {
+        fit.items.iter().for_each(|&vertex| is_other[vertex] = true);
+    }
+    let angle = |vertex: usize, expected: [f32; 3]| {
+        let tangent = xyz(tangents[vertex]);
+        dot(cross(normals[vertex], expected), tangent).atan2(dot(expected, tangent)).to_degrees().abs()
+    };
+    let (mut corners, mut far) = (0usize, 0usize);
+    for (triangle, expected) in surface.triangles().zip(expected.as_chunks::<3>().0) {
+        let is_counted = |vertex: usize| has_length(tangents[vertex]) && !is_other[vertex];
+        if !is_measured(surface, uvs, triangle) {
+            continue;
+        }
+        for (vertex, &expected) in
+            triangle.into_iter().zip(expected).filter(|(vertex, _)| is_counted(*vertex))
+        {
+            corners += 1;
+            far += usize::from(angle(vertex, xyz(expected)) > FAR);
+        }
+    }
+    100.0 * far as f64 / corners.max(1) as f64
 }
 
 /// What is said of the best recipe, and the name of the evidence for it unless it is MikkTSpace.

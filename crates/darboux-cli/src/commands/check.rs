@@ -61,7 +61,9 @@ pub fn run(arguments: &CheckArguments) -> u8 {
     let text = match (arguments.messages.json, arguments.messages.quiet) {
         (true, _) => to_json(&CheckReport { command: "check", version: VERSION, files }),
         (false, is_quiet) => {
-            let describe = if is_quiet { text::errors } else { text::describe };
+            let describe = |file| {
+                if is_quiet { text::failures(file, arguments.fail_on) } else { text::describe(file) }
+            };
             let good = files.iter().filter(|file| file.error.is_none());
             Ok(good.map(describe).collect::<String>().into_bytes())
         }

@@ -20,8 +20,8 @@ up (OpenGL) or down (DirectX), and whether they are normals at all. Every findin
 the cure. Images (.png, .jpg, .webp) are checked as normal maps.\n\n\
 Without --fix no file is written. With --fix the repaired file is written beside its input, model.glb as model.fixed.glb, unless -o, --out-dir or \
 --in-place says otherwise; what cannot be repaired without guessing is left, and the reason printed. Nothing is left to repair in the repaired file. \
-Where nothing is repaired, only -o and --out-dir write a copy. In a folder, files named like repaired ones (model.fixed.glb) are skipped, and one that an \
-earlier run has written is kept if it is still what would be written.\n\n\
+Where nothing is repaired, only -o and --out-dir write a copy, of models and of images that could be repaired (JPEG, and PNG \
+without a palette). In a folder, files named like repaired ones (model.fixed.glb) are skipped, and one that an earlier run has written is kept if it is still what would be written.\n\n\
 The exit code is 1 if a file cannot be read, or if a finding that is not repaired is at least as severe as --fail-on says. docs/check.md lists all \
 codes.";
 

@@ -4,6 +4,7 @@ use std::cmp::Reverse;
 
 use darboux_check::{Code, Evidence, Severity};
 
+use super::arguments::FailOn;
 use super::report::{CheckedFile, DirectionsByModel, ReportedFinding, ReportedMap};
 use crate::text::{counted, printable};
 
@@ -31,14 +32,15 @@ pub fn describe(file: &CheckedFile) -> String {
     text + &format!("  {errors}, {warnings}, {} worth knowing\n", counted(infos, "thing", "things"))
 }
 
-/// The errors in a file, one line each.
-pub fn errors(file: &CheckedFile) -> String {
-    let errors = file.findings.iter().filter(|finding| finding.severity == Severity::Error);
+/// The errors in a file and what else makes the exit code 1, one line each.
+pub fn failures(file: &CheckedFile, fail_on: FailOn) -> String {
+    let is_failure = |severity: Severity| severity == Severity::Error || fail_on.includes(severity);
+    let failures = file.findings.iter().filter(|finding| is_failure(finding.severity));
     let line = |finding: &ReportedFinding| {
         let line = format!("{}: {}: {}: {}", file.input, finding.place, finding.code, finding.text);
         format!("{}\n", printable(&line))
     };
-    errors.map(line).collect()
+    failures.map(line).collect()
 }
 
 /// The errors first, then warnings, then what is worth knowing; causes before what follows from them.
