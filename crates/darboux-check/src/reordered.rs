@@ -71,9 +71,14 @@ impl Reordered {
             )
         };
         let commands: Vec<String> = self.orders.iter().map(command).collect();
-        let invert = if self.is_negative { ", and invert that channel first" } else { "" };
+        let channel = ["red", "green", "blue"][self.channel];
+        let invert = if self.is_negative {
+            format!("invert {channel} in an image editor, then ")
+        } else {
+            String::new()
+        };
         format!(
-            "If the channels were packed in another order, put them back: {}{invert}. If the baker was set to object space, bake in tangent space.",
+            "If the channels were packed in another order, {invert}put them back: {}. If the baker was set to object space, bake in tangent space.",
             commands.join(" or ")
         )
     }

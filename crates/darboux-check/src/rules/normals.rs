@@ -121,7 +121,7 @@ fn other_axes(measured: &Measured<'_>) -> Vec<Finding> {
     let Some(axes) = measured.other_axes else { return Vec::new() };
     let cause = match axes.are_exchanged() {
         true => "the positions were turned to another up axis, and they were not",
-        false => "the positions were mirrored, and they were not",
+        false => "the positions were mirrored or turned by 180 degrees, and they were not",
     };
     let text =
         format!("its normals fit its faces only if they are read as ({}), as if {cause}", axes.components());
