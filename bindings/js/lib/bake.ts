@@ -45,7 +45,7 @@ export interface LowMesh {
   uvs: Float32Array;
   /** The vertex of each corner. Without indices, the corners are the vertices in order. */
   indices?: Indices | null;
-  /** 4 per corner, as `generateTangents` returns them, which is the default. */
+  /** 4 per corner, as `generateTangents` returns them, which is the default. The sign w in a glTF file's TANGENT is the opposite of theirs: negate it first. */
   tangents?: Float32Array | null;
   /** Rays begin on the mesh with its vertices moved to these positions, 3 per vertex, in place of the inflated copy. */
   cage?: Float32Array | null;

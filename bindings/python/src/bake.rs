@@ -39,7 +39,7 @@ const BITANGENTS: &[(&str, Bitangent)] = &[("pixel", Bitangent::PerPixel), ("ver
 /// positions, normals, uvs, indices
 ///     The low mesh, as for generate_tangents; triangles only.
 /// tangents : (C, 4) array_like
-///     One per corner, as generate_tangents returns them.
+///     One per corner, as generate_tangents returns them. The sign w in a glTF file's TANGENT is the opposite of theirs: negate it first.
 /// high_positions : (W, 3) array_like
 /// high_indices : (D,) or (G, 3) array_like of integers, optional
 ///     Triangles, counter-clockwise seen from the front. Without indices, every vertex is a corner of its own.
