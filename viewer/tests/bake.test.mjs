@@ -144,7 +144,7 @@ test('a high model for the open one by button, and the sentence about a pair tha
   await viewer.give('files', [write('bare.gltf', { attributes: { POSITION, NORMAL }, indices: plate(2, 0).indices })]);
   assert.equal(await viewer.page.isVisible('#bake-controls'), false, 'the pair before is gone');
   await viewer.give('high', [path('plate_high.gltf')]);
-  assert.match(await viewer.text('bake-result'), /^There is no map: the low model has no UVs, so that no map fits it; unwrap it first\.$/);
+  assert.match(await viewer.text('bake-result'), /^There is no map: the low model: no triangles have UVs, onto which to bake; unwrap the model first\.$/);
   await viewer.give('files', [path('plate_low.gltf')]);
   await viewer.give('high', [path('plate_high.gltf')]);
   assert.equal(await viewer.page.inputValue('#right'), 'baked');
