@@ -73,10 +73,15 @@ pub struct Finding {
     /// What is wrong here, in one sentence.
     pub text: String,
     /// The cure here: what the reader can do.
-    #[serde(skip)]
     pub cure: Cow<'static, str>,
     /// Why a repair leaves it, as a clause; none where [`fix_document`](crate::fix_document) or [`fix_map`](crate::fix_map) repairs it.
     pub left_because: Option<String>,
+    /// Whether all corners that can be judged show it.
+    #[serde(skip)]
+    pub(crate) is_on_all_corners: bool,
+    /// Whether another mistake cancels it: bumps look right now.
+    #[serde(skip)]
+    pub(crate) is_cancelled: bool,
 }
 
 /// The most indices in [`Finding::first`].
@@ -95,12 +100,19 @@ impl Finding {
             text: text.into(),
             cure: code.cure().into(),
             left_because: code.left_because().map(str::to_owned),
+            is_on_all_corners: false,
+            is_cancelled: false,
         }
     }
 
     /// Whether it can be repaired.
     pub fn is_fixable(&self) -> bool {
         self.left_because.is_none()
+    }
+
+    /// Whether it is about the things that it lists, and not about the whole of its place.
+    pub(crate) fn lists_items(&self) -> bool {
+        !self.first.is_empty()
     }
 
     /// The same with a reason, if there is one, why a repair leaves it.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use darboux::TangentOptions;
-use darboux_check::{Code, FixOptions, FixedFinding, Severity, check_document, fix_document};
+use darboux_check::{Change, Code, FixOptions, FixedFinding, Severity, check_document, fix_document};
 use darboux_io::gltf::Document;
 use darboux_io::image::PngImage;
 use serde::{Deserialize, Serialize};
@@ -78,7 +78,7 @@ impl FileCommand for Repair<'_> {
 
     fn note_up_to_date(recorded: &Map<String, Value>) -> Option<String> {
         let left = Outcome::recorded(recorded).iter().filter(|finding| finding.remains()).count();
-        (left > 0).then(|| format!("{} left", counted(left, "finding", "findings")))
+        (left > 0).then(|| format!("{} still there", counted(left, "finding", "findings")))
     }
 
     fn lines(summary: &FixSummary) -> Vec<String> {
@@ -104,7 +104,7 @@ impl FileCommand for Repair<'_> {
         let beyond = count(|finding| finding.remains() && !finding.fixable);
         let infos = count(|finding| !finding.repaired && !finding.is_left() && !finding.remains());
         let repaired = counted(repaired.count(), "finding repaired", "findings repaired");
-        format!("{repaired}, {left} left, {beyond} beyond --fix, {infos} worth knowing")
+        format!("{repaired}, {left} left, {beyond} without a repair, {infos} worth knowing")
     }
 }
 
@@ -150,14 +150,30 @@ fn line(finding: &ReportedFinding) -> Option<String> {
     let ReportedFinding { place, code, text, left_because, .. } = finding;
     let outcome = Outcome::of(finding);
     match (code.repair(), left_because) {
-        (Some(repair), _) if outcome.repaired => Some(format!("{place}: repaired {code}: {text}; {repair}")),
+        (Some(repair), _) if outcome.repaired => {
+            let done = done(finding.change, repair);
+            Some(format!("{place}: repaired {code}: {text}; {done}"))
+        }
         (None, _) if outcome.repaired => {
             Some(format!("{place}: gone {code}: {text}; with what was repaired"))
         }
-        (_, Some(reason)) if outcome.remains() || outcome.is_left() => {
-            Some(format!("{place}: left {code}: {text}; {reason}"))
+        (_, Some(reason)) if outcome.is_left() => Some(format!("{place}: left {code}: {text}; {reason}")),
+        (_, Some(reason)) if outcome.remains() => {
+            Some(format!("{place}: no repair for {code}: {text}; {reason}"))
         }
         _ => None,
+    }
+}
+
+/// What was done, as a clause. `repair`: what is usually done for the code.
+fn done(change: Option<Change>, repair: &str) -> String {
+    match change {
+        Some(Change::RecomputedTangents) => "all tangents of the primitive were computed again".to_owned(),
+        Some(Change::CorrectedTangents { count }) => {
+            let corrected = counted(count, "tangent was corrected", "tangents were corrected");
+            format!("{corrected}, and the others kept")
+        }
+        _ => repair.to_owned(),
     }
 }
 
@@ -168,11 +184,13 @@ fn error_line(finding: &ReportedFinding) -> Option<String> {
     is_left.then(|| format!("{place}: {code}: {text}"))
 }
 
-/// What a document holds: its JSON, the values of its accessors and its images, wherever in its buffers they lie. None if it cannot be read.
+/// What a document holds: its JSON, the values of its accessors, its images and the bytes of other buffer views, wherever in its buffers they lie.
+/// None if it cannot be read.
 fn content(document: &Document) -> Option<(Value, Vec<Vec<u8>>)> {
     let glb = document.to_glb().ok()?;
     let length = u32::from_le_bytes(*glb.get(12..)?.first_chunk()?) as usize;
     let mut json: Value = serde_json::from_slice(glb.get(20..)?.get(..length)?).ok()?;
+    let others = other_views(&json, glb.get(20 + length + 8..).unwrap_or_default())?;
     let parts = json.as_object_mut()?;
     parts.remove("buffers");
     parts.remove("bufferViews");
@@ -182,7 +200,21 @@ fn content(document: &Document) -> Option<(Value, Vec<Vec<u8>>)> {
     let values = (0..accessors).map(|index| written.elements(index).ok().map(|elements| elements.bytes));
     let texels = (0..images).map(|index| Some(written.image_bytes(index).ok()?.into_owned()));
     let all: Option<Vec<Vec<u8>>> = values.chain(texels).collect();
-    Some((json, all?))
+    Some((json, all?.into_iter().chain(others).collect()))
+}
+
+/// The bytes of the buffer views that neither accessors nor images use, as those of extensions. `binary`: the binary chunk of a GLB.
+fn other_views(json: &Value, binary: &[u8]) -> Option<Vec<Vec<u8>>> {
+    let items = |name: &str| json.get(name).and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
+    let number = |value: &Value, name: &str| value.get(name).and_then(Value::as_u64);
+    let users = items("accessors").iter().chain(items("images"));
+    let used: Vec<u64> = users.filter_map(|user| number(user, "bufferView")).collect();
+    let others = items("bufferViews").iter().zip(0..).filter(|(_, index)| !used.contains(index));
+    let bytes = |(view, _): (&Value, u64)| {
+        let start = number(view, "byteOffset").unwrap_or(0) as usize;
+        Some(binary.get(start..)?.get(..number(view, "byteLength")? as usize)?.to_vec())
+    };
+    others.map(bytes).collect()
 }
 
 impl CheckArguments {
@@ -209,7 +241,7 @@ impl Repair<'_> {
         if !fixed.is_changed {
             document = source.load(reading)?;
         }
-        let warnings = document.warnings().to_vec();
+        let mut warnings = document.warnings().to_vec();
         let is_written = |existing: &Path| {
             let existing = reading.open(existing).ok().and_then(|existing| content(&existing));
             existing.is_some() && existing == content(&document)
@@ -218,6 +250,7 @@ impl Repair<'_> {
             Some(status) => (status, Vec::new()),
             None => save(&document, &job.output, files, fixed.is_changed)?,
         };
+        warnings.extend(self.older_output(&status, &job.output));
         Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, warnings) })
     }
 
@@ -244,7 +277,8 @@ impl Repair<'_> {
             // Without a repair there is nothing to write but a copy, and copies are made of PNG images that can be written again.
             None => (status.unwrap_or(Status::Untouched), Vec::new()),
         };
-        Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, Vec::new()) })
+        let warnings = self.older_output(&status, &job.output).into_iter().collect();
+        Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, warnings) })
     }
 
     /// The status where nothing is to be written: without a named output, nothing was changed, or an earlier run has written the same; none otherwise.
@@ -266,6 +300,15 @@ impl Repair<'_> {
                 "{output}: exists, and other data would be written; use --force to replace it, or name another output"
             )),
         }
+    }
+
+    /// A warning about the file of an earlier run beside an input in which nothing was repaired now.
+    fn older_output(&self, status: &Status, output: &Output) -> Option<String> {
+        let Output::File(path) = output else { return None };
+        let is_untouched = matches!(status, Status::Untouched) && !self.arguments.files.names_output();
+        (is_untouched && path.exists()).then(|| {
+            format!("{output}: exists, and nothing was repaired now, so it is not the repaired file of this input; remove it")
+        })
     }
 
     fn summary(&self, fixed: Vec<FixedFinding>, warnings: Vec<String>) -> FixSummary {
