@@ -78,7 +78,7 @@ impl FileCommand for Repair<'_> {
 
     fn note_up_to_date(recorded: &Map<String, Value>) -> Option<String> {
         let left = Outcome::recorded(recorded).iter().filter(|finding| finding.remains()).count();
-        (left > 0).then(|| format!("{} still there", counted(left, "finding", "findings")))
+        (left > 0).then(|| format!("{} left", counted(left, "finding", "findings")))
     }
 
     fn lines(summary: &FixSummary) -> Vec<String> {
@@ -104,7 +104,11 @@ impl FileCommand for Repair<'_> {
         let beyond = count(|finding| finding.remains() && !finding.fixable);
         let infos = count(|finding| !finding.repaired && !finding.is_left() && !finding.remains());
         let repaired = counted(repaired.count(), "finding repaired", "findings repaired");
-        format!("{repaired}, {left} left, {beyond} without a repair, {infos} worth knowing")
+        let left = match left {
+            0 => String::new(),
+            left => format!("{left} left although --fix repairs such ones, "),
+        };
+        format!("{repaired}, {left}{beyond} that --fix cannot repair, {infos} only worth knowing")
     }
 }
 
@@ -157,9 +161,8 @@ fn line(finding: &ReportedFinding) -> Option<String> {
         (None, _) if outcome.repaired => {
             Some(format!("{place}: gone {code}: {text}; with what was repaired"))
         }
-        (_, Some(reason)) if outcome.is_left() => Some(format!("{place}: left {code}: {text}; {reason}")),
-        (_, Some(reason)) if outcome.remains() => {
-            Some(format!("{place}: no repair for {code}: {text}; {reason}"))
+        (_, Some(reason)) if outcome.remains() || outcome.is_left() => {
+            Some(format!("{place}: left {code}: {text}; {reason}"))
         }
         _ => None,
     }
@@ -210,11 +213,12 @@ fn other_views(json: &Value, binary: &[u8]) -> Option<Vec<Vec<u8>>> {
     let users = items("accessors").iter().chain(items("images"));
     let used: Vec<u64> = users.filter_map(|user| number(user, "bufferView")).collect();
     let others = items("bufferViews").iter().zip(0..).filter(|(_, index)| !used.contains(index));
+    let is_in_glb = |view: &Value| number(view, "buffer") == Some(0);
     let bytes = |(view, _): (&Value, u64)| {
         let start = number(view, "byteOffset").unwrap_or(0) as usize;
         Some(binary.get(start..)?.get(..number(view, "byteLength")? as usize)?.to_vec())
     };
-    others.map(bytes).collect()
+    others.filter(|(view, _)| is_in_glb(view)).map(bytes).collect()
 }
 
 impl CheckArguments {
@@ -242,6 +246,7 @@ impl Repair<'_> {
             document = source.load(reading)?;
         }
         let mut warnings = document.warnings().to_vec();
+        warnings.extend(self.stale_output(job, fixed.is_changed));
         let is_written = |existing: &Path| {
             let existing = reading.open(existing).ok().and_then(|existing| content(&existing));
             existing.is_some() && existing == content(&document)
@@ -250,7 +255,6 @@ impl Repair<'_> {
             Some(status) => (status, Vec::new()),
             None => save(&document, &job.output, files, fixed.is_changed)?,
         };
-        warnings.extend(self.older_output(&status, &job.output));
         Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, warnings) })
     }
 
@@ -277,8 +281,15 @@ impl Repair<'_> {
             // Without a repair there is nothing to write but a copy, and copies are made of PNG images that can be written again.
             None => (status.unwrap_or(Status::Untouched), Vec::new()),
         };
-        let warnings = self.older_output(&status, &job.output).into_iter().collect();
+        let warnings = self.stale_output(job, is_changed).into_iter().collect();
         Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, warnings) })
+    }
+
+    /// A warning where an output of the name that this run would give is there, and nothing is written because nothing was repaired.
+    fn stale_output(&self, job: &Job, is_changed: bool) -> Option<String> {
+        let Output::File(path) = &job.output else { return None };
+        let is_stale = !is_changed && !self.arguments.files.names_output() && path.exists();
+        is_stale.then(|| format!("{} is of an earlier run: nothing was repaired in this one", path.display()))
     }
 
     /// The status where nothing is to be written: without a named output, nothing was changed, or an earlier run has written the same; none otherwise.
@@ -300,15 +311,6 @@ impl Repair<'_> {
                 "{output}: exists, and other data would be written; use --force to replace it, or name another output"
             )),
         }
-    }
-
-    /// A warning about the file of an earlier run beside an input in which nothing was repaired now.
-    fn older_output(&self, status: &Status, output: &Output) -> Option<String> {
-        let Output::File(path) = output else { return None };
-        let is_untouched = matches!(status, Status::Untouched) && !self.arguments.files.names_output();
-        (is_untouched && path.exists()).then(|| {
-            format!("{output}: exists, and nothing was repaired now, so it is not the repaired file of this input; remove it")
-        })
     }
 
     fn summary(&self, fixed: Vec<FixedFinding>, warnings: Vec<String>) -> FixSummary {
