@@ -41,6 +41,8 @@ pub struct Fit {
     pub supporting: usize,
     /// The numbers of these triangles or vertices.
     pub items: Vec<usize>,
+    /// Where most tangents are negated, the vertices whose tangents are not, ascending.
+    exceptions: Vec<usize>,
 }
 
 /// The smallest share of the corners that decides.
@@ -82,7 +84,7 @@ pub fn measure(
     let Some(own) = comparison.map(|comparison| comparison.counts()) else { return Vec::new() };
     let share = |part: usize| part as f64 / own.corners.max(1) as f64;
     let fit =
-        |difference, supporting| Fit { difference, measured: own.corners, supporting, items: Vec::new() };
+        |difference, supporting| Fit { difference, measured: own.corners, supporting, items: Vec::new(), exceptions: Vec::new() };
     let signs = by_signs(&own);
     let of_signs = || (signs != Difference::None).then(|| fit(signs, own.signs[0][1] + own.signs[1][1]));
     if own.corners == 0 {
@@ -100,7 +102,10 @@ pub fn measure(
                 None => vec![same()],
             };
         }
-        () if share(own.against) >= MIN_SHARE => fit(Difference::Negated, own.against),
+        () if share(own.against) >= MIN_SHARE => {
+            let exceptions = along(surface, expected);
+            Fit { exceptions, ..fit(Difference::Negated, own.against) }
+        }
         () if share(own.across) >= MIN_SHARE => fit(Difference::Rotated, own.across),
         () => return vec![partly(surface, &own).unwrap_or_else(|| fit(Difference::Unknown, 0))],
     };
@@ -139,11 +144,36 @@ fn partly_negated(surface: &Surface) -> Option<Fit> {
     Fit::of_part(Difference::PartlyNegated, against_u(surface), surface.positions.len())
 }
 
+/// The vertices whose tangents point along MikkTSpace's at most of their corners in triangles with an area.
+fn along(surface: &Surface, expected: &[[f32; 4]]) -> Vec<usize> {
+    let (Some(tangents), Some(uvs)) = (&surface.tangents, surface.uv_sets.get(&surface.uv_set)) else {
+        return Vec::new();
+    };
+    let mut sums = vec![0.0; tangents.len()];
+    for (triangle, expected) in surface.triangles().zip(expected.as_chunks::<3>().0) {
+        if is_measured(surface, uvs, triangle) {
+            for (vertex, expected) in triangle.into_iter().zip(expected) {
+                sums[vertex] += dot(xyz(*expected), xyz(tangents[vertex]));
+            }
+        }
+    }
+    indices_where(&sums, |sum| *sum > 0.0)
+}
+
 impl Fit {
+    /// Whether the tangent of a vertex is negated.
+    pub fn is_negated(&self, vertex: usize) -> bool {
+        match self.difference {
+            Difference::Negated => self.exceptions.binary_search(&vertex).is_err(),
+            Difference::PartlyNegated => self.items.binary_search(&vertex).is_ok(),
+            _ => false,
+        }
+    }
+
     /// None without items.
     fn of_part(difference: Difference, items: Vec<usize>, measured: usize) -> Option<Self> {
         let supporting = items.len();
-        (supporting > 0).then_some(Self { difference, measured, supporting, items })
+        (supporting > 0).then_some(Self { difference, measured, supporting, items, exceptions: Vec::new() })
     }
 }
 

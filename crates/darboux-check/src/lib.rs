@@ -33,6 +33,7 @@ mod map_users;
 mod obstacles;
 mod orientation;
 mod other_axes;
+mod outliers;
 mod overlap;
 mod reordered;
 mod reversed;
@@ -47,6 +48,6 @@ pub use check::{
 };
 pub use code::Code;
 pub use finding::{Evidence, Finding, Place};
-pub use fix::{FixOptions, FixedDocument, FixedFinding, FixedMap, fix_document, fix_map, fix_map_on_model};
+pub use fix::{Change, FixOptions, FixedDocument, FixedFinding, FixedMap, fix_document, fix_map, fix_map_on_model};
 pub use map::MapDirections;
 pub use severity::Severity;

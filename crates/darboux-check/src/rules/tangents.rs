@@ -185,7 +185,7 @@ fn direction_or_sign(measured: &Measured<'_>) -> Vec<Finding> {
 }
 
 fn different(measured: &Measured<'_>, fit: &Fit) -> Option<Finding> {
-    let Fit { difference, supporting, measured: all, items } = fit;
+    let Fit { difference, supporting, measured: all, items, .. } = fit;
     let set = measured.surface.uv_set;
     let follows_from_normals =
         *difference == Difference::SignFlipped && measured.reversal == Some(Reversal::NormalsByTangents);
