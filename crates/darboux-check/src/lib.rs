@@ -41,6 +41,7 @@ mod rules;
 mod severity;
 mod surface;
 mod text;
+mod turned;
 
 pub use check::{
     CheckOptions, CheckedMap, ModelOfMaps, check_document, check_map, check_map_on_model, check_model_of_maps,

@@ -92,6 +92,34 @@ fn tangents_far_from_mikktspace_are_an_error() {
     }
 }
 
+/// Single tangents that were turned are found in thin triangles, too, where the tangents of the others show that the UVs were not rounded since.
+#[test]
+fn single_tangents_are_found_in_thin_triangles() {
+    for name in ["wavy grid", "mirrored wavy grid", "sphere", "mirrored fine wavy grid"] {
+        let mut healthy = model(name);
+        let set = healthy.uv_set;
+        healthy.uvs[set].iter_mut().for_each(|uv| uv[1] *= 1e-4);
+        healthy.tangents = Some(healthy.computed(Method::default(), set));
+        let before = check(&healthy);
+        assert!(before.iter().all(|finding| finding.severity == Severity::Info), "{name}: {before:#?}");
+        let normals = healthy.normals.clone().expect("normals");
+        for vertex in (0..normals.len()).step_by(11) {
+            let ([x, y, z, w], n) = (healthy.tangents()[vertex], normals[vertex]);
+            let across = [n[1] * z - n[2] * y, n[2] * x - n[0] * z, n[0] * y - n[1] * x, w];
+            for (tangent, code) in [([-x, -y, -z, w], Code::TangentNegated), (across, Code::TangentRotated)] {
+                let mut model = healthy.clone();
+                model.tangents()[vertex] = tangent;
+                let findings = check(&model);
+                let found = find(&findings, code).map(|finding| finding.first.clone());
+                assert_eq!(found, Some(vec![vertex]), "{name}, {vertex}: {findings:#?}");
+                let other =
+                    findings.iter().find(|other| other.severity > Severity::Info && other.code != code);
+                assert_eq!(other, None, "{name}, {vertex}");
+            }
+        }
+    }
+}
+
 /// Where a position was lost, tangents cannot be computed again, and nothing is said of how they were.
 #[test]
 fn tangents_beside_lost_positions_are_not_judged() {

@@ -83,7 +83,7 @@ fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
 }
 
 /// The corners that are more than [`FAR`] from MikkTSpace around the normal, in percent of those that lie in triangles with an area and not on
-/// mirrored seams. Tangents that are negated, or lean towards the normal, have findings of their own.
+/// mirrored seams. Tangents that are negated or rotated, or lean towards the normal, have findings of their own.
 fn percent_far(measured: &Measured<'_>) -> f64 {
     let surface = measured.surface;
     let (Some(tangents), Some(normals), Some(uvs), Some(expected)) = (
@@ -95,7 +95,9 @@ fn percent_far(measured: &Measured<'_>) -> f64 {
         return 0.0;
     };
     let mut is_other = measured.is_on_mirrored_seam.clone();
-    for fit in measured.fits.iter().filter(|fit| fit.difference == Difference::PartlyNegated) {
+    let is_turned =
+        |fit: &&Fit| matches!(fit.difference, Difference::PartlyNegated | Difference::PartlyRotated);
+    for fit in measured.fits.iter().filter(is_turned) {
         fit.items.iter().for_each(|&vertex| is_other[vertex] = true);
     }
     let angle = |vertex: usize, expected: [f32; 3]| {
@@ -151,7 +153,7 @@ fn obstacle(best: &RecipeMatch, severity: Severity) -> Option<String> {
 }
 
 /// The tangents of corners as methods compute them, without what other rules name: signs that differ or are none become those of MikkTSpace,
-/// and negated directions are turned back. None where there are no tangents or none can be computed.
+/// negated directions are turned back, and single rotated ones become those of MikkTSpace. None where there are no tangents or none can be computed.
 fn tangents_without_other_mistakes(measured: &Measured<'_>) -> Option<Vec<[f32; 4]>> {
     let surface = measured.surface;
     let of_vertex = surface.tangents.as_ref()?;
@@ -174,8 +176,14 @@ fn tangents_without_other_mistakes(measured: &Measured<'_>) -> Option<Vec<[f32; 
     let is_no_sign = |tangent: &[f32; 4]| (tangent[3].abs() - 1.0).abs() > SIGN;
     if measured.reversal.is_some() || measured.fits.iter().any(differ) || of_vertex.iter().any(is_no_sign) {
         let expected = surface.expected_tangents(surface.uv_set)?;
-        for (tangent, expected) in tangents.iter_mut().zip(expected) {
-            tangent[3] = to_generated.tangent(expected)[3];
+        let rotated = measured.fits.iter().find(|fit| fit.difference == Difference::PartlyRotated);
+        let is_rotated =
+            |vertex: u32| rotated.is_some_and(|fit| fit.items.binary_search(&(vertex as usize)).is_ok());
+        for ((tangent, &vertex), expected) in tangents.iter_mut().zip(&surface.vertex_of_corner).zip(expected)
+        {
+            let expected = to_generated.tangent(expected);
+            *tangent =
+                if is_rotated(vertex) { expected } else { [tangent[0], tangent[1], tangent[2], expected[3]] };
         }
     }
     Some(tangents)

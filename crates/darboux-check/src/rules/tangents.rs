@@ -28,7 +28,7 @@ pub const UNIT: f64 = 0.02;
 /// How far the size of a sign w may be from 1.
 pub const SIGN: f32 = 0.01;
 
-/// The share in percent above which flipped signs of some triangles, or negated tangents of some vertices, are an error: each shows dents for
+/// The share in percent above which flipped signs of some triangles, or turned tangents of some vertices, are an error: each shows dents for
 /// bumps, and one in a hundred is seen on a model that fills the screen. Fewer may be slivers, whose UV area is rounding, so that programs
 /// differ in their sign.
 const MAX_PERCENT_OF_PART: f64 = 1.0;
@@ -212,6 +212,10 @@ fn different(measured: &Measured<'_>, fit: &Fit) -> Option<Finding> {
             let tangents = counted(*supporting, "tangent points", "tangents point");
             (Code::TangentNegated, format!("{tangents} against u"))
         }
+        Difference::PartlyRotated => {
+            let tangents = counted(*supporting, "tangent points", "tangents point");
+            (Code::TangentRotated, format!("{tangents} along v"))
+        }
         Difference::Rotated => (Code::TangentRotated, "the tangents point along v".to_owned()),
         Difference::Negated => (Code::TangentNegated, "the tangents point against u".to_owned()),
         Difference::OtherUvSet(other) => {
@@ -221,11 +225,14 @@ fn different(measured: &Measured<'_>, fit: &Fit) -> Option<Finding> {
     };
     let part = match difference {
         Difference::SignPartlyFlipped => "part of all triangles",
-        Difference::PartlyNegated => "part of all vertices",
+        Difference::PartlyNegated | Difference::PartlyRotated => "part of all vertices",
         _ => "part of all corners",
     };
     let share = 100.0 * *supporting as f64 / (*all).max(1) as f64;
-    let is_partly = matches!(difference, Difference::SignPartlyFlipped | Difference::PartlyNegated);
+    let is_partly = matches!(
+        difference,
+        Difference::SignPartlyFlipped | Difference::PartlyNegated | Difference::PartlyRotated
+    );
     let is_small = is_partly && share <= MAX_PERCENT_OF_PART;
     let severity = if is_small || follows_from_normals { Severity::Warning } else { code.severity() };
     let finding = Finding::new(code, text).with_items(items).with_count(*supporting);
