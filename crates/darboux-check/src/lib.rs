@@ -21,6 +21,7 @@
 mod cancelling;
 mod check;
 mod code;
+mod contradiction;
 mod expected;
 mod facets;
 mod finding;

@@ -6,6 +6,7 @@ use darboux::{
 };
 use darboux_io::image::{DecodeLimits, RgbaImage, linear_to_srgb, srgb_to_linear};
 
+use crate::contradiction::Contradiction;
 use crate::facets::{Arrangement, FacetVotes};
 use crate::reordered::Reordered;
 
@@ -19,6 +20,8 @@ pub struct Map {
     pub before_srgb: Option<MapJudgement>,
     /// What the two channels hold that would be x and y of a map without z; none where three channels vary.
     pub two_channels: Option<TwoChannels>,
+    /// Where parts of the map are in other conventions than others: which ones.
+    pub contradiction: Option<Contradiction>,
     /// Where the vectors point along another axis than z: which one.
     pub reordered: Option<Reordered>,
     /// Whether most texels have other lengths than 1, and red and green are light and dark together, as in pictures.
@@ -85,12 +88,14 @@ impl Map {
                 let facets = vote.map(|vote| vote(&image));
                 let reordered =
                     judgement.as_ref().ok().and_then(|judgement| Reordered::of(&image, judgement));
+                let contradiction = Contradiction::of(&image, TexelLayout::RGBA);
                 let is_picture = judgement.as_ref().is_ok_and(|judgement| is_picture(&image, judgement));
                 Self {
                     judgement,
                     file_size: file.len(),
                     before_srgb,
                     two_channels,
+                    contradiction,
                     reordered,
                     is_picture,
                     wanted,
@@ -119,6 +124,7 @@ impl Map {
             file_size: 0,
             before_srgb: None,
             two_channels: None,
+            contradiction: None,
             reordered: None,
             is_picture: false,
             wanted,

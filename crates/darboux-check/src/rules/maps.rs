@@ -3,12 +3,14 @@
 use darboux::{BitangentDirection, MapJudgement, MapVerdict, SrgbMistake, TangentDirection};
 
 use crate::code::Code;
+use crate::contradiction::Contradiction;
 use crate::facets::Arrangement;
 use crate::finding::Finding;
 use crate::map::{Map, MapDirections, TwoChannels};
 use crate::map_kind::{Kind, kind, percent};
 use crate::rule::MapRule;
 use crate::severity::Severity;
+use crate::text::counted;
 
 pub const RULES: &[MapRule] = &[
     unreadable,
@@ -18,6 +20,7 @@ pub const RULES: &[MapRule] = &[
     srgb,
     not_normal,
     two_channel,
+    contradiction,
     red_flipped,
     green_flipped,
     channels_swapped,
@@ -208,11 +211,41 @@ fn with_directions(finding: Finding, judgement: &MapJudgement, map: &Map) -> Fin
     }
 }
 
-/// The judgement on a map whose channels have directions, unless red and green are exchanged.
+/// The judgement on a map whose channels have directions, unless red and green are exchanged, or parts of the map contradict each other.
 fn directed(map: &Map) -> Option<&MapJudgement> {
-    let judgement =
-        judged(map).filter(|judgement| matches!(kind(map, judgement), Kind::Normals | Kind::TwoChannel))?;
+    let judgement = with_directed_channels(map).filter(|_| map.contradiction.is_none())?;
     (!facets_show_exchange(judgement, map)).then_some(judgement)
+}
+
+fn with_directed_channels(map: &Map) -> Option<&MapJudgement> {
+    judged(map).filter(|judgement| matches!(kind(map, judgement), Kind::Normals | Kind::TwoChannel))
+}
+
+/// Why a map is left of which only a part is inverted.
+const ONLY_A_PART: &str = "nothing says where one part ends and the other one begins";
+
+/// One part of the map is in OpenGL's convention and another one in DirectX's.
+fn contradiction(map: &Map) -> Option<Finding> {
+    with_directed_channels(map)?;
+    let Contradiction { side, parts: [up, down] } = map.contradiction?;
+    let text = format!(
+        "parts of it contradict each other: of blocks of {side} x {side} texels, {} with green up (OpenGL) ({}), and {} with green down (DirectX) or red inverted ({})",
+        counted(up.blocks, "is", "are"),
+        up.place(),
+        counted(down.blocks, "is", "are"),
+        down.place()
+    );
+    let wrong = if map.wanted == BitangentDirection::Up { down } else { up };
+    let finding = Finding::new(Code::MapGreenFlipped, text).with_severity(Severity::Warning);
+    let finding = finding.with_count(wrong.blocks * side * side).with_obstacle(Some(ONLY_A_PART.to_owned()));
+    let finding = finding.with_cure(
+        "Invert green in the part that is inverted, in an image editor, or bake the whole map again.",
+    );
+    Some(
+        finding
+            .with_evidence("clearest block with green up", up.z_score.into(), "standard errors")
+            .with_evidence("clearest block with green down", down.z_score.into(), "standard errors"),
+    )
 }
 
 fn green_flipped(map: &Map) -> Option<Finding> {
@@ -224,15 +257,26 @@ fn green_flipped(map: &Map) -> Option<Finding> {
         BitangentDirection::Up => "DirectX (green down) instead of OpenGL (green up)",
         BitangentDirection::Down => "OpenGL (green up) instead of DirectX (green down)",
     };
+    let leans_to_red =
+        arrangement(judgement).is_some_and(|arrangement| map.facet_score(arrangement) <= LEANS_TO_RED);
     let (doubt, obstacle) = match (directions_by_mesh(map), &map.facets) {
         (Some(_), _) => ("", None),
-        (None, Some(_)) => {
-            (", unless its red is inverted, which is rare and which the faces of the model do not show", None)
-        }
-        (None, None) => {
-            (", or its red is inverted, which the texels alone do not show", Some(ONLY_THE_MODEL.to_owned()))
-        }
+        (None, Some(_)) if leans_to_red => (
+            ", or its red is inverted, which looks the same to this test: the faces of the model lean that way",
+            Some(
+                "the faces of the model lean towards inverted red without deciding it; look at one bump with a light beside it and one above it",
+            ),
+        ),
+        (None, Some(_)) => (
+            ", or its red is inverted, which is much rarer, looks the same to this test, and is not decided by the faces of the model",
+            None,
+        ),
+        (None, None) => (
+            ", or its red is inverted, which is much rarer and looks the same to this test",
+            Some(ONLY_THE_MODEL),
+        ),
     };
+    let obstacle = obstacle.map(str::to_owned);
     let cure = match map.wanted {
         BitangentDirection::Up => Code::MapGreenFlipped.cure(),
         BitangentDirection::Down => {
@@ -243,6 +287,9 @@ fn green_flipped(map: &Map) -> Option<Finding> {
         .with_cure(cure);
     Some(with_directions(finding.with_obstacle(obstacle), judgement, map))
 }
+
+/// The z score of the faces up to which they make inverted red likelier than inverted green, without deciding it.
+const LEANS_TO_RED: f64 = -2.0;
 
 /// Why inverted green is left in a map without a model.
 const ONLY_THE_MODEL: &str = "only the faces of the model tell inverted green from inverted red; name the model with --model, or invert green with `darboux convert`";
@@ -432,6 +479,7 @@ mod tests {
             file_size: 0,
             before_srgb: None,
             two_channels: None,
+            contradiction: None,
             reordered: None,
             is_picture: false,
             wanted: BitangentDirection::Up,
