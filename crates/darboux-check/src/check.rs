@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use darboux::{BitangentDirection, MapJudgement};
+use darboux::{BitangentDirection, MapJudgement, SrgbMistake};
 use darboux_io::Error;
 use darboux_io::gltf::{Document, inspect};
 use darboux_io::image::RgbaImage;
@@ -92,7 +92,8 @@ fn check_map_with(file: &[u8], options: &CheckOptions, vote: Option<Vote<'_>>) -
     let obstacle = obstacles::of_image(file);
     let findings = MAP_RULES.iter().filter_map(|rule| rule(&map));
     let findings = findings.map(|finding| finding.with_obstacle(obstacle.clone())).collect();
-    CheckedMap { directions: directions_by_mesh(&map), judgement: map.judgement.ok(), findings }
+    let (directions, srgb_mistake) = (directions_by_mesh(&map), map.srgb_mistake);
+    CheckedMap { directions, srgb_mistake, judgement: map.judgement.ok(), findings }
 }
 
 /// A model that normal maps are to be put on, and what is wrong with it: the result of [`check_model_of_maps`].
@@ -169,6 +170,8 @@ const ON_THE_MODEL_TOO: &str =
 pub struct CheckedMap {
     /// The judgement on the texels; none if the image cannot be decoded.
     pub judgement: Option<MapJudgement>,
+    /// The transfer function that was applied once too often.
+    pub(crate) srgb_mistake: Option<SrgbMistake>,
     /// Which channels are inverted, where the faces of a model decide that.
     pub directions: Option<MapDirections>,
     /// The findings.

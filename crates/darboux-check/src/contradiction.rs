@@ -50,7 +50,7 @@ impl Part {
     /// The texels of the box around the blocks, in words.
     pub fn place(&self) -> String {
         let Self { columns, rows, .. } = self;
-        format!("x {} to {}, y {} to {}", columns[0], columns[1] - 1, rows[0], rows[1] - 1)
+        format!("texels x {} to {}, y {} to {}", columns[0], columns[1] - 1, rows[0], rows[1] - 1)
     }
 }
 

@@ -26,6 +26,7 @@ pub fn kind(map: &Map, judgement: &MapJudgement) -> Kind {
         // A part that leans may have the colour of an encoded flat one, but undoing an encoding that never was makes vectors of other lengths than 1.
         () if map.before_srgb.is_some_and(|before| before.not_unit < judgement.not_unit) => Kind::Srgb,
         () if is_encoded_and_inverted(judgement) => Kind::Srgb,
+        () if map.scaled.is_some() && judgement.mean[2] > 0.0 => Kind::Normals,
         () if map.two_channels.is_some_and(|of| !may_be_normals(of)) => Kind::Other,
         () if map.two_channels.is_some() => Kind::TwoChannel,
         () if map.reordered.is_some() => Kind::Reordered,

@@ -120,6 +120,56 @@ fn single_tangents_are_found_in_thin_triangles() {
     }
 }
 
+/// Tangents of any recipe that are MikkTSpace's to a tenth of a degree are not called those of another recipe.
+#[test]
+fn mikktspace_is_preferred_where_it_explains_all_tangents() {
+    let mut cases = 0;
+    for healthy in healthy_models() {
+        for method in [Method::Average, Method::Area, Method::AngleArea, Method::Lengyel] {
+            let mut model = healthy.clone();
+            model.tangents = Some(model.computed(method, model.uv_set));
+            let ours = model.computed(Method::default(), model.uv_set);
+            let distance = |(a, b): (&[f32; 4], &[f32; 4])| {
+                (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f32>().sqrt().to_degrees()
+            };
+            if model.tangents().iter().zip(&ours).map(distance).fold(0.0, f32::max) < 0.05 {
+                cases += 1;
+                let findings = check(&model);
+                assert!(find(&findings, Code::TangentOtherRecipe).is_none(), "{}: {findings:#?}", model.name);
+            }
+        }
+    }
+    assert!(cases > 10, "{cases} cases");
+}
+
+/// One vertex that is far away does not decide in which axes the normals are.
+#[test]
+fn one_lost_vertex_does_not_turn_the_axes() {
+    for name in ["wavy grid", "sphere", "wavy sphere", "fine sphere"] {
+        for far in [[1e12, 0.0, 0.0], [0.0, -1e12, 1e11], [0.0, 0.0, 1e12]] {
+            let mut model = model(name);
+            let middle = model.positions.len() / 2;
+            model.positions[middle] = far;
+            let findings = check(&model);
+            assert!(find(&findings, Code::NormalOtherAxes).is_none(), "{name}: {findings:#?}");
+        }
+    }
+}
+
+/// The tangent of a normal that is spoilt is right, though it is not perpendicular to it.
+#[test]
+fn tangents_of_spoilt_normals_are_no_further_mistake() {
+    for (spoilt, code) in [(0.7f32, Code::NormalNotUnit), (-1.0, Code::NormalAgainstWinding)] {
+        let mut model = model("large wavy grid");
+        let tangent = model.tangents()[40];
+        let normal = &mut model.normals.as_mut().expect("normals")[40];
+        *normal = [0, 1, 2].map(|i| spoilt * (0.8 * normal[i] + 0.6 * tangent[i]));
+        let findings = check(&model);
+        assert!(find(&findings, code).is_some(), "{findings:#?}");
+        assert!(find(&findings, Code::TangentNotPerpendicular).is_none(), "{findings:#?}");
+    }
+}
+
 /// Where a position was lost, tangents cannot be computed again, and nothing is said of how they were.
 #[test]
 fn tangents_beside_lost_positions_are_not_judged() {

@@ -65,6 +65,41 @@ fn parts_that_contradict_each_other_are_named() {
     }
 }
 
+/// With half of its contrast, every map has vectors of half the length, whatever else its texels show, and gets them back.
+#[test]
+fn maps_of_half_the_contrast_are_scaled() {
+    for map in (0..6).map(healthy_map) {
+        let halved = map.through(|texel| texel.map(|x| 0.5 + 0.5 * (x - 0.5)));
+        let findings = found(&halved.file);
+        assert_eq!(codes(&findings), [(Code::MapNotUnit, Severity::Warning)], "{findings:#?}");
+        let fixed = fix_map("map", &halved.file, &LoadOptions::default(), &FixOptions::default());
+        let fixed = fixed.expect("a map").image.expect("a repaired map").to_bytes().expect("a PNG");
+        // The code 128 of a flat texel becomes 129: half of the contrast leaves half of the codes.
+        assert!(found(&fixed).iter().all(|finding| finding.code == Code::MapFlatOff));
+    }
+}
+
+/// Of a map without flat parts that leans on purpose, the lengths of the vectors show what was encoded or decoded.
+#[test]
+fn lengths_show_what_was_encoded_as_srgb() {
+    let texel = |i: usize| {
+        let (x, y) = ((i % 256) as f32 / 7.0, (i / 256) as f32 / 9.0);
+        let vector = [0.14 + 0.35 * x.cos() * y.sin(), 0.1 - 0.35 * x.sin() * y.cos(), 0.9];
+        let length = vector.iter().map(|x| x * x).sum::<f32>().sqrt();
+        vector.map(|x| ((x / length + 1.0) * 127.5).round() as u8)
+    };
+    let map = healthy_map(0).with_texels((0..256 * 256).map(texel).collect());
+    assert_eq!(codes(&found(&map.file)), []);
+    for power in [2.2f32, 1.0 / 2.2] {
+        let spoilt = map.through(|texel| texel.map(|x| x.powf(power)));
+        let findings = found(&spoilt.file);
+        assert_eq!(codes(&findings), [(Code::MapSrgb, Severity::Error)], "{power}: {findings:#?}");
+        let fixed = fix_map("map", &spoilt.file, &LoadOptions::default(), &FixOptions::default());
+        let fixed = fixed.expect("a map").image.expect("a repaired map").to_bytes().expect("a PNG");
+        assert_eq!(codes(&found(&fixed)), []);
+    }
+}
+
 /// One colour is harmless only where it is that of a flat map.
 #[test]
 fn maps_of_one_colour_are_wrong_unless_they_are_flat() {

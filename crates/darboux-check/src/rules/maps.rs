@@ -91,12 +91,21 @@ fn reordered(map: &Map) -> Option<Finding> {
 fn srgb(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Srgb)?;
     let [red, green] = judgement.commonest;
-    let (what, obstacle) = match judgement.srgb_mistake() {
+    let (what, obstacle) = match map.srgb_mistake {
         Some(SrgbMistake::Encoded) => ("encoded as sRGB", None),
         Some(SrgbMistake::Decoded) => ("decoded as sRGB", None),
         None => ("encoded as sRGB, and red or green was inverted after that", Some(INVERTED_CODE)),
         Some(_) => return None,
     };
+    let is_by_length = map.srgb_mistake.is_some() && judgement.srgb_mistake().is_none();
+    let before = map.before_srgb.filter(|_| is_by_length);
+    if let Some(before) = before {
+        let text = format!("linear values were {what}: without that, nearly all its vectors have length 1");
+        let [spoilt, healthy] = [judgement, &before].map(|of| percent(of, of.not_unit));
+        let finding = Finding::new(Code::MapSrgb, text).with_count(judgement.not_unit);
+        let finding = finding.with_evidence("texels of another length than 1", spoilt, "%");
+        return Some(finding.with_evidence("once that is undone", healthy, "%"));
+    }
     let text =
         format!("its commonest texel is {red}, {green} instead of 128, 128: linear values were {what}");
     let share = percent(judgement, judgement.commonest_count);
@@ -370,7 +379,8 @@ const MAY_BE_NO_MAP: &str = "scaled to length 1, the texels of another kind of i
 fn not_unit(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Normals)?;
     let share = percent(judgement, judgement.not_unit);
-    let is_surface = matches!(judgement.verdict, MapVerdict::OpenGl | MapVerdict::DirectX | MapVerdict::Flat);
+    let verdict = map.scaled.as_ref().unwrap_or(judgement).verdict;
+    let is_surface = matches!(verdict, MapVerdict::OpenGl | MapVerdict::DirectX | MapVerdict::Flat);
     let leans = judgement.mean[..2].iter().any(|mean| mean.abs() > MAX_MEAN_LEAN);
     let doubt = match () {
         () if share <= 50.0 => None,
@@ -477,7 +487,9 @@ mod tests {
         Map {
             judgement,
             file_size: 0,
+            srgb_mistake: None,
             before_srgb: None,
+            scaled: None,
             two_channels: None,
             contradiction: None,
             reordered: None,

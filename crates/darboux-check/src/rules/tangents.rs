@@ -1,9 +1,11 @@
 //! Rules about tangents: values, signs and directions.
 
+use super::normals::UNIT as UNIT_OF_NORMALS;
 use crate::code::Code;
 use crate::finding::Finding;
 use crate::fit::{Difference, Fit};
 use crate::orientation::Reversal;
+use crate::reversed::reversed;
 use crate::rule::{Measured, SurfaceRule};
 use crate::severity::Severity;
 use crate::surface::{Surface, dot, indices_where, length, xyz};
@@ -130,6 +132,7 @@ fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
     };
     let angles: Vec<f64> = (0..tangents.len()).map(angle).collect();
     let found = measured.surface.used(indices_where(&angles, |angle| *angle > MAX_DEGREES_FROM_PLANE[0]));
+    let found = without_spoilt_normals(measured.surface, normals, found);
     if found.is_empty() {
         return Vec::new();
     }
@@ -147,6 +150,21 @@ fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
             .with_severity(severity)
             .with_evidence("largest angle", worst, "degrees"),
     ]
+}
+
+/// Those of some vertices whose normals have no finding of their own. Where the normals of most vertices have one, as after they were scaled,
+/// their directions are right.
+fn without_spoilt_normals(surface: &Surface, normals: &[[f32; 3]], vertices: Vec<usize>) -> Vec<usize> {
+    if vertices.is_empty() {
+        return vertices;
+    }
+    let reversed = reversed(surface).map_or(Vec::new(), |reversed| reversed.vertices);
+    let is_unit = |vertex: usize| (length(normals[vertex]) - 1.0).abs() <= UNIT_OF_NORMALS;
+    let not_unit = surface.used((0..normals.len()).filter(|&vertex| !is_unit(vertex)).collect());
+    let are_scaled = 2 * not_unit.len() > surface.used_count();
+    let is_sound =
+        |vertex: &usize| (are_scaled || is_unit(*vertex)) && reversed.binary_search(vertex).is_err();
+    vertices.into_iter().filter(is_sound).collect()
 }
 
 fn shared_across_mirror(measured: &Measured<'_>) -> Vec<Finding> {
