@@ -16,7 +16,7 @@ use crate::map::{Map, MapDirections, Vote};
 use crate::map_users::{MapSurfaces, MapUsers};
 use crate::obstacles;
 use crate::rule::Measured;
-use crate::rules::{MAP_RULES, SURFACE_RULES, TEXTURE_RULES, directions_by_mesh};
+use crate::rules::{BY_FACES, MAP_RULES, MATERIAL_RULES, SURFACE_RULES, directions_by_mesh};
 use crate::severity::Severity;
 use crate::surface::Surface;
 
@@ -208,10 +208,8 @@ fn check_materials(
     let appearances = document.appearances()?;
     for (index, appearance) in appearances.iter().enumerate() {
         let place = Place { material: Some(index), ..Place::default() };
-        for rule in TEXTURE_RULES {
-            let found = appearance.normal_maps().find_map(rule);
-            findings.extend(found.map(|finding| Finding { place: place.clone(), ..finding }));
-        }
+        let found = MATERIAL_RULES.iter().filter_map(|rule| rule(appearance));
+        findings.extend(found.map(|finding| Finding { place: place.clone(), ..finding }));
         for image in appearance.normal_maps().filter_map(|texture| texture.image).filter(|_| options.maps) {
             images.entry(image).or_insert(index);
         }
@@ -220,6 +218,7 @@ fn check_materials(
         return Ok(findings);
     }
     let users = MapUsers::new(document, &appearances)?;
+    let mut on_images = Vec::new();
     for (image, material) in images {
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
         let mut found = check_image(document, &users, image, options)?;
@@ -228,9 +227,27 @@ fn check_materials(
             let mut on_surface: Vec<&mut Finding> = on_surfaces.iter_mut().filter(is_there).collect();
             cancelling::mark(&mut found, &mut on_surface);
         }
-        findings.extend(found.into_iter().map(|finding| Finding { place: place.clone(), ..finding }));
+        on_images.extend(found.into_iter().map(|finding| Finding { place: place.clone(), ..finding }));
     }
+    compare_maps(&mut on_images);
+    findings.extend(on_images);
     Ok(findings)
+}
+
+/// The maps of a model are mostly made by one program. Where the faces show that the red of one map is inverted, and not those of another one
+/// which of its channels is, inverted red is as likely there as inverted green.
+fn compare_maps(on_images: &mut [Finding]) {
+    let with_inverted_red = on_images.iter().find(|finding| finding.code == Code::MapRedFlipped);
+    let Some(image) = with_inverted_red.and_then(|finding| finding.place.image) else { return };
+    let is_undecided = |finding: &&mut Finding| {
+        let is_by_faces = finding.evidence.iter().any(|number| number.what == BY_FACES);
+        finding.code == Code::MapGreenFlipped && finding.is_fixable() && !is_by_faces
+    };
+    for finding in on_images.iter_mut().filter(is_undecided) {
+        finding.text += &format!("; the red of images[{image}] is inverted, so that this may be likelier");
+        let reason = format!("red may be inverted instead of green, as in images[{image}]");
+        finding.left_because = Some(reason);
+    }
 }
 
 /// Checks an image of a document as a normal map. Errors: invalid data of the primitives that use it.

@@ -17,6 +17,8 @@ pub struct Map {
     pub judgement: Result<MapJudgement, String>,
     /// In bytes; 0 where the file itself could not be read.
     pub file_size: usize,
+    /// The number of tiles that the judgement is from.
+    pub tiles: usize,
     /// Where the texels look as if they had gone through the transfer function of sRGB once too often: which way, and the judgement on them as
     /// they were before.
     pub srgb_mistake: Option<SrgbMistake>,
@@ -83,9 +85,11 @@ impl Map {
     pub fn read(file: &[u8], wanted: BitangentDirection, vote: Option<Vote<'_>>) -> Self {
         match RgbaImage::decode(file, &DecodeLimits::default()) {
             Ok(image) => {
-                let size = [image.width, image.height].map(|side| side as usize);
-                let judgement = judge_normal_map(&image.texels, size, TexelLayout::RGBA);
-                let judgement = judgement.map_err(|error| error.to_string());
+                let mut judge = NormalMapJudge::new(image.width as usize, TexelLayout::RGBA);
+                let mut rows = image.texels.chunks_exact(image.width.max(1) as usize);
+                let pushed = rows.try_for_each(|row| judge.push_row(row));
+                let tiles = judge.tiles().correlations.iter().flatten().count();
+                let judgement = pushed.map(|()| judge.judgement()).map_err(|error| error.to_string());
                 let srgb_mistake = judgement.as_ref().ok().and_then(|judgement| {
                     judgement.srgb_mistake().or_else(|| srgb_mistake_by_length(&image, judgement))
                 });
@@ -101,6 +105,7 @@ impl Map {
                 Self {
                     judgement,
                     file_size: file.len(),
+                    tiles,
                     srgb_mistake,
                     before_srgb,
                     scaled,
@@ -132,6 +137,7 @@ impl Map {
         Self {
             judgement: Err(problem),
             file_size: 0,
+            tiles: 0,
             srgb_mistake: None,
             before_srgb: None,
             scaled: None,

@@ -130,9 +130,9 @@ pub fn turned(surface: &Surface, expected: &[[f32; 4]]) -> Turned {
     let mut around = vec![Around::EMPTY; tangents.len()];
     let (mut corners, mut thin_corners) = (Corners::default(), Corners::default());
     for (triangle, expected) in surface.triangles().zip(expected.as_chunks::<3>().0) {
-        let Some(along_u) = u_direction(surface, uvs, triangle) else { continue };
+        let along_u = u_direction(surface, uvs, triangle).filter(|_| is_measured(surface, uvs, triangle));
+        let Some(along_u) = along_u else { continue };
         let is_thin = is_thin(uvs, triangle, thin);
-        let has_expected = is_measured(surface, uvs, triangle);
         for (corner, vertex) in triangle.into_iter().enumerate() {
             let at = &mut around[vertex];
             let (tangent, ours) = (xyz(tangents[vertex]), xyz(expected[corner]));
@@ -143,16 +143,14 @@ pub fn turned(surface: &Surface, expected: &[[f32; 4]]) -> Turned {
                 // A tangent without a direction has a finding of its own, and NaN makes it no other one.
                 at.largest_cosine = if cosine.is_nan() { 1.0 } else { at.largest_cosine.max(cosine) };
             }
-            if has_expected {
-                let along = cosine(ours, tangent);
-                corners.add(along.abs() >= EQUAL);
-                if is_thin {
-                    thin_corners.add(along >= EQUAL);
-                }
-                at.is_opposite &= along <= -OPPOSITE;
-                at.is_across &=
-                    along.abs() <= ACROSS && cosine(cross(normals[vertex], ours), tangent).abs() >= OPPOSITE;
+            let along = cosine(ours, tangent);
+            corners.add(along.abs() >= EQUAL);
+            if is_thin {
+                thin_corners.add(along >= EQUAL);
             }
+            at.is_opposite &= along <= -OPPOSITE;
+            at.is_across &=
+                along.abs() <= ACROSS && cosine(cross(normals[vertex], ours), tangent).abs() >= OPPOSITE;
         }
     }
     let trusts_thin = thin_corners.are_equal(MIN_SHARE_OF_THIN);

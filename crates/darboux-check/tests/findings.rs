@@ -324,6 +324,55 @@ fn bare_maps_are_repaired_by_the_faces_of_their_model() {
     }
 }
 
+/// Where another map of the model has its red inverted, a map with one inverted channel may have, too, and is left.
+#[test]
+fn maps_of_one_model_are_compared() {
+    let mut model = baked_models().remove(0);
+    let alien = healthy_models().remove(5).map;
+    let alien = alien.with_texels(alien.texels.iter().map(|[r, g, b]| [*r, 255 - g, *b]).collect());
+    for inverts_red in [true, false] {
+        let texel = |&[r, g, b]: &[u8; 3]| [if inverts_red { 255 - r } else { r }, g, b];
+        model.map = model.map.with_texels(model.map.texels.iter().map(texel).collect());
+        let uri = format!("data:image/png;base64,{}", base64(&alien.file));
+        let glb = with_json(&model.glb(), |json| {
+            json["images"].as_array_mut().expect("images").push(json!({"uri": uri}));
+            json["textures"].as_array_mut().expect("textures").push(json!({"source": 1}));
+            let material = json!({"normalTexture": {"index": 1}});
+            json["materials"].as_array_mut().expect("materials").push(material);
+        });
+        let document = Document::from_bytes("model", glb, None, &LoadOptions::default());
+        let findings = check_document(&mut document.expect("a document"), &CheckOptions::default());
+        let findings = findings.expect("a valid document");
+        let green = find(&findings, Code::MapGreenFlipped).expect("the finding");
+        assert_eq!((green.place.image, green.is_fixable()), (Some(1), !inverts_red), "{green:?}");
+        assert_eq!(green.text.contains("images[0]"), inverts_red, "{green:?}");
+        model = baked_models().remove(0);
+    }
+}
+
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let letters = |three: &[u8]| {
+        let byte = |i: usize| u32::from(three.get(i).copied().unwrap_or(0));
+        let all = byte(0) << 16 | byte(1) << 8 | byte(2);
+        let letter = |i: usize| char::from(LETTERS[(all >> (18 - 6 * i) & 63) as usize]);
+        let letter_or_end = |i: usize| if i <= three.len() { letter(i) } else { '=' };
+        [0, 1, 2, 3].map(letter_or_end)
+    };
+    bytes.chunks(3).flat_map(letters).collect()
+}
+
+/// A negative scale of the normal texture inverts both channels.
+#[test]
+fn negative_scales_of_normal_textures_are_named() {
+    let mut model = model("grid");
+    assert!(find(&check(&model), Code::MapScaleNegative).is_none());
+    model.normal_scale = -0.5;
+    let findings = check(&model);
+    let found = find(&findings, Code::MapScaleNegative).expect("the finding");
+    assert_eq!((found.severity, found.evidence[0].value), (Severity::Warning, -0.5));
+}
+
 /// The normal map of a clear coat is one, too, and the surfaces of all materials of a primitive's variants vote.
 #[test]
 fn clear_coats_and_variants_are_checked() {

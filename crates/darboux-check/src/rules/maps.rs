@@ -4,7 +4,7 @@ use darboux::{BitangentDirection, MapJudgement, MapVerdict, SrgbMistake, Tangent
 
 use crate::code::Code;
 use crate::contradiction::Contradiction;
-use crate::facets::Arrangement;
+use crate::facets::{Arrangement, FacetVotes};
 use crate::finding::Finding;
 use crate::map::{Map, MapDirections, TwoChannels};
 use crate::map_kind::{Kind, kind, percent};
@@ -115,7 +115,7 @@ fn srgb(map: &Map) -> Option<Finding> {
 }
 
 /// Why a map that was encoded and then inverted is left.
-const INVERTED_CODE: &str = "invert the channel near 67 again first: `darboux convert map.png --from directx --to opengl` inverts green";
+const INVERTED_CODE: &str = "invert the channel near 67 of the map again first: `darboux convert --from directx --to opengl` inverts green";
 
 fn not_normal(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Other)?;
@@ -156,11 +156,11 @@ fn two_channel(map: &Map) -> Option<Finding> {
     let is_unclear = judgement.verdict == MapVerdict::CannotTell && map.facets.is_none();
     let obstacle = obstacle.or(is_unclear.then_some(UNCLEAR_CHANNELS)).map(str::to_owned);
     let finding = Finding::new(Code::MapTwoChannel, text).with_obstacle(obstacle);
-    Some(finding.with_evidence(CERTAINTY, judgement.z_score.into(), "standard errors"))
+    Some(with_certainty(finding, &judgement, map))
 }
 
 /// Why a map with x in alpha is left.
-const X_IN_ALPHA: &str = "alpha may be wanted for something else; if it is x, `darboux convert map.png --from opengl --to opengl --layout ag --to-layout rgb` computes blue";
+const X_IN_ALPHA: &str = "alpha may be wanted for something else; if it is x, `darboux convert --from opengl --to opengl --layout ag --to-layout rgb` computes blue";
 
 /// Why a map without z is left whose derivatives say nothing, and which no material uses as a normal map.
 const UNCLEAR_CHANNELS: &str =
@@ -193,11 +193,28 @@ pub fn directions_by_mesh(map: &Map) -> Option<MapDirections> {
     directions(judgement, map).filter(|_| is_decided)
 }
 
-/// What the z score of the derivatives is called: the mean agreement of the tiles over its standard error.
-const CERTAINTY: &str = "certainty (4 or more decide, or -4 or less)";
+/// What the z score of the derivatives is called, and the number of tiles that it is from.
+const CERTAINTY: &str =
+    "distance of the tiles' mean agreement from zero (4 or more decide for OpenGL, -4 or less for DirectX)";
+const TILES: &str = "tiles that were compared";
 
-/// What the z score of the faces is called.
-const BY_FACES: &str = "agreement with the faces of the model (6 or more decide, or -6 or less)";
+/// What the z score of the faces is called, and their number.
+pub const BY_FACES: &str =
+    "distance of the faces' mean agreement with the map from zero (6 or more decide, or -6 or less)";
+const FACES: &str = "faces that were compared";
+
+/// The finding with the z score of the derivatives as evidence.
+fn with_certainty(finding: Finding, judgement: &MapJudgement, map: &Map) -> Finding {
+    let finding = finding.with_evidence(CERTAINTY, judgement.z_score.into(), "standard errors");
+    finding.with_evidence(TILES, map.tiles as f64, "tiles")
+}
+
+/// The finding with the z score that the faces give an arrangement as evidence.
+fn with_faces(finding: Finding, map: &Map, arrangement: Arrangement) -> Finding {
+    let finding = finding.with_evidence(BY_FACES, map.facet_score(arrangement), "standard errors");
+    let faces = map.facets.as_ref().map_or(0, FacetVotes::count);
+    finding.with_evidence(FACES, faces as f64, "faces")
+}
 
 /// The finding with the evidence for the direction of the channels.
 fn with_directions(finding: Finding, judgement: &MapJudgement, map: &Map) -> Finding {
@@ -212,10 +229,10 @@ fn with_directions(finding: Finding, judgement: &MapJudgement, map: &Map) -> Fin
             "agreement of red and green as slopes, from -1 (DirectX) to 1 (OpenGL)",
             judgement.correlation.into(),
             "",
-        )
-        .with_evidence(CERTAINTY, judgement.z_score.into(), "standard errors");
+        );
+    let finding = with_certainty(finding, judgement, map);
     match arrangement(judgement).filter(|arrangement| map.decide(*arrangement).is_some()) {
-        Some(arrangement) => finding.with_evidence(BY_FACES, map.facet_score(arrangement), "standard errors"),
+        Some(arrangement) => with_faces(finding, map, arrangement),
         None => finding,
     }
 }
@@ -252,8 +269,12 @@ fn contradiction(map: &Map) -> Option<Finding> {
     );
     Some(
         finding
-            .with_evidence("clearest block with green up", up.z_score.into(), "standard errors")
-            .with_evidence("clearest block with green down", down.z_score.into(), "standard errors"),
+            .with_evidence(
+                "mean agreement of the tiles from zero, in the clearest block with green up",
+                up.z_score.into(),
+                "standard errors",
+            )
+            .with_evidence("in the clearest block with green down", down.z_score.into(), "standard errors"),
     )
 }
 
@@ -289,7 +310,7 @@ fn green_flipped(map: &Map) -> Option<Finding> {
     let cure = match map.wanted {
         BitangentDirection::Up => Code::MapGreenFlipped.cure(),
         BitangentDirection::Down => {
-            "Export or bake the map with green down (DirectX, -Y), or invert green: `darboux convert map.png --from opengl --to directx`."
+            "Export or bake the map with green down (DirectX, -Y), or invert green of the map with `darboux convert --from opengl --to directx`."
         }
     };
     let finding = Finding::new(Code::MapGreenFlipped, format!("it is in the convention of {program}{doubt}"))
@@ -297,8 +318,9 @@ fn green_flipped(map: &Map) -> Option<Finding> {
     Some(with_directions(finding.with_obstacle(obstacle), judgement, map))
 }
 
-/// The z score of the faces up to which they make inverted red likelier than inverted green, without deciding it.
-const LEANS_TO_RED: f64 = -2.0;
+/// The z score of the faces up to which they make inverted red likelier than inverted green, without deciding it. Faces that a map was not made for
+/// give 4 by chance.
+const LEANS_TO_RED: f64 = -5.0;
 
 /// Why inverted green is left in a map without a model.
 const ONLY_THE_MODEL: &str = "only the faces of the model tell inverted green from inverted red; name the model with --model, or invert green with `darboux convert`";
@@ -350,13 +372,10 @@ fn channels_swapped(map: &Map) -> Option<Finding> {
     let is_undecided = judgement.z_score < 0.0 && map.decide(Arrangement::ExchangedAndInverted).is_none();
     let finding = Finding::new(Code::MapChannelsSwapped, text)
         .with_obstacle(is_undecided.then(|| INVERTED_TOO.to_owned()))
-        .with_evidence("logarithm of the changes along red's and green's own axes over those across (negative if exchanged)", judgement.log_energy_ratio.into(), "")
-        .with_evidence(CERTAINTY, judgement.z_score.into(), "standard errors");
+        .with_evidence("logarithm of the changes along red's and green's own axes over those across (negative if exchanged)", judgement.log_energy_ratio.into(), "");
+    let finding = with_certainty(finding, judgement, map);
     Some(match by_facets {
-        true => {
-            let z_score = map.facet_score(candidates(judgement)[1]);
-            finding.with_evidence(BY_FACES, z_score, "standard errors")
-        }
+        true => with_faces(finding, map, candidates(judgement)[1]),
         false => finding,
     })
 }
@@ -467,7 +486,6 @@ mod tests {
     use darboux::{TexelLayout, judge_normal_map};
 
     use super::*;
-    use crate::facets::FacetVotes;
 
     /// Waves along u, v and both, as `[x, y]`; `is_exchanged` exchanges red and green, and green is inverted before.
     fn map(is_exchanged: bool) -> Map {
@@ -487,6 +505,7 @@ mod tests {
         Map {
             judgement,
             file_size: 0,
+            tiles: 0,
             srgb_mistake: None,
             before_srgb: None,
             scaled: None,
