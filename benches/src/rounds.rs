@@ -142,11 +142,12 @@ impl Runner<'_> {
 /// On smaller meshes, code pages touched by the first call would count more than data.
 const LARGE: usize = 20_000;
 
-/// Fills in the memory of the rows on large meshes whose engines run in this process.
+/// Fills in the memory of the rows on large meshes whose engines run in this process; not where one call takes so long that it is timed once.
 pub fn add_memory(rows: &mut [Row], engines: &[Engine], quick: bool, models: Option<&Path>) {
     let countable = |row: &Row| {
         let engine = engines.iter().find(|engine| engine.name == row.engine);
         row.triangles >= LARGE
+            && row.rounds.len() > 1
             && engine.is_some_and(|engine| engine.is_native() && engine.method != Method::Copy)
     };
     for row in rows {

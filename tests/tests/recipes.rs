@@ -96,7 +96,7 @@ fn every_recipe_is_recognised_on_further_models() {
     }
 }
 
-/// Large meshes are sampled: the best recipe is compared on all corners, and recipes that are clearly worse on a few.
+/// Large meshes are sampled: MikkTSpace is compared on all corners, and so are others where the sample leaves a doubt.
 #[test]
 fn recipes_of_large_meshes_are_recognised() {
     let mut grid = families::grid(400, 320, false, true);
@@ -111,13 +111,20 @@ fn recipes_of_large_meshes_are_recognised() {
             let matches = recognise_recipe(&view, &made).expect("one tangent per corner");
             let best = matches[0];
             assert_eq!(best.recipe.method, method, "{best:?}");
-            assert_eq!((best.corners, best.identical), (made.len(), made.len()), "{best:?}");
+            assert_eq!(best.identical, best.corners, "{best:?}");
             let is_whole = |found: &&RecipeMatch| found.corners == made.len();
             assert!(matches.iter().filter(is_whole).any(|found| found.recipe.method == Method::default()));
             assert!(matches.iter().any(|found| found.corners < made.len() / 8), "{matches:?}");
             assert!(recipes().all(|method| matches.iter().any(|found| found.recipe.method == method)));
         }
     }
+    // Slightly noisy tangents of a gently curved grid: several methods are about as close, and are compared on all corners.
+    let gentle = families::grid(400, 320, false, false);
+    let mut noisy = tangents(&gentle.view(), Method::Area);
+    noisy.iter_mut().for_each(|tangent| tangent[1] += 1e-4);
+    let matches = recognise_recipe(&gentle.view(), &noisy).expect("one tangent per corner");
+    let whole = matches.iter().filter(|found| found.corners == noisy.len());
+    assert!(whole.count() > 2, "{matches:?}");
     // Tangents of no recipe: the shares in the sample are those in the whole mesh, up to chance.
     let mut made = tangents(&grid.view(), Method::Area);
     made.iter_mut()

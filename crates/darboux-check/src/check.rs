@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use darboux::{BitangentDirection, MapJudgement, SrgbMistake};
 use darboux_io::Error;
-use darboux_io::gltf::{Document, inspect};
+use darboux_io::gltf::{Document, PrimitiveName, inspect};
 use darboux_io::image::RgbaImage;
 
 use crate::cancelling;
@@ -110,14 +110,10 @@ impl ModelOfMaps {
     }
 
     /// Marks findings on a map and on this model's surfaces that cancel each other, and returns the codes of those on the map.
-    fn mark_cancelling(&self, on_map: &mut [Finding], on_model: &mut [Finding]) -> Vec<Code> {
-        let mut cancelled = Vec::new();
-        for surface in &self.surfaces {
-            let mut on_surface: Vec<&mut Finding> =
-                on_model.iter_mut().filter(|finding| finding.place == surface.place).collect();
-            cancelled.extend(cancelling::mark(on_map, &mut on_surface));
-        }
-        cancelled
+    fn mark_cancelling(&self, on_map: &mut [Finding], on_model: &mut [Finding]) -> &'static [Code] {
+        let places: Vec<&Place> = self.surfaces.iter().map(|surface| &surface.place).collect();
+        let index_of = |finding: &Finding| places.iter().position(|place| **place == finding.place);
+        cancelling::mark(on_map, &mut by_surface(on_model, places.len(), index_of))
     }
 }
 
@@ -222,11 +218,11 @@ fn check_materials(
     for (image, material) in images {
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
         let mut found = check_image(document, &users, image, options)?;
-        for name in users.names(image) {
-            let is_there = |finding: &&mut Finding| finding.place.primitive.as_ref() == Some(name);
-            let mut on_surface: Vec<&mut Finding> = on_surfaces.iter_mut().filter(is_there).collect();
-            cancelling::mark(&mut found, &mut on_surface);
-        }
+        let names: Vec<&PrimitiveName> = users.names(image).collect();
+        let index_of = |finding: &Finding| {
+            finding.place.primitive.as_ref().and_then(|own| names.iter().position(|name| *name == own))
+        };
+        cancelling::mark(&mut found, &mut by_surface(on_surfaces, names.len(), index_of));
         on_images.extend(found.into_iter().map(|finding| Finding { place: place.clone(), ..finding }));
     }
     compare_maps(&mut on_images);
@@ -248,6 +244,21 @@ fn compare_maps(on_images: &mut [Finding]) {
         let reason = format!("red may be inverted instead of green, as in images[{image}]");
         finding.left_because = Some(reason);
     }
+}
+
+/// The findings on each of `count` surfaces; `index_of` gives the index of that of a finding.
+fn by_surface(
+    findings: &mut [Finding],
+    count: usize,
+    index_of: impl Fn(&Finding) -> Option<usize>,
+) -> Vec<Vec<&mut Finding>> {
+    let mut surfaces: Vec<Vec<&mut Finding>> = (0..count).map(|_| Vec::new()).collect();
+    for finding in findings {
+        if let Some(index) = index_of(finding) {
+            surfaces[index].push(finding);
+        }
+    }
+    surfaces
 }
 
 /// Checks an image of a document as a normal map. Errors: invalid data of the primitives that use it.

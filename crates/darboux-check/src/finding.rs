@@ -77,6 +77,12 @@ pub struct Finding {
     pub cure: Cow<'static, str>,
     /// Why a repair leaves it, as a clause; none where [`fix_document`](crate::fix_document) or [`fix_map`](crate::fix_map) repairs it.
     pub left_because: Option<String>,
+    /// Whether all corners that can be judged show it.
+    #[serde(skip)]
+    pub(crate) is_on_all_corners: bool,
+    /// Whether another mistake cancels it: bumps look right now.
+    #[serde(skip)]
+    pub(crate) is_cancelled: bool,
 }
 
 /// The most indices in [`Finding::first`].
@@ -95,6 +101,8 @@ impl Finding {
             text: text.into(),
             cure: code.cure().into(),
             left_because: code.left_because().map(str::to_owned),
+            is_on_all_corners: false,
+            is_cancelled: false,
         }
     }
 

@@ -14,6 +14,7 @@ use darboux_io::gltf::Document;
 use darboux_io::image::PngImage;
 use darboux_io::{LoadOptions, SaveOptions};
 use serde_json::json;
+use support::baked::baked_models;
 use support::container::with_json;
 use support::models::{Model, healthy_models};
 use support::table::codes;
@@ -96,6 +97,25 @@ fn half_of_a_pair_that_cancels_is_left() {
     }
     let findings = fixed(&mut model.document(), &mut model.document(), &FixOptions::default());
     assert_eq!(findings.iter().filter(|fixed| fixed.repaired).count(), 2, "{findings:?}");
+}
+
+/// So do inverted red, negated tangents and flipped signs.
+#[test]
+fn a_part_of_three_mistakes_that_cancel_is_left() {
+    let mut model = baked_models().remove(0);
+    model.map = model.map.through(|[r, g, b]| [1.0 - r, g, b]);
+    model.tangents().iter_mut().for_each(|tangent| (0..4).for_each(|i| tangent[i] = -tangent[i]));
+    for code in [Code::TangentSignFlipped, Code::TangentNegated, Code::MapRedFlipped] {
+        let mut document = model.document();
+        let options = FixOptions::default().with_codes([code]);
+        let findings = fixed(&mut document, &mut model.document(), &options);
+        let left = findings.iter().find(|fixed| fixed.finding.code == code).expect("the finding");
+        let reason = left.finding.left_because.as_deref().unwrap_or_default();
+        assert!(!left.repaired && reason.contains("both or none"), "{code:?}: {reason}");
+        assert!(!document.is_changed(), "{code:?}");
+    }
+    let findings = fixed(&mut model.document(), &mut model.document(), &FixOptions::default());
+    assert_eq!(findings.iter().filter(|fixed| fixed.repaired).count(), 3, "{findings:?}");
 }
 
 #[test]

@@ -25,8 +25,8 @@ const EXPLAINED: f64 = 0.99;
 ///
 /// The order is by the sum of identical and close corners, then by the largest angle; then simpler recipes come first. Every method is listed;
 /// a writing to vertices only where it changes the tangents of corners, and quads only where no other recipe is close at 99 % of the corners.
-/// Meshes of 250,000 triangles and more are sampled first, and what cannot be the best recipe is compared on the corners of the sample only, as
-/// [`RecipeMatch::corners`] says; MikkTSpace's default mode is always compared on all.
+/// Meshes of 250,000 triangles and more are sampled first; MikkTSpace's default mode is compared on all corners, other recipes only where the
+/// sample does not tell the best one from the next. All else is compared on the corners of the sample, as [`RecipeMatch::corners`] says.
 /// For several UV sets, call it once per set and compare the best matches. `tangents`: one per corner, unit xyz and sign as MikkTSpace has it for
 /// the UVs as given ([`Convention::generated`](crate::Convention::generated)). Errors: another number of tangents than corners.
 ///
@@ -66,7 +66,7 @@ pub fn recognise_recipe_with(
     let mut sampled = Trial::new(part, &sample.tangents, Some(&sample.measured), limits);
     sampled.add_all(&recipes, memory)?;
     whole.add(&recipes[0], memory)?;
-    // The best recipes of the sample are computed for the whole mesh, until the rest is clearly worse.
+    // The best recipes of the sample are computed for the whole mesh where they are close to each other, until the rest is clearly worse.
     while let Some(next) = whole.next_of(&sampled.matches) {
         // Of a large mesh, the buffers of one method are freed before those of the next are allocated.
         *memory = TangentMemory::default();
@@ -95,7 +95,7 @@ pub fn recipe_tangents(
     Ok(tangents)
 }
 
-/// A recipe is computed for the whole mesh if its score in the sample is at least this part of the best score.
+/// Recipes are close to each other if the score of one in the sample is at least this part of the other's.
 const SAMPLE_MARGIN: f64 = 0.95;
 
 /// The share of close corners of a sample below which a recipe is not computed for the whole mesh: it did not make the tangents.
@@ -208,13 +208,16 @@ impl<'a> Trial<'a> {
         self.matches.iter().any(|found| of(&found.recipe) == of(recipe))
     }
 
-    /// The best recipe of a sample that is not in the matches and may be better than they are; none if there is none.
+    /// The best recipe of a sample that is not in the matches and may be better than they are; none if there is none, and if it is so much
+    /// better than all others that the sample decides.
     fn next_of(&self, sampled: &[RecipeMatch]) -> Option<Recipe> {
         let known = self.matches.iter().map(score).fold(0.0, f64::max);
         let rest = sampled.iter().filter(|found| !self.has(&found.recipe));
         let best = rest.max_by(|a, b| score(a).total_cmp(&score(b)))?;
         let is_near = score(best) >= SAMPLE_MARGIN * known && close_share(best) >= LIKELY;
-        is_near.then_some(Recipe { writing: RecipeWriting::Corners, ..best.recipe })
+        let rivals = sampled.iter().filter(|found| found.recipe != best.recipe);
+        let is_decided = rivals.map(score).fold(known, f64::max) < SAMPLE_MARGIN * score(best);
+        (is_near && !is_decided).then_some(Recipe { writing: RecipeWriting::Corners, ..best.recipe })
     }
 
     fn sorted(mut self) -> Vec<RecipeMatch> {

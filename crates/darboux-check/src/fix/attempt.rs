@@ -126,12 +126,13 @@ impl Work<'_> {
 
     /// Whether all signs w of a primitive are flipped, and nothing else is to be repaired about its tangents.
     fn is_only_sign(&self, finding: &Finding, all: &[Finding]) -> bool {
-        let are_all = finding.evidence.iter().any(|number| number.unit == "%" && number.value == 100.0);
         let is_other_work = |other: &Finding| {
             let is_about_tangents = other.code.family() == Family::Tangents && other.code != finding.code;
             is_about_tangents && place(other) == place(finding) && self.is_wanted(other)
         };
-        finding.code == Code::TangentSignFlipped && are_all && !all.iter().any(is_other_work)
+        finding.code == Code::TangentSignFlipped
+            && finding.is_on_all_corners
+            && !all.iter().any(is_other_work)
     }
 
     /// Repairs normals, then signs that are all flipped, then tangents that are wrong, and then all tangents of primitives where that is not enough.

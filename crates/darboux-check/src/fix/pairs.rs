@@ -1,46 +1,52 @@
-//! Flipped signs w and flipped green in the normal map cancel each other: bumps look right, and would be inverted if only one were repaired.
+//! Mistakes of a map and of a surface that cancel each other: bumps look right, and would be inverted if only one were repaired.
+
+use std::collections::BTreeMap;
 
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveName};
 
 use super::options::FixOptions;
-use crate::code::Code;
+use crate::cancelling::Pair;
 use crate::finding::Finding;
+use crate::map_users::MapUsers;
 
-const REASON: &str =
-    "flipped signs w and flipped green cancel here, and one of them is left; repair both or none";
-
-/// The primitives and images that are left because of which one half of such a pair is left.
+/// The primitives and images that are left because a part of such a pair is left, each with the reason.
 #[derive(Debug, Default)]
 pub struct LeftPairs {
-    primitives: Vec<PrimitiveName>,
-    images: Vec<usize>,
+    primitives: BTreeMap<(usize, usize), String>,
+    images: BTreeMap<usize, String>,
 }
 
 impl LeftPairs {
-    /// Finds them. `on_images` and `on_surfaces`: the findings of the document. Errors: invalid data of the materials.
+    /// Finds them. `on_images` and `on_surfaces`: the findings of the document. Errors: invalid data of the primitives.
     pub fn new(
         document: &Document,
         on_images: &[Finding],
         on_surfaces: &[Finding],
         options: &FixOptions,
     ) -> Result<Self, Error> {
-        let appearances = document.appearances()?;
-        let is_map_of = |material: usize, image: usize| {
-            let appearance = appearances.get(material);
-            appearance.is_some_and(|of| of.normal_maps().any(|texture| texture.image == Some(image)))
-        };
         let mut left = Self::default();
-        for signs in on_surfaces.iter().filter(|finding| finding.code == Code::TangentSignFlipped) {
-            let is_of_these = |green: &&Finding| {
-                let used = signs.place.material.zip(green.place.image);
-                green.code == Code::MapGreenFlipped
-                    && used.is_some_and(|(material, image)| is_map_of(material, image))
-            };
-            for green in on_images.iter().filter(is_of_these) {
-                if !options.repairs(signs) || !options.repairs(green) {
-                    left.primitives.extend(signs.place.primitive.clone());
-                    left.images.extend(green.place.image);
+        let mut of_images: BTreeMap<usize, Vec<&Finding>> = BTreeMap::new();
+        for finding in on_images {
+            let image = finding.place.image.into_iter();
+            image.for_each(|image| of_images.entry(image).or_default().push(finding));
+        }
+        if of_images.is_empty() {
+            return Ok(left);
+        }
+        let users = MapUsers::new(document, &document.appearances()?)?;
+        for (image, on_map) in of_images {
+            for name in users.names(image) {
+                let is_there = |finding: &&Finding| finding.place.primitive.as_ref() == Some(name);
+                let on_surface: Vec<&Finding> = on_surfaces.iter().filter(is_there).collect();
+                let Some(pair) = Pair::of(on_map.iter().copied(), on_surface.iter().copied()) else {
+                    continue;
+                };
+                let mut both = on_map.iter().chain(&on_surface).filter(|finding| pair.contains(finding));
+                if both.any(|finding| !options.repairs(finding)) {
+                    let reason = reason(pair);
+                    left.primitives.insert(key(name), reason.clone());
+                    left.images.insert(image, reason);
                 }
             }
         }
@@ -49,15 +55,24 @@ impl LeftPairs {
 
     /// The findings, with the reason where they are left.
     pub fn mark(&self, findings: Vec<Finding>) -> Vec<Finding> {
-        let is_left = |finding: &Finding| match (&finding.place.primitive, finding.place.image) {
-            (Some(primitive), _) => self.primitives.contains(primitive),
-            (None, Some(image)) => self.images.contains(&image),
-            (None, None) => false,
+        let reason_of = |finding: &Finding| match (&finding.place.primitive, finding.place.image) {
+            (Some(primitive), _) => self.primitives.get(&key(primitive)).cloned(),
+            (None, Some(image)) => self.images.get(&image).cloned(),
+            (None, None) => None,
         };
         let mark = |finding: Finding| {
-            let reason = is_left(&finding).then(|| REASON.to_owned());
+            let reason = reason_of(&finding);
             finding.with_obstacle(reason)
         };
         findings.into_iter().map(mark).collect()
     }
+}
+
+fn key(name: &PrimitiveName) -> (usize, usize) {
+    (name.mesh, name.primitive)
+}
+
+fn reason(pair: &Pair) -> String {
+    let [on_map, on_surface] = pair.names;
+    format!("{on_surface} and {on_map} cancel here, and one of them is left; repair both or none")
 }

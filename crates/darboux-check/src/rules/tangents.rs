@@ -254,5 +254,6 @@ fn different(measured: &Measured<'_>, fit: &Fit) -> Option<Finding> {
     let is_small = is_partly && share <= MAX_PERCENT_OF_PART;
     let severity = if is_small || follows_from_normals { Severity::Warning } else { code.severity() };
     let finding = Finding::new(code, text).with_items(items).with_count(*supporting);
+    let finding = Finding { is_on_all_corners: supporting == all && !is_partly, ..finding };
     Some(finding.with_severity(severity).with_evidence(part, share, "%"))
 }

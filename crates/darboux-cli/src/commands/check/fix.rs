@@ -104,7 +104,11 @@ impl FileCommand for Repair<'_> {
         let beyond = count(|finding| finding.remains() && !finding.fixable);
         let infos = count(|finding| !finding.repaired && !finding.is_left() && !finding.remains());
         let repaired = counted(repaired.count(), "finding repaired", "findings repaired");
-        format!("{repaired}, {left} left, {beyond} beyond --fix, {infos} worth knowing")
+        let left = match left {
+            0 => String::new(),
+            left => format!("{left} left although --fix repairs such ones, "),
+        };
+        format!("{repaired}, {left}{beyond} that --fix cannot repair, {infos} only worth knowing")
     }
 }
 
@@ -209,7 +213,8 @@ impl Repair<'_> {
         if !fixed.is_changed {
             document = source.load(reading)?;
         }
-        let warnings = document.warnings().to_vec();
+        let mut warnings = document.warnings().to_vec();
+        warnings.extend(self.stale_output(job, fixed.is_changed));
         let is_written = |existing: &Path| {
             let existing = reading.open(existing).ok().and_then(|existing| content(&existing));
             existing.is_some() && existing == content(&document)
@@ -244,7 +249,15 @@ impl Repair<'_> {
             // Without a repair there is nothing to write but a copy, and copies are made of PNG images that can be written again.
             None => (status.unwrap_or(Status::Untouched), Vec::new()),
         };
-        Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, Vec::new()) })
+        let warnings = self.stale_output(job, is_changed).into_iter().collect();
+        Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, warnings) })
+    }
+
+    /// A warning where an output of the name that this run would give is there, and nothing is written because nothing was repaired.
+    fn stale_output(&self, job: &Job, is_changed: bool) -> Option<String> {
+        let Output::File(path) = &job.output else { return None };
+        let is_stale = !is_changed && !self.arguments.files.names_output() && path.exists();
+        is_stale.then(|| format!("{} is of an earlier run: nothing was repaired in this one", path.display()))
     }
 
     /// The status where nothing is to be written: without a named output, nothing was changed, or an earlier run has written the same; none otherwise.
