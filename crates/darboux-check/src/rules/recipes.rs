@@ -75,8 +75,10 @@ fn unlike_the_others(measured: &Measured<'_>, recipe: &Recipe, vertices: &[usize
         .with_evidence("part of all vertices", share, "%")
 }
 
-fn is_of_mikktspace(recognised: &Recognised) -> bool {
-    is_mikktspace(&recognised.best) && close(&recognised.best) >= IS_MIKKTSPACE
+fn is_of_mikktspace(Recognised { best, mikktspace, .. }: &Recognised) -> bool {
+    // Where MikkTSpace explains all corners, nothing shows that another recipe was used, though it may have more bits in common.
+    let is_explained = mikktspace.close == mikktspace.corners;
+    is_explained || is_mikktspace(best) && close(best) >= IS_MIKKTSPACE
 }
 
 /// The finding about the method that made the tangents; none where it is MikkTSpace. `outliers`: the vertices whose tangents are not its.
@@ -113,7 +115,7 @@ fn method_of_all(measured: &Measured<'_>, recognised: &Recognised, outliers: &[u
 }
 
 /// The corners that are more than [`FAR`] from MikkTSpace around the normal, in percent of those that lie in triangles with an area and not on
-/// mirrored seams. Tangents that are negated, or lean towards the normal, have findings of their own.
+/// mirrored seams. Tangents that are negated or rotated, or lean towards the normal, have findings of their own.
 fn percent_far(measured: &Measured<'_>, outliers: &[usize]) -> f64 {
     let surface = measured.surface;
     let (Some(tangents), Some(normals), Some(uvs), Some(expected)) = (
@@ -126,7 +128,9 @@ fn percent_far(measured: &Measured<'_>, outliers: &[usize]) -> f64 {
     };
     let mut is_other = measured.is_on_mirrored_seam.clone();
     outliers.iter().for_each(|&vertex| is_other[vertex] = true);
-    for fit in measured.fits.iter().filter(|fit| fit.difference == Difference::PartlyNegated) {
+    let is_turned =
+        |fit: &&Fit| matches!(fit.difference, Difference::PartlyNegated | Difference::PartlyRotated);
+    for fit in measured.fits.iter().filter(is_turned) {
         fit.items.iter().for_each(|&vertex| is_other[vertex] = true);
     }
     let angle = |vertex: usize, expected: [f32; 3]| {
@@ -182,7 +186,7 @@ fn obstacle(best: &RecipeMatch, severity: Severity) -> Option<String> {
 }
 
 /// The tangents of corners as methods compute them, without what other rules name: signs that differ or are none become those of MikkTSpace,
-/// and negated directions are turned back. None where there are no tangents or none can be computed.
+/// negated directions are turned back, and single rotated ones become those of MikkTSpace. None where there are no tangents or none can be computed.
 pub fn tangents_without_other_mistakes(measured: &Measured<'_>) -> Option<Vec<[f32; 4]>> {
     let surface = measured.surface;
     let of_vertex = surface.tangents.as_ref()?;
@@ -200,8 +204,14 @@ pub fn tangents_without_other_mistakes(measured: &Measured<'_>) -> Option<Vec<[f
     let is_no_sign = |tangent: &[f32; 4]| (tangent[3].abs() - 1.0).abs() > SIGN;
     if measured.reversal.is_some() || measured.fits.iter().any(differ) || of_vertex.iter().any(is_no_sign) {
         let expected = surface.expected_tangents(surface.uv_set)?;
-        for (tangent, expected) in tangents.iter_mut().zip(expected) {
-            tangent[3] = to_generated.tangent(expected)[3];
+        let rotated = measured.fits.iter().find(|fit| fit.difference == Difference::PartlyRotated);
+        let is_rotated =
+            |vertex: u32| rotated.is_some_and(|fit| fit.items.binary_search(&(vertex as usize)).is_ok());
+        for ((tangent, &vertex), expected) in tangents.iter_mut().zip(&surface.vertex_of_corner).zip(expected)
+        {
+            let expected = to_generated.tangent(expected);
+            *tangent =
+                if is_rotated(vertex) { expected } else { [tangent[0], tangent[1], tangent[2], expected[3]] };
         }
     }
     Some(tangents)
