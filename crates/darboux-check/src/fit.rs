@@ -83,8 +83,13 @@ pub fn measure(
     let comparison = Comparison::new(surface, surface.uv_set, (expected, is_on_seam), reversal);
     let Some(own) = comparison.map(|comparison| comparison.counts()) else { return Vec::new() };
     let share = |part: usize| part as f64 / own.corners.max(1) as f64;
-    let fit =
-        |difference, supporting| Fit { difference, measured: own.corners, supporting, items: Vec::new(), exceptions: Vec::new() };
+    let fit = |difference, supporting| Fit {
+        difference,
+        measured: own.corners,
+        supporting,
+        items: Vec::new(),
+        exceptions: Vec::new(),
+    };
     let signs = by_signs(&own);
     let of_signs = || (signs != Difference::None).then(|| fit(signs, own.signs[0][1] + own.signs[1][1]));
     if own.corners == 0 {

@@ -48,6 +48,8 @@ pub use check::{
 };
 pub use code::Code;
 pub use finding::{Evidence, Finding, Place};
-pub use fix::{Change, FixOptions, FixedDocument, FixedFinding, FixedMap, fix_document, fix_map, fix_map_on_model};
+pub use fix::{
+    Change, FixOptions, FixedDocument, FixedFinding, FixedMap, fix_document, fix_map, fix_map_on_model,
+};
 pub use map::MapDirections;
 pub use severity::Severity;

@@ -82,8 +82,7 @@ impl Surface {
             ours == theirs
                 && own.positions().get(ours).map(f32::to_bits)
                     == mesh.positions().get(theirs).map(f32::to_bits)
-                && own.normals().get(ours).map(f32::to_bits)
-                    == mesh.normals().get(theirs).map(f32::to_bits)
+                && own.normals().get(ours).map(f32::to_bits) == mesh.normals().get(theirs).map(f32::to_bits)
                 && own.uvs().get(ours).map(f32::to_bits) == mesh.uvs().get(theirs).map(f32::to_bits)
         };
         (0..own.corner_count()).all(is_same)

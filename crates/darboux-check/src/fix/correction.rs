@@ -38,8 +38,7 @@ const CORRECTED: &[Code] = &[
 
 /// Whether a finding names single tangents, which can be corrected without changing others.
 pub fn is_about_single_tangents(finding: &Finding) -> bool {
-    CORRECTED.contains(&finding.code)
-        || finding.code == Code::TangentOtherRecipe && finding.lists_items()
+    CORRECTED.contains(&finding.code) || finding.code == Code::TangentOtherRecipe && finding.lists_items()
 }
 
 /// The share of close corners from which on a recipe explains tangents.
@@ -256,8 +255,7 @@ impl<'a> Corrector<'a> {
     }
 
     fn is_negated(&self, vertex: usize) -> bool {
-        self.repairs(Code::TangentNegated)
-            && self.measured.fits.iter().any(|fit| fit.is_negated(vertex))
+        self.repairs(Code::TangentNegated) && self.measured.fits.iter().any(|fit| fit.is_negated(vertex))
     }
 
     fn is_outlier(&self, vertex: usize) -> bool {
@@ -448,7 +446,11 @@ fn with_named_signs(measured: &Measured<'_>, tangents: &[[f32; 4]], codes: &BTre
         codes.contains(&Code::TangentSignMixed) && signs != [signs[0]; 3]
     };
     let triangles: Vec<[usize; 3]> = measured.surface.triangles().collect();
-    triangles.iter().filter(|triangle| is_mixed(triangle)).flatten().for_each(|&vertex| is_named[vertex] = true);
+    triangles
+        .iter()
+        .filter(|triangle| is_mixed(triangle))
+        .flatten()
+        .for_each(|&vertex| is_named[vertex] = true);
     let flipped = measured.fits.iter().filter(|fit| fit.difference == Difference::SignPartlyFlipped);
     for &triangle in flipped.flat_map(|fit: &Fit| &fit.items) {
         triangles[triangle].into_iter().for_each(|vertex| {

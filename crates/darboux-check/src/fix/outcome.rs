@@ -48,8 +48,7 @@ pub struct FixedDocument {
 /// Whether two findings say the same of the same place. Tangents that are not those of the method that made the others are one thing, and that method
 /// is another.
 pub fn is_same(a: &Finding, b: &Finding) -> bool {
-    let is_of_part =
-        |finding: &Finding| finding.code == Code::TangentOtherRecipe && finding.lists_items();
+    let is_of_part = |finding: &Finding| finding.code == Code::TangentOtherRecipe && finding.lists_items();
     is_of_part(a) == is_of_part(b)
         && (a.code, &a.place.primitive, a.place.material, a.place.image)
             == (b.code, &b.place.primitive, b.place.material, b.place.image)

@@ -6,8 +6,8 @@ use darboux::{Context, Convention, CornerTangents, Mesh, TangentOptions, Tangent
 use darboux_io::Error;
 use darboux_io::gltf::{AddTangentsOptions, Document, Generate, PrimitiveName, add_tangents_to};
 
-use super::attributes::{replace, users_of};
 use super::attempt::Key;
+use super::attributes::{replace, users_of};
 use super::correction::{Correction, bits};
 use super::options::FixOptions;
 use super::outcome::Change;

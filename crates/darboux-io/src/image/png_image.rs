@@ -134,7 +134,11 @@ impl PngImage {
         // A palette is expanded to the colours that it stands for, and nothing else is changed.
         let kind = chunks.of(b"IHDR").next().and_then(Chunk::kind_of_texels);
         let is_indexed = kind.is_some_and(|[_, color]| color == ColorType::Indexed as u8);
-        decoder.set_transformations(if is_indexed { Transformations::EXPAND } else { Transformations::IDENTITY });
+        decoder.set_transformations(if is_indexed {
+            Transformations::EXPAND
+        } else {
+            Transformations::IDENTITY
+        });
         decoder.set_ignore_text_chunk(true);
         decoder.set_ignore_iccp_chunk(true);
         let mut reader = decoder.read_info().map_err(broken)?;
