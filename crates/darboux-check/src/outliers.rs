@@ -9,7 +9,7 @@ use darboux::{Context, CornerDifference, Recipe, RecipeMatch, recognise_recipe};
 use crate::expected::{is_measured, rounding};
 use crate::rule::Measured;
 use crate::rules::{has_length, tangents_without_other_mistakes};
-use crate::surface::Surface;
+use crate::surface::{Surface, length};
 
 /// Degrees to the method's tangent beyond which one is far: bumps lean by a third of their slope (the sine).
 pub const FAR: f64 = 20.0;
@@ -76,11 +76,13 @@ impl Outliers {
 /// Per vertex the smallest angle in degrees between its tangent and the method's at its corners in triangles with an area; none where its tangent
 /// has another mistake, or none can be right for all its corners.
 fn angles(measured: &Measured<'_>, of_corners: &[[f32; 4]], made: &[[f32; 4]]) -> Option<Vec<Option<f64>>> {
-    let Surface { tangents, uv_sets, uv_set, .. } = measured.surface;
-    let (tangents, uvs) = (tangents.as_ref()?, uv_sets.get(uv_set)?);
+    let Surface { tangents, normals, uv_sets, uv_set, .. } = measured.surface;
+    let (tangents, normals, uvs) = (tangents.as_ref()?, normals.as_ref()?, uv_sets.get(uv_set)?);
+    let has_normal = |vertex: usize| length(normals[vertex]).is_finite() && length(normals[vertex]) > 0.0;
     let is_named = |vertex: usize| measured.is_on_mirrored_seam[vertex] || measured.has_own_tangent[vertex];
-    let is_judged: Vec<bool> =
-        (0..tangents.len()).map(|vertex| has_length(tangents[vertex]) && !is_named(vertex)).collect();
+    let is_judged: Vec<bool> = (0..tangents.len())
+        .map(|vertex| has_length(tangents[vertex]) && has_normal(vertex) && !is_named(vertex))
+        .collect();
     let mut angles: Vec<Option<f64>> = vec![None; tangents.len()];
     let corners = of_corners.as_chunks::<3>().0.iter().zip(made.as_chunks::<3>().0);
     for (triangle, (of_corners, made)) in measured.surface.triangles().zip(corners) {

@@ -234,11 +234,18 @@ fn recognise(surface: &Surface, tangents: &[[f32; 4]]) -> Option<Recognised> {
 
 fn recognise_on(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Option<Recognised> {
     let matches = recognise_recipe(mesh, tangents).ok()?;
-    let best = *matches.first().filter(|best| best.corners > 0)?;
+    let best = *matches.first()?;
     // Of large meshes, some recipes are compared on a sample only.
     let all_corners = mesh.corner_count();
     let mikktspace = *matches.iter().find(|found| is_mikktspace(found) && found.corners == all_corners)?;
-    Some(Recognised { best, mikktspace, with_unit_normals: false })
+    // Tangents without a direction have findings of their own, and no method explains them.
+    let unusable = tangents.iter().filter(|tangent| !has_length(**tangent)).count();
+    let judged = |mut found: RecipeMatch| {
+        found.corners -= if found.corners == all_corners { unusable } else { 0 };
+        found
+    };
+    let (best, mikktspace) = (judged(best), judged(mikktspace));
+    (best.corners > 0).then_some(Recognised { best, mikktspace, with_unit_normals: false })
 }
 
 /// The normals with length 1; none where all have it already. Normals without a direction stay as they are.
