@@ -48,7 +48,6 @@ struct Reported {
     #[serde(flatten)]
     finding: Finding,
     looks_like: &'static str,
-    cure: String,
     first_are: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     repaired: Option<bool>,
@@ -113,9 +112,9 @@ fn check_model(
 }
 
 fn reported(finding: Finding, repaired: Option<bool>) -> Reported {
-    let (looks_like, cure) = (finding.code.looks_like(), finding.cure.to_string());
+    let looks_like = finding.code.looks_like();
     let first_are = if finding.code.counts_triangles() { "triangles" } else { "vertices" };
-    Reported { finding, looks_like, cure, first_are, repaired }
+    Reported { finding, looks_like, first_are, repaired }
 }
 
 /// The verdict on a normal map.

@@ -93,7 +93,7 @@ for (const [name, { bake, bakeModels, TEXEL_STATES }] of Object.entries(forms)) 
   test(`${name}: arrays that do not fit together are refused in a sentence`, () => {
     const [low, high] = [squareMesh(0), squareMesh(0.5)];
     const floats = (length) => new Float32Array(length);
-    assert.throws(() => bake(shield, high), { name: 'TypeError', message: /^low must be a Object/ });
+    assert.throws(() => bake(shield, high), { name: 'TypeError', message: /^low must be an Object/ });
     assert.throws(() => bake({ ...low, uvs: floats(6) }, high), { name: 'RangeError', message: /uvs has 3 elements/ });
     assert.throws(() => bake(low, { ...high, positions: [0] }), { name: 'TypeError', message: /^high.positions/ });
     assert.throws(() => bake(low, { ...high, indices: [0, 1, 2] }), { name: 'TypeError', message: /^high.indices/ });
@@ -112,7 +112,7 @@ for (const [name, { bake, bakeModels, TEXEL_STATES }] of Object.entries(forms)) 
     assert.throws(() => bakeModels('low.glb', shield), { name: 'TypeError', message: /^low must be a Uint8Array, not String$/ });
     assert.throws(() => bakeModels(shield, [shield, 1]), TypeError);
     assert.throws(() => bakeModels(shield, shield, { maps: ['colour'] }), RangeError);
-    assert.throws(() => bakeModels(shield, shield, { maps: 'normal' }), { name: 'TypeError', message: 'maps must be a Array, not String' });
+    assert.throws(() => bakeModels(shield, shield, { maps: 'normal' }), { name: 'TypeError', message: 'maps must be an Array, not String' });
     assert.throws(() => bakeModels(shield, shield, { size: [4] }), { name: 'RangeError', message: 'size has 1 elements; it must have 2' });
     assert.throws(() => bakeModels(shield, shield, { distance: 0.1 }), { name: 'TypeError' });
     assert.throws(() => bakeModels(shield, []), { name: 'RangeError', message: 'high is empty; give at least one model' });

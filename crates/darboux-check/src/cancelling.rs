@@ -43,7 +43,7 @@ impl Pair {
     ) -> Option<&'static Self> {
         let of_map: Vec<Code> = on_map.into_iter().map(|finding| finding.code).collect();
         // A finding that lists vertices or triangles is about a part of the surface.
-        let on_whole = on_surface.into_iter().filter(|finding| finding.first.is_empty());
+        let on_whole = on_surface.into_iter().filter(|finding| !finding.lists_items());
         let of_surface: Vec<Code> = on_whole.map(|finding| finding.code).collect();
         PAIRS
             .iter()

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use darboux::{BitangentDirection, MapJudgement};
+use darboux::{BitangentDirection, MapJudgement, SrgbMistake};
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveName, inspect};
 use darboux_io::image::RgbaImage;
@@ -16,7 +16,7 @@ use crate::map::{Map, MapDirections, Vote};
 use crate::map_users::{MapSurfaces, MapUsers};
 use crate::obstacles;
 use crate::rule::Measured;
-use crate::rules::{MAP_RULES, SURFACE_RULES, TEXTURE_RULES, directions_by_mesh};
+use crate::rules::{BY_FACES, MAP_RULES, MATERIAL_RULES, SURFACE_RULES, directions_by_mesh};
 use crate::severity::Severity;
 use crate::surface::Surface;
 
@@ -92,7 +92,8 @@ fn check_map_with(file: &[u8], options: &CheckOptions, vote: Option<Vote<'_>>) -
     let obstacle = obstacles::of_image(file);
     let findings = MAP_RULES.iter().filter_map(|rule| rule(&map));
     let findings = findings.map(|finding| finding.with_obstacle(obstacle.clone())).collect();
-    CheckedMap { directions: directions_by_mesh(&map), judgement: map.judgement.ok(), findings }
+    let (directions, srgb_mistake) = (directions_by_mesh(&map), map.srgb_mistake);
+    CheckedMap { directions, srgb_mistake, judgement: map.judgement.ok(), findings }
 }
 
 /// A model that normal maps are to be put on, and what is wrong with it: the result of [`check_model_of_maps`].
@@ -165,6 +166,8 @@ const ON_THE_MODEL_TOO: &str =
 pub struct CheckedMap {
     /// The judgement on the texels; none if the image cannot be decoded.
     pub judgement: Option<MapJudgement>,
+    /// The transfer function that was applied once too often.
+    pub(crate) srgb_mistake: Option<SrgbMistake>,
     /// Which channels are inverted, where the faces of a model decide that.
     pub directions: Option<MapDirections>,
     /// The findings.
@@ -201,10 +204,8 @@ fn check_materials(
     let appearances = document.appearances()?;
     for (index, appearance) in appearances.iter().enumerate() {
         let place = Place { material: Some(index), ..Place::default() };
-        for rule in TEXTURE_RULES {
-            let found = appearance.normal_maps().find_map(rule);
-            findings.extend(found.map(|finding| Finding { place: place.clone(), ..finding }));
-        }
+        let found = MATERIAL_RULES.iter().filter_map(|rule| rule(appearance));
+        findings.extend(found.map(|finding| Finding { place: place.clone(), ..finding }));
         for image in appearance.normal_maps().filter_map(|texture| texture.image).filter(|_| options.maps) {
             images.entry(image).or_insert(index);
         }
@@ -213,6 +214,7 @@ fn check_materials(
         return Ok(findings);
     }
     let users = MapUsers::new(document, &appearances)?;
+    let mut on_images = Vec::new();
     for (image, material) in images {
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
         let mut found = check_image(document, &users, image, options)?;
@@ -221,9 +223,27 @@ fn check_materials(
             finding.place.primitive.as_ref().and_then(|own| names.iter().position(|name| *name == own))
         };
         cancelling::mark(&mut found, &mut by_surface(on_surfaces, names.len(), index_of));
-        findings.extend(found.into_iter().map(|finding| Finding { place: place.clone(), ..finding }));
+        on_images.extend(found.into_iter().map(|finding| Finding { place: place.clone(), ..finding }));
     }
+    compare_maps(&mut on_images);
+    findings.extend(on_images);
     Ok(findings)
+}
+
+/// The maps of a model are mostly made by one program. Where the faces show that the red of one map is inverted, and not those of another one
+/// which of its channels is, inverted red is as likely there as inverted green.
+fn compare_maps(on_images: &mut [Finding]) {
+    let with_inverted_red = on_images.iter().find(|finding| finding.code == Code::MapRedFlipped);
+    let Some(image) = with_inverted_red.and_then(|finding| finding.place.image) else { return };
+    let is_undecided = |finding: &&mut Finding| {
+        let is_by_faces = finding.evidence.iter().any(|number| number.what == BY_FACES);
+        finding.code == Code::MapGreenFlipped && finding.is_fixable() && !is_by_faces
+    };
+    for finding in on_images.iter_mut().filter(is_undecided) {
+        finding.text += &format!("; the red of images[{image}] is inverted, so that this may be likelier");
+        let reason = format!("red may be inverted instead of green, as in images[{image}]");
+        finding.left_because = Some(reason);
+    }
 }
 
 /// The findings on each of `count` surfaces; `index_of` gives the index of that of a finding.

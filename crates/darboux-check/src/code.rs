@@ -249,7 +249,7 @@ codes! {
         "The surface, or a part of it, is dark where it faces the light, or is culled."
         "The model or a part of it was mirrored without reversing its faces, or its faces were reversed without its normals."
         "Recompute normals outside in the modelling program and export again."
-        Repair "what is reversed is turned over, the faces or the normals"
+        Repair "the corners of the faces are put in the other order where the faces are reversed, and the normals are negated where the normals are"
     }
     NormalOtherAxes "normal-other-axes" Error {
         "Normals are in other axes than the positions."
@@ -299,21 +299,21 @@ codes! {
         "The normal map's green points the wrong way for the format."
         "Dents look like bumps when the light is above or below, and right when it is beside."
         "A DirectX map was put into glTF, which wants OpenGL's (glTF-Sample-Models PR 336, BabylonJS/Exporters 940, glTF-Blender-IO 2626)."
-        "Export or bake the map with green up (OpenGL, +Y), or invert green: `darboux convert map.png --from directx --to opengl`."
+        "Export or bake the map with green up (OpenGL, +Y), or invert green of the map with `darboux convert --from directx --to opengl`."
         Repair "green is inverted"
     }
     MapRedFlipped "map-red-flipped" Error {
         "The normal map's red points the wrong way, judged by the mesh that it was baked for."
         "Dents look like bumps when the light is from the side, and right when it is above or below."
         "The baker was set to -X, or the map was mirrored without inverting red."
-        "`darboux check model.glb --fix`, or bake again with +X."
+        "`darboux check --fix` on the model, or bake again with +X."
         Repair "red is inverted"
     }
     MapChannelsSwapped "map-channels-swapped" Error {
         "Channels of the normal map seem to be exchanged: red and green, or one of them and blue."
         "Bumps are lit as if the map were turned by 90 degrees and mirrored; with blue exchanged, the whole surface is dark or lit from a side."
         "Channels were packed in another order."
-        "Exchange red and green: `darboux convert map.png --from opengl --to opengl --layout grb --to-layout rgb`."
+        "Exchange red and green of the map with `darboux convert --from opengl --to opengl --layout grb --to-layout rgb`."
         Repair "red and green are exchanged"
     }
     MapSrgb "map-srgb" Error {
@@ -348,14 +348,14 @@ codes! {
         "The normal map stores x and y only, and the format wants three channels."
         "Bumps are far too strong or the surface is black, as z is wrong."
         "The map was packed for an engine that reconstructs z (BC5, DXT5nm)."
-        "`darboux convert map.png --from opengl --to opengl --layout rg --to-layout rgb`, or `--layout ag` where x is in alpha (DXT5nm)."
+        "`darboux convert --from opengl --to opengl --layout rg --to-layout rgb` on the map, with `--layout ag` where x is in alpha (DXT5nm)."
         Repair "blue is computed from red and green"
     }
     MapNotUnit "map-not-unit" Warning {
         "Vectors of the normal map do not have length 1."
         "Lighting is weaker or stronger in renderers that do not normalise, and bumps are too flat or too steep."
         "The map was blended, scaled or resized without being normalised."
-        "Normalise the map in the program that made it, or let `darboux check map.png --fix` scale its vectors to length 1."
+        "Normalise the map in the program that made it, or let `darboux check --fix` scale its vectors to length 1."
         Repair "the vectors are scaled to length 1"
     }
     MapNegativeZ "map-negative-z" Warning {
@@ -385,6 +385,13 @@ codes! {
         "The file is damaged, missing, or in a format without a decoder here."
         "Save the image again as PNG, JPEG or WebP."
         Leave "there are no texels to repair"
+    }
+    MapScaleNegative "map-scale-negative" Warning {
+        "The scale of the normal texture is negative, which inverts red and green."
+        "Dents look like bumps, whatever side the light comes from, or the map is right and needs this."
+        "A slider for the strength of the bumps was pulled below zero, or it was used to turn an inverted map over."
+        "Set the scale to its size without the sign, unless the map has both red and green inverted; then invert these and do the same."
+        Leave "whether the map needs it is not in the file"
     }
     [Transforms]
     TransformMirrors "transform-mirrors" Warning {

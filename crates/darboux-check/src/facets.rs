@@ -44,6 +44,7 @@ pub enum Arrangement {
 pub struct FacetVotes {
     sums: [f64; 4],
     squares: [f64; 4],
+    count: usize,
 }
 
 impl FacetVotes {
@@ -83,6 +84,11 @@ impl FacetVotes {
         if self.squares[index] > 0.0 { self.sums[index] / self.squares[index].sqrt() } else { 0.0 }
     }
 
+    /// The number of triangles that voted.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
     /// Votes with this z score of one arrangement, and none of the others.
     #[cfg(test)]
     pub fn only(arrangement: Arrangement, z_score: f64) -> Self {
@@ -97,6 +103,7 @@ impl FacetVotes {
         if facet < least || texel < least {
             return;
         }
+        self.count += 1;
         let scale = 1.0 / (facet * texel).sqrt();
         for (index, product) in [xx + yy, xx - yy, yx + xy, yx - xy].into_iter().enumerate() {
             self.sums[index] += product * scale;

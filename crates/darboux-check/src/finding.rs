@@ -73,7 +73,6 @@ pub struct Finding {
     /// What is wrong here, in one sentence.
     pub text: String,
     /// The cure here: what the reader can do.
-    #[serde(skip)]
     pub cure: Cow<'static, str>,
     /// Why a repair leaves it, as a clause; none where [`fix_document`](crate::fix_document) or [`fix_map`](crate::fix_map) repairs it.
     pub left_because: Option<String>,
@@ -109,6 +108,11 @@ impl Finding {
     /// Whether it can be repaired.
     pub fn is_fixable(&self) -> bool {
         self.left_because.is_none()
+    }
+
+    /// Whether it is about the things that it lists, and not about the whole of its place.
+    pub(crate) fn lists_items(&self) -> bool {
+        !self.first.is_empty()
     }
 
     /// The same with a reason, if there is one, why a repair leaves it.

@@ -6,7 +6,8 @@ use darboux::CornerDifference;
 
 use crate::expected::{is_measured, on_mirrored_seams};
 use crate::orientation::{ONLY_A_PART, Reversal};
-use crate::surface::{Surface, cross, dot, indices_where, length, sub, uv_area, xyz};
+use crate::surface::{Surface, cross, dot, indices_where, xyz};
+use crate::turned::{Turned, turned};
 
 /// How the tangents of a file differ from MikkTSpace's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +26,8 @@ pub enum Difference {
     Negated,
     /// Some point the opposite way.
     PartlyNegated,
+    /// Some point along the bitangents, or against them.
+    PartlyRotated,
     /// They follow another UV set.
     OtherUvSet(usize),
     /// None of these.
@@ -41,6 +44,8 @@ pub struct Fit {
     pub supporting: usize,
     /// The numbers of these triangles or vertices.
     pub items: Vec<usize>,
+    /// Where most tangents are negated, the vertices whose tangents are not, ascending.
+    exceptions: Vec<usize>,
 }
 
 /// The smallest share of the corners that decides.
@@ -81,8 +86,13 @@ pub fn measure(
     let comparison = Comparison::new(surface, surface.uv_set, (expected, is_on_seam), reversal);
     let Some(own) = comparison.map(|comparison| comparison.counts()) else { return Vec::new() };
     let share = |part: usize| part as f64 / own.corners.max(1) as f64;
-    let fit =
-        |difference, supporting| Fit { difference, measured: own.corners, supporting, items: Vec::new() };
+    let fit = |difference, supporting| Fit {
+        difference,
+        measured: own.corners,
+        supporting,
+        items: Vec::new(),
+        exceptions: Vec::new(),
+    };
     let signs = by_signs(&own);
     let of_signs = || (signs != Difference::None).then(|| fit(signs, own.signs[0][1] + own.signs[1][1]));
     if own.corners == 0 {
@@ -94,17 +104,24 @@ pub fn measure(
     }
     let turned = match () {
         () if share(own.along) >= MIN_SHARE => {
-            let same = || partly(surface, &own).unwrap_or_else(|| fit(Difference::None, own.along));
             return match of_signs() {
-                Some(signs) => [signs].into_iter().chain(partly_negated(surface)).collect(),
-                None => vec![same()],
+                Some(signs) => [signs].into_iter().chain(partly_turned(surface, expected)).collect(),
+                None => or_else(partly(surface, expected, &own), || fit(Difference::None, own.along)),
             };
         }
-        () if share(own.against) >= MIN_SHARE => fit(Difference::Negated, own.against),
+        () if share(own.against) >= MIN_SHARE => {
+            let exceptions = along(surface, expected);
+            Fit { exceptions, ..fit(Difference::Negated, own.against) }
+        }
         () if share(own.across) >= MIN_SHARE => fit(Difference::Rotated, own.across),
-        () => return vec![partly(surface, &own).unwrap_or_else(|| fit(Difference::Unknown, 0))],
+        () => return or_else(partly(surface, expected, &own), || fit(Difference::Unknown, 0)),
     };
     [turned].into_iter().chain(of_signs()).collect()
+}
+
+/// The fits, or another one where there are none.
+fn or_else(fits: Vec<Fit>, other: impl FnOnce() -> Fit) -> Vec<Fit> {
+    if fits.is_empty() { vec![other()] } else { fits }
 }
 
 /// The other UV set that the tangents follow, and how they do: with its signs, or else in their directions alone.
@@ -128,70 +145,52 @@ fn other_uv_set(surface: &Surface, own: &Counts, reversal: Option<Reversal>) -> 
     others.into_iter().nth(found)
 }
 
-/// A difference of a part of the surface.
-fn partly(surface: &Surface, counts: &Counts) -> Option<Fit> {
+/// The differences of parts of the surface.
+fn partly(surface: &Surface, expected: &[[f32; 4]], counts: &Counts) -> Vec<Fit> {
     let flipped =
         Fit::of_part(Difference::SignPartlyFlipped, counts.flipped_triangles.clone(), counts.triangles);
-    flipped.or_else(|| partly_negated(surface))
+    flipped.into_iter().chain(partly_turned(surface, expected)).collect()
 }
 
-fn partly_negated(surface: &Surface) -> Option<Fit> {
-    Fit::of_part(Difference::PartlyNegated, against_u(surface), surface.positions.len())
+/// Single tangents that point against u, and along v.
+fn partly_turned(surface: &Surface, expected: &[[f32; 4]]) -> Vec<Fit> {
+    let Turned { negated, rotated } = turned(surface, expected);
+    let of = |difference, items| Fit::of_part(difference, surface.used(items), surface.used_count());
+    let parts = [of(Difference::PartlyNegated, negated), of(Difference::PartlyRotated, rotated)];
+    parts.into_iter().flatten().collect()
 }
 
-impl Fit {
-    /// None without items.
-    fn of_part(difference: Difference, items: Vec<usize>, measured: usize) -> Option<Self> {
-        let supporting = items.len();
-        (supporting > 0).then_some(Self { difference, measured, supporting, items })
-    }
-}
-
-/// The cosine to the u direction below which a tangent points against it. Sums of unit u directions with positive weights, as all methods
-/// take them, have a positive cosine to one of them at least; the rest is rounding.
-const AGAINST: f64 = -0.1;
-
-/// The vertices whose tangent points against the u direction of every triangle around it that has an area in space and in UV space.
-fn against_u(surface: &Surface) -> Vec<usize> {
+/// The vertices whose tangents point along MikkTSpace's at most of their corners in triangles with an area.
+fn along(surface: &Surface, expected: &[[f32; 4]]) -> Vec<usize> {
     let (Some(tangents), Some(uvs)) = (&surface.tangents, surface.uv_sets.get(&surface.uv_set)) else {
         return Vec::new();
     };
-    let mut largest_cosine = vec![f64::NEG_INFINITY; tangents.len()];
-    for triangle in surface.triangles() {
-        let Some(along_u) = u_direction(surface, uvs, triangle) else { continue };
-        if is_sliver(uvs, triangle) {
-            triangle.into_iter().for_each(|vertex| largest_cosine[vertex] = 1.0);
-            continue;
-        }
-        for vertex in triangle {
-            let tangent = xyz(tangents[vertex]);
-            let cosine = dot(along_u, tangent) / (length(along_u) * length(tangent));
-            // A tangent without a direction has a finding of its own, and NaN makes it no other one.
-            largest_cosine[vertex] = if cosine.is_nan() { 1.0 } else { largest_cosine[vertex].max(cosine) };
+    let mut sums = vec![0.0; tangents.len()];
+    for (triangle, expected) in surface.triangles().zip(expected.as_chunks::<3>().0) {
+        if is_measured(surface, uvs, triangle) {
+            for (vertex, expected) in triangle.into_iter().zip(expected) {
+                sums[vertex] += dot(xyz(*expected), xyz(tangents[vertex]));
+            }
         }
     }
-    indices_where(&largest_cosine, |cosine| cosine.is_finite() && *cosine < AGAINST)
+    indices_where(&sums, |sum| *sum > 0.0)
 }
 
-/// Whether a triangle is so thin in UV space that rounding its UVs, as compression does, could turn its u direction over.
-fn is_sliver(uvs: &[[f32; 2]], triangle: [usize; 3]) -> bool {
-    let [a, b, c] = triangle.map(|vertex| uvs[vertex]);
-    let squared = |[p, q]: [[f32; 2]; 2]| {
-        (f64::from(p[0]) - f64::from(q[0])).powi(2) + (f64::from(p[1]) - f64::from(q[1])).powi(2)
-    };
-    let longest = [[a, b], [b, c], [c, a]].map(squared).into_iter().fold(0.0, f64::max);
-    uv_area(uvs, triangle).abs() < 0.02 * longest
-}
+impl Fit {
+    /// Whether the tangent of a vertex is negated.
+    pub fn is_negated(&self, vertex: usize) -> bool {
+        match self.difference {
+            Difference::Negated => self.exceptions.binary_search(&vertex).is_err(),
+            Difference::PartlyNegated => self.items.binary_search(&vertex).is_ok(),
+            _ => false,
+        }
+    }
 
-/// The derivative of the position along u, up to a positive factor; none where a triangle has no area.
-fn u_direction(surface: &Surface, uvs: &[[f32; 2]], triangle: [usize; 3]) -> Option<[f32; 3]> {
-    let [a, b, c] = triangle.map(|vertex| surface.positions[vertex]);
-    let area = uv_area(uvs, triangle);
-    let [s, t, r] = triangle.map(|vertex| f64::from(uvs[vertex][1]));
-    let [to_b, to_c] = [sub(b, a), sub(c, a)];
-    let along = |i: usize| ((r - s) * f64::from(to_b[i]) - (t - s) * f64::from(to_c[i])) * area.signum();
-    let direction = [0, 1, 2].map(|i| along(i) as f32);
-    (area != 0.0 && length(direction) > 0.0).then_some(direction)
+    /// None without items.
+    fn of_part(difference: Difference, items: Vec<usize>, measured: usize) -> Option<Self> {
+        let supporting = items.len();
+        (supporting > 0).then_some(Self { difference, measured, supporting, items, exceptions: Vec::new() })
+    }
 }
 
 fn by_signs(counts: &Counts) -> Difference {

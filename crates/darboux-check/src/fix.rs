@@ -15,7 +15,7 @@ mod tangents;
 
 pub use maps::{FixedMap, fix_map, fix_map_on_model};
 pub use options::FixOptions;
-pub use outcome::{FixedDocument, FixedFinding};
+pub use outcome::{Change, FixedDocument, FixedFinding};
 
 use darboux_io::Error;
 use darboux_io::gltf::Document;
@@ -44,7 +44,7 @@ pub fn fix_document(
     fixed.is_changed |= on_images.iter().any(|image| image.repaired);
     fixed.findings.extend(on_images);
     for fixed in &mut fixed.findings {
-        fixed.fixable |= promised.iter().any(|promised| is_same(promised, &fixed.finding));
+        fixed.was_fixable |= promised.iter().any(|promised| is_same(promised, &fixed.finding));
     }
     Ok(fixed)
 }

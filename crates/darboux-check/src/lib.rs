@@ -21,6 +21,7 @@
 mod cancelling;
 mod check;
 mod code;
+mod contradiction;
 mod expected;
 mod facets;
 mod finding;
@@ -33,6 +34,7 @@ mod map_users;
 mod obstacles;
 mod orientation;
 mod other_axes;
+mod outliers;
 mod overlap;
 mod reordered;
 mod reversed;
@@ -41,12 +43,15 @@ mod rules;
 mod severity;
 mod surface;
 mod text;
+mod turned;
 
 pub use check::{
     CheckOptions, CheckedMap, ModelOfMaps, check_document, check_map, check_map_on_model, check_model_of_maps,
 };
 pub use code::Code;
 pub use finding::{Evidence, Finding, Place};
-pub use fix::{FixOptions, FixedDocument, FixedFinding, FixedMap, fix_document, fix_map, fix_map_on_model};
+pub use fix::{
+    Change, FixOptions, FixedDocument, FixedFinding, FixedMap, fix_document, fix_map, fix_map_on_model,
+};
 pub use map::MapDirections;
 pub use severity::Severity;

@@ -6,6 +6,7 @@ use darboux::{
 };
 use darboux_io::image::{DecodeLimits, RgbaImage, linear_to_srgb, srgb_to_linear};
 
+use crate::contradiction::Contradiction;
 use crate::facets::{Arrangement, FacetVotes};
 use crate::reordered::Reordered;
 
@@ -15,10 +16,18 @@ pub struct Map {
     pub judgement: Result<MapJudgement, String>,
     /// In bytes; 0 where the file itself could not be read.
     pub file_size: usize,
-    /// Where the texels look as if they had gone through the transfer function of sRGB once too often: the judgement on them as they were before.
+    /// The number of tiles that the judgement is from.
+    pub tiles: usize,
+    /// Where the texels look as if they had gone through the transfer function of sRGB once too often: which way, and the judgement on them as
+    /// they were before.
+    pub srgb_mistake: Option<SrgbMistake>,
     pub before_srgb: Option<MapJudgement>,
+    /// Where all vectors have about the same length, which is not 1: the judgement on them after they were scaled to it.
+    pub scaled: Option<MapJudgement>,
     /// What the two channels hold that would be x and y of a map without z; none where three channels vary.
     pub two_channels: Option<TwoChannels>,
+    /// Where parts of the map are in other conventions than others: which ones.
+    pub contradiction: Option<Contradiction>,
     /// Where the vectors point along another axis than z: which one.
     pub reordered: Option<Reordered>,
     /// Whether most texels have other lengths than 1, and red and green are light and dark together, as in pictures.
@@ -75,22 +84,32 @@ impl Map {
     pub fn read(file: &[u8], wanted: BitangentDirection, vote: Option<Vote<'_>>) -> Self {
         match RgbaImage::decode(file, &DecodeLimits::default()) {
             Ok(image) => {
-                let size = [image.width, image.height].map(|side| side as usize);
-                let judgement = judge_normal_map(&image.texels, size, TexelLayout::RGBA);
-                let judgement = judgement.map_err(|error| error.to_string());
-                let mistake = judgement.as_ref().ok().and_then(MapJudgement::srgb_mistake);
+                let mut judge = NormalMapJudge::new(image.width as usize, TexelLayout::RGBA);
+                let mut rows = image.texels.chunks_exact(image.width.max(1) as usize);
+                let pushed = rows.try_for_each(|row| judge.push_row(row));
+                let tiles = judge.tiles().correlations.iter().flatten().count();
+                let judgement = pushed.map(|()| judge.judgement()).map_err(|error| error.to_string());
+                let srgb_mistake = judgement.as_ref().ok().and_then(|judgement| {
+                    judgement.srgb_mistake().or_else(|| srgb_mistake_by_length(&image, judgement))
+                });
+                let scaled = judgement.as_ref().ok().and_then(|judgement| judge_scaled(&image, judgement));
                 let two_channels =
                     judgement.as_ref().ok().and_then(|judgement| TwoChannels::of(&image, judgement));
-                let before_srgb = mistake.and_then(|mistake| judge_without(mistake, &image));
+                let before_srgb = srgb_mistake.and_then(|mistake| judge_without(mistake, &image));
                 let facets = vote.map(|vote| vote(&image));
                 let reordered =
                     judgement.as_ref().ok().and_then(|judgement| Reordered::of(&image, judgement));
+                let contradiction = Contradiction::of(&image, TexelLayout::RGBA);
                 let is_picture = judgement.as_ref().is_ok_and(|judgement| is_picture(&image, judgement));
                 Self {
                     judgement,
                     file_size: file.len(),
+                    tiles,
+                    srgb_mistake,
                     before_srgb,
+                    scaled,
                     two_channels,
+                    contradiction,
                     reordered,
                     is_picture,
                     wanted,
@@ -117,8 +136,12 @@ impl Map {
         Self {
             judgement: Err(problem),
             file_size: 0,
+            tiles: 0,
+            srgb_mistake: None,
             before_srgb: None,
+            scaled: None,
             two_channels: None,
+            contradiction: None,
             reordered: None,
             is_picture: false,
             wanted,
@@ -148,6 +171,42 @@ fn is_picture(image: &RgbaImage, judgement: &MapJudgement) -> bool {
     variances > 0.0 && product - red * green >= MIN_CORRELATION_OF_PICTURES * variances.sqrt()
 }
 
+/// The shares of vectors of other lengths than 1, in percent, of texels as they should not be, and as they were before.
+const MIN_SPOILT: f64 = 40.0;
+const MAX_HEALTHY: f64 = 5.0;
+
+/// How far maps lean at least, in red and green, whose values went through the transfer function: flat texels lean by 0.47 and 0.57.
+const MIN_LEAN: f32 = 0.3;
+
+/// The mistake that explains why few vectors have length 1: without it, nearly all do. A map without flat parts has no commonest texel that tells.
+fn srgb_mistake_by_length(image: &RgbaImage, judgement: &MapJudgement) -> Option<SrgbMistake> {
+    let [x, y, _] = judgement.mean;
+    let mistake = match () {
+        () if x.min(y) >= MIN_LEAN => SrgbMistake::Encoded,
+        () if x.max(y) <= -MIN_LEAN => SrgbMistake::Decoded,
+        () => return None,
+    };
+    if judgement.verdict == MapVerdict::Flat || percent(judgement, judgement.not_unit) < MIN_SPOILT {
+        return None;
+    }
+    let before = judge_without(mistake, image)?;
+    let leans = before.mean[..2].iter().any(|mean| mean.abs() >= MIN_LEAN);
+    (!leans && percent(&before, before.not_unit) <= MAX_HEALTHY).then_some(mistake)
+}
+
+/// Judges an image after giving its vectors the length 1 on average; none where they have it, or where their lengths differ.
+fn judge_scaled(image: &RgbaImage, judgement: &MapJudgement) -> Option<MapJudgement> {
+    let length = judgement.mean_length;
+    let is_other = percent(judgement, judgement.not_unit) > 100.0 - MAX_HEALTHY;
+    if !is_other || judgement.verdict == MapVerdict::Flat || !(0.3..=0.9).contains(&length) {
+        return None;
+    }
+    let code_of =
+        std::array::from_fn(|code| (127.5 + (code as f32 - 127.5) / length).round().clamp(0.0, 255.0) as u8);
+    let scaled = judge_through(&code_of, image)?;
+    (percent(&scaled, scaled.not_unit) <= MAX_HEALTHY && scaled.mean[2] > 0.6).then_some(scaled)
+}
+
 /// Judges an image after undoing a mistake; none for a mistake that is not known here.
 fn judge_without(mistake: SrgbMistake, image: &RgbaImage) -> Option<MapJudgement> {
     let undo = match mistake {
@@ -155,15 +214,25 @@ fn judge_without(mistake: SrgbMistake, image: &RgbaImage) -> Option<MapJudgement
         SrgbMistake::Decoded => linear_to_srgb,
         _ => return None,
     };
-    let code_of: [u8; 256] =
+    let code_of =
         std::array::from_fn(|code| (255.0 * undo(code as f64 / 255.0)).round().clamp(0.0, 255.0) as u8);
+    judge_through(&code_of, image)
+}
+
+/// Judges an image after each code became another one.
+fn judge_through(code_of: &[u8; 256], image: &RgbaImage) -> Option<MapJudgement> {
     let width = image.width as usize;
     let mut judge = NormalMapJudge::new(width, TexelLayout::RGB);
-    let mut undone = Vec::with_capacity(width);
+    let mut changed = Vec::with_capacity(width);
     for row in image.texels.chunks_exact(width.max(1)) {
-        undone.clear();
-        undone.extend(row.iter().map(|[r, g, b, _]| [*r, *g, *b].map(|code| code_of[usize::from(code)])));
-        judge.push_row(&undone).ok()?;
+        changed.clear();
+        changed.extend(row.iter().map(|[r, g, b, _]| [*r, *g, *b].map(|code| code_of[usize::from(code)])));
+        judge.push_row(&changed).ok()?;
     }
     Some(judge.judgement())
+}
+
+/// A number of texels in percent of those that are no background.
+pub fn percent(judgement: &MapJudgement, count: usize) -> f64 {
+    100.0 * count as f64 / (judgement.texels - judgement.background).max(1) as f64
 }

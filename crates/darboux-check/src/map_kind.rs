@@ -2,7 +2,7 @@
 
 use darboux::{MapJudgement, MapVerdict};
 
-use crate::map::{Map, TwoChannels};
+use crate::map::{Map, TwoChannels, percent};
 
 /// What a map is when it is no tangent-space map of unit vectors. Later rules ask for `Normals` only, so that each map has one such finding.
 #[derive(PartialEq, Eq)]
@@ -26,6 +26,7 @@ pub fn kind(map: &Map, judgement: &MapJudgement) -> Kind {
         // A part that leans may have the colour of an encoded flat one, but undoing an encoding that never was makes vectors of other lengths than 1.
         () if map.before_srgb.is_some_and(|before| before.not_unit < judgement.not_unit) => Kind::Srgb,
         () if is_encoded_and_inverted(judgement) => Kind::Srgb,
+        () if map.scaled.is_some() && judgement.mean[2] > 0.0 => Kind::Normals,
         () if map.two_channels.is_some_and(|of| !may_be_normals(of)) => Kind::Other,
         () if map.two_channels.is_some() => Kind::TwoChannel,
         () if map.reordered.is_some() => Kind::Reordered,
@@ -80,9 +81,4 @@ fn is_no_map(judgement: &MapJudgement) -> bool {
 fn is_no_normal(judgement: &MapJudgement) -> bool {
     let is_background = judgement.background == judgement.texels;
     is_background || judgement.verdict == MapVerdict::Flat && judgement.holds_no_normals()
-}
-
-/// A number of texels in percent of those that are no background.
-pub fn percent(judgement: &MapJudgement, count: usize) -> f64 {
-    100.0 * count as f64 / (judgement.texels - judgement.background).max(1) as f64
 }

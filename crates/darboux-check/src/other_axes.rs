@@ -10,7 +10,7 @@ use crate::surface::{Surface, cross, length, sub};
 pub struct OtherAxes {
     sources: [usize; 3],
     signs: [f64; 3],
-    /// The mean cosine between normals and faces, weighted by area: as stored, and as they have to be read.
+    /// The mean cosine between normals and faces: as stored, and as they have to be read.
     pub mean_cosines: [f64; 2],
 }
 
@@ -32,10 +32,11 @@ const MIN_VARIANCE: f64 = 0.003;
 /// The ways to take the components from others.
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [2, 1, 0], [1, 2, 0], [2, 0, 1]];
 
-/// Sums over the triangles, weighted by area: of unit fronts and unit normals, and of the products of their components.
+/// Sums over the triangles: of unit fronts and unit normals, and of the products of their components. Every triangle counts once: weighted by
+/// area, the few triangles of one lost vertex could outweigh all others.
 #[derive(Default)]
 struct Sums {
-    area: f64,
+    count: f64,
     fronts: [f64; 3],
     normals: [f64; 3],
     squared_normals: f64,
@@ -92,34 +93,34 @@ impl Sums {
             let unit = triangle.map(|vertex| normals[vertex].map(|x| f64::from(x) / length(normals[vertex])));
             let normal = [0, 1, 2].map(|i| unit.iter().map(|normal| normal[i]).sum::<f64>() / 3.0);
             if area > 0.0 && area.is_finite() && normal.iter().all(|x| x.is_finite()) {
-                sums.add(front.map(|x| x / area), normal, area);
+                sums.add(front.map(|x| x / area), normal);
             }
         }
-        (sums.area > 0.0 && sums.area.is_finite()).then_some(sums)
+        (sums.count > 0.0).then_some(sums)
     }
 
-    fn add(&mut self, front: [f64; 3], normal: [f64; 3], area: f64) {
-        self.area += area;
+    fn add(&mut self, front: [f64; 3], normal: [f64; 3]) {
+        self.count += 1.0;
         for i in 0..3 {
-            self.fronts[i] += area * front[i];
-            self.normals[i] += area * normal[i];
-            self.squared_normals += area * normal[i] * normal[i];
-            (0..3).for_each(|j| self.products[i][j] += area * front[i] * normal[j]);
+            self.fronts[i] += front[i];
+            self.normals[i] += normal[i];
+            self.squared_normals += normal[i] * normal[i];
+            (0..3).for_each(|j| self.products[i][j] += front[i] * normal[j]);
         }
     }
 
     fn mean_cosine(&self, sources: [usize; 3], signs: [f64; 3]) -> f64 {
-        (0..3).map(|i| signs[i] * self.products[i][sources[i]]).sum::<f64>() / self.area
+        (0..3).map(|i| signs[i] * self.products[i][sources[i]]).sum::<f64>() / self.count
     }
 
     fn normal_variance(&self) -> f64 {
-        self.squared_normals / self.area - squared(self.normals) / (self.area * self.area)
+        self.squared_normals / self.count - squared(self.normals) / (self.count * self.count)
     }
 
     fn correlation(&self, sources: [usize; 3], signs: [f64; 3]) -> f64 {
         let of_means = (0..3).map(|i| signs[i] * self.fronts[i] * self.normals[sources[i]]).sum::<f64>();
-        let covariance = self.mean_cosine(sources, signs) - of_means / (self.area * self.area);
-        let front_variance = 1.0 - squared(self.fronts) / (self.area * self.area);
+        let covariance = self.mean_cosine(sources, signs) - of_means / (self.count * self.count);
+        let front_variance = 1.0 - squared(self.fronts) / (self.count * self.count);
         covariance / (front_variance * self.normal_variance()).max(0.0).sqrt()
     }
 }

@@ -66,7 +66,7 @@ impl Reordered {
     pub fn cure(&self) -> String {
         let command = |order: &[usize; 3]| {
             format!(
-                "`darboux convert map.png --from opengl --to opengl --layout {} --to-layout rgb`",
+                "`darboux convert --from opengl --to opengl --layout {} --to-layout rgb`",
                 letters(*order)
             )
         };

@@ -1,6 +1,6 @@
-//! The three kinds of rules: functions that look at one surface, map or texture use and return findings.
+//! The three kinds of rules: functions that look at one surface, map or material and return findings.
 
-use darboux_io::gltf::TextureUse;
+use darboux_io::gltf::Appearance;
 
 use crate::expected::{are_those_of_the_file, on_mirrored_seams, vertices_with_own_tangents};
 use crate::finding::Finding;
@@ -63,5 +63,5 @@ pub type SurfaceRule = fn(&Measured<'_>) -> Vec<Finding>;
 /// A rule about normal maps.
 pub type MapRule = fn(&Map) -> Option<Finding>;
 
-/// A rule about the use of a normal map by a material.
-pub type TextureRule = fn(&TextureUse) -> Option<Finding>;
+/// A rule about the use of normal maps by a material.
+pub type MaterialRule = fn(&Appearance) -> Option<Finding>;

@@ -8,11 +8,12 @@ mod tangents;
 mod transforms;
 mod uvs;
 
-pub use maps::directions_by_mesh;
+pub use maps::{BY_FACES, directions_by_mesh};
 pub use normals::UNIT as UNIT_NORMAL;
+pub use recipes::tangents_without_other_mistakes;
 pub use tangents::{MAX_DEGREES_FROM_PLANE, SIGN, UNIT as UNIT_TANGENT, has_length, is_finite};
 
-use crate::rule::{MapRule, SurfaceRule, TextureRule};
+use crate::rule::{MapRule, MaterialRule, SurfaceRule};
 
 /// All rules about surfaces: causes before what follows from them.
 pub const SURFACE_RULES: &[&[SurfaceRule]] =
@@ -22,4 +23,4 @@ pub const SURFACE_RULES: &[&[SurfaceRule]] =
 pub const MAP_RULES: &[MapRule] = maps::RULES;
 
 /// All rules about the use of normal maps.
-pub const TEXTURE_RULES: &[TextureRule] = transforms::RULES;
+pub const MATERIAL_RULES: &[MaterialRule] = transforms::RULES;

@@ -72,7 +72,7 @@ impl Surface {
         Mesh::triangles(&self.positions, normals, uvs, &self.vertex_of_corner).ok()
     }
 
-    /// Whether a mesh has the corners of this one, and their positions and the UVs that its tangents follow.
+    /// Whether a mesh has the corners of this one, and their positions, normals and the UVs that its tangents follow.
     pub fn has_mesh(&self, mesh: &Mesh<'_>) -> bool {
         let Some(own) = self.mesh(self.uv_set).filter(|own| own.corner_count() == mesh.corner_count()) else {
             return false;
@@ -82,6 +82,7 @@ impl Surface {
             ours == theirs
                 && own.positions().get(ours).map(f32::to_bits)
                     == mesh.positions().get(theirs).map(f32::to_bits)
+                && own.normals().get(ours).map(f32::to_bits) == mesh.normals().get(theirs).map(f32::to_bits)
                 && own.uvs().get(ours).map(f32::to_bits) == mesh.uvs().get(theirs).map(f32::to_bits)
         };
         (0..own.corner_count()).all(is_same)

@@ -140,7 +140,7 @@ fn outcomes_say_whether_a_repair_was_promised() {
     model.tangents()[vertex][0] = f32::NAN;
     let outcome = |findings: &[FixedFinding], code| {
         let fixed = findings.iter().find(|fixed| fixed.finding.code == code).expect("the finding");
-        (fixed.repaired, fixed.fixable)
+        (fixed.repaired, fixed.was_fixable())
     };
     let findings = fixed(&mut model.document(), Code::ALL.iter().copied());
     assert_eq!(outcome(&findings, Code::TangentNotFinite), (true, true));

@@ -92,6 +92,84 @@ fn tangents_far_from_mikktspace_are_an_error() {
     }
 }
 
+/// Single tangents that were turned are found in thin triangles, too, where the tangents of the others show that the UVs were not rounded since.
+#[test]
+fn single_tangents_are_found_in_thin_triangles() {
+    for name in ["wavy grid", "sphere", "mirrored fine wavy grid"] {
+        let mut healthy = model(name);
+        let set = healthy.uv_set;
+        healthy.uvs[set].iter_mut().for_each(|uv| uv[1] *= 1e-4);
+        healthy.tangents = Some(healthy.computed(Method::default(), set));
+        let before = check(&healthy);
+        assert!(before.iter().all(|finding| finding.severity == Severity::Info), "{name}: {before:#?}");
+        let normals = healthy.normals.clone().expect("normals");
+        for vertex in (0..normals.len()).step_by(23) {
+            let ([x, y, z, w], n) = (healthy.tangents()[vertex], normals[vertex]);
+            let across = [n[1] * z - n[2] * y, n[2] * x - n[0] * z, n[0] * y - n[1] * x, w];
+            for (tangent, code) in [([-x, -y, -z, w], Code::TangentNegated), (across, Code::TangentRotated)] {
+                let mut model = healthy.clone();
+                model.tangents()[vertex] = tangent;
+                let findings = check(&model);
+                let found = find(&findings, code).map(|finding| finding.first.clone());
+                assert_eq!(found, Some(vec![vertex]), "{name}, {vertex}: {findings:#?}");
+                let other =
+                    findings.iter().find(|other| other.severity > Severity::Info && other.code != code);
+                assert_eq!(other, None, "{name}, {vertex}");
+            }
+        }
+    }
+}
+
+/// Tangents of any recipe that are MikkTSpace's to a tenth of a degree are not called those of another recipe.
+#[test]
+fn mikktspace_is_preferred_where_it_explains_all_tangents() {
+    let mut cases = 0;
+    for healthy in healthy_models() {
+        for method in [Method::Average, Method::Area, Method::AngleArea, Method::Lengyel] {
+            let mut model = healthy.clone();
+            model.tangents = Some(model.computed(method, model.uv_set));
+            let ours = model.computed(Method::default(), model.uv_set);
+            let distance = |(a, b): (&[f32; 4], &[f32; 4])| {
+                (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f32>().sqrt().to_degrees()
+            };
+            if model.tangents().iter().zip(&ours).map(distance).fold(0.0, f32::max) < 0.05 {
+                cases += 1;
+                let findings = check(&model);
+                assert!(find(&findings, Code::TangentOtherRecipe).is_none(), "{}: {findings:#?}", model.name);
+            }
+        }
+    }
+    assert!(cases > 10, "{cases} cases");
+}
+
+/// One vertex that is far away does not decide in which axes the normals are.
+#[test]
+fn one_lost_vertex_does_not_turn_the_axes() {
+    for name in ["wavy grid", "sphere", "wavy sphere", "fine sphere"] {
+        for far in [[1e12, 0.0, 0.0], [0.0, -1e12, 1e11], [0.0, 0.0, 1e12]] {
+            let mut model = model(name);
+            let middle = model.positions.len() / 2;
+            model.positions[middle] = far;
+            let findings = check(&model);
+            assert!(find(&findings, Code::NormalOtherAxes).is_none(), "{name}: {findings:#?}");
+        }
+    }
+}
+
+/// The tangent of a normal that is spoilt is right, though it is not perpendicular to it.
+#[test]
+fn tangents_of_spoilt_normals_are_no_further_mistake() {
+    for (spoilt, code) in [(0.7f32, Code::NormalNotUnit), (-1.0, Code::NormalAgainstWinding)] {
+        let mut model = model("large wavy grid");
+        let tangent = model.tangents()[40];
+        let normal = &mut model.normals.as_mut().expect("normals")[40];
+        *normal = [0, 1, 2].map(|i| spoilt * (0.8 * normal[i] + 0.6 * tangent[i]));
+        let findings = check(&model);
+        assert!(find(&findings, code).is_some(), "{findings:#?}");
+        assert!(find(&findings, Code::TangentNotPerpendicular).is_none(), "{findings:#?}");
+    }
+}
+
 /// Where a position was lost, tangents cannot be computed again, and nothing is said of how they were.
 #[test]
 fn tangents_beside_lost_positions_are_not_judged() {
@@ -244,6 +322,55 @@ fn bare_maps_are_repaired_by_the_faces_of_their_model() {
             assert!(alone.image.is_none(), "{}: {:?}", model.name, alone.findings);
         }
     }
+}
+
+/// Where another map of the model has its red inverted, a map with one inverted channel may have, too, and is left.
+#[test]
+fn maps_of_one_model_are_compared() {
+    let mut model = baked_models().remove(0);
+    let alien = healthy_models().remove(5).map;
+    let alien = alien.with_texels(alien.texels.iter().map(|[r, g, b]| [*r, 255 - g, *b]).collect());
+    for inverts_red in [true, false] {
+        let texel = |&[r, g, b]: &[u8; 3]| [if inverts_red { 255 - r } else { r }, g, b];
+        model.map = model.map.with_texels(model.map.texels.iter().map(texel).collect());
+        let uri = format!("data:image/png;base64,{}", base64(&alien.file));
+        let glb = with_json(&model.glb(), |json| {
+            json["images"].as_array_mut().expect("images").push(json!({"uri": uri}));
+            json["textures"].as_array_mut().expect("textures").push(json!({"source": 1}));
+            let material = json!({"normalTexture": {"index": 1}});
+            json["materials"].as_array_mut().expect("materials").push(material);
+        });
+        let document = Document::from_bytes("model", glb, None, &LoadOptions::default());
+        let findings = check_document(&mut document.expect("a document"), &CheckOptions::default());
+        let findings = findings.expect("a valid document");
+        let green = find(&findings, Code::MapGreenFlipped).expect("the finding");
+        assert_eq!((green.place.image, green.is_fixable()), (Some(1), !inverts_red), "{green:?}");
+        assert_eq!(green.text.contains("images[0]"), inverts_red, "{green:?}");
+        model = baked_models().remove(0);
+    }
+}
+
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let letters = |three: &[u8]| {
+        let byte = |i: usize| u32::from(three.get(i).copied().unwrap_or(0));
+        let all = byte(0) << 16 | byte(1) << 8 | byte(2);
+        let letter = |i: usize| char::from(LETTERS[(all >> (18 - 6 * i) & 63) as usize]);
+        let letter_or_end = |i: usize| if i <= three.len() { letter(i) } else { '=' };
+        [0, 1, 2, 3].map(letter_or_end)
+    };
+    bytes.chunks(3).flat_map(letters).collect()
+}
+
+/// A negative scale of the normal texture inverts both channels.
+#[test]
+fn negative_scales_of_normal_textures_are_named() {
+    let mut model = model("grid");
+    assert!(find(&check(&model), Code::MapScaleNegative).is_none());
+    model.normal_scale = -0.5;
+    let findings = check(&model);
+    let found = find(&findings, Code::MapScaleNegative).expect("the finding");
+    assert_eq!((found.severity, found.evidence[0].value), (Severity::Warning, -0.5));
 }
 
 /// The normal map of a clear coat is one, too, and the surfaces of all materials of a primitive's variants vote.

@@ -3,7 +3,8 @@
 mod support;
 
 use darboux::BitangentDirection;
-use darboux_check::{CheckOptions, Code, Finding, Severity, check_document, check_map};
+use darboux_check::{CheckOptions, Code, Finding, FixOptions, Severity, check_document, check_map, fix_map};
+use darboux_io::LoadOptions;
 use support::baked::baked_models;
 use support::maps::{Map, healthy_map, png};
 use support::models::healthy_models;
@@ -26,6 +27,77 @@ fn codes(findings: &[Finding]) -> Vec<(Code, Severity)> {
 
 fn through(map: &Map, change: Change) -> Vec<u8> {
     map.with_texels(map.texels.iter().map(|texel| change(*texel)).collect()).file
+}
+
+/// A map whose left half or one island has green inverted: which part contradicts the rest, and no repair of the whole.
+#[test]
+fn parts_that_contradict_each_other_are_named() {
+    for number in 0..2 {
+        let mut healthy = healthy_map(number);
+        (healthy.case.side, healthy.case.feature) = (512, 30.0);
+        let texels = healthy.case.texels(false);
+        let codes_of = |is_inverted: &dyn Fn(usize, usize) -> bool| {
+            let texel = |(i, &[r, g, b]): (usize, &[u8; 3])| {
+                [r, if is_inverted(i % 512, i / 512) { 255 - g } else { g }, b]
+            };
+            let file = png(&texels.iter().enumerate().map(texel).collect::<Vec<_>>());
+            let mut found = found(&file);
+            found.retain(|finding| [Code::MapGreenFlipped, Code::MapRedFlipped].contains(&finding.code));
+            let fixed = fix_map("map", &file, &LoadOptions::default(), &FixOptions::default());
+            assert!(fixed.expect("a map").image.is_none());
+            let texts: Vec<String> = found.iter().map(|finding| finding.text.clone()).collect();
+            (codes(&found), texts.concat())
+        };
+        let warning = vec![(Code::MapGreenFlipped, Severity::Warning)];
+        assert_eq!(codes_of(&|_, _| false).0, []);
+        let (half, text) = codes_of(&|x, _| x < 256);
+        assert_eq!(half, warning, "{number}: {text}");
+        assert!(text.contains("contradict each other") && text.contains("x 0 to 255, y 0 to 511"), "{text}");
+        let (island, text) = codes_of(&|x, y| (256..384).contains(&x) && (128..256).contains(&y));
+        assert_eq!(island, warning, "{number}: {text}");
+        assert!(
+            text.contains("1 is with green down") && text.contains("x 256 to 383, y 128 to 255"),
+            "{text}"
+        );
+        let (rest, text) = codes_of(&|x, y| x >= 128 || y >= 128);
+        assert_eq!(rest, warning, "{number}: {text}");
+        assert!(text.contains("x 0 to 127, y 0 to 127"), "{text}");
+    }
+}
+
+/// With half of its contrast, every map has vectors of half the length, whatever else its texels show, and gets them back.
+#[test]
+fn maps_of_half_the_contrast_are_scaled() {
+    for map in (0..6).map(healthy_map) {
+        let halved = map.through(|texel| texel.map(|x| 0.5 + 0.5 * (x - 0.5)));
+        let findings = found(&halved.file);
+        assert_eq!(codes(&findings), [(Code::MapNotUnit, Severity::Warning)], "{findings:#?}");
+        let fixed = fix_map("map", &halved.file, &LoadOptions::default(), &FixOptions::default());
+        let fixed = fixed.expect("a map").image.expect("a repaired map").to_bytes().expect("a PNG");
+        // The code 128 of a flat texel becomes 129: half of the contrast leaves half of the codes.
+        assert!(found(&fixed).iter().all(|finding| finding.code == Code::MapFlatOff));
+    }
+}
+
+/// Of a map without flat parts that leans on purpose, the lengths of the vectors show what was encoded or decoded.
+#[test]
+fn lengths_show_what_was_encoded_as_srgb() {
+    let texel = |i: usize| {
+        let (x, y) = ((i % 256) as f32 / 7.0, (i / 256) as f32 / 9.0);
+        let vector = [0.14 + 0.35 * x.cos() * y.sin(), 0.1 - 0.35 * x.sin() * y.cos(), 0.9];
+        let length = vector.iter().map(|x| x * x).sum::<f32>().sqrt();
+        vector.map(|x| ((x / length + 1.0) * 127.5).round() as u8)
+    };
+    let map = healthy_map(0).with_texels((0..256 * 256).map(texel).collect());
+    assert_eq!(codes(&found(&map.file)), []);
+    for power in [2.2f32, 1.0 / 2.2] {
+        let spoilt = map.through(|texel| texel.map(|x| x.powf(power)));
+        let findings = found(&spoilt.file);
+        assert_eq!(codes(&findings), [(Code::MapSrgb, Severity::Error)], "{power}: {findings:#?}");
+        let fixed = fix_map("map", &spoilt.file, &LoadOptions::default(), &FixOptions::default());
+        let fixed = fixed.expect("a map").image.expect("a repaired map").to_bytes().expect("a PNG");
+        assert_eq!(codes(&found(&fixed)), []);
+    }
 }
 
 /// One colour is harmless only where it is that of a flat map.

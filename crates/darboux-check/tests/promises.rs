@@ -27,7 +27,7 @@ fn broken_promises(open: impl Fn() -> Document, check: CheckOptions) -> Vec<Stri
         let remains = remaining.iter().any(|left| is_same(left, promised));
         match fixed.iter().find(|fixed| is_same(&fixed.finding, promised)) {
             None => Some("is not among the outcomes".to_owned()),
-            Some(FixedFinding { fixable: false, .. }) => Some("is no longer called fixable".to_owned()),
+            Some(fixed) if !fixed.was_fixable() => Some("is no longer called fixable".to_owned()),
             Some(FixedFinding { repaired: true, .. }) => {
                 remains.then(|| "is called repaired, and remains".to_owned())
             }

@@ -211,6 +211,10 @@ const SAID: &[(Code, &str)] = &[
         "one damaged texture, and the whole model does not load (mrdoob/three.js PR 25014, google/model-viewer 796)",
     ),
     (
+        Code::MapScaleNegative,
+        "may the scale of a normal texture be negative at all, and what does it mean then?",
+    ),
+    (
         Code::TransformMirrors,
         "the light seems to turn with the texture, in one viewer and not in the others (KhronosGroup/glTF-Sample-Assets 156, panda3d/panda3d 808)",
     ),
@@ -230,6 +234,7 @@ const NO_PICTURE: &[(Code, &str)] = &[
         Code::MapNotUnit,
         "the renderer of these pictures normalises the vectors, so that nothing would be seen",
     ),
+    (Code::MapScaleNegative, "it looks as if red and green were both inverted: dents for bumps"),
     (Code::MapFlatOff, "a lean of two degrees is seen in reflections only"),
 ];
 

@@ -70,6 +70,30 @@ fn options_choose_findings_and_the_exit_code() {
 }
 
 #[test]
+fn a_code_is_not_both_reported_and_allowed() {
+    let run =
+        darboux(&["check", "model.glb", "--only", "tangent-zero,map-flat", "--allow", "map-flat"]).exits(2);
+    assert!(run.stderr.contains("--only and --allow both name map-flat"), "{}", run.stderr);
+    assert_eq!(run.stderr.trim().lines().count(), 1, "{}", run.stderr);
+}
+
+/// Images in a folder are not checked, and those that look like normal maps and that no model uses are named.
+#[test]
+fn unused_normal_maps_of_a_folder_are_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let plane = asset("TwoSidedPlane");
+    for entry in fs::read_dir(&plane).expect("files").flatten() {
+        fs::copy(entry.path(), folder.path().join(entry.file_name())).expect("a copy");
+    }
+    let run = darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);
+    assert!(!run.stderr.contains("used by no model"), "{}", run.stderr);
+    fs::copy(plane.join("TwoSidedPlane_Normal.png"), folder.path().join("Brick_Normal.png")).expect("a copy");
+    let run = darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);
+    let sentence = "1 image named like a normal map is used by no model there";
+    assert!(run.stderr.contains(sentence) && run.stderr.contains("Brick_Normal.png"), "{}", run.stderr);
+}
+
+#[test]
 fn maps_are_judged_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     let side = 128u32;

@@ -30,7 +30,7 @@ export function wholeRows(name: string, array: { length: number }, width: number
 /** Errors: a value of another type. Compares names of types, because arrays of frames and workers have constructors of their own. */
 export function checkType(name: string, value: unknown, types: readonly string[]): void {
   const type = Object.prototype.toString.call(value).slice(8, -1);
-  if (!types.includes(type)) throw new TypeError(`${name} must be a ${types.join(' or ')}, not ${type}`);
+  if (!types.includes(type)) throw new TypeError(`${name} must be ${/^[AEIO]/.test(types[0] ?? '') ? 'an' : 'a'} ${types.join(' or ')}, not ${type}`);
 }
 
 /** Options, which may be left out, undefined or null. Errors: anything else that is not an object. */

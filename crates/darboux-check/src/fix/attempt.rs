@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveName};
 
-use super::correction::CORRECTED;
+use super::correction::is_about_single_tangents;
 use super::options::FixOptions;
-use super::outcome::{FixedDocument, FixedFinding, is_same, outcome};
+use super::outcome::{Change, FixedDocument, FixedFinding, is_same, outcome};
 use super::pairs::LeftPairs;
 use super::{normals, tangents};
 use crate::check::check_surfaces;
@@ -17,7 +17,7 @@ use crate::instances::primitives_of;
 use crate::severity::Severity;
 
 /// A primitive by the indices of mesh and primitive.
-type Key = (usize, usize);
+pub type Key = (usize, usize);
 
 /// The primitives whose repair is taken back, each with the reason if it is more than that the findings are still there.
 type Refused = BTreeMap<Key, Option<String>>;
@@ -89,6 +89,8 @@ struct Attempt {
     remaining: Vec<Finding>,
     /// The primitives whose tangents were corrected, and are not all made again to repair the rest.
     kept: BTreeSet<Key>,
+    /// What was done to tangents.
+    changes: BTreeMap<Key, Change>,
 }
 
 impl Attempt {
@@ -146,6 +148,7 @@ impl Work<'_> {
         if !of_normals.is_empty() {
             let without_tangents = normals::fix(document, &of_normals, self.options)?;
             tangents::make(document, &without_tangents, self.options)?;
+            self.note_recomputed(&mut attempt, without_tangents.iter().map(key));
             attempt.step(self.check(document)?);
         }
         let flipped = self.of_tangents(&attempt, |finding, all| self.is_only_sign(finding, all));
@@ -156,7 +159,8 @@ impl Work<'_> {
         let wrong = self.of_tangents(&attempt, |finding, all| self.is_corrected(finding, all));
         let corrected: BTreeSet<Key> = wrong.iter().filter_map(place).collect();
         if !wrong.is_empty() {
-            tangents::correct(document, &wrong, self.options)?;
+            let changes = tangents::correct(document, &wrong, self.options)?;
+            attempt.changes.extend(changes.into_iter().map(|(at, change)| (self.first_of(at), change)));
             attempt.step(self.check(document)?);
         }
         let is_kept = |finding: &Finding, all: &[Finding]| {
@@ -169,9 +173,19 @@ impl Work<'_> {
         let rest = self.of_tangents(&attempt, |finding, all| !is_kept(finding, all));
         if !rest.is_empty() {
             tangents::fix(document, &rest, self.options)?;
+            self.note_recomputed(&mut attempt, rest.iter().filter_map(place));
             attempt.step(self.check(document)?);
         }
         Ok(attempt)
+    }
+
+    /// The primitive that names those with the same data.
+    fn first_of(&self, at: Key) -> Key {
+        self.groups.get(&at).map_or(at, key)
+    }
+
+    fn note_recomputed(&self, attempt: &mut Attempt, places: impl Iterator<Item = Key>) {
+        attempt.changes.extend(places.map(|at| (self.first_of(at), Change::RecomputedTangents)));
     }
 
     /// Those of the remaining findings about anything but normals that are to be repaired and fulfil a condition.
@@ -191,7 +205,7 @@ impl Work<'_> {
     fn is_corrected(&self, finding: &Finding, all: &[Finding]) -> bool {
         let is_other_work = |other: &Finding| {
             let is_about_tangents =
-                other.code.family() == Family::Tangents && !CORRECTED.contains(&other.code);
+                other.code.family() == Family::Tangents && !is_about_single_tangents(other);
             is_about_tangents && place(other) == place(finding) && self.is_wanted(other)
         };
         !all.iter().any(is_other_work)
@@ -219,7 +233,7 @@ impl Work<'_> {
             };
             // With another method than MikkTSpace, tangents of another recipe may become those of the method that was asked for.
             let is_gone_or_other = |wanted: &Finding| {
-                let same = remaining().find(|left| left.code == wanted.code);
+                let same = remaining().find(|left| is_same(left, wanted));
                 same.is_none_or(|left| {
                     self.options.asks_for_other_recipe() && left.evidence != wanted.evidence
                 })
@@ -252,7 +266,13 @@ impl Work<'_> {
         };
         let became = |finding: Finding| match self.reason(&finding, attempt) {
             Some(reason) => FixedFinding::left(finding, reason),
-            None => outcome(finding, &attempt.remaining, self.options),
+            None => {
+                let is_about_tangents = finding.code.family() == Family::Tangents;
+                let at = place(&finding).filter(|_| is_about_tangents);
+                let change = at.and_then(|at| attempt.changes.get(&at).copied());
+                let fixed = outcome(finding, &attempt.remaining, self.options);
+                FixedFinding { change: change.filter(|_| fixed.repaired), ..fixed }
+            }
         };
         let findings = attempt.known.iter().filter(is_reported).cloned().map(became).collect();
         FixedDocument { findings, is_changed: attempt.is_changed }

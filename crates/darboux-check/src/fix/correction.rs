@@ -4,7 +4,7 @@
 //! another length, or one that leans, keeps its direction: it gets the bits of the recipe where that points the same way, and else it is laid into
 //! the plane of its normal and made unit. Signs become those of the UVs.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use darboux::internal::recipe_tangents;
 use darboux::{
@@ -14,13 +14,15 @@ use darboux::{
 use super::options::FixOptions;
 use crate::code::Code;
 use crate::expected::{is_measured, rounding};
-use crate::fit::{Difference, flips_signs, is_at_most_a_part};
+use crate::finding::Finding;
+use crate::fit::{Difference, Fit, flips_signs, is_at_most_a_part};
+use crate::outliers::Outliers;
 use crate::rule::Measured;
 use crate::rules::{MAX_DEGREES_FROM_PLANE, SIGN, UNIT_TANGENT, has_length, is_finite};
 use crate::surface::{Surface, dot, length, xyz};
 
-/// The codes of findings that name single tangents, which can be corrected without changing others.
-pub const CORRECTED: &[Code] = &[
+/// The codes of findings that always do.
+const CORRECTED: &[Code] = &[
     Code::TangentNotFinite,
     Code::TangentZero,
     Code::TangentNotUnit,
@@ -34,13 +36,10 @@ pub const CORRECTED: &[Code] = &[
     Code::TangentNegated,
 ];
 
-/// Those of them about signs that have a value, but the wrong one.
-const WRONG_SIGNS: [Code; 4] = [
-    Code::TangentSignMixed,
-    Code::TangentSignFlipped,
-    Code::TangentSignFlippedWhereMirrored,
-    Code::TangentSignPartlyFlipped,
-];
+/// Whether a finding names single tangents, which can be corrected without changing others.
+pub fn is_about_single_tangents(finding: &Finding) -> bool {
+    CORRECTED.contains(&finding.code) || finding.code == Code::TangentOtherRecipe && finding.lists_items()
+}
 
 /// The share of close corners from which on a recipe explains tangents.
 const EXPLAINED: f64 = 0.9;
@@ -58,7 +57,7 @@ pub struct Correction {
 }
 
 impl Correction {
-    /// Corrects what findings with these codes name; none where the surface lacks what is needed. `options`: the method where no recipe is recognised.
+    /// Corrects what findings on single tangents with these codes name; none where the surface lacks what is needed. `options`: the method where no recipe is recognised.
     pub fn new(surface: Surface, codes: &BTreeSet<Code>, options: &FixOptions) -> Option<Self> {
         let corrector = Corrector::new(&surface, codes, options)?;
         let corrected = corrector.corrected()?;
@@ -67,24 +66,28 @@ impl Correction {
         Some(Self { surface, tangent_of_corner })
     }
 
-    /// The vertices whose tangents change, with the new ones; none where the corners of a vertex have different ones.
-    pub fn of_vertices(&self) -> Option<Vec<(usize, [f32; 4])>> {
-        let old = self.surface.tangents.as_ref()?;
-        let mut new = old.clone();
-        let mut is_seen = vec![false; old.len()];
-        for (&vertex, tangent) in self.surface.vertex_of_corner.iter().zip(&self.tangent_of_corner) {
-            let vertex = vertex as usize;
-            if is_seen[vertex] && bits(new[vertex]) != bits(*tangent) {
+    /// The tangents of the vertices that triangles use; none where the corners of a vertex have different ones.
+    pub fn of_vertices(&self) -> Option<BTreeMap<usize, [f32; 4]>> {
+        let mut of_vertices = BTreeMap::new();
+        for (&vertex, &tangent) in self.surface.vertex_of_corner.iter().zip(&self.tangent_of_corner) {
+            if bits(*of_vertices.entry(vertex as usize).or_insert(tangent)) != bits(tangent) {
                 return None;
             }
-            (is_seen[vertex], new[vertex]) = (true, *tangent);
         }
-        let changed = (0..old.len()).filter(|&vertex| bits(old[vertex]) != bits(new[vertex]));
-        Some(changed.map(|vertex| (vertex, new[vertex])).collect())
+        Some(of_vertices)
+    }
+
+    /// The number of vertices with a corner whose tangent changes.
+    pub fn changed_count(&self) -> usize {
+        let Some(old) = &self.surface.tangents else { return 0 };
+        let corners = self.surface.vertex_of_corner.iter().zip(&self.tangent_of_corner);
+        let changed = corners.filter(|(vertex, new)| bits(old[**vertex as usize]) != bits(**new));
+        changed.map(|(vertex, _)| *vertex).collect::<BTreeSet<u32>>().len()
     }
 }
 
-fn bits(tangent: [f32; 4]) -> [u32; 4] {
+/// The bits of a tangent, which tell whether it changes.
+pub fn bits(tangent: [f32; 4]) -> [u32; 4] {
     tangent.map(f32::to_bits)
 }
 
@@ -125,6 +128,10 @@ struct Corrector<'a> {
     /// Per triangle whether it has an area in UV space, and a side that is not in doubt.
     tells: Vec<bool>,
     signs: Vec<VertexSign>,
+    /// Per vertex whether a finding that is to be repaired is about its sign.
+    has_named_sign: Vec<bool>,
+    /// The vertices whose tangents are not those of the method that made the others, ascending.
+    outliers: Vec<usize>,
 }
 
 /// The tangents of corners by the recipe of the file.
@@ -163,6 +170,8 @@ impl<'a> Corrector<'a> {
             }
         }
         Some(Self {
+            has_named_sign: with_named_signs(&measured, tangents, codes),
+            outliers: Outliers::of(&measured).map_or(Vec::new(), |outliers| outliers.vertices),
             surface,
             tangents,
             codes,
@@ -197,7 +206,7 @@ impl<'a> Corrector<'a> {
         if !numbered().any(|(_, vertex)| needs_reference(vertex)) {
             return Some(numbered().map(|(_, vertex)| of_vertex[vertex]).collect());
         }
-        let reference = self.reference(&of_vertex)?;
+        let reference = self.reference(&of_vertex, &directions)?;
         let near = self.nearest(&reference, &directions, of_vertex.clone());
         let first = self.first_corners();
         let is_new = |corner: usize, vertex: usize| {
@@ -219,11 +228,19 @@ impl<'a> Corrector<'a> {
         let (has_numbers, is_zero) =
             (old.iter().all(|x| x.is_finite()), !has_length([old[0], old[1], old[2], 1.0]));
         match () {
-            () if !has_numbers && self.repairs(Code::TangentNotFinite) => return Direction::Unknown,
+            () if !is_finite(tangent)
+                && (!has_numbers || is_zero)
+                && self.repairs(Code::TangentNotFinite) =>
+            {
+                return Direction::Unknown;
+            }
             () if is_finite(tangent) && is_zero && self.repairs(Code::TangentZero) => {
                 return Direction::Unknown;
             }
             () if is_zero => return Direction::Exact(old),
+            () if self.is_outlier(vertex) && self.repairs(Code::TangentOtherRecipe) => {
+                return Direction::Unknown;
+            }
             () => {}
         }
         let kept = if self.is_negated(vertex) { old.map(|x| -x) } else { old };
@@ -238,12 +255,24 @@ impl<'a> Corrector<'a> {
     }
 
     fn is_negated(&self, vertex: usize) -> bool {
-        self.repairs(Code::TangentNegated)
-            && self.measured.fits.iter().any(|fit| match fit.difference {
-                Difference::Negated => true,
-                Difference::PartlyNegated => fit.items.binary_search(&vertex).is_ok(),
-                _ => false,
-            })
+        self.repairs(Code::TangentNegated) && self.measured.fits.iter().any(|fit| fit.is_negated(vertex))
+    }
+
+    fn is_outlier(&self, vertex: usize) -> bool {
+        self.outliers.binary_search(&vertex).is_ok()
+    }
+
+    /// Whether the direction of a vertex tells which recipe made it: it is known, and not one that is wrong and stays.
+    fn is_judged(&self, vertex: usize, direction: Direction) -> bool {
+        let is_negated = || self.measured.fits.iter().any(|fit| fit.is_negated(vertex));
+        match direction {
+            Direction::Unknown => false,
+            Direction::Near(_) => true,
+            Direction::Exact(_) => {
+                let stays_turned = !self.repairs(Code::TangentNegated) && is_negated();
+                has_length(self.tangents[vertex]) && !self.is_outlier(vertex) && !stays_turned
+            }
+        }
     }
 
     fn leans(&self, vertex: usize, direction: [f32; 3]) -> bool {
@@ -297,7 +326,7 @@ impl<'a> Corrector<'a> {
         };
         let old = if is_none && w.is_finite() && w.abs() >= MIN_SIGN { w.signum() } else { w };
         let has_sign = old.is_finite() && old.abs() >= MIN_SIGN;
-        let is_wrong = WRONG_SIGNS.iter().any(|&code| self.repairs(code));
+        let is_wrong = self.has_named_sign[vertex];
         match self.signs[vertex] {
             VertexSign::Same(sign) if !has_sign && is_none => right(sign),
             VertexSign::Same(sign) if has_sign && is_wrong && sign != (old < 0.0) => {
@@ -311,7 +340,7 @@ impl<'a> Corrector<'a> {
     }
 
     /// The tangents of corners by the recipe that explains the right ones.
-    fn reference(&self, of_vertex: &[[f32; 4]]) -> Option<Reference> {
+    fn reference(&self, of_vertex: &[[f32; 4]], directions: &[Direction]) -> Option<Reference> {
         let mesh = self.surface.mesh(self.surface.uv_set)?;
         let (own, generated) = (Convention::GLTF, Convention::GLTF.generated());
         // The directions decide: all signs are those of MikkTSpace.
@@ -322,7 +351,12 @@ impl<'a> Corrector<'a> {
         let tangents: Vec<[f32; 4]> =
             self.surface.vertex_of_corner.iter().zip(&self.expected).map(of_corner).collect();
         let matches = recognise_recipe(&mesh, &tangents).ok()?;
-        let share = |count: usize, of: &RecipeMatch| count as f64 / of.corners.max(1) as f64;
+        // Only tangents that are known can be those of the recipe. Of a large mesh, some recipes are compared on a sample.
+        let vertices = self.surface.vertex_of_corner.iter().map(|&vertex| vertex as usize);
+        let judged = vertices.filter(|&vertex| self.is_judged(vertex, directions[vertex])).count();
+        let scale = tangents.len() as f64 / judged.max(1) as f64;
+        let share =
+            |count: usize, of: &RecipeMatch| (scale * count as f64 / of.corners.max(1) as f64).min(1.0);
         let is_default = |found: &&RecipeMatch| {
             let Recipe { method, flips_v, from_quads, .. } = found.recipe;
             method == Method::default() && !flips_v && !from_quads
@@ -398,4 +432,30 @@ impl<'a> Corrector<'a> {
         };
         reference.tangents[other.unwrap_or(corner)]
     }
+}
+
+/// Per vertex whether a finding with one of these codes is about its sign, which has a value, but may be the wrong one.
+fn with_named_signs(measured: &Measured<'_>, tangents: &[[f32; 4]], codes: &BTreeSet<Code>) -> Vec<bool> {
+    let is_of_all = [Code::TangentSignFlipped, Code::TangentSignFlippedWhereMirrored];
+    if is_of_all.iter().any(|code| codes.contains(code)) {
+        return vec![true; tangents.len()];
+    }
+    let mut is_named = vec![false; tangents.len()];
+    let is_mixed = |triangle: &[usize; 3]| {
+        let signs = triangle.map(|vertex| tangents[vertex][3] < 0.0);
+        codes.contains(&Code::TangentSignMixed) && signs != [signs[0]; 3]
+    };
+    let triangles: Vec<[usize; 3]> = measured.surface.triangles().collect();
+    triangles
+        .iter()
+        .filter(|triangle| is_mixed(triangle))
+        .flatten()
+        .for_each(|&vertex| is_named[vertex] = true);
+    let flipped = measured.fits.iter().filter(|fit| fit.difference == Difference::SignPartlyFlipped);
+    for &triangle in flipped.flat_map(|fit: &Fit| &fit.items) {
+        triangles[triangle].into_iter().for_each(|vertex| {
+            is_named[vertex] = codes.contains(&Code::TangentSignPartlyFlipped);
+        });
+    }
+    is_named
 }

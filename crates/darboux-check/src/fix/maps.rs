@@ -88,8 +88,7 @@ fn fix_checked(
             Some(image) => image,
             None => open(name, file, loading)?,
         };
-        let mistake = checked.judgement.and_then(|judgement| judgement.srgb_mistake());
-        repair(&mut changed, next.code, mistake, options)?;
+        repair(&mut changed, next.code, checked.srgb_mistake, options)?;
         checked = check(&changed.to_bytes()?);
         image = Some(changed);
         for finding in &checked.findings {

@@ -6,9 +6,11 @@ use darboux::{Context, Convention, CornerTangents, Mesh, TangentOptions, Tangent
 use darboux_io::Error;
 use darboux_io::gltf::{AddTangentsOptions, Document, Generate, PrimitiveName, add_tangents_to};
 
+use super::attempt::Key;
 use super::attributes::{replace, users_of};
-use super::correction::Correction;
+use super::correction::{Correction, bits};
 use super::options::FixOptions;
+use super::outcome::Change;
 use crate::check::for_each_surface;
 use crate::code::Code;
 use crate::finding::Finding;
@@ -25,9 +27,13 @@ pub fn fix(document: &mut Document, findings: &[Finding], options: &FixOptions) 
 }
 
 /// Corrects the tangents that findings name, and keeps the bits of the others. Vertices are split where their corners need different tangents; on
-/// primitives with morph targets, all tangents are made again then, with those of the targets. Codes: [`CORRECTED`].
-pub fn correct(document: &mut Document, findings: &[Finding], options: &FixOptions) -> Result<(), Error> {
-    let mut codes: BTreeMap<(usize, usize), BTreeSet<Code>> = BTreeMap::new();
+/// primitives with morph targets, all tangents are made again then, with those of the targets. Returns what was done to the primitives.
+pub fn correct(
+    document: &mut Document,
+    findings: &[Finding],
+    options: &FixOptions,
+) -> Result<BTreeMap<Key, Change>, Error> {
+    let mut codes: BTreeMap<Key, BTreeSet<Code>> = BTreeMap::new();
     for finding in findings {
         for name in primitives_of(document, finding) {
             codes.entry((name.mesh, name.primitive)).or_default().insert(finding.code);
@@ -39,44 +45,93 @@ pub fn correct(document: &mut Document, findings: &[Finding], options: &FixOptio
         corrections.extend(named.and_then(|codes| Correction::new(surface, codes, options)));
     })?;
     let (mut split, mut remade) = (Vec::new(), Vec::new());
-    let mut of_accessors = BTreeMap::new();
+    let mut of_accessors: BTreeMap<usize, Vec<Rewritten>> = BTreeMap::new();
+    let mut changes = BTreeMap::new();
     for correction in corrections {
         let surface = &correction.surface;
         let names = primitives_at(document, &surface.place);
+        let change = Change::CorrectedTangents { count: correction.changed_count() };
+        changes.extend(names.iter().map(|name| ((name.mesh, name.primitive), change)));
         match correction.of_vertices() {
-            Some(changed) => {
+            Some(of_vertices) => {
                 for (accessor, users) in users_of(document, TANGENT, &names) {
-                    let (all, changes): &mut (Vec<PrimitiveName>, Vec<_>) =
-                        of_accessors.entry(accessor).or_default();
-                    all.extend(users.into_iter().cloned());
-                    changes.extend(changed.iter().copied());
+                    let users = users.into_iter().cloned();
+                    add(of_accessors.entry(accessor).or_default(), users, &of_vertices);
                 }
             }
-            None if has_targets(document, &names) => remade.extend(names),
+            None if has_targets(document, &names) => {
+                let remade_names = names.iter().map(|name| (name.mesh, name.primitive));
+                changes.extend(remade_names.map(|key| (key, Change::RecomputedTangents)));
+                remade.extend(names);
+            }
             None => split.push((names, correction)),
         }
     }
-    for (accessor, (users, changes)) in of_accessors {
-        let mut tangents = document.vectors::<4>(accessor)?.into_owned();
-        changes.into_iter().for_each(|(vertex, tangent)| tangents[vertex] = tangent);
-        replace(document, (TANGENT, accessor), &users.iter().collect::<Vec<_>>(), &tangents)?;
+    for (accessor, rewritten) in of_accessors {
+        let old = document.vectors::<4>(accessor)?.into_owned();
+        for Rewritten { users, of_vertices } in rewritten {
+            let mut tangents = old.clone();
+            of_vertices.into_iter().for_each(|(vertex, tangent)| tangents[vertex] = tangent);
+            replace(document, (TANGENT, accessor), &users.iter().collect::<Vec<_>>(), &tangents)?;
+        }
     }
     split_vertices(document, split)?;
-    make(document, &remade, options)
+    make(document, &remade, options)?;
+    Ok(changes)
+}
+
+/// Primitives that share an accessor, and the values that they want.
+struct Rewritten {
+    users: Vec<PrimitiveName>,
+    of_vertices: BTreeMap<usize, [f32; 4]>,
+}
+
+/// Adds primitives to those that want no other values of the same accessor. Where all want others, they get an accessor of their own.
+fn add(
+    rewritten: &mut Vec<Rewritten>,
+    users: impl Iterator<Item = PrimitiveName>,
+    of_vertices: &BTreeMap<usize, [f32; 4]>,
+) {
+    let agrees = |known: &Rewritten| {
+        let is_same = |(vertex, tangent): (&usize, &[f32; 4])| {
+            known.of_vertices.get(vertex).is_none_or(|other| bits(*other) == bits(*tangent))
+        };
+        of_vertices.iter().all(is_same)
+    };
+    match rewritten.iter_mut().find(|known| agrees(known)) {
+        Some(known) => {
+            known.users.extend(users);
+            known.of_vertices.extend(of_vertices);
+        }
+        None => rewritten.push(Rewritten { users: users.collect(), of_vertices: of_vertices.clone() }),
+    }
 }
 
 fn has_targets(document: &Document, names: &[PrimitiveName]) -> bool {
     names.iter().any(|name| !document.meshes()[name.mesh].primitives[name.primitive].targets.is_empty())
 }
 
-/// Writes corrections that need more vertices.
-fn split_vertices(
-    document: &mut Document,
-    corrections: Vec<(Vec<PrimitiveName>, Correction)>,
-) -> Result<(), Error> {
-    if corrections.is_empty() {
-        return Ok(());
+/// Primitives with the same data, and the correction of their tangents.
+type Corrected = (Vec<PrimitiveName>, Correction);
+
+/// Writes corrections that need more vertices. Those of meshes that differ in nothing but their tangents are written one after the other.
+fn split_vertices(document: &mut Document, corrections: Vec<Corrected>) -> Result<(), Error> {
+    let mut turns: Vec<Vec<Corrected>> = Vec::new();
+    for (names, correction) in corrections {
+        let has_same_mesh = |(_, other): &Corrected| {
+            let surface = &correction.surface;
+            surface.mesh(surface.uv_set).is_some_and(|mesh| other.surface.has_mesh(&mesh))
+        };
+        match turns.iter().position(|turn| !turn.iter().any(has_same_mesh)) {
+            Some(turn) => turns[turn].push((names, correction)),
+            None => turns.push(vec![(names, correction)]),
+        }
     }
+    turns.iter().try_for_each(|turn| split_vertices_at_once(document, turn))
+}
+
+/// As [`split_vertices`], of meshes that differ.
+fn split_vertices_at_once(document: &mut Document, corrections: &[Corrected]) -> Result<(), Error> {
     let places: BTreeSet<(usize, usize)> =
         corrections.iter().flat_map(|(names, _)| names).map(|name| (name.mesh, name.primitive)).collect();
     let is_wanted = |name: &PrimitiveName| places.contains(&(name.mesh, name.primitive));

@@ -3,12 +3,14 @@
 use darboux::{BitangentDirection, MapJudgement, MapVerdict, SrgbMistake, TangentDirection};
 
 use crate::code::Code;
-use crate::facets::Arrangement;
+use crate::contradiction::Contradiction;
+use crate::facets::{Arrangement, FacetVotes};
 use crate::finding::Finding;
-use crate::map::{Map, MapDirections, TwoChannels};
-use crate::map_kind::{Kind, kind, percent};
+use crate::map::{Map, MapDirections, TwoChannels, percent};
+use crate::map_kind::{Kind, kind};
 use crate::rule::MapRule;
 use crate::severity::Severity;
+use crate::text::counted;
 
 pub const RULES: &[MapRule] = &[
     unreadable,
@@ -18,6 +20,7 @@ pub const RULES: &[MapRule] = &[
     srgb,
     not_normal,
     two_channel,
+    contradiction,
     red_flipped,
     green_flipped,
     channels_swapped,
@@ -88,12 +91,21 @@ fn reordered(map: &Map) -> Option<Finding> {
 fn srgb(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Srgb)?;
     let [red, green] = judgement.commonest;
-    let (what, obstacle) = match judgement.srgb_mistake() {
+    let (what, obstacle) = match map.srgb_mistake {
         Some(SrgbMistake::Encoded) => ("encoded as sRGB", None),
         Some(SrgbMistake::Decoded) => ("decoded as sRGB", None),
         None => ("encoded as sRGB, and red or green was inverted after that", Some(INVERTED_CODE)),
         Some(_) => return None,
     };
+    let is_by_length = map.srgb_mistake.is_some() && judgement.srgb_mistake().is_none();
+    let before = map.before_srgb.filter(|_| is_by_length);
+    if let Some(before) = before {
+        let text = format!("linear values were {what}: without that, nearly all its vectors have length 1");
+        let [spoilt, healthy] = [judgement, &before].map(|of| percent(of, of.not_unit));
+        let finding = Finding::new(Code::MapSrgb, text).with_count(judgement.not_unit);
+        let finding = finding.with_evidence("texels of another length than 1", spoilt, "%");
+        return Some(finding.with_evidence("once that is undone", healthy, "%"));
+    }
     let text =
         format!("its commonest texel is {red}, {green} instead of 128, 128: linear values were {what}");
     let share = percent(judgement, judgement.commonest_count);
@@ -103,7 +115,7 @@ fn srgb(map: &Map) -> Option<Finding> {
 }
 
 /// Why a map that was encoded and then inverted is left.
-const INVERTED_CODE: &str = "invert the channel near 67 again first: `darboux convert map.png --from directx --to opengl` inverts green";
+const INVERTED_CODE: &str = "invert the channel near 67 of the map again first: `darboux convert --from directx --to opengl` inverts green";
 
 fn not_normal(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Other)?;
@@ -144,11 +156,11 @@ fn two_channel(map: &Map) -> Option<Finding> {
     let is_unclear = judgement.verdict == MapVerdict::CannotTell && map.facets.is_none();
     let obstacle = obstacle.or(is_unclear.then_some(UNCLEAR_CHANNELS)).map(str::to_owned);
     let finding = Finding::new(Code::MapTwoChannel, text).with_obstacle(obstacle);
-    Some(finding.with_evidence(CERTAINTY, judgement.z_score.into(), "standard errors"))
+    Some(with_certainty(finding, &judgement, map))
 }
 
 /// Why a map with x in alpha is left.
-const X_IN_ALPHA: &str = "alpha may be wanted for something else; if it is x, `darboux convert map.png --from opengl --to opengl --layout ag --to-layout rgb` computes blue";
+const X_IN_ALPHA: &str = "alpha may be wanted for something else; if it is x, `darboux convert --from opengl --to opengl --layout ag --to-layout rgb` computes blue";
 
 /// Why a map without z is left whose derivatives say nothing, and which no material uses as a normal map.
 const UNCLEAR_CHANNELS: &str =
@@ -181,11 +193,28 @@ pub fn directions_by_mesh(map: &Map) -> Option<MapDirections> {
     directions(judgement, map).filter(|_| is_decided)
 }
 
-/// What the z score of the derivatives is called: the mean agreement of the tiles over its standard error.
-const CERTAINTY: &str = "certainty (4 or more decide, or -4 or less)";
+/// What the z score of the derivatives is called, and the number of tiles that it is from.
+const CERTAINTY: &str =
+    "distance of the tiles' mean agreement from zero (4 or more decide for OpenGL, -4 or less for DirectX)";
+const TILES: &str = "tiles that were compared";
 
-/// What the z score of the faces is called.
-const BY_FACES: &str = "agreement with the faces of the model (6 or more decide, or -6 or less)";
+/// What the z score of the faces is called, and their number.
+pub const BY_FACES: &str =
+    "distance of the faces' mean agreement with the map from zero (6 or more decide, or -6 or less)";
+const FACES: &str = "faces that were compared";
+
+/// The finding with the z score of the derivatives as evidence.
+fn with_certainty(finding: Finding, judgement: &MapJudgement, map: &Map) -> Finding {
+    let finding = finding.with_evidence(CERTAINTY, judgement.z_score.into(), "standard errors");
+    finding.with_evidence(TILES, map.tiles as f64, "tiles")
+}
+
+/// The finding with the z score that the faces give an arrangement as evidence.
+fn with_faces(finding: Finding, map: &Map, arrangement: Arrangement) -> Finding {
+    let finding = finding.with_evidence(BY_FACES, map.facet_score(arrangement), "standard errors");
+    let faces = map.facets.as_ref().map_or(0, FacetVotes::count);
+    finding.with_evidence(FACES, faces as f64, "faces")
+}
 
 /// The finding with the evidence for the direction of the channels.
 fn with_directions(finding: Finding, judgement: &MapJudgement, map: &Map) -> Finding {
@@ -200,19 +229,53 @@ fn with_directions(finding: Finding, judgement: &MapJudgement, map: &Map) -> Fin
             "agreement of red and green as slopes, from -1 (DirectX) to 1 (OpenGL)",
             judgement.correlation.into(),
             "",
-        )
-        .with_evidence(CERTAINTY, judgement.z_score.into(), "standard errors");
+        );
+    let finding = with_certainty(finding, judgement, map);
     match arrangement(judgement).filter(|arrangement| map.decide(*arrangement).is_some()) {
-        Some(arrangement) => finding.with_evidence(BY_FACES, map.facet_score(arrangement), "standard errors"),
+        Some(arrangement) => with_faces(finding, map, arrangement),
         None => finding,
     }
 }
 
-/// The judgement on a map whose channels have directions, unless red and green are exchanged.
+/// The judgement on a map whose channels have directions, unless red and green are exchanged, or parts of the map contradict each other.
 fn directed(map: &Map) -> Option<&MapJudgement> {
-    let judgement =
-        judged(map).filter(|judgement| matches!(kind(map, judgement), Kind::Normals | Kind::TwoChannel))?;
+    let judgement = with_directed_channels(map).filter(|_| map.contradiction.is_none())?;
     (!facets_show_exchange(judgement, map)).then_some(judgement)
+}
+
+fn with_directed_channels(map: &Map) -> Option<&MapJudgement> {
+    judged(map).filter(|judgement| matches!(kind(map, judgement), Kind::Normals | Kind::TwoChannel))
+}
+
+/// Why a map is left of which only a part is inverted.
+const ONLY_A_PART: &str = "nothing says where one part ends and the other one begins";
+
+/// One part of the map is in OpenGL's convention and another one in DirectX's.
+fn contradiction(map: &Map) -> Option<Finding> {
+    with_directed_channels(map)?;
+    let Contradiction { side, parts: [up, down] } = map.contradiction?;
+    let text = format!(
+        "parts of it contradict each other: of blocks of {side} x {side} texels, {} with green up (OpenGL) ({}), and {} with green down (DirectX) or red inverted ({})",
+        counted(up.blocks, "is", "are"),
+        up.place(),
+        counted(down.blocks, "is", "are"),
+        down.place()
+    );
+    let wrong = if map.wanted == BitangentDirection::Up { down } else { up };
+    let finding = Finding::new(Code::MapGreenFlipped, text).with_severity(Severity::Warning);
+    let finding = finding.with_count(wrong.blocks * side * side).with_obstacle(Some(ONLY_A_PART.to_owned()));
+    let finding = finding.with_cure(
+        "Invert green in the part that is inverted, in an image editor, or bake the whole map again.",
+    );
+    Some(
+        finding
+            .with_evidence(
+                "mean agreement of the tiles from zero, in the clearest block with green up",
+                up.z_score.into(),
+                "standard errors",
+            )
+            .with_evidence("in the clearest block with green down", down.z_score.into(), "standard errors"),
+    )
 }
 
 fn green_flipped(map: &Map) -> Option<Finding> {
@@ -224,25 +287,40 @@ fn green_flipped(map: &Map) -> Option<Finding> {
         BitangentDirection::Up => "DirectX (green down) instead of OpenGL (green up)",
         BitangentDirection::Down => "OpenGL (green up) instead of DirectX (green down)",
     };
+    let leans_to_red =
+        arrangement(judgement).is_some_and(|arrangement| map.facet_score(arrangement) <= LEANS_TO_RED);
     let (doubt, obstacle) = match (directions_by_mesh(map), &map.facets) {
         (Some(_), _) => ("", None),
-        (None, Some(_)) => {
-            (", unless its red is inverted, which is rare and which the faces of the model do not show", None)
-        }
-        (None, None) => {
-            (", or its red is inverted, which the texels alone do not show", Some(ONLY_THE_MODEL.to_owned()))
-        }
+        (None, Some(_)) if leans_to_red => (
+            ", or its red is inverted, which looks the same to this test: the faces of the model lean that way",
+            Some(
+                "the faces of the model lean towards inverted red without deciding it; look at one bump with a light beside it and one above it",
+            ),
+        ),
+        (None, Some(_)) => (
+            ", or its red is inverted, which is much rarer, looks the same to this test, and is not decided by the faces of the model",
+            None,
+        ),
+        (None, None) => (
+            ", or its red is inverted, which is much rarer and looks the same to this test",
+            Some(ONLY_THE_MODEL),
+        ),
     };
+    let obstacle = obstacle.map(str::to_owned);
     let cure = match map.wanted {
         BitangentDirection::Up => Code::MapGreenFlipped.cure(),
         BitangentDirection::Down => {
-            "Export or bake the map with green down (DirectX, -Y), or invert green: `darboux convert map.png --from opengl --to directx`."
+            "Export or bake the map with green down (DirectX, -Y), or invert green of the map with `darboux convert --from opengl --to directx`."
         }
     };
     let finding = Finding::new(Code::MapGreenFlipped, format!("it is in the convention of {program}{doubt}"))
         .with_cure(cure);
     Some(with_directions(finding.with_obstacle(obstacle), judgement, map))
 }
+
+/// The z score of the faces up to which they make inverted red likelier than inverted green, without deciding it. Faces that a map was not made for
+/// give 4 by chance.
+const LEANS_TO_RED: f64 = -5.0;
 
 /// Why inverted green is left in a map without a model.
 const ONLY_THE_MODEL: &str = "only the faces of the model tell inverted green from inverted red; name the model with --model, or invert green with `darboux convert`";
@@ -294,13 +372,10 @@ fn channels_swapped(map: &Map) -> Option<Finding> {
     let is_undecided = judgement.z_score < 0.0 && map.decide(Arrangement::ExchangedAndInverted).is_none();
     let finding = Finding::new(Code::MapChannelsSwapped, text)
         .with_obstacle(is_undecided.then(|| INVERTED_TOO.to_owned()))
-        .with_evidence("logarithm of the changes along red's and green's own axes over those across (negative if exchanged)", judgement.log_energy_ratio.into(), "")
-        .with_evidence(CERTAINTY, judgement.z_score.into(), "standard errors");
+        .with_evidence("logarithm of the changes along red's and green's own axes over those across (negative if exchanged)", judgement.log_energy_ratio.into(), "");
+    let finding = with_certainty(finding, judgement, map);
     Some(match by_facets {
-        true => {
-            let z_score = map.facet_score(candidates(judgement)[1]);
-            finding.with_evidence(BY_FACES, z_score, "standard errors")
-        }
+        true => with_faces(finding, map, candidates(judgement)[1]),
         false => finding,
     })
 }
@@ -323,7 +398,8 @@ const MAY_BE_NO_MAP: &str = "scaled to length 1, the texels of another kind of i
 fn not_unit(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(map, judgement) == Kind::Normals)?;
     let share = percent(judgement, judgement.not_unit);
-    let is_surface = matches!(judgement.verdict, MapVerdict::OpenGl | MapVerdict::DirectX | MapVerdict::Flat);
+    let verdict = map.scaled.as_ref().unwrap_or(judgement).verdict;
+    let is_surface = matches!(verdict, MapVerdict::OpenGl | MapVerdict::DirectX | MapVerdict::Flat);
     let leans = judgement.mean[..2].iter().any(|mean| mean.abs() > MAX_MEAN_LEAN);
     let doubt = match () {
         () if share <= 50.0 => None,
@@ -410,7 +486,6 @@ mod tests {
     use darboux::{TexelLayout, judge_normal_map};
 
     use super::*;
-    use crate::facets::FacetVotes;
 
     /// Waves along u, v and both, as `[x, y]`; `is_exchanged` exchanges red and green, and green is inverted before.
     fn map(is_exchanged: bool) -> Map {
@@ -430,8 +505,12 @@ mod tests {
         Map {
             judgement,
             file_size: 0,
+            tiles: 0,
+            srgb_mistake: None,
             before_srgb: None,
+            scaled: None,
             two_channels: None,
+            contradiction: None,
             reordered: None,
             is_picture: false,
             wanted: BitangentDirection::Up,

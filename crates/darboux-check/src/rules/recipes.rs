@@ -8,6 +8,7 @@ use crate::code::Code;
 use crate::expected::is_measured;
 use crate::finding::Finding;
 use crate::fit::{Difference, Fit};
+use crate::outliers::{FAR, Outliers};
 use crate::rule::{Measured, SurfaceRule};
 use crate::severity::Severity;
 use crate::surface::{Surface, cross, dot, length, xyz};
@@ -20,9 +21,6 @@ const IS_MIKKTSPACE: f64 = 99.0;
 
 /// The percentage from which on they are called those of another method.
 const IS_KNOWN: f64 = 90.0;
-
-/// Degrees to MikkTSpace's tangent beyond which a corner is lit from a visibly wrong direction: bumps lean by a third of their slope (the sine).
-const FAR: f64 = 20.0;
 
 /// The share of such corners, in percent, above which tangents of no known method are an error: one in a hundred is seen on a model that fills the
 /// screen.
@@ -48,17 +46,51 @@ fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
         return Vec::new();
     }
     let tangents = tangents_without_other_mistakes(measured);
-    let Some(recognised) = tangents.and_then(|tangents| recognise(measured.surface, &tangents)) else {
-        return Vec::new();
+    let recognised = tangents.and_then(|tangents| Some((recognise(measured.surface, &tangents)?, tangents)));
+    let Some((recognised, tangents)) = recognised else { return Vec::new() };
+    let outliers = match is_of_mikktspace(&recognised) {
+        true => None,
+        false => Outliers::from(measured, tangents, &recognised.best),
     };
-    let Recognised { best, mikktspace, with_unit_normals } = &recognised;
-    if is_mikktspace(best) && close(best) >= IS_MIKKTSPACE {
-        return Vec::new();
+    let Some(Outliers { recipe, vertices, replaced }) = outliers else {
+        return method_of_all(measured, &recognised, &[]).into_iter().collect();
+    };
+    let of_others = recognise(measured.surface, &replaced);
+    let of_others = of_others.and_then(|of_others| method_of_all(measured, &of_others, &vertices));
+    [unlike_the_others(measured, &recipe, &vertices)].into_iter().chain(of_others).collect()
+}
+
+/// The finding about tangents that are not those of the method that made the others.
+fn unlike_the_others(measured: &Measured<'_>, recipe: &Recipe, vertices: &[usize]) -> Finding {
+    let are = counted(vertices.len(), "tangent differs", "tangents differ");
+    let text = format!(
+        "{are} by more than {FAR} degrees from those of {}, which made the others, and bumps are lit from wrong directions there",
+        name(recipe)
+    );
+    let share = measured.surface.percent_of_vertices(vertices.len());
+    Finding::new(Code::TangentOtherRecipe, text)
+        .with_items(vertices)
+        .with_severity(Severity::Error)
+        .with_cure("Compute these tangents again as the others were: `darboux check --fix`.")
+        .with_evidence("part of all vertices", share, "%")
+}
+
+fn is_of_mikktspace(Recognised { best, mikktspace, .. }: &Recognised) -> bool {
+    // Where MikkTSpace explains all corners, nothing shows that another recipe was used, though it may have more bits in common.
+    let is_explained = mikktspace.close == mikktspace.corners;
+    is_explained || is_mikktspace(best) && close(best) >= IS_MIKKTSPACE
+}
+
+/// The finding about the method that made the tangents; none where it is MikkTSpace. `outliers`: the vertices whose tangents are not its.
+fn method_of_all(measured: &Measured<'_>, recognised: &Recognised, outliers: &[usize]) -> Option<Finding> {
+    let Recognised { best, mikktspace, with_unit_normals } = recognised;
+    if is_of_mikktspace(recognised) {
+        return None;
     }
     let (text, nearest) = description(best);
     let text = if *with_unit_normals { format!("{text}, on normals of length 1") } else { text };
     let is_known = !is_mikktspace(best) && close(best) >= IS_KNOWN;
-    let far = if is_known { 0.0 } else { percent_far(measured) };
+    let far = if is_known { 0.0 } else { percent_far(measured, outliers) };
     let severity = match () {
         () if far > MAX_PERCENT_FAR => Severity::Error,
         () if mikktspace.worst > 0.5 => Severity::Warning,
@@ -79,12 +111,12 @@ fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
         Some(what) => finding.with_evidence(what, close(best), "%"),
         None => finding,
     };
-    vec![finding.with_obstacle(obstacle(best, severity))]
+    Some(finding.with_obstacle(obstacle(best, severity)))
 }
 
 /// The corners that are more than [`FAR`] from MikkTSpace around the normal, in percent of those that lie in triangles with an area and not on
-/// mirrored seams. Tangents that are negated, or lean towards the normal, have findings of their own.
-fn percent_far(measured: &Measured<'_>) -> f64 {
+/// mirrored seams. Tangents that are negated or rotated, or lean towards the normal, have findings of their own.
+fn percent_far(measured: &Measured<'_>, outliers: &[usize]) -> f64 {
     let surface = measured.surface;
     let (Some(tangents), Some(normals), Some(uvs), Some(expected)) = (
         &surface.tangents,
@@ -95,7 +127,10 @@ fn percent_far(measured: &Measured<'_>) -> f64 {
         return 0.0;
     };
     let mut is_other = measured.is_on_mirrored_seam.clone();
-    for fit in measured.fits.iter().filter(|fit| fit.difference == Difference::PartlyNegated) {
+    outliers.iter().for_each(|&vertex| is_other[vertex] = true);
+    let is_turned =
+        |fit: &&Fit| matches!(fit.difference, Difference::PartlyNegated | Difference::PartlyRotated);
+    for fit in measured.fits.iter().filter(is_turned) {
         fit.items.iter().for_each(|&vertex| is_other[vertex] = true);
     }
     let angle = |vertex: usize, expected: [f32; 3]| {
@@ -151,21 +186,16 @@ fn obstacle(best: &RecipeMatch, severity: Severity) -> Option<String> {
 }
 
 /// The tangents of corners as methods compute them, without what other rules name: signs that differ or are none become those of MikkTSpace,
-/// and negated directions are turned back. None where there are no tangents or none can be computed.
-fn tangents_without_other_mistakes(measured: &Measured<'_>) -> Option<Vec<[f32; 4]>> {
+/// negated directions are turned back, and single rotated ones become those of MikkTSpace. None where there are no tangents or none can be computed.
+pub fn tangents_without_other_mistakes(measured: &Measured<'_>) -> Option<Vec<[f32; 4]>> {
     let surface = measured.surface;
     let of_vertex = surface.tangents.as_ref()?;
     let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
     let of_corner = |&vertex: &u32| to_generated.tangent(of_vertex[vertex as usize]);
     let mut tangents: Vec<[f32; 4]> = surface.vertex_of_corner.iter().map(of_corner).collect();
     for fit in &measured.fits {
-        let is_negated = |vertex: usize| match fit.difference {
-            Difference::Negated => true,
-            Difference::PartlyNegated => fit.items.binary_search(&vertex).is_ok(),
-            _ => false,
-        };
         for (tangent, &vertex) in tangents.iter_mut().zip(&surface.vertex_of_corner) {
-            if is_negated(vertex as usize) {
+            if fit.is_negated(vertex as usize) {
                 (0..3).for_each(|i| tangent[i] = -tangent[i]);
             }
         }
@@ -174,8 +204,14 @@ fn tangents_without_other_mistakes(measured: &Measured<'_>) -> Option<Vec<[f32; 
     let is_no_sign = |tangent: &[f32; 4]| (tangent[3].abs() - 1.0).abs() > SIGN;
     if measured.reversal.is_some() || measured.fits.iter().any(differ) || of_vertex.iter().any(is_no_sign) {
         let expected = surface.expected_tangents(surface.uv_set)?;
-        for (tangent, expected) in tangents.iter_mut().zip(expected) {
-            tangent[3] = to_generated.tangent(expected)[3];
+        let rotated = measured.fits.iter().find(|fit| fit.difference == Difference::PartlyRotated);
+        let is_rotated =
+            |vertex: u32| rotated.is_some_and(|fit| fit.items.binary_search(&(vertex as usize)).is_ok());
+        for ((tangent, &vertex), expected) in tangents.iter_mut().zip(&surface.vertex_of_corner).zip(expected)
+        {
+            let expected = to_generated.tangent(expected);
+            *tangent =
+                if is_rotated(vertex) { expected } else { [tangent[0], tangent[1], tangent[2], expected[3]] };
         }
     }
     Some(tangents)
@@ -198,11 +234,18 @@ fn recognise(surface: &Surface, tangents: &[[f32; 4]]) -> Option<Recognised> {
 
 fn recognise_on(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Option<Recognised> {
     let matches = recognise_recipe(mesh, tangents).ok()?;
-    let best = *matches.first().filter(|best| best.corners > 0)?;
+    let best = *matches.first()?;
     // Of large meshes, some recipes are compared on a sample only.
     let all_corners = mesh.corner_count();
     let mikktspace = *matches.iter().find(|found| is_mikktspace(found) && found.corners == all_corners)?;
-    Some(Recognised { best, mikktspace, with_unit_normals: false })
+    // Tangents without a direction have findings of their own, and no method explains them.
+    let unusable = tangents.iter().filter(|tangent| !has_length(**tangent)).count();
+    let judged = |mut found: RecipeMatch| {
+        found.corners -= if found.corners == all_corners { unusable } else { 0 };
+        found
+    };
+    let (best, mikktspace) = (judged(best), judged(mikktspace));
+    (best.corners > 0).then_some(Recognised { best, mikktspace, with_unit_normals: false })
 }
 
 /// The normals with length 1; none where all have it already. Normals without a direction stay as they are.

@@ -1,9 +1,11 @@
 //! Rules about tangents: values, signs and directions.
 
+use super::normals::UNIT as UNIT_OF_NORMALS;
 use crate::code::Code;
 use crate::finding::Finding;
 use crate::fit::{Difference, Fit};
 use crate::orientation::Reversal;
+use crate::reversed::reversed;
 use crate::rule::{Measured, SurfaceRule};
 use crate::severity::Severity;
 use crate::surface::{Surface, dot, indices_where, length, xyz};
@@ -28,7 +30,7 @@ pub const UNIT: f64 = 0.02;
 /// How far the size of a sign w may be from 1.
 pub const SIGN: f32 = 0.01;
 
-/// The share in percent above which flipped signs of some triangles, or negated tangents of some vertices, are an error: each shows dents for
+/// The share in percent above which flipped signs of some triangles, or turned tangents of some vertices, are an error: each shows dents for
 /// bumps, and one in a hundred is seen on a model that fills the screen. Fewer may be slivers, whose UV area is rounding, so that programs
 /// differ in their sign.
 const MAX_PERCENT_OF_PART: f64 = 1.0;
@@ -130,6 +132,7 @@ fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
     };
     let angles: Vec<f64> = (0..tangents.len()).map(angle).collect();
     let found = measured.surface.used(indices_where(&angles, |angle| *angle > MAX_DEGREES_FROM_PLANE[0]));
+    let found = without_spoilt_normals(measured.surface, normals, found);
     if found.is_empty() {
         return Vec::new();
     }
@@ -147,6 +150,21 @@ fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
             .with_severity(severity)
             .with_evidence("largest angle", worst, "degrees"),
     ]
+}
+
+/// Those of some vertices whose normals have no finding of their own. Where the normals of most vertices have one, as after they were scaled,
+/// their directions are right.
+fn without_spoilt_normals(surface: &Surface, normals: &[[f32; 3]], vertices: Vec<usize>) -> Vec<usize> {
+    if vertices.is_empty() {
+        return vertices;
+    }
+    let reversed = reversed(surface).map_or(Vec::new(), |reversed| reversed.vertices);
+    let is_unit = |vertex: usize| (length(normals[vertex]) - 1.0).abs() <= UNIT_OF_NORMALS;
+    let not_unit = surface.used((0..normals.len()).filter(|&vertex| !is_unit(vertex)).collect());
+    let are_scaled = 2 * not_unit.len() > surface.used_count();
+    let is_sound =
+        |vertex: &usize| (are_scaled || is_unit(*vertex)) && reversed.binary_search(vertex).is_err();
+    vertices.into_iter().filter(is_sound).collect()
 }
 
 fn shared_across_mirror(measured: &Measured<'_>) -> Vec<Finding> {
@@ -185,7 +203,7 @@ fn direction_or_sign(measured: &Measured<'_>) -> Vec<Finding> {
 }
 
 fn different(measured: &Measured<'_>, fit: &Fit) -> Option<Finding> {
-    let Fit { difference, supporting, measured: all, items } = fit;
+    let Fit { difference, supporting, measured: all, items, .. } = fit;
     let set = measured.surface.uv_set;
     let follows_from_normals =
         *difference == Difference::SignFlipped && measured.reversal == Some(Reversal::NormalsByTangents);
@@ -212,6 +230,10 @@ fn different(measured: &Measured<'_>, fit: &Fit) -> Option<Finding> {
             let tangents = counted(*supporting, "tangent points", "tangents point");
             (Code::TangentNegated, format!("{tangents} against u"))
         }
+        Difference::PartlyRotated => {
+            let tangents = counted(*supporting, "tangent points", "tangents point");
+            (Code::TangentRotated, format!("{tangents} along v"))
+        }
         Difference::Rotated => (Code::TangentRotated, "the tangents point along v".to_owned()),
         Difference::Negated => (Code::TangentNegated, "the tangents point against u".to_owned()),
         Difference::OtherUvSet(other) => {
@@ -221,11 +243,14 @@ fn different(measured: &Measured<'_>, fit: &Fit) -> Option<Finding> {
     };
     let part = match difference {
         Difference::SignPartlyFlipped => "part of all triangles",
-        Difference::PartlyNegated => "part of all vertices",
+        Difference::PartlyNegated | Difference::PartlyRotated => "part of all vertices",
         _ => "part of all corners",
     };
     let share = 100.0 * *supporting as f64 / (*all).max(1) as f64;
-    let is_partly = matches!(difference, Difference::SignPartlyFlipped | Difference::PartlyNegated);
+    let is_partly = matches!(
+        difference,
+        Difference::SignPartlyFlipped | Difference::PartlyNegated | Difference::PartlyRotated
+    );
     let is_small = is_partly && share <= MAX_PERCENT_OF_PART;
     let severity = if is_small || follows_from_normals { Severity::Warning } else { code.severity() };
     let finding = Finding::new(code, text).with_items(items).with_count(*supporting);

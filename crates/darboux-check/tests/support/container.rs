@@ -42,6 +42,23 @@ pub fn container(mut json: Vec<u8>, mut bytes: Vec<u8>) -> Vec<u8> {
     [header, chunks.concat()].concat()
 }
 
+/// A GLB with a further accessor of vectors; its index is returned.
+pub fn with_vectors<const N: usize>(glb: &[u8], vectors: &[[f32; N]], element: &str) -> (Vec<u8>, usize) {
+    let length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
+    let mut json: Value = serde_json::from_slice(&glb[20..20 + length]).expect("JSON");
+    let list = |name: &str| json[name].as_array().cloned().unwrap_or_default();
+    let mut writer = Writer {
+        bytes: glb[28 + length..].to_vec(),
+        views: list("bufferViews"),
+        accessors: list("accessors"),
+    };
+    let accessor = writer.vectors(vectors, element).as_u64().expect("an index") as usize;
+    json["bufferViews"] = Value::Array(writer.views);
+    json["accessors"] = Value::Array(writer.accessors);
+    json["buffers"] = json!([{"byteLength": writer.bytes.len()}]);
+    (container(serde_json::to_vec(&json).expect("JSON"), writer.bytes), accessor)
+}
+
 /// A GLB with another JSON.
 pub fn with_json(glb: &[u8], edit: impl FnOnce(&mut Value)) -> Vec<u8> {
     let length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;

@@ -293,6 +293,14 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
+        code: Code::MapScaleNegative,
+        how: "normalTexture.scale of -1",
+        make: |model| {
+            model.normal_scale = -1.0;
+            true
+        },
+    },
+    Mistake {
         code: Code::TransformMirrors,
         how: "KHR_texture_transform with scale 1, -1",
         make: |model| {

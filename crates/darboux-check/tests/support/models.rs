@@ -28,6 +28,8 @@ pub struct Model {
     pub unsplit: Option<Arrays>,
     pub uv_set: usize,
     pub has_normal_map: bool,
+    /// The scale of the normal texture.
+    pub normal_scale: f32,
     /// The scale of the texture transform.
     pub transform: Option<[f32; 2]>,
     /// The number of primitives with the same data.
@@ -162,6 +164,7 @@ impl Model {
             unsplit,
             uv_set: sets.len(),
             has_normal_map: true,
+            normal_scale: 1.0,
             transform: None,
             copies: 1,
             is_skinned: number % 4 == 1,
@@ -293,7 +296,7 @@ impl Model {
         let bytes: Vec<u8> = self.indices.iter().flat_map(|index| index.to_le_bytes()).collect();
         let indices = writer.accessor(&bytes, self.indices.len(), 5125, "SCALAR");
         let image = writer.view(&self.map.file);
-        let mut texture = json!({"index": 0, "texCoord": self.uv_set});
+        let mut texture = json!({"index": 0, "texCoord": self.uv_set, "scale": self.normal_scale});
         if let Some(scale) = self.transform {
             texture["extensions"] = json!({"KHR_texture_transform": {"scale": scale}});
         }

@@ -8,6 +8,7 @@ mod report;
 mod text;
 
 use std::num::NonZeroUsize;
+use std::path::Path;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
@@ -17,7 +18,7 @@ use darboux_check::{Finding, check_document};
 use crate::batch;
 use crate::documents::Source;
 use crate::exit;
-use crate::inputs::{Input, SearchMode, UsageError, check_stdin, find_inputs};
+use crate::inputs::{FoundInputs, Input, SearchMode, UsageError, check_stdin, find_inputs};
 use crate::json::{VERSION, to_json};
 use crate::terminal::{Messages, write_stdout};
 use arguments::CheckArguments;
@@ -35,6 +36,10 @@ pub fn run(arguments: &CheckArguments) -> u8 {
         messages.error(&sentence);
         return exit::USAGE;
     }
+    if let Some(code) = arguments.only.iter().find(|code| arguments.allow.contains(code)) {
+        messages.error(&format!("--only and --allow both name {code}; name it once"));
+        return exit::USAGE;
+    }
     let found = find_inputs(&arguments.files.inputs, SearchMode::All);
     let inputs: Vec<&Input> = found.files.iter().map(|(input, _)| input).collect();
     let model = match Model::of(arguments, &inputs) {
@@ -44,6 +49,7 @@ pub fn run(arguments: &CheckArguments) -> u8 {
             return exit::USAGE;
         }
     };
+    warn_of_unused_maps(&found, arguments, &messages);
     if arguments.fix {
         return batch::run(&Repair { arguments, model });
     }
@@ -74,6 +80,21 @@ pub fn run(arguments: &CheckArguments) -> u8 {
             messages.error(&format!("the findings cannot be written: {error}"));
             exit::FAILED
         }
+    }
+}
+
+/// Names the images of folders that are probably normal maps and that no model uses.
+fn warn_of_unused_maps(found: &FoundInputs, arguments: &CheckArguments, messages: &Messages) {
+    for folder in arguments.files.inputs.iter().filter(|path| path.is_dir() && !arguments.no_maps) {
+        let of_folder = found.files.iter().filter(|(_, from)| from.as_ref() == Some(folder));
+        let models: Vec<&Path> = of_folder
+            .filter_map(|(input, _)| match input {
+                Input::File(path) => Some(path.as_path()),
+                Input::Stdin => None,
+            })
+            .collect();
+        let unused = folder::unused_maps(folder, models.iter().copied()).filter(|_| !models.is_empty());
+        unused.iter().for_each(|sentence| messages.warn(sentence));
     }
 }
 

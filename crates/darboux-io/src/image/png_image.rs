@@ -12,7 +12,7 @@ use crate::error::ContentError;
 use crate::staging::Staging;
 use crate::{Error, SaveOptions, paths};
 
-/// A PNG with 8 or 16 bits per channel: grey with alpha, RGB or RGBA; grey alone where it is made here.
+/// A PNG with 8 or 16 bits per channel: grey with alpha, RGB or RGBA, to which a palette is expanded; grey alone where it is made here.
 #[derive(Debug)]
 pub struct PngImage {
     name: String,
@@ -131,15 +131,23 @@ impl PngImage {
         };
         let chunks = Chunks::split(&file)?;
         let mut decoder = Decoder::new(Cursor::new(&file));
-        decoder.set_transformations(Transformations::IDENTITY);
+        // A palette is expanded to the colours that it stands for, and nothing else is changed.
+        let kind = chunks.of(b"IHDR").next().and_then(Chunk::kind_of_texels);
+        let is_indexed = kind.is_some_and(|[_, color]| color == ColorType::Indexed as u8);
+        decoder.set_transformations(if is_indexed {
+            Transformations::EXPAND
+        } else {
+            Transformations::IDENTITY
+        });
         decoder.set_ignore_text_chunk(true);
         decoder.set_ignore_iccp_chunk(true);
         let mut reader = decoder.read_info().map_err(broken)?;
         let info = reader.info();
-        let (width, height, color, depth) = (info.width, info.height, info.color_type, info.bit_depth);
-        refuse_unsupported(color, depth, &chunks)?;
+        let (width, height) = (info.width, info.height);
+        refuse_unsupported(info.color_type, info.bit_depth, &chunks)?;
+        let (stored, (color, depth)) = (info.raw_bytes(), reader.output_color_type());
         let length = reader.output_buffer_size().unwrap_or(usize::MAX);
-        if length / DEFLATE_RATIO > chunks.total_of(b"IDAT") {
+        if stored / DEFLATE_RATIO > chunks.total_of(b"IDAT") {
             let problem = format!("its data is too short for {width} x {height} texels; save it again");
             return Err(ContentError::invalid("", problem));
         }
@@ -210,6 +218,7 @@ impl PngImage {
         let [before, after] =
             [old, new].map(|chunks| chunks.of(b"IHDR").next().and_then(Chunk::kind_of_texels));
         let has_colours = |kind: Option<[u8; 2]>| kind.map(|[_, colour_type]| colour_type & 2);
+        let was_indexed = before.is_some_and(|[_, colour_type]| colour_type == ColorType::Indexed as u8);
         let (of_same_kind, of_same_colours) = (before == after, has_colours(before) == has_colours(after));
         let mut out = chunks::SIGNATURE.to_vec();
         let mut texels = new.of(b"IDAT").peekable();
@@ -218,6 +227,7 @@ impl PngImage {
                 b"IHDR" => new.of(b"IHDR").for_each(|header| out.extend(header.bytes)),
                 b"IDAT" => texels.by_ref().for_each(|chunk| out.extend(chunk.bytes)),
                 kind if !of_same_kind && CHUNKS_OF_TEXELS.contains(&kind) => {}
+                b"PLTE" | b"hIST" if was_indexed => {}
                 kind if !of_same_colours && CHUNKS_OF_COLOURS.contains(&kind) => {}
                 _ => out.extend(chunk.bytes),
             }
@@ -242,15 +252,14 @@ impl PngImage {
 fn refuse_unsupported(color: ColorType, depth: BitDepth, chunks: &Chunks<'_>) -> Result<(), ContentError> {
     let refused = |problem: &str| Err(ContentError::unsupported("", problem));
     match (color, depth) {
-        (ColorType::Indexed, _) => refused("has a palette; save it as RGB"),
         (ColorType::Grayscale, _) => refused(
             "has one channel, but a normal map has two or more; bake a normal map from it if it is a height map",
         ),
-        (_, BitDepth::Eight | BitDepth::Sixteen) => {
+        (ColorType::Indexed, _) | (_, BitDepth::Eight | BitDepth::Sixteen) => {
             if chunks.of(b"acTL").next().is_some() {
                 return refused("is an animation; save its frames as single images");
             }
-            if chunks.of(b"tRNS").next().is_some() {
+            if color != ColorType::Indexed && chunks.of(b"tRNS").next().is_some() {
                 return refused(
                     "has a transparent colour, which a conversion would change; save it without one",
                 );

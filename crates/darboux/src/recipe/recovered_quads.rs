@@ -2,7 +2,9 @@
 //! diagonal than MikkTSpace does.
 //!
 //! Two triangles with a common edge are the likelier halves of a quad, the more it is a parallelogram in UV space, and flat and rectangular in
-//! space. The likeliest pairs are taken first, and every triangle once.
+//! space. The likeliest pairs are taken first, and every triangle once. Vertices with the same values are one: a file may have one per corner.
+
+use std::collections::HashMap;
 
 use crate::Error;
 use crate::Mesh;
@@ -101,7 +103,9 @@ fn next(corner: u32) -> u32 {
 
 /// All pairs of triangles at edges that have two of them, one on each side.
 fn pairs(mesh: &Mesh<'_>, limits: RunLimits<'_>) -> Result<Vec<Pair>, Error> {
-    let vertex = |corner: u32| mesh.vertex_of_corner(corner as usize) as u64;
+    let first_equal = first_equal_vertices(mesh);
+    limits.check()?;
+    let vertex = |corner: u32| u64::from(first_equal[mesh.vertex_of_corner(corner as usize)]);
     // Every corner stands for the edge that is opposite of it.
     let edge = |corner: u32| [vertex(next(corner)), vertex(next(next(corner)))];
     let key = |[start, end]: [u64; 2]| start.min(end) << 32 | start.max(end);
@@ -117,6 +121,19 @@ fn pairs(mesh: &Mesh<'_>, limits: RunLimits<'_>) -> Result<Vec<Pair>, Error> {
         is_opposite.then(|| Pair { cost: cost(mesh, a, b), corners: [a, b] })
     };
     Ok(edges.chunk_by(|a, b| a.0 == b.0).filter_map(pair).filter(|pair| pair.cost.is_finite()).collect())
+}
+
+/// Per vertex the first one with the same position, normal and UV.
+fn first_equal_vertices(mesh: &Mesh<'_>) -> Vec<u32> {
+    // Adding 0.0 makes both zeros one.
+    let bits = |x: f32| (x + 0.0).to_bits();
+    let mut first = HashMap::with_capacity(mesh.vertex_count());
+    let equal = |vertex: usize| {
+        let [position, normal] = [mesh.positions().get(vertex), mesh.normals().get(vertex)];
+        let key = (position.map(bits), normal.map(bits), mesh.uvs().get(vertex).map(bits));
+        *first.entry(key).or_insert(vertex as u32)
+    };
+    (0..mesh.vertex_count()).map(equal).collect()
 }
 
 /// How much the cosines of a quad's corners weigh.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use darboux::TangentOptions;
-use darboux_check::{Code, FixOptions, FixedFinding, Severity, check_document, fix_document};
+use darboux_check::{Change, Code, FixOptions, FixedFinding, Severity, check_document, fix_document};
 use darboux_io::gltf::Document;
 use darboux_io::image::PngImage;
 use serde::{Deserialize, Serialize};
@@ -154,7 +154,10 @@ fn line(finding: &ReportedFinding) -> Option<String> {
     let ReportedFinding { place, code, text, left_because, .. } = finding;
     let outcome = Outcome::of(finding);
     match (code.repair(), left_because) {
-        (Some(repair), _) if outcome.repaired => Some(format!("{place}: repaired {code}: {text}; {repair}")),
+        (Some(repair), _) if outcome.repaired => {
+            let done = done(finding.change, repair);
+            Some(format!("{place}: repaired {code}: {text}; {done}"))
+        }
         (None, _) if outcome.repaired => {
             Some(format!("{place}: gone {code}: {text}; with what was repaired"))
         }
@@ -165,6 +168,18 @@ fn line(finding: &ReportedFinding) -> Option<String> {
     }
 }
 
+/// What was done, as a clause. `repair`: what is usually done for the code.
+fn done(change: Option<Change>, repair: &str) -> String {
+    match change {
+        Some(Change::RecomputedTangents) => "all tangents of the primitive were computed again".to_owned(),
+        Some(Change::CorrectedTangents { count }) => {
+            let corrected = counted(count, "tangent was corrected", "tangents were corrected");
+            format!("{corrected}, and the others kept")
+        }
+        _ => repair.to_owned(),
+    }
+}
+
 /// An error that was not repaired, in one line.
 fn error_line(finding: &ReportedFinding) -> Option<String> {
     let ReportedFinding { place, code, text, severity, .. } = finding;
@@ -172,11 +187,13 @@ fn error_line(finding: &ReportedFinding) -> Option<String> {
     is_left.then(|| format!("{place}: {code}: {text}"))
 }
 
-/// What a document holds: its JSON, the values of its accessors and its images, wherever in its buffers they lie. None if it cannot be read.
+/// What a document holds: its JSON, the values of its accessors, its images and the bytes of other buffer views, wherever in its buffers they lie.
+/// None if it cannot be read.
 fn content(document: &Document) -> Option<(Value, Vec<Vec<u8>>)> {
     let glb = document.to_glb().ok()?;
     let length = u32::from_le_bytes(*glb.get(12..)?.first_chunk()?) as usize;
     let mut json: Value = serde_json::from_slice(glb.get(20..)?.get(..length)?).ok()?;
+    let others = other_views(&json, glb.get(20 + length + 8..).unwrap_or_default())?;
     let parts = json.as_object_mut()?;
     parts.remove("buffers");
     parts.remove("bufferViews");
@@ -186,7 +203,22 @@ fn content(document: &Document) -> Option<(Value, Vec<Vec<u8>>)> {
     let values = (0..accessors).map(|index| written.elements(index).ok().map(|elements| elements.bytes));
     let texels = (0..images).map(|index| Some(written.image_bytes(index).ok()?.into_owned()));
     let all: Option<Vec<Vec<u8>>> = values.chain(texels).collect();
-    Some((json, all?))
+    Some((json, all?.into_iter().chain(others).collect()))
+}
+
+/// The bytes of the buffer views that neither accessors nor images use, as those of extensions. `binary`: the binary chunk of a GLB.
+fn other_views(json: &Value, binary: &[u8]) -> Option<Vec<Vec<u8>>> {
+    let items = |name: &str| json.get(name).and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
+    let number = |value: &Value, name: &str| value.get(name).and_then(Value::as_u64);
+    let users = items("accessors").iter().chain(items("images"));
+    let used: Vec<u64> = users.filter_map(|user| number(user, "bufferView")).collect();
+    let others = items("bufferViews").iter().zip(0..).filter(|(_, index)| !used.contains(index));
+    let is_in_glb = |view: &Value| number(view, "buffer") == Some(0);
+    let bytes = |(view, _): (&Value, u64)| {
+        let start = number(view, "byteOffset").unwrap_or(0) as usize;
+        Some(binary.get(start..)?.get(..number(view, "byteLength")? as usize)?.to_vec())
+    };
+    others.filter(|(view, _)| is_in_glb(view)).map(bytes).collect()
 }
 
 impl CheckArguments {

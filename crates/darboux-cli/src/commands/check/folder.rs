@@ -1,5 +1,7 @@
-//! What to call for a folder that has images and no model.
+//! What to call for images of a folder that are not checked: all where it has no model, and those that none of its models uses.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use walkdir::WalkDir;
@@ -10,14 +12,50 @@ use crate::text::{command_line, counted};
 /// Which command checks the normal maps of a folder, as a clause; none for a folder without images. A folder has colour textures, too, so images are
 /// named one by one.
 pub fn maps_instead(folder: &Path) -> Option<String> {
-    let entries = WalkDir::new(folder).sort_by_file_name().into_iter().filter_map(Result::ok);
-    let files = entries.filter(|entry| entry.file_type().is_file()).map(walkdir::DirEntry::into_path);
-    let images: Vec<PathBuf> = files.filter(|path| is_image(path)).collect();
+    let images = images(folder);
     let first = images.iter().find(|path| is_named_like_normals(path)).or(images.first())?;
     let name = first.display().to_string();
     let command = command_line(&["check"], &[&name]);
     let images = counted(images.len(), "image", "images");
     Some(format!("it has {images} (.png, .jpg, .webp): name those that are normal maps, as in `{command}`"))
+}
+
+/// Which images of a folder are named like normal maps and are used by none of its models, as a sentence; none where there are none.
+pub fn unused_maps<'a>(folder: &Path, models: impl Iterator<Item = &'a Path>) -> Option<String> {
+    let mut images = images(folder);
+    images.retain(|path| is_named_like_normals(path));
+    for model in models {
+        let json = json_of(model).unwrap_or_default();
+        let json = String::from_utf8_lossy(&json).replace("%20", " ");
+        images.retain(|path| path.file_name().is_none_or(|name| !json.contains(&*name.to_string_lossy())));
+    }
+    let first = images.first()?.display().to_string();
+    let command = command_line(&["check"], &[&first]);
+    let what = counted(images.len(), "image named like a normal map is", "images named like normal maps are");
+    Some(format!(
+        "{}: {what} used by no model there, and not checked; name such an image to check it, as in `{command}`",
+        folder.display()
+    ))
+}
+
+/// The JSON of a model file; none where it cannot be read.
+fn json_of(model: &Path) -> Option<Vec<u8>> {
+    let mut file = File::open(model).ok()?;
+    let mut head = Vec::new();
+    file.by_ref().take(20).read_to_end(&mut head).ok()?;
+    let length = match head.get(12..16).filter(|_| head.starts_with(b"glTF")) {
+        Some(length) => u64::from(u32::from_le_bytes(length.try_into().ok()?)),
+        None => u64::MAX,
+    };
+    file.take(length).read_to_end(&mut head).ok()?;
+    Some(head)
+}
+
+/// The images of a folder.
+fn images(folder: &Path) -> Vec<PathBuf> {
+    let entries = WalkDir::new(folder).sort_by_file_name().into_iter().filter_map(Result::ok);
+    let files = entries.filter(|entry| entry.file_type().is_file()).map(walkdir::DirEntry::into_path);
+    files.filter(|path| is_image(path)).collect()
 }
 
 /// Whether a file name looks like that of a normal map.

@@ -1,7 +1,7 @@
 //! The JSON report of `darboux check`. json.txt documents its fields.
 
 use darboux::{BitangentDirection, MapJudgement, TangentDirection};
-use darboux_check::{CheckedMap, Code, Evidence, Finding, FixedFinding, MapDirections, Severity};
+use darboux_check::{Change, CheckedMap, Code, Evidence, Finding, FixedFinding, MapDirections, Severity};
 use serde::Serialize;
 
 /// The report of a run.
@@ -61,6 +61,9 @@ pub struct ReportedFinding {
     /// Whether `--fix` repaired it; none without `--fix`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repaired: Option<bool>,
+    /// What `--fix` did to the tangents of the primitive.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub change: Option<Change>,
     pub looks_like: &'static str,
     pub cure: String,
 }
@@ -84,6 +87,7 @@ impl From<Finding> for ReportedFinding {
             fixable: finding.left_because.is_none(),
             left_because: finding.left_because,
             repaired: None,
+            change: None,
             text: finding.text,
             looks_like: finding.code.looks_like(),
             cure: finding.cure.into_owned(),
@@ -93,7 +97,12 @@ impl From<Finding> for ReportedFinding {
 
 impl From<FixedFinding> for ReportedFinding {
     fn from(fixed: FixedFinding) -> Self {
-        Self { repaired: Some(fixed.repaired), fixable: fixed.fixable, ..fixed.finding.into() }
+        Self {
+            repaired: Some(fixed.repaired),
+            fixable: fixed.was_fixable(),
+            change: fixed.change,
+            ..fixed.finding.into()
+        }
     }
 }
 

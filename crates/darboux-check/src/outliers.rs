@@ -1,0 +1,103 @@
+//! Finds tangents that are far from those of the method that made most of the others, as after a part of them was overwritten.
+//!
+//! Such damage leaves two kinds of tangents: those of the method, and others that have nothing to do with it. Where many lie between the two, the
+//! tangents are those of a method that is not known.
+
+use darboux::internal::recipe_tangents;
+use darboux::{Context, CornerDifference, Recipe, RecipeMatch, recognise_recipe};
+
+use crate::expected::{is_measured, rounding};
+use crate::rule::Measured;
+use crate::rules::{has_length, tangents_without_other_mistakes};
+use crate::surface::{Surface, length};
+
+/// Degrees to the method's tangent beyond which one is far: bumps lean by a third of their slope (the sine).
+pub const FAR: f64 = 20.0;
+
+/// The least share of vertices with the tangents of the method.
+const MIN_NEAR: f64 = 0.5;
+
+/// The largest share of vertices between near and far: quads that were cut are estimated, and some estimates are wrong.
+const MAX_BETWEEN: f64 = 0.1;
+
+/// The share above which far tangents are an error: one in a hundred is seen on a model that fills the screen. Fewer may be differences between
+/// versions of a method.
+const MIN_FAR: f64 = 0.01;
+
+/// The tangents that are far from those of the method that made the others.
+pub struct Outliers {
+    /// The method of the others.
+    pub recipe: Recipe,
+    /// The vertices, ascending.
+    pub vertices: Vec<usize>,
+    /// The tangents of corners without other mistakes, in the convention in which they are computed, with those of the method at these vertices.
+    pub replaced: Vec<[f32; 4]>,
+}
+
+impl Outliers {
+    /// None where no method explains most tangents, or no part of the others is far from it.
+    pub fn of(measured: &Measured<'_>) -> Option<Self> {
+        let tangents = tangents_without_other_mistakes(measured)?;
+        let matches = recognise_recipe(&measured.surface.mesh(measured.surface.uv_set)?, &tangents).ok()?;
+        Self::from(measured, tangents, matches.first()?)
+    }
+
+    /// As [`Outliers::of`]. `tangents`: of corners, without other mistakes; `best`: the recipe that explains them best.
+    pub fn from(measured: &Measured<'_>, mut tangents: Vec<[f32; 4]>, best: &RecipeMatch) -> Option<Self> {
+        if (best.close as f64) < MIN_NEAR * best.corners as f64 {
+            return None;
+        }
+        let surface = measured.surface;
+        let made = recipe_tangents(&surface.mesh(surface.uv_set)?, &best.recipe, &mut Context::new()).ok()?;
+        let angles = angles(measured, &tangents, &made)?;
+        let judged = angles.iter().flatten().count() as f64;
+        let count = |is_counted: &dyn Fn(f64) -> bool| {
+            angles.iter().flatten().filter(|angle| is_counted(**angle)).count() as f64
+        };
+        let near = count(&|angle| angle <= rounding(surface));
+        let far = count(&|angle| angle > FAR);
+        let is_damaged = near >= MIN_NEAR * judged
+            && far > MIN_FAR * judged
+            && judged - near - far <= MAX_BETWEEN * judged;
+        if !is_damaged {
+            return None;
+        }
+        let is_far = |vertex: usize| angles[vertex].is_some_and(|angle| angle > FAR);
+        for ((tangent, made), &vertex) in tangents.iter_mut().zip(made).zip(&surface.vertex_of_corner) {
+            if is_far(vertex as usize) {
+                *tangent = made;
+            }
+        }
+        let vertices = surface.used((0..angles.len()).filter(|&vertex| is_far(vertex)).collect());
+        Some(Self { recipe: best.recipe, vertices, replaced: tangents })
+    }
+}
+
+/// Per vertex the smallest angle in degrees between its tangent and the method's at its corners in triangles with an area; none where its tangent
+/// has another mistake, or none can be right for all its corners.
+fn angles(measured: &Measured<'_>, of_corners: &[[f32; 4]], made: &[[f32; 4]]) -> Option<Vec<Option<f64>>> {
+    let Surface { tangents, normals, uv_sets, uv_set, .. } = measured.surface;
+    let (tangents, normals, uvs) = (tangents.as_ref()?, normals.as_ref()?, uv_sets.get(uv_set)?);
+    let has_normal = |vertex: usize| length(normals[vertex]).is_finite() && length(normals[vertex]) > 0.0;
+    let is_named = |vertex: usize| measured.is_on_mirrored_seam[vertex] || measured.has_own_tangent[vertex];
+    let is_judged: Vec<bool> = (0..tangents.len())
+        .map(|vertex| has_length(tangents[vertex]) && has_normal(vertex) && !is_named(vertex))
+        .collect();
+    let mut angles: Vec<Option<f64>> = vec![None; tangents.len()];
+    let corners = of_corners.as_chunks::<3>().0.iter().zip(made.as_chunks::<3>().0);
+    for (triangle, (of_corners, made)) in measured.surface.triangles().zip(corners) {
+        if !is_measured(measured.surface, uvs, triangle) {
+            continue;
+        }
+        let corners = triangle.into_iter().zip(of_corners.iter().zip(made));
+        for (vertex, (tangent, made)) in corners.filter(|(vertex, _)| is_judged[*vertex]) {
+            let angle = CornerDifference::between(*made, *tangent).angle;
+            let smallest = &mut angles[vertex];
+            *smallest = match (angle, *smallest) {
+                (Some(angle), Some(other)) => Some(angle.min(other)),
+                (angle, other) => angle.or(other),
+            };
+        }
+    }
+    Some(angles)
+}
