@@ -152,8 +152,8 @@ fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
     ]
 }
 
-/// Those of some vertices whose normals have no finding of their own. Where the normals of most vertices have one, as after they were scaled,
-/// their directions are right.
+/// Those of some vertices whose normals have no finding of their own. Where the normals of most vertices have one, as after they were scaled or
+/// negated, the planes that they stand on are right.
 fn without_spoilt_normals(surface: &Surface, normals: &[[f32; 3]], vertices: Vec<usize>) -> Vec<usize> {
     if vertices.is_empty() {
         return vertices;
@@ -161,9 +161,11 @@ fn without_spoilt_normals(surface: &Surface, normals: &[[f32; 3]], vertices: Vec
     let reversed = reversed(surface).map_or(Vec::new(), |reversed| reversed.vertices);
     let is_unit = |vertex: usize| (length(normals[vertex]) - 1.0).abs() <= UNIT_OF_NORMALS;
     let not_unit = surface.used((0..normals.len()).filter(|&vertex| !is_unit(vertex)).collect());
-    let are_scaled = 2 * not_unit.len() > surface.used_count();
-    let is_sound =
-        |vertex: &usize| (are_scaled || is_unit(*vertex)) && reversed.binary_search(vertex).is_err();
+    let are_most = |vertices: &[usize]| 2 * vertices.len() > surface.used_count();
+    let [are_scaled, are_negated] = [are_most(&not_unit), are_most(&reversed)];
+    let is_sound = |vertex: &usize| {
+        (are_scaled || is_unit(*vertex)) && (are_negated || reversed.binary_search(vertex).is_err())
+    };
     vertices.into_iter().filter(is_sound).collect()
 }
 
