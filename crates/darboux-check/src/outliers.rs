@@ -79,7 +79,11 @@ fn angles(measured: &Measured<'_>, of_corners: &[[f32; 4]], made: &[[f32; 4]]) -
     let Surface { tangents, normals, uv_sets, uv_set, .. } = measured.surface;
     let (tangents, normals, uvs) = (tangents.as_ref()?, normals.as_ref()?, uv_sets.get(uv_set)?);
     let has_normal = |vertex: usize| length(normals[vertex]).is_finite() && length(normals[vertex]) > 0.0;
-    let is_named = |vertex: usize| measured.is_on_mirrored_seam[vertex] || measured.has_own_tangent[vertex];
+    let is_named = |vertex: usize| {
+        measured.is_on_mirrored_seam[vertex]
+            || measured.has_own_tangent[vertex]
+            || measured.fits.iter().any(|fit| fit.is_rotated(vertex))
+    };
     let is_judged: Vec<bool> = (0..tangents.len())
         .map(|vertex| has_length(tangents[vertex]) && has_normal(vertex) && !is_named(vertex))
         .collect();

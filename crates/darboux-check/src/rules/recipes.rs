@@ -204,9 +204,7 @@ pub fn tangents_without_other_mistakes(measured: &Measured<'_>) -> Option<Vec<[f
     let is_no_sign = |tangent: &[f32; 4]| (tangent[3].abs() - 1.0).abs() > SIGN;
     if measured.reversal.is_some() || measured.fits.iter().any(differ) || of_vertex.iter().any(is_no_sign) {
         let expected = surface.expected_tangents(surface.uv_set)?;
-        let rotated = measured.fits.iter().find(|fit| fit.difference == Difference::PartlyRotated);
-        let is_rotated =
-            |vertex: u32| rotated.is_some_and(|fit| fit.items.binary_search(&(vertex as usize)).is_ok());
+        let is_rotated = |vertex: u32| measured.fits.iter().any(|fit| fit.is_rotated(vertex as usize));
         for ((tangent, &vertex), expected) in tangents.iter_mut().zip(&surface.vertex_of_corner).zip(expected)
         {
             let expected = to_generated.tangent(expected);
