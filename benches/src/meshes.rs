@@ -40,7 +40,7 @@ const MAKERS: &[(&str, Maker)] = &[
     ("charts", |size| charts(size.count(20_000))),
     ("small", |_| grid(50, 50)),
     ("fan", |size| families::fan(size.count(20_000), false)),
-    ("polar-fan", |size| families::fan(size.count(20_000), true)),
+    ("polar-fan", |size| families::fan(size.count(4_000), true)),
     ("lone-degenerates", |size| {
         let side = size.side(200);
         families::with_lone_degenerates(families::grid(side, side, false, false), size.count(20_000))

@@ -6,6 +6,14 @@ use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 
 use crate::finding::{Finding, Place};
 
+/// A primitive by the index of its mesh and its own.
+pub type Key = (usize, usize);
+
+/// The key of a primitive.
+pub fn key(name: &PrimitiveName) -> Key {
+    (name.mesh, name.primitive)
+}
+
 /// The accessors of semantics.
 type Semantics = BTreeMap<String, usize>;
 

@@ -4,11 +4,12 @@
 //! tangents are those of a method that is not known.
 
 use darboux::internal::recipe_tangents;
-use darboux::{Context, CornerDifference, Recipe, RecipeMatch, recognise_recipe};
+use darboux::{Context, Convention, CornerDifference, Recipe, RecipeMatch, recognise_recipe};
 
 use crate::expected::{is_measured, rounding};
+use crate::fit::{Difference, Fit};
 use crate::rule::Measured;
-use crate::rules::{has_length, tangents_without_other_mistakes};
+use crate::rules::{SIGN, has_length};
 use crate::surface::{Surface, length};
 
 /// Degrees to the method's tangent beyond which one is far: bumps lean by a third of their slope (the sine).
@@ -104,4 +105,34 @@ fn angles(measured: &Measured<'_>, of_corners: &[[f32; 4]], made: &[[f32; 4]]) -
         }
     }
     Some(angles)
+}
+
+/// The tangents of corners as methods compute them, without what other rules name: signs that differ or are none become those of MikkTSpace,
+/// negated directions are turned back, and single rotated ones become those of MikkTSpace. None where there are no tangents or none can be computed.
+pub fn tangents_without_other_mistakes(measured: &Measured<'_>) -> Option<Vec<[f32; 4]>> {
+    let surface = measured.surface;
+    let of_vertex = surface.tangents.as_ref()?;
+    let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
+    let of_corner = |&vertex: &u32| to_generated.tangent(of_vertex[vertex as usize]);
+    let mut tangents: Vec<[f32; 4]> = surface.vertex_of_corner.iter().map(of_corner).collect();
+    for fit in &measured.fits {
+        for (tangent, &vertex) in tangents.iter_mut().zip(&surface.vertex_of_corner) {
+            if fit.is_negated(vertex as usize) {
+                (0..3).for_each(|i| tangent[i] = -tangent[i]);
+            }
+        }
+    }
+    let differ = |fit: &Fit| !matches!(fit.difference, Difference::None | Difference::Unknown);
+    let is_no_sign = |tangent: &[f32; 4]| (tangent[3].abs() - 1.0).abs() > SIGN;
+    if measured.reversal.is_some() || measured.fits.iter().any(differ) || of_vertex.iter().any(is_no_sign) {
+        let expected = surface.expected_tangents(surface.uv_set)?;
+        let is_rotated = |vertex: u32| measured.fits.iter().any(|fit| fit.is_rotated(vertex as usize));
+        for ((tangent, &vertex), expected) in tangents.iter_mut().zip(&surface.vertex_of_corner).zip(expected)
+        {
+            let expected = to_generated.tangent(expected);
+            *tangent =
+                if is_rotated(vertex) { expected } else { [tangent[0], tangent[1], tangent[2], expected[3]] };
+        }
+    }
+    Some(tangents)
 }

@@ -10,7 +10,6 @@ mod uvs;
 
 pub use maps::{BY_FACES, directions_by_mesh};
 pub use normals::UNIT as UNIT_NORMAL;
-pub use recipes::tangents_without_other_mistakes;
 pub use tangents::{MAX_DEGREES_FROM_PLANE, SIGN, UNIT as UNIT_TANGENT, has_length, is_finite};
 
 use crate::rule::{MapRule, MaterialRule, SurfaceRule};

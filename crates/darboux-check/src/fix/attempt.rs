@@ -13,11 +13,8 @@ use super::{normals, tangents};
 use crate::check::check_surfaces;
 use crate::code::{Code, Family};
 use crate::finding::Finding;
-use crate::instances::primitives_of;
+use crate::instances::{Key, key, primitives_of};
 use crate::severity::Severity;
-
-/// A primitive by the indices of mesh and primitive.
-pub type Key = (usize, usize);
 
 /// The primitives whose repair is taken back, each with the reason if it is more than that the findings are still there.
 type Refused = BTreeMap<Key, Option<String>>;
@@ -50,10 +47,6 @@ pub fn fix_surfaces(
         work.refused.extend(refused);
         document.roll_back(checkpoint);
     }
-}
-
-fn key(name: &PrimitiveName) -> Key {
-    (name.mesh, name.primitive)
 }
 
 fn is_about_normals(finding: &Finding) -> bool {

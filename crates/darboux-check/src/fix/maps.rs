@@ -181,16 +181,21 @@ fn unit(texel: [f64; 3]) -> [f64; 3] {
     if is_grey || length < 0.05 { texel } else { vector.map(|x| (x / length + 1.0) / 2.0) }
 }
 
-/// Repairs the images of a document that findings name.
+/// Repairs the images of a document that findings name. `copy`: where the document is compressed, a copy that is not.
 pub fn fix_images(
     document: &mut Document,
+    copy: Option<&Document>,
     findings: Vec<Finding>,
     options: &FixOptions,
 ) -> Result<Vec<FixedFinding>, Error> {
     let places: BTreeSet<(Option<usize>, Option<usize>)> =
         findings.iter().map(|finding| (finding.place.image, finding.place.material)).collect();
     let (mut fixed, mut rewritten) = (Vec::new(), Vec::new());
-    let users = MapUsers::new(document, &document.appearances()?)?;
+    if !findings.iter().any(|finding| options.repairs(finding)) {
+        return Ok(findings.iter().map(|finding| outcome(finding.clone(), &findings, options)).collect());
+    }
+    let readable = copy.unwrap_or(document);
+    let users = MapUsers::new(readable, &readable.appearances()?)?;
     for (image, material) in places {
         let of_image = findings.iter().filter(|finding| finding.place.image == image);
         let has_work = of_image.clone().any(|finding| options.repairs(finding));

@@ -3,17 +3,18 @@
 use std::collections::BTreeMap;
 
 use darboux_io::Error;
-use darboux_io::gltf::{Document, PrimitiveName};
+use darboux_io::gltf::Document;
 
 use super::options::FixOptions;
 use crate::cancelling::Pair;
 use crate::finding::Finding;
+use crate::instances::{Key, key};
 use crate::map_users::MapUsers;
 
 /// The primitives and images that are left because a part of such a pair is left, each with the reason.
 #[derive(Debug, Default)]
 pub struct LeftPairs {
-    primitives: BTreeMap<(usize, usize), String>,
+    primitives: BTreeMap<Key, String>,
     images: BTreeMap<usize, String>,
 }
 
@@ -66,10 +67,6 @@ impl LeftPairs {
         };
         findings.into_iter().map(mark).collect()
     }
-}
-
-fn key(name: &PrimitiveName) -> (usize, usize) {
-    (name.mesh, name.primitive)
 }
 
 fn reason(pair: &Pair) -> String {

@@ -6,7 +6,6 @@ use darboux::{Context, Convention, CornerTangents, Mesh, TangentOptions, Tangent
 use darboux_io::Error;
 use darboux_io::gltf::{AddTangentsOptions, Document, Generate, PrimitiveName, add_tangents_to};
 
-use super::attempt::Key;
 use super::attributes::{replace, users_of};
 use super::correction::{Correction, bits};
 use super::options::FixOptions;
@@ -14,7 +13,7 @@ use super::outcome::Change;
 use crate::check::for_each_surface;
 use crate::code::Code;
 use crate::finding::Finding;
-use crate::instances::{primitives_at, primitives_of};
+use crate::instances::{Key, primitives_at, primitives_of};
 
 /// The attribute.
 const TANGENT: &str = "TANGENT";
