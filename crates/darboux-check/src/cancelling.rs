@@ -41,7 +41,8 @@ impl Pair {
         on_map: impl IntoIterator<Item = &'a Finding>,
         on_surface: impl IntoIterator<Item = &'a Finding>,
     ) -> Option<&'static Self> {
-        let of_map: Vec<Code> = on_map.into_iter().map(|finding| finding.code).collect();
+        let on_whole_map = on_map.into_iter().filter(|finding| !finding.is_on_part_of_image);
+        let of_map: Vec<Code> = on_whole_map.map(|finding| finding.code).collect();
         // A finding that lists vertices or triangles is about a part of the surface.
         let on_whole = on_surface.into_iter().filter(|finding| !finding.lists_items());
         let of_surface: Vec<Code> = on_whole.map(|finding| finding.code).collect();

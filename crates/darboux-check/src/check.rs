@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use darboux::{BitangentDirection, MapJudgement, SrgbMistake};
 use darboux_io::Error;
-use darboux_io::gltf::{Document, PrimitiveName, inspect};
+use darboux_io::gltf::{Appearance, Document, PrimitiveName, inspect};
 use darboux_io::image::RgbaImage;
 
 use crate::cancelling;
@@ -218,6 +218,11 @@ fn check_materials(
     for (image, material) in images {
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
         let mut found = check_image(document, &users, image, options)?;
+        if appearances.iter().any(|appearance| inverts(appearance, image)) {
+            found.iter_mut().filter(|finding| is_inverted(finding)).for_each(|finding| {
+                finding.left_because.get_or_insert_with(|| NEGATIVE_SCALE.to_owned());
+            });
+        }
         let names: Vec<&PrimitiveName> = users.names(image).collect();
         let index_of = |finding: &Finding| {
             finding.place.primitive.as_ref().and_then(|own| names.iter().position(|name| *name == own))
@@ -228,6 +233,19 @@ fn check_materials(
     compare_maps(&mut on_images);
     findings.extend(on_images);
     Ok(findings)
+}
+
+/// Why channels that seem to be inverted are left.
+const NEGATIVE_SCALE: &str = "the scale of its material is negative, which inverts red and green: make it positive first, and check again";
+
+/// Whether a material inverts the red and green of an image, which is its normal map.
+fn inverts(appearance: &Appearance, image: usize) -> bool {
+    let texture = appearance.normal_texture.as_ref();
+    appearance.normal_scale < 0.0 && texture.is_some_and(|texture| texture.image == Some(image))
+}
+
+fn is_inverted(finding: &Finding) -> bool {
+    matches!(finding.code, Code::MapRedFlipped | Code::MapGreenFlipped)
 }
 
 /// The maps of a model are mostly made by one program. Where the faces show that the red of one map is inverted, and not those of another one

@@ -79,6 +79,9 @@ pub struct Finding {
     /// Whether all corners that can be judged show it.
     #[serde(skip)]
     pub(crate) is_on_all_corners: bool,
+    /// Whether it is about a part of an image only.
+    #[serde(skip)]
+    pub(crate) is_on_part_of_image: bool,
     /// Whether another mistake cancels it: bumps look right now.
     #[serde(skip)]
     pub(crate) is_cancelled: bool,
@@ -101,6 +104,7 @@ impl Finding {
             cure: code.cure().into(),
             left_because: code.left_because().map(str::to_owned),
             is_on_all_corners: false,
+            is_on_part_of_image: false,
             is_cancelled: false,
         }
     }

@@ -177,6 +177,11 @@ fn along(surface: &Surface, expected: &[[f32; 4]]) -> Vec<usize> {
 }
 
 impl Fit {
+    /// Whether the tangent of a vertex is one of those that are turned by a right angle, where most are not.
+    pub fn is_rotated(&self, vertex: usize) -> bool {
+        self.difference == Difference::PartlyRotated && self.items.binary_search(&vertex).is_ok()
+    }
+
     /// Whether the tangent of a vertex is negated.
     pub fn is_negated(&self, vertex: usize) -> bool {
         match self.difference {

@@ -38,13 +38,27 @@ pub fn fix_document(
     let promised: Vec<Finding> = findings.iter().filter(|finding| finding.is_fixable()).cloned().collect();
     let (on_images, on_surfaces): (Vec<Finding>, Vec<Finding>) =
         findings.into_iter().partition(|finding| finding.place.image.is_some());
-    let left = LeftPairs::new(document, &on_images, &on_surfaces, options)?;
+    let copy = if on_images.is_empty() { None } else { decompressed_copy(document)? };
+    let readable = copy.as_ref().unwrap_or(document);
+    let left = LeftPairs::new(readable, &on_images, &on_surfaces, options)?;
     let mut fixed = fix_surfaces(document, left.mark(on_surfaces), &left, options)?;
-    let on_images = maps::fix_images(document, left.mark(on_images), options)?;
+    let copy = copy.filter(|_| document.is_compressed());
+    let on_images = maps::fix_images(document, copy.as_ref(), left.mark(on_images), options)?;
     fixed.is_changed |= on_images.iter().any(|image| image.repaired);
     fixed.findings.extend(on_images);
     for fixed in &mut fixed.findings {
         fixed.was_fixable |= promised.iter().any(|promised| is_same(promised, &fixed.finding));
     }
     Ok(fixed)
+}
+
+/// A decompressed copy of a compressed document, whose surfaces can be read: the repair of a map keeps the compression of the meshes.
+fn decompressed_copy(document: &Document) -> Result<Option<Document>, Error> {
+    if !document.is_compressed() {
+        return Ok(None);
+    }
+    let glb = document.to_glb()?;
+    let mut copy = Document::from_bytes(document.name(), glb, None, document.load_options())?;
+    copy.decompress()?;
+    Ok(Some(copy))
 }

@@ -58,6 +58,6 @@ pub fn of_image(file: &[u8]) -> Option<String> {
     let obstacle = PngImage::obstacle(file).filter(|_| !is_jpeg)?;
     match PngImage::is_png(file) {
         true => Some(format!("the image {obstacle}")),
-        false => Some("only PNG and JPEG images are rewritten; save it as a PNG first".to_owned()),
+        false => Some("PNG and JPEG images are rewritten, and no others, because only PNG files are written; save it as a PNG first".to_owned()),
     }
 }

@@ -80,7 +80,11 @@ fn angles(measured: &Measured<'_>, of_corners: &[[f32; 4]], made: &[[f32; 4]]) -
     let Surface { tangents, normals, uv_sets, uv_set, .. } = measured.surface;
     let (tangents, normals, uvs) = (tangents.as_ref()?, normals.as_ref()?, uv_sets.get(uv_set)?);
     let has_normal = |vertex: usize| length(normals[vertex]).is_finite() && length(normals[vertex]) > 0.0;
-    let is_named = |vertex: usize| measured.is_on_mirrored_seam[vertex] || measured.has_own_tangent[vertex];
+    let is_named = |vertex: usize| {
+        measured.is_on_mirrored_seam[vertex]
+            || measured.has_own_tangent[vertex]
+            || measured.fits.iter().any(|fit| fit.is_rotated(vertex))
+    };
     let is_judged: Vec<bool> = (0..tangents.len())
         .map(|vertex| has_length(tangents[vertex]) && has_normal(vertex) && !is_named(vertex))
         .collect();
@@ -122,9 +126,7 @@ pub fn tangents_without_other_mistakes(measured: &Measured<'_>) -> Option<Vec<[f
     let is_no_sign = |tangent: &[f32; 4]| (tangent[3].abs() - 1.0).abs() > SIGN;
     if measured.reversal.is_some() || measured.fits.iter().any(differ) || of_vertex.iter().any(is_no_sign) {
         let expected = surface.expected_tangents(surface.uv_set)?;
-        let rotated = measured.fits.iter().find(|fit| fit.difference == Difference::PartlyRotated);
-        let is_rotated =
-            |vertex: u32| rotated.is_some_and(|fit| fit.items.binary_search(&(vertex as usize)).is_ok());
+        let is_rotated = |vertex: u32| measured.fits.iter().any(|fit| fit.is_rotated(vertex as usize));
         for ((tangent, &vertex), expected) in tangents.iter_mut().zip(&surface.vertex_of_corner).zip(expected)
         {
             let expected = to_generated.tangent(expected);

@@ -133,6 +133,23 @@ fn only_the_wrong_tangents_of_quads_change() {
     }
 }
 
+/// Single tangents along v become those of the recipe, and the others stay.
+#[test]
+fn single_rotated_tangents_become_those_of_the_recipe() {
+    for before in [named("wavy sphere"), named("wavy grid")] {
+        let mut model = before.clone();
+        let wrong = spoilt(&mut model, across, |vertex| vertex % 40 == 21);
+        let mut document = model.document();
+        let findings = fixed(&mut document);
+        let change = Some(Change::CorrectedTangents { count: wrong.len() });
+        let is_corrected = |fixed: &FixedFinding| {
+            fixed.finding.code == Code::TangentRotated && fixed.repaired && fixed.change == change
+        };
+        assert!(findings.iter().any(is_corrected), "{findings:#?}");
+        assert_restored(&document, &before, &wrong, &before.name);
+    }
+}
+
 #[test]
 fn only_negated_tangents_are_negated() {
     for before in [named("wavy grid"), of_quads()] {

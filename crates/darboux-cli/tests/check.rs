@@ -250,6 +250,97 @@ fn what_is_left_is_said() {
     assert_eq!(fs::read(&copy).expect("a copy"), fs::read(&grey).expect("a file"));
 }
 
+/// The last line counts every finding once.
+#[test]
+fn totals_add_up_to_the_findings() {
+    for model in ["made/shield.glb", "TwoSidedPlane/TwoSidedPlane.gltf", "made/strips-fans-lines-points.gltf"]
+    {
+        let folder = tempfile::tempdir().expect("a folder");
+        for only in
+            [&[][..], &["--only", "tangent-sign-flipped,tangent-other-recipe,uv-overlapping,uv-mirrored"]]
+        {
+            let (model, out) = (asset(model), folder.path().join("out.glb"));
+            let run =
+                [&["check", text(&model), "--fix", "--force", "--fail-on", "never", "-o", text(&out)], only];
+            let report = darboux(&[&run.concat()[..], &["--json"]].concat()).exits(0).json();
+            let printed = darboux(&run.concat()).exits(0).stderr;
+            let total = printed.lines().rfind(|line| line.contains("worth knowing")).expect("a total");
+            let words = total.split("worth knowing").next().unwrap_or_default().split_whitespace();
+            let sum: usize = words.filter_map(|word| word.parse::<usize>().ok()).sum();
+            assert_eq!(sum, codes(&report, |_| true).len(), "{total}");
+        }
+    }
+}
+
+/// A file of an earlier run that differs in the data of an extension alone is not what would be written.
+#[test]
+fn data_of_extensions_is_compared() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let glb = fs::read(asset("made/shield.glb")).expect("a model");
+    let length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
+    let mut json: serde_json::Value = serde_json::from_slice(&glb[20..20 + length]).expect("JSON");
+    let mut binary = glb[28 + length..].to_vec();
+    let views = json["bufferViews"].as_array_mut().expect("views");
+    views.push(serde_json::json!({"buffer": 0, "byteOffset": binary.len(), "byteLength": 8}));
+    json["extensions"] = serde_json::json!({"VENDOR_data": {"bufferView": views.len() - 1}});
+    json["extensionsUsed"] = serde_json::json!(["VENDOR_data"]);
+    binary.extend(b"ORIGINAL");
+    json["buffers"][0]["byteLength"] = binary.len().into();
+    let mut text_of_json = serde_json::to_vec(&json).expect("JSON");
+    text_of_json.resize(text_of_json.len().next_multiple_of(4), b' ');
+    let word = |number: usize| (number as u32).to_le_bytes();
+    let total = 28 + text_of_json.len() + binary.len();
+    let mut file = [&b"glTF"[..], &word(2), &word(total), &word(text_of_json.len()), b"JSON"].concat();
+    file.extend([&text_of_json[..], &word(binary.len()), b"BIN\0", &binary].concat());
+    let model = folder.path().join("model.glb");
+    fs::write(&model, file).expect("a file");
+    let run = ["check", text(&model), "--fix", "--fail-on", "never"];
+    darboux(&run).exits(0);
+    darboux(&run).exits(0);
+    let fixed = folder.path().join("model.fixed.glb");
+    let mut other = fs::read(&fixed).expect("the repaired file");
+    let at = other.windows(8).position(|bytes| bytes == b"ORIGINAL").expect("the data");
+    other[at] = b'X';
+    fs::write(&fixed, other).expect("a file");
+    let refused = darboux(&run).exits(1);
+    assert!(refused.stderr.contains("other data would be written"), "{}", refused.stderr);
+}
+
+/// A palette is expanded where the map is repaired.
+#[test]
+fn maps_with_a_palette_are_repaired() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let image = bumps(-1.0);
+    let mut palette: Vec<[u8; 3]> = image.pixels().map(|pixel| pixel.0).collect();
+    palette.sort_unstable();
+    palette.dedup();
+    // The nearest of 256 colours.
+    let step = palette.len().div_ceil(256);
+    let palette: Vec<[u8; 3]> = palette.into_iter().step_by(step).collect();
+    let distance =
+        |a: [u8; 3], b: [u8; 3]| (0..3).map(|i| u32::from(a[i].abs_diff(b[i])).pow(2)).sum::<u32>();
+    let nearest = |colour: [u8; 3]| {
+        (0..palette.len()).min_by_key(|&index| distance(palette[index], colour)).unwrap_or_default() as u8
+    };
+    let indices: Vec<u8> = image.pixels().map(|pixel| nearest(pixel.0)).collect();
+    let path = folder.path().join("down.png");
+    let mut encoder =
+        png::Encoder::new(fs::File::create(&path).expect("a file"), image.width(), image.height());
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_palette(palette.concat());
+    encoder.write_header().and_then(|mut writer| writer.write_image_data(&indices)).expect("a PNG");
+    let strip = asset("made/strips-fans-lines-points.gltf");
+    let report =
+        darboux(&["check", text(&path), "--model", text(&strip), "--fix", "--json", "--fail-on", "never"])
+            .exits(0)
+            .json();
+    let repaired = codes(&report, |finding| finding["repaired"] == true);
+    assert!(repaired.contains(&"map-green-flipped".to_owned()), "{report}");
+    let fixed = image::open(folder.path().join("down.fixed.png")).expect("the repaired map").to_rgb8();
+    let expected = indices.iter().map(|&index| palette[usize::from(index)]).map(|[r, g, b]| [r, 255 - g, b]);
+    assert!(fixed.pixels().map(|pixel| pixel.0).eq(expected));
+}
+
 /// Files in which nothing is repaired are not copied, and a second run over a folder changes nothing and fails on nothing.
 #[test]
 fn a_folder_can_be_repaired_twice() {

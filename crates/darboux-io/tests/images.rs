@@ -125,6 +125,41 @@ fn other_chunks_are_kept() {
     assert_eq!(before, after);
 }
 
+/// A palette becomes the colours that it stands for, also with fewer than 8 bits; without a change, the file keeps it.
+#[test]
+fn palettes_are_expanded() {
+    let palette = [[255, 0, 128], [10, 200, 250]];
+    for (alpha, color) in [(None, ColorType::Rgb), (Some([255, 7]), ColorType::Rgba)] {
+        for depth in [BitDepth::One, BitDepth::Eight] {
+            let mut file = Vec::new();
+            let mut encoder = Encoder::new(&mut file, 8, 2);
+            encoder.set_color(ColorType::Indexed);
+            encoder.set_depth(depth);
+            encoder.set_palette(palette.concat());
+            if let Some(alpha) = alpha {
+                encoder.set_trns(alpha.to_vec());
+            }
+            let indices = [0, 1, 1, 0, 1, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 1];
+            let packed = match depth {
+                BitDepth::One => vec![0b0110_1000, 0b1111_0001],
+                _ => indices.map(|index| index as u8).to_vec(),
+            };
+            encoder.write_header().and_then(|mut writer| writer.write_image_data(&packed)).expect("a PNG");
+            assert_eq!(PngImage::obstacle(&file), None);
+            let same = PngImage::from_bytes("palette", file.clone(), &LoadOptions::default()).expect("a PNG");
+            assert_eq!(same.to_bytes().expect("a file"), file);
+            let flipped = converted(&file, Convention::UNREAL, Convention::GLTF, "rgb", "rgb");
+            let texel = |index: &usize| {
+                let [r, g, b] = palette[*index];
+                [r, 255 - g, b].into_iter().chain(alpha.map(|alpha| alpha[*index]))
+            };
+            let expected: Vec<u8> = indices.iter().flat_map(texel).collect();
+            assert_eq!(decoded(&flipped), (color, BitDepth::Eight, expected));
+            assert!(!flipped.windows(4).any(|kind| kind == b"PLTE" || kind == b"tRNS"));
+        }
+    }
+}
+
 #[test]
 fn palettes_and_profiles_of_colours_do_not_go_into_greys() {
     let with = |color: ColorType, kinds: &[&[u8; 4]]| {

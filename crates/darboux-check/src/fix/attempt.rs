@@ -153,7 +153,10 @@ impl Work<'_> {
         let corrected: BTreeSet<Key> = wrong.iter().filter_map(place).collect();
         if !wrong.is_empty() {
             let changes = tangents::correct(document, &wrong, self.options)?;
-            attempt.changes.extend(changes.into_iter().map(|(at, change)| (self.first_of(at), change)));
+            for (at, change) in changes {
+                // What was computed again before was not kept.
+                attempt.changes.entry(self.first_of(at)).or_insert(change);
+            }
             attempt.step(self.check(document)?);
         }
         let is_kept = |finding: &Finding, all: &[Finding]| {

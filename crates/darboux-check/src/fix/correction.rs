@@ -38,7 +38,8 @@ const CORRECTED: &[Code] = &[
 
 /// Whether a finding names single tangents, which can be corrected without changing others.
 pub fn is_about_single_tangents(finding: &Finding) -> bool {
-    CORRECTED.contains(&finding.code) || finding.code == Code::TangentOtherRecipe && finding.lists_items()
+    let may_list = [Code::TangentRotated, Code::TangentOtherRecipe];
+    CORRECTED.contains(&finding.code) || may_list.contains(&finding.code) && finding.lists_items()
 }
 
 /// The share of close corners from which on a recipe explains tangents.
@@ -241,6 +242,7 @@ impl<'a> Corrector<'a> {
             () if self.is_outlier(vertex) && self.repairs(Code::TangentOtherRecipe) => {
                 return Direction::Unknown;
             }
+            () if self.is_rotated(vertex) && self.repairs(Code::TangentRotated) => return Direction::Unknown,
             () => {}
         }
         let kept = if self.is_negated(vertex) { old.map(|x| -x) } else { old };
@@ -258,6 +260,10 @@ impl<'a> Corrector<'a> {
         self.repairs(Code::TangentNegated) && self.measured.fits.iter().any(|fit| fit.is_negated(vertex))
     }
 
+    fn is_rotated(&self, vertex: usize) -> bool {
+        self.measured.fits.iter().any(|fit| fit.is_rotated(vertex))
+    }
+
     fn is_outlier(&self, vertex: usize) -> bool {
         self.outliers.binary_search(&vertex).is_ok()
     }
@@ -270,7 +276,8 @@ impl<'a> Corrector<'a> {
             Direction::Near(_) => true,
             Direction::Exact(_) => {
                 let stays_turned = !self.repairs(Code::TangentNegated) && is_negated();
-                has_length(self.tangents[vertex]) && !self.is_outlier(vertex) && !stays_turned
+                let is_wrong = stays_turned || self.is_rotated(vertex) || self.is_outlier(vertex);
+                has_length(self.tangents[vertex]) && !is_wrong
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Rewrites the texels of normal maps at their bit depth.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use darboux::{
     BitangentDirection, Convention, Conversion, MapJudgement, MapVerdict, SrgbMistake, TangentDirection,
@@ -17,7 +17,7 @@ use super::outcome::{FixedFinding, is_same, outcome};
 use crate::check::{CheckedMap, ModelOfMaps, check_map, check_map_on_surfaces, check_texels};
 use crate::code::Code;
 use crate::finding::{Finding, Place};
-use crate::map_users::MapUsers;
+use crate::map_users::{MapSurfaces, MapUsers};
 use crate::severity::Severity;
 
 /// The result of [`fix_map`].
@@ -90,6 +90,7 @@ fn fix_checked(
         };
         repair(&mut changed, next.code, checked.srgb_mistake, options)?;
         checked = check(&changed.to_bytes()?);
+        keep_reasons(&known, &mut checked.findings);
         image = Some(changed);
         for finding in &checked.findings {
             if !findings.iter().any(|known| is_same(known, finding)) {
@@ -108,6 +109,14 @@ fn fix_checked(
         findings.into_iter().map(|finding| outcome(finding, &remaining, options)).collect();
     let is_any_repaired = findings.iter().any(|finding| finding.repaired);
     Ok(FixedMap { image: image.filter(|_| is_any_repaired), findings })
+}
+
+/// What was known to be left is left for the same reason after other repairs: other images and surfaces may be that.
+fn keep_reasons(known: &[Finding], findings: &mut [Finding]) {
+    for finding in findings {
+        let before = known.iter().find(|known| is_same(known, finding));
+        finding.left_because = finding.left_because.take().or(before.and_then(|known| known.left_because.clone()));
+    }
 }
 
 /// An image that is not changed, and why.
@@ -181,16 +190,21 @@ fn unit(texel: [f64; 3]) -> [f64; 3] {
     if is_grey || length < 0.05 { texel } else { vector.map(|x| (x / length + 1.0) / 2.0) }
 }
 
-/// Repairs the images of a document that findings name.
+/// Repairs the images of a document that findings name. `copy`: where the document is compressed, a copy that is not.
 pub fn fix_images(
     document: &mut Document,
+    copy: Option<&Document>,
     findings: Vec<Finding>,
     options: &FixOptions,
 ) -> Result<Vec<FixedFinding>, Error> {
     let places: BTreeSet<(Option<usize>, Option<usize>)> =
         findings.iter().map(|finding| (finding.place.image, finding.place.material)).collect();
     let (mut fixed, mut rewritten) = (Vec::new(), Vec::new());
-    let users = MapUsers::new(document, &document.appearances()?)?;
+    if !findings.iter().any(|finding| options.repairs(finding)) {
+        return Ok(findings.iter().map(|finding| outcome(finding.clone(), &findings, options)).collect());
+    }
+    let readable = copy.unwrap_or(document);
+    let users = MapUsers::new(readable, &readable.appearances()?)?;
     for (image, material) in places {
         let of_image = findings.iter().filter(|finding| finding.place.image == image);
         let has_work = of_image.clone().any(|finding| options.repairs(finding));
@@ -204,8 +218,7 @@ pub fn fix_images(
         let findings =
             of_image.clone().map(|finding| Finding { place: Place::default(), ..finding.clone() }).collect();
         let checked = CheckedMap { findings, ..check_map(&file, &options.check) };
-        let surfaces = users.of(index)?;
-        let check = |file: &[u8]| check_texels(file, &surfaces, &options.check);
+        let check = |file: &[u8]| check_texels(file, &surfaces[&index], &options.check);
         let made = match fix_checked(&name, &file, checked, &check, document.load_options(), options) {
             Ok(made) => made,
             Err(error) => {
@@ -226,4 +239,23 @@ pub fn fix_images(
         document.replace_image(index, bytes, "image/png")?;
     }
     Ok(fixed)
+}
+
+/// The surfaces on which the images are that are to be repaired. Compressed geometry is decompressed for that, and stays compressed in the document.
+fn surfaces_of_images(
+    document: &mut Document,
+    findings: &[Finding],
+    options: &FixOptions,
+) -> Result<BTreeMap<usize, MapSurfaces>, Error> {
+    let wanted = findings.iter().filter(|finding| options.repairs(finding));
+    let images: BTreeSet<usize> = wanted.filter_map(|finding| finding.place.image).collect();
+    if images.is_empty() {
+        return Ok(BTreeMap::new());
+    }
+    let checkpoint = document.checkpoint();
+    document.decompress()?;
+    let users = MapUsers::new(document, &document.appearances()?)?;
+    let surfaces = images.into_iter().map(|image| Ok((image, users.of(image)?))).collect();
+    document.roll_back(checkpoint);
+    surfaces
 }

@@ -263,6 +263,7 @@ fn contradiction(map: &Map) -> Option<Finding> {
     );
     let wrong = if map.wanted == BitangentDirection::Up { down } else { up };
     let finding = Finding::new(Code::MapGreenFlipped, text).with_severity(Severity::Warning);
+    let finding = Finding { is_on_part_of_image: true, ..finding };
     let finding = finding.with_count(wrong.blocks * side * side).with_obstacle(Some(ONLY_A_PART.to_owned()));
     let finding = finding.with_cure(
         "Invert green in the part that is inverted, in an image editor, or bake the whole map again.",

@@ -153,19 +153,19 @@ fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
 }
 
 /// Those of some vertices whose normals have no finding of their own. Where the normals of most vertices have one, as after they were scaled or
-/// negated, the planes that they stand on are right.
+/// negated, their axes are right.
 fn without_spoilt_normals(surface: &Surface, normals: &[[f32; 3]], vertices: Vec<usize>) -> Vec<usize> {
     if vertices.is_empty() {
         return vertices;
     }
-    let reversed = reversed(surface).map_or(Vec::new(), |reversed| reversed.vertices);
+    let is_most = |spoilt: &[usize]| 2 * spoilt.len() > surface.used_count();
+    let reversed = reversed(surface).map(|reversed| reversed.vertices).filter(|reversed| !is_most(reversed));
+    let reversed = reversed.unwrap_or_default();
     let is_unit = |vertex: usize| (length(normals[vertex]) - 1.0).abs() <= UNIT_OF_NORMALS;
     let not_unit = surface.used((0..normals.len()).filter(|&vertex| !is_unit(vertex)).collect());
-    let are_most = |vertices: &[usize]| 2 * vertices.len() > surface.used_count();
-    let [are_scaled, are_negated] = [are_most(&not_unit), are_most(&reversed)];
-    let is_sound = |vertex: &usize| {
-        (are_scaled || is_unit(*vertex)) && (are_negated || reversed.binary_search(vertex).is_err())
-    };
+    let are_scaled = is_most(&not_unit);
+    let is_sound =
+        |vertex: &usize| (are_scaled || is_unit(*vertex)) && reversed.binary_search(vertex).is_err();
     vertices.into_iter().filter(is_sound).collect()
 }
 

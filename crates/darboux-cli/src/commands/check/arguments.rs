@@ -20,8 +20,8 @@ up (OpenGL) or down (DirectX), and whether they are normals at all. Every findin
 the cure. Images (.png, .jpg, .webp) are checked as normal maps.\n\n\
 Without --fix no file is written. With --fix the repaired file is written beside its input, model.glb as model.fixed.glb, unless -o, --out-dir or \
 --in-place says otherwise; what cannot be repaired without guessing is left, and the reason printed. Nothing is left to repair in the repaired file. \
-Where nothing is repaired, only -o and --out-dir write a copy, of models and of images that could be repaired (JPEG, and PNG \
-without a palette). In a folder, files named like repaired ones (model.fixed.glb) are skipped, and one that an earlier run has written is kept if it is still what would be written.\n\n\
+Where nothing is repaired, only -o and --out-dir write a copy, of models and of images that could be repaired (PNG and JPEG; \
+WebP images are read and never written). In a folder, files named like repaired ones (model.fixed.glb) are skipped, and one that an earlier run has written is kept if it is still what would be written.\n\n\
 The exit code is 1 if a file cannot be read, or if a finding that is not repaired is at least as severe as --fail-on says. docs/check.md lists all \
 codes.";
 
@@ -91,8 +91,8 @@ pub struct CheckArguments {
 
     /// Repair what is found, and write the result
     ///
-    /// Wrong tangents are corrected in the way that the others were computed, all are made again where all are wrong, vertices split, normals made or turned over, and the texels of PNG maps rewritten at their bit depth; a JPEG map
-    /// becomes a PNG. Only the findings that are reported are repaired (--only, --allow). Everything else in the file is kept, byte for
+    /// Wrong tangents are corrected in the way that the others were computed, all are made again where all are wrong, vertices split, normals made or turned over, and the texels of PNG maps rewritten at their bit depth; a palette
+    /// becomes RGB, and a JPEG map a PNG. Only the findings that are reported are repaired (--only, --allow). Everything else in the file is kept, byte for
     /// byte; a compressed model is decompressed if its geometry is repaired.
     #[arg(long, help_heading = "Repair")]
     pub fix: bool,

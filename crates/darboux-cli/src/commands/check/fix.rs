@@ -1,5 +1,6 @@
 //! `darboux check --fix`: repairs models and normal maps, and says what was repaired.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
@@ -211,7 +212,7 @@ fn other_views(json: &Value, binary: &[u8]) -> Option<Vec<Vec<u8>>> {
     let items = |name: &str| json.get(name).and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
     let number = |value: &Value, name: &str| value.get(name).and_then(Value::as_u64);
     let users = items("accessors").iter().chain(items("images"));
-    let used: Vec<u64> = users.filter_map(|user| number(user, "bufferView")).collect();
+    let used: BTreeSet<u64> = users.filter_map(|user| number(user, "bufferView")).collect();
     let others = items("bufferViews").iter().zip(0..).filter(|(_, index)| !used.contains(index));
     let is_in_glb = |view: &Value| number(view, "buffer") == Some(0);
     let bytes = |(view, _): (&Value, u64)| {
