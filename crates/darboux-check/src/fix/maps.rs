@@ -1,6 +1,6 @@
 //! Rewrites the texels of normal maps at their bit depth.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use darboux::{
     BitangentDirection, Convention, Conversion, MapJudgement, MapVerdict, SrgbMistake, TangentDirection,
@@ -17,7 +17,7 @@ use super::outcome::{FixedFinding, is_same, outcome};
 use crate::check::{CheckedMap, ModelOfMaps, check_map, check_map_on_surfaces, check_texels};
 use crate::code::Code;
 use crate::finding::{Finding, Place};
-use crate::map_users::{MapSurfaces, MapUsers};
+use crate::map_users::MapUsers;
 use crate::severity::Severity;
 
 /// The result of [`fix_map`].
@@ -115,7 +115,8 @@ fn fix_checked(
 fn keep_reasons(known: &[Finding], findings: &mut [Finding]) {
     for finding in findings {
         let before = known.iter().find(|known| is_same(known, finding));
-        finding.left_because = finding.left_because.take().or(before.and_then(|known| known.left_because.clone()));
+        finding.left_because =
+            finding.left_because.take().or(before.and_then(|known| known.left_because.clone()));
     }
 }
 
@@ -218,7 +219,8 @@ pub fn fix_images(
         let findings =
             of_image.clone().map(|finding| Finding { place: Place::default(), ..finding.clone() }).collect();
         let checked = CheckedMap { findings, ..check_map(&file, &options.check) };
-        let check = |file: &[u8]| check_texels(file, &surfaces[&index], &options.check);
+        let surfaces = users.of(index)?;
+        let check = |file: &[u8]| check_texels(file, &surfaces, &options.check);
         let made = match fix_checked(&name, &file, checked, &check, document.load_options(), options) {
             Ok(made) => made,
             Err(error) => {
@@ -239,23 +241,4 @@ pub fn fix_images(
         document.replace_image(index, bytes, "image/png")?;
     }
     Ok(fixed)
-}
-
-/// The surfaces on which the images are that are to be repaired. Compressed geometry is decompressed for that, and stays compressed in the document.
-fn surfaces_of_images(
-    document: &mut Document,
-    findings: &[Finding],
-    options: &FixOptions,
-) -> Result<BTreeMap<usize, MapSurfaces>, Error> {
-    let wanted = findings.iter().filter(|finding| options.repairs(finding));
-    let images: BTreeSet<usize> = wanted.filter_map(|finding| finding.place.image).collect();
-    if images.is_empty() {
-        return Ok(BTreeMap::new());
-    }
-    let checkpoint = document.checkpoint();
-    document.decompress()?;
-    let users = MapUsers::new(document, &document.appearances()?)?;
-    let surfaces = images.into_iter().map(|image| Ok((image, users.of(image)?))).collect();
-    document.roll_back(checkpoint);
-    surfaces
 }
