@@ -10,7 +10,7 @@ mod uvs;
 
 pub use maps::{BY_FACES, directions_by_mesh};
 pub use normals::UNIT as UNIT_NORMAL;
-pub use tangents::{MAX_DEGREES_FROM_PLANE, SIGN, UNIT as UNIT_TANGENT, has_length, is_finite};
+pub use tangents::{SIGN, UNIT as UNIT_TANGENT, has_length, is_finite, leaning};
 
 use crate::rule::{MapRule, MaterialRule, SurfaceRule};
 

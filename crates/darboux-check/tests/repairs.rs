@@ -118,6 +118,26 @@ fn a_part_of_three_mistakes_that_cancel_is_left() {
     assert_eq!(findings.iter().filter(|fixed| fixed.repaired).count(), 3, "{findings:?}");
 }
 
+/// A map with both channels inverted under a scale of -1 gives the right picture, which a repair of the map alone would turn over.
+#[test]
+fn channels_that_a_negative_scale_inverts_are_left() {
+    let mut model = baked_models().remove(0);
+    model.map = model.map.through(|[r, g, b]| [1.0 - r, 1.0 - g, b]);
+    let with_scale = |scale: f64| {
+        let glb =
+            with_json(&model.glb(), |json| json["materials"][0]["normalTexture"]["scale"] = scale.into());
+        read(glb)
+    };
+    let inverted = [Code::MapGreenFlipped, Code::MapRedFlipped];
+    for (scale, is_repaired) in [(1.0, true), (-1.0, false)] {
+        let mut document = with_scale(scale);
+        let findings = fixed(&mut document, &mut with_scale(scale), &FixOptions::default());
+        let of_channels = || findings.iter().filter(|fixed| inverted.contains(&fixed.finding.code));
+        assert_eq!(of_channels().count(), 2, "{findings:#?}");
+        assert!(of_channels().all(|fixed| fixed.repaired == is_repaired), "{findings:#?}");
+    }
+}
+
 #[test]
 fn all_instances_are_repaired() {
     let mut model = spoilt();

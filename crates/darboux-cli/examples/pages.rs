@@ -212,7 +212,7 @@ const SAID: &[(Code, &str)] = &[
     ),
     (
         Code::MapScaleNegative,
-        "may the scale of a normal texture be negative at all, and what does it mean then?",
+        "the scale of a normal texture may be negative, but what that means is not clear",
     ),
     (
         Code::TransformMirrors,

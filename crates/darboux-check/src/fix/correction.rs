@@ -18,7 +18,7 @@ use crate::finding::Finding;
 use crate::fit::{Difference, Fit, flips_signs, is_at_most_a_part};
 use crate::outliers::Outliers;
 use crate::rule::Measured;
-use crate::rules::{MAX_DEGREES_FROM_PLANE, SIGN, UNIT_TANGENT, has_length, is_finite};
+use crate::rules::{SIGN, UNIT_TANGENT, has_length, is_finite, leaning};
 use crate::surface::{Surface, dot, length, xyz};
 
 /// The codes of findings that always do.
@@ -131,6 +131,8 @@ struct Corrector<'a> {
     signs: Vec<VertexSign>,
     /// Per vertex whether a finding that is to be repaired is about its sign.
     has_named_sign: Vec<bool>,
+    /// The vertices whose tangents lean, ascending.
+    leaning: Vec<usize>,
     /// The vertices whose tangents are not those of the method that made the others, ascending.
     outliers: Vec<usize>,
 }
@@ -172,6 +174,7 @@ impl<'a> Corrector<'a> {
         }
         Some(Self {
             has_named_sign: with_named_signs(&measured, tangents, codes),
+            leaning: leaning(&measured).into_iter().map(|(vertex, _)| vertex).collect(),
             outliers: Outliers::of(&measured).map_or(Vec::new(), |outliers| outliers.vertices),
             surface,
             tangents,
@@ -247,7 +250,7 @@ impl<'a> Corrector<'a> {
         }
         let kept = if self.is_negated(vertex) { old.map(|x| -x) } else { old };
         let is_other_length = (length(kept) - 1.0).abs() > UNIT_TANGENT;
-        if self.leans(vertex, kept) && self.repairs(Code::TangentNotPerpendicular) {
+        if self.repairs(Code::TangentNotPerpendicular) && self.leaning.binary_search(&vertex).is_ok() {
             return self.in_plane(vertex, kept).map_or(Direction::Unknown, Direction::Near);
         }
         match is_other_length && self.repairs(Code::TangentNotUnit) {
@@ -280,15 +283,6 @@ impl<'a> Corrector<'a> {
                 has_length(self.tangents[vertex]) && !is_wrong
             }
         }
-    }
-
-    fn leans(&self, vertex: usize, direction: [f32; 3]) -> bool {
-        let Some(normals) = self.surface.normals.as_ref().filter(|_| !self.measured.has_own_tangent[vertex])
-        else {
-            return false;
-        };
-        let sine = dot(direction, normals[vertex]) / (length(direction) * length(normals[vertex]));
-        sine.abs() > MAX_DEGREES_FROM_PLANE[0].to_radians().sin()
     }
 
     /// A direction laid into the plane of the normal, with length 1; none where little of it lies there.

@@ -36,7 +36,7 @@ pub const SIGN: f32 = 0.01;
 const MAX_PERCENT_OF_PART: f64 = 1.0;
 
 /// Degrees from the plane of the normal.
-pub const MAX_DEGREES_FROM_PLANE: [f64; 2] = [2.0, 15.0];
+const MAX_DEGREES_FROM_PLANE: [f64; 2] = [2.0, 15.0];
 
 fn missing(measured: &Measured<'_>) -> Vec<Finding> {
     let surface = measured.surface;
@@ -113,7 +113,8 @@ fn sign_not_one(measured: &Measured<'_>) -> Vec<Finding> {
     vertices(measured.surface, Code::TangentSignNotOne, is_other, text)
 }
 
-fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
+/// The vertices whose tangents lean towards their normals by a mistake of their own, ascending, each with the degrees from the plane of the normal.
+pub fn leaning(measured: &Measured<'_>) -> Vec<(usize, f64)> {
     if measured.other_axes.is_some() {
         return Vec::new();
     }
@@ -130,13 +131,18 @@ fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
             0.0
         }
     };
-    let angles: Vec<f64> = (0..tangents.len()).map(angle).collect();
-    let found = measured.surface.used(indices_where(&angles, |angle| *angle > MAX_DEGREES_FROM_PLANE[0]));
+    let leans = |&vertex: &usize| angle(vertex) > MAX_DEGREES_FROM_PLANE[0];
+    let found = measured.surface.used((0..tangents.len()).filter(leans).collect());
     let found = without_spoilt_normals(measured.surface, normals, found);
+    found.into_iter().map(|vertex| (vertex, angle(vertex))).collect()
+}
+
+fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
+    let (found, angles): (Vec<usize>, Vec<f64>) = leaning(measured).into_iter().unzip();
     if found.is_empty() {
         return Vec::new();
     }
-    let worst = found.iter().map(|&vertex| angles[vertex]).fold(0.0, f64::max);
+    let worst = angles.into_iter().fold(0.0, f64::max);
     let severity = if worst > MAX_DEGREES_FROM_PLANE[1] { Severity::Error } else { Severity::Warning };
     let tangents = counted(
         found.len(),

@@ -290,7 +290,7 @@ impl Repair<'_> {
     fn stale_output(&self, job: &Job, is_changed: bool) -> Option<String> {
         let Output::File(path) = &job.output else { return None };
         let is_stale = !is_changed && !self.arguments.files.names_output() && path.exists();
-        is_stale.then(|| format!("{} is of an earlier run: nothing was repaired in this one", path.display()))
+        is_stale.then(|| format!("{} exists and was not written, because nothing was repaired; delete it if an earlier run made it", path.display()))
     }
 
     /// The status where nothing is to be written: without a named output, nothing was changed, or an earlier run has written the same; none otherwise.

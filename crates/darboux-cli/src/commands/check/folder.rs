@@ -24,6 +24,9 @@ pub fn maps_instead(folder: &Path) -> Option<String> {
 pub fn unused_maps<'a>(folder: &Path, models: impl Iterator<Item = &'a Path>) -> Option<String> {
     let mut images = images(folder);
     images.retain(|path| is_named_like_normals(path));
+    if images.is_empty() {
+        return None;
+    }
     for model in models {
         let json = json_of(model).unwrap_or_default();
         let json = String::from_utf8_lossy(&json).replace("%20", " ");
