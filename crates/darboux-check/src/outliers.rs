@@ -107,8 +107,8 @@ fn angles(measured: &Measured<'_>, of_corners: &[[f32; 4]], made: &[[f32; 4]]) -
     Some(angles)
 }
 
-/// The tangents of corners as methods compute them, without what other rules name: signs that differ or are none become those of MikkTSpace,
-/// negated directions are turned back, and single rotated ones become those of MikkTSpace. None where there are no tangents or none can be computed.
+/// The tangents of corners as methods compute them, without what other rules name: signs that are none, and all where some are flipped, become those
+/// of MikkTSpace, negated directions are turned back, and single rotated ones become those of MikkTSpace. None where there are no tangents or none can be computed.
 pub fn tangents_without_other_mistakes(measured: &Measured<'_>) -> Option<Vec<[f32; 4]>> {
     let surface = measured.surface;
     let of_vertex = surface.tangents.as_ref()?;
@@ -122,16 +122,23 @@ pub fn tangents_without_other_mistakes(measured: &Measured<'_>) -> Option<Vec<[f
             }
         }
     }
-    let differ = |fit: &Fit| !matches!(fit.difference, Difference::None | Difference::Unknown);
-    let is_no_sign = |tangent: &[f32; 4]| (tangent[3].abs() - 1.0).abs() > SIGN;
-    if measured.reversal.is_some() || measured.fits.iter().any(differ) || of_vertex.iter().any(is_no_sign) {
+    let single =
+        [Difference::None, Difference::Unknown, Difference::PartlyNegated, Difference::PartlyRotated];
+    let is_about_all = |fit: &Fit| !single.contains(&fit.difference);
+    let all_signs = measured.reversal.is_some() || measured.fits.iter().any(is_about_all);
+    let is_no_sign =
+        |vertex: usize| (of_vertex[vertex][3].abs() - 1.0).abs() > SIGN || of_vertex[vertex][3].is_nan();
+    let is_rotated = |vertex: usize| measured.fits.iter().any(|fit| fit.is_rotated(vertex));
+    if all_signs || (0..of_vertex.len()).any(|vertex| is_no_sign(vertex) || is_rotated(vertex)) {
         let expected = surface.expected_tangents(surface.uv_set)?;
-        let is_rotated = |vertex: u32| measured.fits.iter().any(|fit| fit.is_rotated(vertex as usize));
         for ((tangent, &vertex), expected) in tangents.iter_mut().zip(&surface.vertex_of_corner).zip(expected)
         {
-            let expected = to_generated.tangent(expected);
-            *tangent =
-                if is_rotated(vertex) { expected } else { [tangent[0], tangent[1], tangent[2], expected[3]] };
+            let (vertex, expected) = (vertex as usize, to_generated.tangent(expected));
+            if is_rotated(vertex) {
+                *tangent = expected;
+            } else if all_signs || is_no_sign(vertex) {
+                tangent[3] = expected[3];
+            }
         }
     }
     Some(tangents)
