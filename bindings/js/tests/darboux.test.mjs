@@ -221,7 +221,7 @@ const wrong = [
   [() => esm.encodeTangents(tangents, 'snorm4'), RangeError, /^encoding is 'snorm4'; /],
   [() => esm.encodeTangents(tangents, 'diamond'), TypeError, /^normals must be a Float32Array, not Undefined$/],
   [() => esm.encodeTangents(tangents, 'diamond', normals), RangeError, /^normals has 4 elements but there are 6 tangents; /],
-  [() => esm.decodeTangents(new Int16Array(4), 'snorm8'), TypeError, /^codes must be a Int8Array, not Int16Array$/],
+  [() => esm.decodeTangents(new Int16Array(4), 'snorm8'), TypeError, /^codes must be an Int8Array, not Int16Array$/],
   [() => esm.decodeTangents(new Int8Array(5), 'snorm8'), RangeError, /^codes has a length of 5, /],
 ];
 
