@@ -54,8 +54,14 @@
 //! # Where the fast path does not apply
 //!
 //! The whole mesh takes the general path where the reference's own order of vertices decides: values that are not finite or above 1e38,
-//! equal vertices that differ in the sign of a zero, more than 256 vertices of one hash. So do faces of other than 3 or 4
-//! corners, and thresholds below about 0.36 degrees.
+//! more than 256 vertices of one hash. So do faces of other than 3 or 4 corners, and thresholds below about 0.36 degrees.
+//!
+//! # Equal vertices that differ in the sign of a zero
+//!
+//! The reference reads the values of one of them, and it does not matter which. With a zero of the other sign, sums, products and square
+//! roots change in the sign of a zero at most, comparisons and arccosines do not change at all, and nothing is divided by a zero. A tangent
+//! is a sum that starts at +0, times a positive factor, and no addition turns +0 into -0. So the sign of a zero in the input reaches no result.
+//! (Repairs read the normals of corners, not those of welded vertices.)
 //!
 //! # Memory and threads
 //!

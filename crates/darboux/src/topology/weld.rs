@@ -1,8 +1,8 @@
 //! Welding: merges corners with equal position, normal and UV into one vertex.
 //!
 //! Values compare as floats: -0 equals +0, and NaN equals nothing. A welded vertex is named by the corner that represents it. The choice
-//! of the representative can change the last bits of a tangent, because merged corners may differ in the sign of a zero, and because edges
-//! are sorted by names. So the representative is the reference's, the first corner in this order:
+//! of the representative can change which triangles share a tangent, because edges are sorted by names. So the representative is the
+//! reference's, the first corner in this order:
 //!
 //! ```text
 //! sort the corners into 2048 cells along the longest axis of the bounding box (stable)

@@ -11,7 +11,7 @@ use crate::tangents::fast::proof::UNDECIDED;
 use crate::tangents::fast::quads::{FaceSplit, MIN_AREA, triangle_count};
 use crate::tangents::fast::state::{FastPath, triangle_list};
 use crate::tangents::fast::triangle_list::{TriangleList, WeldMap};
-use crate::tangents::fast::vertex_record::{VertexRecord, VertexSlices, position_of, record_of, same_bits};
+use crate::tangents::fast::vertex_record::{VertexRecord, VertexSlices, position_of, record_of};
 use crate::tangents::fast::worker::Worker;
 
 /// What a plan keeps of a run.
@@ -62,7 +62,7 @@ impl PlannedWeld {
         let Self::OfVertex(welded) = self else { return true };
         threads::all(limits, welded.len(), |vertex| {
             let first = welded[vertex] as usize;
-            first == vertex || same_bits(&record_of(mesh, vertex), &record_of(mesh, first))
+            first == vertex || record_of(mesh, vertex) == record_of(mesh, first)
         })
     }
 
@@ -148,24 +148,24 @@ impl FastPath {
         let records = &self.records[..];
         let ranges = split_range(0..welded.len(), self.workers.len(), 1);
         threads::run(&mut self.workers, ranges, |worker, range| {
-            let Worker { slices: buffer, differing_bits, .. } = worker;
-            *differing_bits = 0;
+            let Worker { slices: buffer, corners_differ, .. } = worker;
+            *corners_differ = 0;
             for start in range.clone().step_by(WINDOW) {
                 let corners = start..(start + WINDOW).min(range.end);
                 let slices = VertexSlices::of_corners(mesh, corners.clone(), buffer);
-                width.run(CompareCorners { slices, welded: &welded[corners], records, differing_bits });
+                width.run(CompareCorners { slices, welded: &welded[corners], records, corners_differ });
             }
         });
-        self.workers.iter().all(|worker| worker.differing_bits == 0)
+        self.workers.iter().all(|worker| worker.corners_differ == 0)
     }
 }
 
-/// Collects the bits in which corners differ from the records of their welded vertices.
+/// Finds whether corners differ from the records of their welded vertices.
 struct CompareCorners<'a> {
     slices: VertexSlices<'a>,
     welded: &'a [u32],
     records: &'a [VertexRecord],
-    differing_bits: &'a mut u32,
+    corners_differ: &'a mut u32,
 }
 
 impl Task for CompareCorners<'_> {
@@ -176,7 +176,7 @@ impl Task for CompareCorners<'_> {
         for (((&[x, y, z], &[a, b, c]), &[u, v]), &vertex) in values.zip(self.welded) {
             let (record, corner) = (&self.records[vertex as usize], [x, y, z, a, b, c, u, v]);
             for k in 0..8 {
-                *self.differing_bits |= record[k].to_bits() ^ corner[k].to_bits();
+                *self.corners_differ |= u32::from(record[k] != corner[k]);
             }
         }
     }

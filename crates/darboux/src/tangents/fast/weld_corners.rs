@@ -61,7 +61,7 @@ impl CornerWeld {
         let number = |(record, &hash): (&VertexRecord, &u32)| self.distinct.number(record, hash);
         later.numbers.clear();
         later.numbers.extend(records.iter().zip(table.hashes()).map(number));
-        self.distinct.is_unsupported |= later.distinct.is_unsupported;
+        self.distinct.has_long_chain |= later.distinct.has_long_chain;
     }
 
     /// Turns numbers within this range into those that [`CornerWeld::append`] has found.
@@ -74,8 +74,8 @@ impl CornerWeld {
 #[derive(Debug, Default)]
 pub(crate) struct DistinctVertices {
     pub records: Vec<VertexRecord>,
-    /// Equal vertices differ in the sign of a zero, or too many vertices have one hash.
-    pub is_unsupported: bool,
+    /// Too many vertices have one hash.
+    pub has_long_chain: bool,
     seen: HashFilter,
     table: ChainedTable,
 }
@@ -84,7 +84,7 @@ impl DistinctVertices {
     /// Removes all vertices, and chooses a size for the vertices of so many corners.
     fn clear(&mut self, corners: usize) {
         self.records.clear();
-        self.is_unsupported = false;
+        self.has_long_chain = false;
         self.seen.clear(corners / 4);
         self.table.clear(corners / 8);
     }
@@ -95,12 +95,9 @@ impl DistinctVertices {
         // Most vertices are new, and the filter tells so for most of these without a search.
         let is_equal = |known: u32| self.records[known as usize] == *record;
         let known = if self.seen.insert(hash) { self.table.find(hash, is_equal) } else { Ok(None) };
-        self.is_unsupported |= known.is_err();
+        self.has_long_chain |= known.is_err();
         match known.unwrap_or(None) {
-            Some(known) => {
-                self.is_unsupported |= !same_bits(&self.records[known as usize], record);
-                known
-            }
+            Some(known) => known,
             None => {
                 let new = self.records.len() as u32;
                 self.table.push(hash);

@@ -1,8 +1,9 @@
 //! Welding by hashing: every vertex is replaced by the first vertex whose position, normal and UV equal its own as floats.
 //!
 //! The reference welds in an order of its own, and a welded vertex takes its values from one of its corners. That order matters only
-//! where values are not finite or so large that the reference does not weld them, and where equal vertices differ in the sign of a
-//! zero. The fast path does not apply to such meshes. (The order also matters for the last edges: see `edge_tail.rs`.)
+//! where values are not finite or so large that the reference does not weld them; the fast path does not apply to such meshes. (The order
+//! also matters for the last edges: see `edge_tail.rs`.) Equal vertices can differ in the sign of a zero, which no result shows: the head
+//! of `fast.rs` says why.
 
 use crate::Indices;
 use crate::Mesh;
@@ -14,7 +15,7 @@ use crate::exec::windows::WINDOW;
 use crate::tangents::fast::hash_table::{ChainedTable, SeenHashes};
 use crate::tangents::fast::triangle_list::WeldMap;
 use crate::tangents::fast::vertex_hash::{HashVertices, ValueRange};
-use crate::tangents::fast::vertex_record::{VertexSlices, record_of, same_bits};
+use crate::tangents::fast::vertex_record::{VertexSlices, record_of};
 use crate::tangents::fast::weld_corners::CornerWeld;
 use crate::tangents::fast::worker::Worker;
 
@@ -102,14 +103,12 @@ impl HashWeld {
     fn weld_collisions(&mut self, mesh: &Mesh<'_>, seen: &SeenHashes, collisions: usize) -> Option<()> {
         self.table.clear(2 * collisions);
         self.candidates.clear();
-        let mut differ_in_zeros = false;
         for (vertex, &hash) in (0..).zip(&self.hashes).filter(|(_, hash)| seen.occurs_twice(**hash)) {
             let record = || record_of(mesh, vertex as usize);
             let candidate = |at: u32| self.candidates[at as usize] as usize;
             let is_equal = |at: u32| record_of(mesh, candidate(at)) == record();
             match self.table.find(hash, is_equal).ok()? {
                 Some(at) => {
-                    differ_in_zeros |= !same_bits(&record_of(mesh, candidate(at)), &record());
                     if self.welded.is_empty() {
                         self.welded.extend(0..self.count as u32);
                     }
@@ -122,7 +121,7 @@ impl HashWeld {
                 }
             }
         }
-        if differ_in_zeros { None } else { Some(()) }
+        Some(())
     }
 
     /// Welds the corners: each thread those of its own range, then all distinct vertices with those of the first range.
@@ -141,6 +140,6 @@ impl HashWeld {
         threads::run(workers, jobs, |_, (welded, later)| later.renumber(welded));
         self.count = first.distinct.records.len();
         self.bounds = ValueRange::bounds(self.corners.iter().map(|corners| &corners.value_range))?;
-        if self.corners[0].distinct.is_unsupported { None } else { Some(()) }
+        if self.corners[0].distinct.has_long_chain { None } else { Some(()) }
     }
 }

@@ -42,8 +42,8 @@ pub(crate) struct Worker {
     pub value_range: ValueRange,
     /// The hashes of the thread's vertices. The first worker's are merged with those of all.
     pub seen_hashes: SeenHashes,
-    /// The bits in which corners differ from the record that they were welded to.
-    pub differing_bits: u32,
+    /// Not zero where a corner differs from the record that it was welded to.
+    pub corners_differ: u32,
 }
 
 impl Worker {
