@@ -5,6 +5,7 @@
 
 use darboux_dice::Dice;
 
+use crate::model_part::model_part;
 use crate::{FaceSizes, OwnedMesh, families};
 
 /// A mesh and a threshold to run it with.
@@ -41,13 +42,14 @@ pub const THRESHOLDS: [f32; 20] = [
 ];
 
 impl Case {
-    /// A mesh of up to about sixty faces.
+    /// A mesh of up to about sixty faces, or a part as models have it of up to two hundred.
     pub fn draw(dice: &mut Dice) -> Self {
         let threshold = dice.pick(&THRESHOLDS);
-        let mut mesh = match dice.below(8) {
+        let mut mesh = match dice.below(12) {
             0..4 => soup(dice),
             4..7 => damaged_family(dice),
-            _ => crowded_edges(dice),
+            7 => crowded_edges(dice),
+            _ => model_part(dice),
         };
         if dice.one_in(6) {
             insert_unsupported_faces(dice, &mut mesh);
@@ -217,7 +219,7 @@ fn damage(dice: &mut Dice, mesh: &mut OwnedMesh) {
 }
 
 /// Makes the copies of a vertex differ in the signs of their zeros.
-fn negate_zeros(dice: &mut Dice, mesh: &mut OwnedMesh) {
+pub(crate) fn negate_zeros(dice: &mut Dice, mesh: &mut OwnedMesh) {
     *mesh = mesh.unindexed();
     let [positions, normals] = [&mut mesh.positions, &mut mesh.normals].map(|list| list.as_flattened_mut());
     let numbers = positions.iter_mut().chain(normals).chain(mesh.uvs.as_flattened_mut());
@@ -226,7 +228,7 @@ fn negate_zeros(dice: &mut Dice, mesh: &mut OwnedMesh) {
     }
 }
 
-fn damage_faces(dice: &mut Dice, mesh: &mut OwnedMesh) {
+pub(crate) fn damage_faces(dice: &mut Dice, mesh: &mut OwnedMesh) {
     let mut faces = mesh.face_list();
     let (a, b) = (dice.below(faces.len()), dice.below(faces.len()));
     match dice.below(6) {

@@ -11,6 +11,7 @@ pub mod families;
 pub mod generate;
 pub mod maps;
 pub mod mesh;
+mod model_part;
 pub mod models;
 pub mod oracle;
 pub mod shrink;

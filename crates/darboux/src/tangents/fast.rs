@@ -4,8 +4,9 @@
 //! edges and have one UV orientation into groups, splits groups by angle into subgroups, and gives the corners of a subgroup one tangent: the
 //! sum, in the order of the triangle list, of the triangles' unit tangents weighted by corner angle. Around nearly every vertex of a real
 //! mesh all triangles form one subgroup. There, the sum over *all* triangles is that sum, with equal bits. So the fast path adds
-//! every triangle to its vertices without looking up an edge, and proves afterwards for which vertices this was right. The others are
-//! *undecided*: they and all triangles around them go through the general path (`submesh.rs`).
+//! every triangle to its vertices without looking up an edge, and proves afterwards for which vertices this was right. For the others, which
+//! are *undecided*, it finds the groups around each vertex from the triangles around it (`resolve.rs`). What is left then goes through the
+//! general path (`submesh.rs`): unusable tangents that a mode repairs, large groups with opposite directions.
 //!
 //! ```text
 //! split quads into triangles                                                  quads.rs
@@ -27,6 +28,8 @@
 //!     make vertices of the reference's last edges undecided where the order of these edges matters
 //! if the angular threshold is below 180 degrees:                              angle_bounds.rs
 //!     make vertices undecided whose tangents or bitangents may differ by the threshold
+//! match the edges at each undecided vertex, find its groups                   undecided.rs, fans.rs
+//! add the triangles again, to groups instead of vertices                      resolve.rs
 //! ```
 //!
 //! # Why the tests suffice
@@ -50,6 +53,25 @@
 //! be made for it. The probability of a wrong decision is 2^-64 for a vertex whose sum is zero or determines a and b, and at most
 //! 2^-58 where a - b has so many factors of two that up to 64 pairs are tried; this takes the hash for a random function. (With a known key,
 //! twenty triangles that are twenty fans and pass the test were found by lattice reduction in a second.)
+//!
+//! # Why groups can be found vertex by vertex
+//!
+//! - **Edges.** The reference sorts the half-edges by vertices and then by triangle, and matches each with the first unmatched one between
+//!   the same vertices that runs the opposite way. So which half-edges match depends on the half-edges between these two vertices and on the
+//!   order of their triangles, and on nothing else. All of them are around either vertex. This holds for edges of any number of triangles;
+//!   the exception are the reference's last edges, whose runs are found first.
+//! - **Groups.** A group is a flood fill around its vertex, from triangle to triangle across matched edges, where the orientation is equal.
+//!   Triangles without UV area take part in one more decision, which is not local: each adopts the orientation of the first group that
+//!   reaches it at any of its vertices. So the fills run in the reference's order, by their first triangles. All vertices of such a triangle
+//!   are undecided, so no fill that could reach it is missing.
+//! - **Sums.** All members of a group join when nothing is opposite (the test above, on the marks of the members alone). The group's sum is
+//!   the sum of its triangles in their order, and the terms come from the same kernel. Triangles without UV area add nothing. Where the test
+//!   fails, or the threshold is smaller, all pairs of members are compared as the reference compares them (`pairs.rs`).
+//! - **Copies.** A corner of a degenerate triangle takes the tangent of the first other corner at its vertex.
+//!
+//! A vertex whose tangent has to be repaired stays undecided, and so does one with too many triangles for pairs. The general path then groups
+//! these vertices anew. Their groups depend on those of other vertices through triangles without UV area and through degenerate triangles
+//! only, so all vertices of such triangles are left to it as well.
 //!
 //! # Where the fast path does not apply
 //!
@@ -76,13 +98,16 @@ mod accumulator;
 mod angle_bounds;
 mod edge_tail;
 mod exceptions;
+mod fans;
 mod full_frames;
 mod hash_table;
 mod kernel;
+mod pairs;
 mod passes;
 mod proof;
 mod quads;
 mod replay;
+mod resolve;
 mod resume;
 mod scattered;
 mod schedule;
@@ -90,6 +115,7 @@ mod second_pass;
 mod state;
 mod streamed;
 mod triangle_list;
+mod undecided;
 mod vertex_hash;
 mod vertex_names;
 mod vertex_quantity;

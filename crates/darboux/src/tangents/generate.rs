@@ -60,6 +60,6 @@ fn run_mikktspace(
     match () {
         () if !fast.run(mesh, options, limits, out) => mikktspace::run(mesh, options, limits, out),
         () if limits.is_cancelled() => Report::default(),
-        () => submesh::decide(mesh, options, fast, limits, out),
+        () => submesh::complete(mesh, options, fast, limits, out),
     }
 }

@@ -131,6 +131,27 @@ impl UndecidedFaces {
     }
 }
 
+/// Writes the tangents of the undecided corners of `out`: first those that the groups around their vertices decide. Returns the report of the
+/// whole mesh.
+pub(crate) fn complete(
+    mesh: &Mesh<'_>,
+    options: &MikkTSpaceOptions,
+    fast: &mut FastPath,
+    limits: RunLimits<'_>,
+    out: &mut [[f32; 4]],
+) -> Report {
+    let resolved = fast.resolve(mesh, options, limits, out);
+    let left = decide(mesh, options, fast, limits, out);
+    let Some(resolved) = resolved else { return left };
+    Report {
+        triangles: left.triangles,
+        repaired_corners: resolved.repaired_corners + left.repaired_corners,
+        mixed_sign_faces: resolved.mixed_sign_faces + left.mixed_sign_faces,
+        split_vertices: fast.count_split_vertices(mesh, out),
+        ..resolved
+    }
+}
+
 /// Writes the tangents of the undecided corners of `out`. Returns the report of the whole mesh.
 pub(crate) fn decide(
     mesh: &Mesh<'_>,
@@ -167,9 +188,11 @@ fn are_all_undecided(vertex_of_corner: &[u32], is_undecided: &[bool]) -> Vec<boo
     vertex_of_corner.iter().map(|&vertex| of_vertex[vertex as usize]).collect()
 }
 
-/// Renumbers the corners of half-edges from the mesh to the submesh. `corners`: the corners of the submesh, ascending.
+/// Renumbers the corners of half-edges from the mesh to the submesh, and drops those outside. `corners`: the corners of the submesh,
+/// ascending.
 fn runs_within(corners: &[u32], runs: &[Vec<TriangleEdge>]) -> Vec<Vec<TriangleEdge>> {
     let within = |corner: u32| corners.partition_point(|&other| other < corner) as u32;
+    let is_inside = |(triangle, _): &&TriangleEdge| corners.binary_search(&triangle[0]).is_ok();
     let edge = |&(triangle, start): &TriangleEdge| (triangle.map(within), start);
-    runs.iter().map(|run| run.iter().map(edge).collect()).collect()
+    runs.iter().map(|run| run.iter().filter(is_inside).map(edge).collect()).collect()
 }

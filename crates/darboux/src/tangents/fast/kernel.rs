@@ -98,6 +98,17 @@ impl TriangleBlock {
         self.fingerprints();
     }
 
+    /// Computes terms and marks from records; the marks of rays are absent.
+    #[inline(always)]
+    pub fn evaluate_marked_terms(&mut self) {
+        self.unpack();
+        self.derivatives();
+        self.angles();
+        self.terms::<true>();
+        self.bitangent_marks();
+        self.pack::<false>();
+    }
+
     /// Computes terms alone from records. They are NaN where a triangle has no direction.
     #[inline(always)]
     pub fn evaluate_terms(&mut self) {

@@ -124,7 +124,7 @@ pub(crate) fn decided_sign(found: u32, first_ray_count: f32, fingerprint: &[u32;
 ///
 /// Two unit vectors whose components on one axis are both above 1/16 have a dot product above -1 + 2 / 256.
 #[inline(always)]
-fn is_one_subgroup(found: u32) -> bool {
+pub(crate) fn is_one_subgroup(found: u32) -> bool {
     let orientation = found & (marks::PRESERVES | marks::MIRRORS | marks::NEEDS_GENERAL_PATH);
     let has_axis = |shift: u32| found >> shift & marks::ALL_AXES != marks::ALL_AXES;
     (orientation == marks::PRESERVES) | (orientation == marks::MIRRORS)

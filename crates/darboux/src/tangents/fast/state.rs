@@ -13,6 +13,7 @@ use crate::tangents::fast::edge_tail::{EdgeTail, TailBuffers, TailCells};
 use crate::tangents::fast::exceptions::Exceptions;
 use crate::tangents::fast::full_frames::FullFrames;
 use crate::tangents::fast::quads::FaceSplit;
+use crate::tangents::fast::resolve::Resolution;
 use crate::tangents::fast::schedule::Schedule;
 use crate::tangents::fast::triangle_list::TriangleList;
 use crate::tangents::fast::vertex_names::VertexNames;
@@ -36,6 +37,7 @@ pub(crate) struct FastPath {
     /// Runs of the last edges whose order changes the result: the entries where the edges start.
     pub tail_runs: Vec<Vec<u32>>,
     pub full_frames: FullFrames,
+    pub resolution: Resolution,
     pub angle_bounds: AngleBounds,
     /// The record of each welded vertex, where a plan welds corners.
     pub records: Vec<VertexRecord>,

@@ -12,7 +12,7 @@ use crate::exec::windows::WINDOW;
 use crate::tangents::fast::proof::marks;
 use crate::tangents::fast::quads::{FaceSplit, split_vertices};
 use crate::tangents::fast::vertex_record::{
-    SliceBuffer, VertexRecord, VertexSlices, VertexValues, position_of,
+    SliceBuffer, VertexRecord, VertexSlices, VertexValues, position_of, record_of,
 };
 
 /// A mesh, how its vertices are welded, and how its faces are split.
@@ -150,6 +150,15 @@ impl<'a> TriangleList<'a> {
         match self.weld {
             WeldMap::OfCorner(_, records) => position_of(records[vertex as usize]),
             WeldMap::Unwelded | WeldMap::OfVertex(_) => self.mesh.positions().get(vertex as usize),
+        }
+    }
+
+    /// The values of a welded vertex.
+    #[inline(always)]
+    pub fn record(&self, vertex: u32) -> VertexRecord {
+        match self.weld {
+            WeldMap::OfCorner(_, records) => records[vertex as usize],
+            WeldMap::Unwelded | WeldMap::OfVertex(_) => record_of(self.mesh, vertex as usize),
         }
     }
 

@@ -51,7 +51,8 @@ pub(crate) fn derivatives_into(
     });
 }
 
-fn derivative(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> Derivative {
+/// The derivatives of a triangle.
+pub(crate) fn derivative(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> Derivative {
     let [e1, e2] = [sub(positions[1], positions[0]), sub(positions[2], positions[0])];
     let [du1, dv1] = [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]];
     let [du2, dv2] = [uvs[2][0] - uvs[0][0], uvs[2][1] - uvs[0][1]];

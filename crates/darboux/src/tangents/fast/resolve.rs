@@ -1,0 +1,260 @@
+//! Decides undecided vertices by the groups around each of them: several fans, mirrored halves, triangles without UV area, edges of more than
+//! two triangles.
+//!
+//! ```text
+//! collect the triangles with undecided vertices, and what their corners add              undecided.rs
+//! match the edges at each vertex, and find the groups                                     fans.rs
+//! add every triangle, in order, to the groups of its corners
+//! for each group: if nothing is opposite, all members share the sum; else compare all pairs   pairs.rs
+//! copy the tangents of groups to corners
+//! ```
+//!
+//! A group takes the place of the vertex in the first pass: its sum is that of its triangles in their order, with the same terms. Only what
+//! needs a repair, and large groups that are not one subgroup, stay undecided, and go through the general path; with such a vertex go those
+//! that it shares a triangle without UV area or a degenerate triangle with, because the groups around these depend on each other.
+
+use crate::Indices;
+use crate::Mesh;
+use crate::exec::limits::RunLimits;
+use crate::math::{cosine_of_degrees, dot, normalized_unless_zero};
+use crate::tangents::mikktspace::raw_frames::DEFAULT_FRAME;
+use crate::tangents::options::{MikkTSpaceOptions, Mode};
+use crate::tangents::repair::is_usable;
+use crate::tangents::report::Report;
+use crate::topology::triangles::NONE;
+use crate::util::radix_sort::{first, pair, second, sort};
+
+use crate::tangents::fast::fans::Fans;
+use crate::tangents::fast::pairs::PairwiseTest;
+use crate::tangents::fast::proof::is_one_subgroup;
+use crate::tangents::fast::state::{FastPath, triangle_list};
+use crate::tangents::fast::undecided::{UndecidedTriangles, kinds};
+
+/// The memory of the resolution, reused from mesh to mesh.
+#[derive(Debug, Default)]
+pub(crate) struct Resolution {
+    triangles: UndecidedTriangles,
+    fans: Fans,
+    pairs: PairwiseTest,
+    /// The tangent and the sign of each group.
+    tangents: Vec<[f32; 4]>,
+    /// True for groups whose tangent needs no repair.
+    is_usable: Vec<bool>,
+    /// True for vertices that stay undecided.
+    is_left: Vec<bool>,
+}
+
+impl FastPath {
+    /// Writes the tangents of undecided vertices, but for those that the general path has to compute: `exceptions.undecided` then lists the
+    /// faces of these. Returns the counts of what was resolved; `None` where nothing was tried.
+    pub fn resolve(
+        &mut self,
+        mesh: &Mesh<'_>,
+        options: &MikkTSpaceOptions,
+        limits: RunLimits<'_>,
+        out: &mut [[f32; 4]],
+    ) -> Option<Report> {
+        let Self { weld, split, exceptions, tail_runs, workers, resolution, .. } = self;
+        let list = triangle_list(mesh, weld, split);
+        let faces = &mut exceptions.undecided;
+        if faces.is_empty() || list.is_split() || limits.is_cancelled() {
+            return None;
+        }
+        let Resolution { triangles, fans, .. } = resolution;
+        triangles.collect(&list, faces, weld.count, out, &mut workers[0].block, limits);
+        let place = |&edge: &u32| triangles.entry_of(edge);
+        let tail_runs: Vec<Vec<u32>> = tail_runs.iter().map(|run| run.iter().map(place).collect()).collect();
+        if limits.is_cancelled() {
+            return None;
+        }
+        fans.find(triangles, &tail_runs);
+        resolution.find_tangents(cosine_of_degrees(options.threshold));
+        resolution.find_left(options.mode, out);
+        let report = resolution.write(out);
+        let is_left =
+            |triangle: &[u32; 3]| triangle.iter().any(|&vertex| resolution.is_left[vertex as usize]);
+        let mut is_face_left = resolution.triangles.triangles.iter().map(is_left);
+        faces.retain(|_| is_face_left.next().unwrap_or(true));
+        Some(report)
+    }
+
+    /// The number of vertices of the mesh whose corners have different tangents. `out`: the tangents of all corners.
+    pub fn count_split_vertices(&self, mesh: &Mesh<'_>, out: &[[f32; 4]]) -> usize {
+        if matches!(mesh.indices(), Indices::Unindexed) { 0 } else { self.resolution.count_split(mesh, out) }
+    }
+}
+
+impl Resolution {
+    /// Adds up the tangents of all groups.
+    fn find_tangents(&mut self, threshold_cosine: f32) {
+        let Self { triangles, fans, pairs, tangents, is_usable: usable, is_left } = self;
+        is_left.clear();
+        is_left.resize(triangles.is_undecided.len(), false);
+        for (terms, groups) in triangles
+            .terms
+            .iter()
+            .zip(fans.group_of_entry.as_chunks::<3>().0)
+            .zip(&triangles.kinds)
+            .filter(|(_, kind)| **kind & kinds::JOINS_ANY == 0)
+            .map(|(both, _)| both)
+        {
+            for (&[x, y, z, marks], &group) in terms.iter().zip(groups) {
+                if let Some(group) = fans.groups.get_mut(group as usize) {
+                    group.add([x, y, z]);
+                    group.marks |= marks.to_bits();
+                }
+            }
+        }
+        for group in 0..fans.groups.len() {
+            let joined = threshold_cosine == -1.0 && is_one_subgroup(fans.groups[group].marks);
+            if !joined && !pairs.separate(triangles, fans, group as u32, threshold_cosine) {
+                is_left[fans.groups[group].vertex as usize] = true;
+            }
+        }
+        tangents.clear();
+        usable.clear();
+        for group in &fans.groups {
+            let [x, y, z] = normalized_unless_zero(group.sum);
+            tangents.push([x, y, z, if group.preserves { 1.0 } else { -1.0 }]);
+            usable.push(needs_no_repair([x, y, z], triangles.normal(group.vertex)));
+        }
+        for &vertex in &triangles.inexact {
+            is_left[vertex as usize] |= triangles.is_undecided[vertex as usize];
+        }
+    }
+
+    /// Finds the vertices that stay undecided.
+    fn find_left(&mut self, mode: Mode, out: &[[f32; 4]]) {
+        let count = self.is_left.len();
+        if mode != Mode::Reference {
+            for vertex in (0..count).filter(|&vertex| self.triangles.is_undecided[vertex]) {
+                let all_usable = self.values_at(vertex).all(|(_, _, is_usable)| is_usable);
+                self.is_left[vertex] |= !all_usable;
+            }
+        }
+        if mode == Mode::Corrected {
+            self.leave_mixed_signs(out);
+        }
+        let mut pending: Vec<usize> = (0..count).filter(|&vertex| self.is_left[vertex]).collect();
+        while let Some(vertex) = pending.pop() {
+            for &entry in self.fans.entries_of(vertex) {
+                if self.triangles.kind(entry) & (kinds::JOINS_ANY | kinds::DEGENERATE) == 0 {
+                    continue;
+                }
+                for other in self.triangles.triangles[entry as usize / 3].map(|vertex| vertex as usize) {
+                    if self.triangles.is_undecided[other] && !self.is_left[other] {
+                        self.is_left[other] = true;
+                        pending.push(other);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Leaves the vertices of triangles whose corners have both signs.
+    fn leave_mixed_signs(&mut self, out: &[[f32; 4]]) {
+        let mut signs: Vec<[f32; 3]> =
+            self.triangles.numbers.iter().map(|&number| signs_of(out, number)).collect();
+        for vertex in (0..self.is_left.len()).filter(|&vertex| self.triangles.is_undecided[vertex]) {
+            for (entry, tangent, _) in self.values_at(vertex) {
+                signs[entry as usize / 3][entry as usize % 3] = tangent[3];
+            }
+        }
+        for (triangle, signs) in self.triangles.triangles.iter().zip(signs) {
+            if signs != [signs[0]; 3] {
+                for vertex in triangle.map(|vertex| vertex as usize) {
+                    self.is_left[vertex] |= self.triangles.is_undecided[vertex];
+                }
+            }
+        }
+    }
+
+    /// The entries of an undecided vertex with their tangents, and whether these need no repair.
+    ///
+    /// A corner that no group has reached keeps the default. One of a degenerate triangle has what the first other corner at the vertex has.
+    fn values_at(&self, vertex: usize) -> impl Iterator<Item = (u32, [f32; 4], bool)> {
+        let Self { triangles, fans, tangents, is_usable, .. } = self;
+        let entries = fans.entries_of(vertex);
+        let is_degenerate = |entry: u32| triangles.kind(entry) & kinds::DEGENERATE != 0;
+        let first_good = entries.iter().copied().find(|&entry| !is_degenerate(entry));
+        entries.iter().map(move |&entry| {
+            let source = if is_degenerate(entry) { first_good } else { Some(entry) };
+            let group = source.map_or(NONE, |source| fans.group_of_entry[source as usize]) as usize;
+            match tangents.get(group) {
+                Some(&tangent) => (entry, tangent, is_usable[group]),
+                None => {
+                    let tangent = DEFAULT_FRAME.tangent_and_sign();
+                    let normal = triangles.normal(vertex as u32);
+                    (entry, tangent, needs_no_repair(DEFAULT_FRAME.tangent, normal))
+                }
+            }
+        })
+    }
+
+    /// Writes the tangents of all vertices that are not left. Returns the counts of all triangles, and those of corners of triangles without a
+    /// vertex that is left.
+    fn write(&self, out: &mut [[f32; 4]]) -> Report {
+        let Self { triangles, fans, is_left, .. } = self;
+        let is_complete = |entry: u32| {
+            !triangles.triangles[entry as usize / 3].iter().any(|&vertex| is_left[vertex as usize])
+        };
+        let count = |kind: u8| triangles.kinds.iter().filter(|&&other| other & kind != 0).count();
+        let mut report = Report {
+            degenerate_triangles: count(kinds::DEGENERATE),
+            uv_degenerate_triangles: count(kinds::JOINS_ANY),
+            mirrored_edges: fans.mirrored_edges,
+            ..Report::default()
+        };
+        for vertex in (0..is_left.len()).filter(|&vertex| triangles.is_undecided[vertex] && !is_left[vertex])
+        {
+            for (entry, tangent, is_usable) in self.values_at(vertex) {
+                out[triangles.corner(entry) as usize] = tangent;
+                report.repaired_corners += usize::from(!is_usable && is_complete(entry));
+            }
+        }
+        // The corners of all other triangles have its orientation.
+        let is_doubtful = |kind: u8| kind & (kinds::JOINS_ANY | kinds::DEGENERATE) != 0;
+        for (triangle, &number) in triangles.numbers.iter().enumerate() {
+            if is_doubtful(triangles.kinds[triangle]) && is_complete(3 * triangle as u32) {
+                let signs = signs_of(out, number);
+                report.mixed_sign_faces += usize::from(signs != [signs[0]; 3]);
+            }
+        }
+        report
+    }
+
+    fn count_split(&self, mesh: &Mesh<'_>, out: &[[f32; 4]]) -> usize {
+        let Self { triangles, fans, .. } = self;
+        let bits = |entry: u32| out[triangles.corner(entry) as usize].map(f32::to_bits);
+        let mut count = 0;
+        let mut by_vertex = Vec::new();
+        for vertex in (0..triangles.is_undecided.len()).filter(|&vertex| triangles.is_undecided[vertex]) {
+            let entries = fans.entries_of(vertex);
+            if entries.iter().all(|&entry| bits(entry) == bits(entries[0])) {
+                continue;
+            }
+            let of_mesh = |entry: u32| mesh.vertex_of_corner(triangles.corner(entry) as usize) as u32;
+            by_vertex.clear();
+            by_vertex.extend(entries.iter().map(|&entry| pair(of_mesh(entry), entry)));
+            sort(&mut by_vertex);
+            let same = by_vertex.chunk_by(|&a, &b| first(a) == first(b));
+            let is_split =
+                |same: &&[u64]| same.iter().any(|&entry| bits(second(entry)) != bits(second(same[0])));
+            count += same.filter(is_split).count();
+        }
+        count
+    }
+}
+
+/// The signs of a triangle's corners. `number`: that of the triangle.
+fn signs_of(out: &[[f32; 4]], number: u32) -> [f32; 3] {
+    [0, 1, 2].map(|k| out[3 * number as usize + k][3])
+}
+
+/// As [`is_usable`], which is asked only near its limits.
+fn needs_no_repair(tangent: [f32; 3], normal: [f32; 3]) -> bool {
+    let (along, squared) = (dot(tangent, normal), dot(normal, normal));
+    let is_unit = (dot(tangent, tangent) - 1.0).abs() < 1e-3;
+    let is_clear = is_unit & (squared > 1e-30) & (squared < 1e30) & (along * along < 0.99 * squared);
+    is_clear || is_usable(tangent, normal)
+}
