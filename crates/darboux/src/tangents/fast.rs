@@ -159,7 +159,20 @@ impl FastPath {
         limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) -> bool {
-        self.run_stages::<()>(mesh, options, limits, &mut Vec::new(), out).is_some()
+        let decides_flat = options.mode != Mode::Corrected;
+        self.run_stages::<()>(mesh, options, limits, decides_flat, &mut Vec::new(), out).is_some()
+    }
+
+    /// As [`FastPath::run`] for a plan, which adds up the tangent of every decided vertex again: vertices whose triangles have no UV area stay
+    /// undecided.
+    pub fn run_for_plan(
+        &mut self,
+        mesh: &Mesh<'_>,
+        options: &MikkTSpaceOptions,
+        limits: RunLimits<'_>,
+        out: &mut [[f32; 4]],
+    ) -> bool {
+        self.run_stages::<()>(mesh, options, limits, false, &mut Vec::new(), out).is_some()
     }
 
     /// As [`FastPath::run`], and computes the bitangents and magnitudes of all vertices.
@@ -171,7 +184,7 @@ impl FastPath {
         out: &mut [[f32; 4]],
     ) -> bool {
         let mut full_frames = std::mem::take(&mut self.full_frames);
-        let applies = self.run_stages(mesh, options, limits, full_frames.quantities(), out).is_some();
+        let applies = self.run_stages(mesh, options, limits, false, full_frames.quantities(), out).is_some();
         if applies && self.schedule.is_scattered(&self.windows) && !limits.is_cancelled() {
             full_frames.compute(self.second_pass(mesh, limits));
         }
@@ -185,6 +198,7 @@ impl FastPath {
         mesh: &Mesh<'_>,
         options: &MikkTSpaceOptions,
         limits: RunLimits<'_>,
+        decides_flat: bool,
         quantities: &mut Vec<Q>,
         out: &mut [[f32; 4]],
     ) -> Option<()> {
@@ -205,9 +219,11 @@ impl FastPath {
         let list = triangle_list(mesh, &self.weld, &self.split);
         find_windows(&list, limits.width, &mut self.workers, &mut self.windows);
         let tail = TailCells::first(&list, &self.weld.bounds, self.is_shuffled());
-        self.discover(mesh, &tail, limits, quantities, out);
+        self.discover(mesh, (&tail, decides_flat), limits, quantities, out);
         self.tail_runs.clear();
-        if options.mode != Mode::Corrected && !limits.is_cancelled() {
+        // Where no triangle has UV area there are no groups, whatever the order of edges.
+        let has_groups = self.flat_triangles < triangle_count(mesh);
+        if has_groups && options.mode != Mode::Corrected && !limits.is_cancelled() {
             self.search_last_edges(mesh, tail, out);
         }
         if threshold_cosine > -1.0 && !limits.is_cancelled() {
@@ -225,13 +241,13 @@ impl FastPath {
     fn discover<Q: VertexQuantity>(
         &mut self,
         mesh: &Mesh<'_>,
-        tail: &TailCells,
+        (tail, decides_flat): (&TailCells, bool),
         limits: RunLimits<'_>,
         quantities: &mut Vec<Q>,
         out: &mut [[f32; 4]],
     ) {
         let list = triangle_list(mesh, &self.weld, &self.split);
-        let pass = Discover { tail, quantity: PhantomData };
+        let pass = Discover { tail, decides_flat, quantity: PhantomData };
         let input = PassInput { list, windows: &self.windows, pass, limits };
         self.exceptions.clear();
         quantities.clear();
@@ -239,6 +255,7 @@ impl FastPath {
         self.schedule.run(&input, &mut self.workers, quantities, out);
         self.workers.iter_mut().for_each(|worker| self.exceptions.append(&mut worker.exceptions));
         self.exceptions.sort(&list);
+        self.flat_triangles = self.workers.iter().map(|worker| worker.block.flat_triangles).sum();
     }
 
     /// Makes the vertices of the reference's last edges undecided, where the order of these edges changes the result. `tail`: its cells

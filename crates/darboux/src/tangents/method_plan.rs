@@ -54,7 +54,7 @@ impl MethodPlan {
         let mut base = Tangents::default();
         base.corners.0.resize(mesh.corner_count(), [0.0; 4]);
         let mut fast = FastPath::default();
-        if !fast.run(mesh, options, limits, &mut base.corners.0) {
+        if !fast.run_for_plan(mesh, options, limits, &mut base.corners.0) {
             let Some(topology) = GroupedMesh::new(mesh, options, limits) else {
                 return (Self::Nothing, base);
             };

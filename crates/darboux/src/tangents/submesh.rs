@@ -142,8 +142,10 @@ pub(crate) fn complete(
 ) -> Report {
     let resolved = fast.resolve(mesh, options, limits, out);
     let left = decide(mesh, options, fast, limits, out);
-    let Some(resolved) = resolved else { return left };
+    let uv_degenerate_triangles = fast.flat_triangles;
+    let Some(resolved) = resolved else { return Report { uv_degenerate_triangles, ..left } };
     Report {
+        uv_degenerate_triangles,
         triangles: left.triangles,
         repaired_corners: resolved.repaired_corners + left.repaired_corners,
         mixed_sign_faces: resolved.mixed_sign_faces + left.mixed_sign_faces,

@@ -72,6 +72,12 @@ impl VertexAccumulator {
     }
 
     #[inline(always)]
+    pub fn normal(&self) -> [f32; 3] {
+        let [_, _, _, x, y, z, ..] = self.record;
+        [x, y, z]
+    }
+
+    #[inline(always)]
     pub fn position(&self) -> [f32; 3] {
         position_of(self.record)
     }

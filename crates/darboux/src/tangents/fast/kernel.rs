@@ -48,28 +48,34 @@ pub(crate) struct TriangleBlock {
     pub magnitude_sum: [[[f32; 2]; BLOCK_SIZE]; 3],
     /// What each corner adds to its vertex's fingerprint.
     pub fingerprint: [[[u32; 4]; BLOCK_SIZE]; 3],
-    fingerprint_key: [u32; 2],
+    /// How many triangles without UV area have been counted.
+    pub flat_triangles: usize,
+}
+
+impl TriangleBlock {
+    /// All zeros.
+    const EMPTY: Self = Self {
+        vertex: [[0; BLOCK_SIZE]; 3],
+        first: 0,
+        packed: [[[[0.0; 4]; BLOCK_SIZE]; 2]; 3],
+        record: [[[0.0; BLOCK_SIZE]; 8]; 3],
+        angle: [[0.0; BLOCK_SIZE]; 3],
+        s: [[0.0; BLOCK_SIZE]; 3],
+        t: [[0.0; BLOCK_SIZE]; 3],
+        magnitude: [[0.0; BLOCK_SIZE]; 2],
+        face_marks: [0; BLOCK_SIZE],
+        term: [[[0.0; BLOCK_SIZE]; 3]; 3],
+        marks: [[0; BLOCK_SIZE]; 3],
+        sum: [[[0.0; 4]; BLOCK_SIZE]; 3],
+        magnitude_sum: [[[0.0; 2]; BLOCK_SIZE]; 3],
+        fingerprint: [[[0; 4]; BLOCK_SIZE]; 3],
+        flat_triangles: 0,
+    };
 }
 
 impl Default for TriangleBlock {
     fn default() -> Self {
-        Self {
-            vertex: [[0; BLOCK_SIZE]; 3],
-            first: 0,
-            packed: [[[[0.0; 4]; BLOCK_SIZE]; 2]; 3],
-            record: [[[0.0; BLOCK_SIZE]; 8]; 3],
-            angle: [[0.0; BLOCK_SIZE]; 3],
-            s: [[0.0; BLOCK_SIZE]; 3],
-            t: [[0.0; BLOCK_SIZE]; 3],
-            magnitude: [[0.0; BLOCK_SIZE]; 2],
-            face_marks: [0; BLOCK_SIZE],
-            term: [[[0.0; BLOCK_SIZE]; 3]; 3],
-            marks: [[0; BLOCK_SIZE]; 3],
-            sum: [[[0.0; 4]; BLOCK_SIZE]; 3],
-            magnitude_sum: [[[0.0; 2]; BLOCK_SIZE]; 3],
-            fingerprint: [[[0; 4]; BLOCK_SIZE]; 3],
-            fingerprint_key: fingerprint_key(),
-        }
+        Self::EMPTY
     }
 }
 
@@ -96,6 +102,16 @@ impl TriangleBlock {
         self.ray_marks();
         self.pack::<true>();
         self.fingerprints();
+    }
+
+    /// Counts those of the first `count` triangles that have no UV area.
+    #[inline(always)]
+    pub fn count_flat(&mut self, count: usize) {
+        let mut flat = 0;
+        for i in 0..count.min(BLOCK_SIZE) {
+            flat += u32::from(self.face_marks[i] & marks::FLAT != 0);
+        }
+        self.flat_triangles += flat as usize;
     }
 
     /// Computes terms and marks from records; the marks of rays are absent.
@@ -217,15 +233,18 @@ impl TriangleBlock {
             let (s_magnitude, t_magnitude) = (s_length / size, t_length / size);
             (self.magnitude[0][i], self.magnitude[1][i]) = (s_magnitude, t_magnitude);
             let [p0, p1, p2] = [0, 1, 2].map(|k| self.position(k, i));
-            let is_good = (size > f32::MIN_POSITIVE)
+            let has_area = (size > f32::MIN_POSITIVE)
+                & (s_magnitude > f32::MIN_POSITIVE)
+                & (t_magnitude > f32::MIN_POSITIVE);
+            let is_degenerate = same(p0, p1) | same(p1, p2) | same(p2, p0);
+            let is_good = has_area
                 & (s_length > f32::MIN_POSITIVE)
                 & (t_length > f32::MIN_POSITIVE)
-                & (s_magnitude > f32::MIN_POSITIVE)
-                & (t_magnitude > f32::MIN_POSITIVE)
                 & (size > MIN_AREA_RATIO * (left.abs() + right.abs()))
-                & !(same(p0, p1) | same(p1, p2) | same(p2, p0));
+                & !is_degenerate;
             let orientation = if area > 0.0 { marks::PRESERVES } else { marks::MIRRORS };
-            self.face_marks[i] = orientation | if is_good { 0 } else { marks::NEEDS_GENERAL_PATH };
+            let kind = if has_area | is_degenerate { orientation } else { marks::FLAT };
+            self.face_marks[i] = kind | if is_good { 0 } else { marks::NEEDS_GENERAL_PATH };
         }
     }
 
@@ -339,7 +358,7 @@ impl TriangleBlock {
     /// Computes what each corner adds to its vertex's fingerprint: that of the next vertex of the triangle minus that of the one before.
     #[inline(always)]
     pub fn fingerprints(&mut self) {
-        let (key, first) = (self.fingerprint_key, self.first);
+        let (key, first) = (fingerprint_key(), self.first);
         for i in 0..BLOCK_SIZE {
             let [f0, f1, f2] = [0, 1, 2].map(|k| fingerprint(self.vertex[k][i].wrapping_add(first), key));
             self.fingerprint[0][i] = difference(f1, f2);
@@ -351,7 +370,7 @@ impl TriangleBlock {
     /// As [`Self::fingerprints`], of single corners: what corner number `i` adds is then `fingerprint[0][i]`.
     #[inline(always)]
     pub fn corner_fingerprints(&mut self, corners: &[CornerVertices]) {
-        let key = self.fingerprint_key;
+        let key = fingerprint_key();
         self.set(corners, 0);
         for i in 0..BLOCK_SIZE {
             let [next, before] = [1, 2].map(|k| fingerprint(self.vertex[k][i], key));

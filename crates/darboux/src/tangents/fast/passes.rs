@@ -11,7 +11,8 @@
 use std::marker::PhantomData;
 use std::ops::Range;
 
-use crate::math::{dot, normalized_unless_zero};
+use crate::Frame;
+use crate::math::{V3, dot, normalized_unless_zero};
 
 use crate::exec::limits::RunLimits;
 use crate::exec::simd::Task;
@@ -22,11 +23,12 @@ use crate::tangents::fast::accumulator::{
 use crate::tangents::fast::edge_tail::TailCells;
 use crate::tangents::fast::exceptions::Exceptions;
 use crate::tangents::fast::kernel::{BLOCK_SIZE, CornerVertices, TriangleBlock};
-use crate::tangents::fast::proof::{UNDECIDED, decided_sign, first_ray_count};
+use crate::tangents::fast::proof::{UNDECIDED, decided_sign, first_ray_count, marks as corner_marks};
 use crate::tangents::fast::triangle_list::TriangleList;
 use crate::tangents::fast::vertex_quantity::{QuantityRange, VertexQuantity};
 use crate::tangents::fast::vertex_record::{VertexSlices, VertexValues};
 use crate::tangents::fast::worker::Findings;
+use crate::tangents::mikktspace::raw_frames::DEFAULT_FRAME;
 
 /// What all threads of a pass read.
 #[derive(Clone, Copy)]
@@ -45,8 +47,8 @@ pub(crate) trait Pass: Copy + Sync {
     /// What a streamed pass adds up besides the tangents.
     type Quantity: VertexQuantity;
 
-    /// Computes what the corners of a block's triangles add to their vertices.
-    fn evaluate(self, block: &mut TriangleBlock);
+    /// Computes what the corners of a block's triangles add to their vertices. `count`: how many of the triangles are in use.
+    fn evaluate(self, block: &mut TriangleBlock, count: usize);
 
     /// Adds an evaluated block's first `count` triangles to `vertices`, which contain all vertices of these triangles.
     fn scatter(
@@ -81,6 +83,8 @@ pub(crate) trait Pass: Copy + Sync {
 pub(crate) struct Discover<'a, Q> {
     /// The cells that the search for the last edges examines.
     pub tail: &'a TailCells,
+    /// True where vertices whose triangles all have no UV area are decided.
+    pub decides_flat: bool,
     pub quantity: PhantomData<Q>,
 }
 
@@ -88,8 +92,9 @@ impl<Q: VertexQuantity> Pass for Discover<'_, Q> {
     type Quantity = Q;
 
     #[inline(always)]
-    fn evaluate(self, block: &mut TriangleBlock) {
+    fn evaluate(self, block: &mut TriangleBlock, count: usize) {
         block.evaluate();
+        block.count_flat(count);
     }
 
     #[inline(always)]
@@ -138,14 +143,29 @@ impl<Q: VertexQuantity> Pass for Discover<'_, Q> {
     fn finish(self, range: &mut VertexRange<'_>, tangents: &TangentBlock, findings: &mut Findings) {
         for (i, (vertex, &marks)) in range.vertices.iter_mut().zip(&*range.marks).enumerate() {
             let is_usable = tangents.is_usable[i] != 0;
-            let sign = decided_sign(marks, vertex.sum[3], &vertex.fingerprint, is_usable);
+            let mut tangent = tangents.get(i);
+            let mut sign = decided_sign(marks, vertex.sum[3], &vertex.fingerprint, is_usable);
             if sign.is_nan() {
-                findings.note_unused(vertex.position());
+                if marks & corner_marks::FLAT == 0 {
+                    findings.note_unused(vertex.position());
+                } else {
+                    (tangent, sign) = self.flat_tangent(vertex);
+                }
             }
             let undecided = if sign == UNDECIDED { flags::IS_UNDECIDED } else { 0 };
             let in_tail = if self.tail.contain(vertex.position()) { flags::IN_TAIL } else { 0 };
-            vertex.finish(tangents.get(i), sign, undecided | in_tail);
+            vertex.finish(tangent, sign, undecided | in_tail);
         }
+    }
+}
+
+impl<Q> Discover<'_, Q> {
+    /// The tangent and the sign of a vertex whose triangles all have no UV area: no group starts at it, so its corners keep the default.
+    #[cold]
+    fn flat_tangent(self, vertex: &VertexAccumulator) -> ([f32; 3], f32) {
+        let Frame { tangent, sign, .. } = DEFAULT_FRAME;
+        let is_decided = self.decides_flat && is_clearly_usable(tangent, vertex.normal());
+        (tangent, if is_decided { sign } else { UNDECIDED })
     }
 }
 
@@ -160,7 +180,7 @@ impl Pass for Replay<'_> {
     type Quantity = ();
 
     #[inline(always)]
-    fn evaluate(self, block: &mut TriangleBlock) {
+    fn evaluate(self, block: &mut TriangleBlock, _count: usize) {
         block.evaluate_terms();
     }
 
@@ -252,7 +272,7 @@ fn evaluate<P: Pass>(
 ) {
     block.set(triangles, first);
     gather(block, triangles.len(), vertices);
-    pass.evaluate(block);
+    pass.evaluate(block, triangles.len());
 }
 
 /// Adds triangles to their vertices, all of which are in `range`.
@@ -391,16 +411,13 @@ impl TangentBlock {
         }
     }
 
-    /// Turns sums into tangents. A tangent is usable in the sense of `repair.rs`, with a margin for rounding.
+    /// Turns sums into tangents.
     #[inline(always)]
     fn normalize(&mut self) {
         for i in 0..BLOCK_SIZE {
             let tangent = normalized_unless_zero([self.sum[0][i], self.sum[1][i], self.sum[2][i]]);
             let normal = [self.normal[0][i], self.normal[1][i], self.normal[2][i]];
-            let (along, squared) = (dot(tangent, normal), dot(normal, normal));
-            let error = (dot(tangent, tangent) - 1.0).abs();
-            let is_usable =
-                (error < 1e-3) & (squared > 1e-30) & (squared < 1e30) & (along * along < 0.99 * squared);
+            let is_usable = is_clearly_usable(tangent, normal);
             for axis in 0..3 {
                 self.sum[axis][i] = tangent[axis];
             }
@@ -412,6 +429,14 @@ impl TangentBlock {
     fn get(&self, i: usize) -> [f32; 3] {
         [self.sum[0][i], self.sum[1][i], self.sum[2][i]]
     }
+}
+
+/// True for a tangent that is usable in the sense of `repair.rs`, with a margin for rounding.
+#[inline(always)]
+pub(crate) fn is_clearly_usable(tangent: V3, normal: V3) -> bool {
+    let (along, squared) = (dot(tangent, normal), dot(normal, normal));
+    let error = (dot(tangent, tangent) - 1.0).abs();
+    (error < 1e-3) & (squared > 1e-30) & (squared < 1e30) & (along * along < 0.99 * squared)
 }
 
 /// Copies tangents from finished vertices to the corners of faces of `N` corners; with `N` = 1, to single corners.

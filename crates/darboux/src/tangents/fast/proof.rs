@@ -28,8 +28,10 @@ pub(crate) mod marks {
     pub const PRESERVES: u32 = 1 << 20;
     /// The triangle reverses the orientation of UV space.
     pub const MIRRORS: u32 = 1 << 21;
-    /// The triangle or the corner is one that only the general path handles.
+    /// The triangle or the corner is one that the fast path does not decide.
     pub const NEEDS_GENERAL_PATH: u32 = 1 << 22;
+    /// The triangle has no UV area: the reference starts no group with it. It has no orientation.
+    pub const FLAT: u32 = 1 << 23;
 }
 
 /// The smallest ratio of a triangle's doubled UV area to the two products whose difference it is, at which the sign of the area is

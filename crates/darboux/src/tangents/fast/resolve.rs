@@ -16,7 +16,7 @@
 use crate::Indices;
 use crate::Mesh;
 use crate::exec::limits::RunLimits;
-use crate::math::{cosine_of_degrees, dot, normalized_unless_zero};
+use crate::math::{cosine_of_degrees, normalized_unless_zero};
 use crate::tangents::mikktspace::raw_frames::DEFAULT_FRAME;
 use crate::tangents::options::{MikkTSpaceOptions, Mode};
 use crate::tangents::repair::is_usable;
@@ -26,6 +26,7 @@ use crate::util::radix_sort::{first, pair, second, sort};
 
 use crate::tangents::fast::fans::Fans;
 use crate::tangents::fast::pairs::PairwiseTest;
+use crate::tangents::fast::passes::is_clearly_usable;
 use crate::tangents::fast::proof::is_one_subgroup;
 use crate::tangents::fast::state::{FastPath, triangle_list};
 use crate::tangents::fast::undecided::{UndecidedTriangles, kinds};
@@ -253,8 +254,5 @@ fn signs_of(out: &[[f32; 4]], number: u32) -> [f32; 3] {
 
 /// As [`is_usable`], which is asked only near its limits.
 fn needs_no_repair(tangent: [f32; 3], normal: [f32; 3]) -> bool {
-    let (along, squared) = (dot(tangent, normal), dot(normal, normal));
-    let is_unit = (dot(tangent, tangent) - 1.0).abs() < 1e-3;
-    let is_clear = is_unit & (squared > 1e-30) & (squared < 1e30) & (along * along < 0.99 * squared);
-    is_clear || is_usable(tangent, normal)
+    is_clearly_usable(tangent, normal) || is_usable(tangent, normal)
 }

@@ -32,6 +32,8 @@ pub(crate) struct FastPath {
     pub workers: Vec<Worker>,
     /// The faces with undecided vertices, and the corners in the cells of the triangle tail.
     pub exceptions: Exceptions,
+    /// The number of triangles without UV area.
+    pub flat_triangles: usize,
     pub tail_buffers: TailBuffers,
     pub names: VertexNames,
     /// Runs of the last edges whose order changes the result: the entries where the edges start.

@@ -41,7 +41,12 @@ pub(crate) fn run<P: Pass>(
             input.windows.get(written).map_or(finished, |window| window.lowest_from_here as usize);
         worker.make_room(unwritten.min(finished), input.windows[at].vertices.end as usize);
         read(&input.list, input.limits.width, worker, input.windows[at].vertices.end as usize);
+        let flat_triangles = worker.block.flat_triangles;
         add(input, worker, at, QuantityRange { first: own.start as u32, quantities });
+        if at >= end_window {
+            // Another thread counts them.
+            worker.block.flat_triangles = flat_triangles;
+        }
         let unfinished = match input.windows.get(at + 1) {
             Some(next) if at + 1 < partition.end_window => next.lowest_from_here as usize,
             _ => own.end,

@@ -55,6 +55,7 @@ impl Worker {
         self.pending.clear();
         self.pending_end = 0;
         self.exceptions.clear();
+        self.block.flat_triangles = 0;
     }
 
     /// The end of the vertices that have been read.
