@@ -239,5 +239,5 @@ fn run_fast(
     if limits.is_cancelled() {
         return Some(Report::default());
     }
-    Some(submesh::decide_frames(mesh, options, fast, limits, tangents, decided))
+    Some(submesh::complete_frames(mesh, options, fast, limits, tangents, decided))
 }

@@ -12,6 +12,7 @@ use crate::Indices;
 use crate::Mesh;
 use crate::exec::limits::RunLimits;
 use crate::topology::edge_sort::TriangleEdge;
+use crate::util::radix_sort::sort_by_key;
 
 use crate::tangents::MikkTSpaceOptions;
 use crate::tangents::Report;
@@ -140,8 +141,41 @@ pub(crate) fn complete(
     limits: RunLimits<'_>,
     out: &mut [[f32; 4]],
 ) -> Report {
-    let resolved = fast.resolve(mesh, options, limits, out);
+    let resolved = fast.resolve(mesh, options, limits, out, None);
     let left = decide(mesh, options, fast, limits, out);
+    whole_report(mesh, fast, out, resolved, left)
+}
+
+/// As [`complete`], but lists the undecided corners and their full frames in `out`, ascending, and leaves them undecided in `tangents`.
+pub(crate) fn complete_frames(
+    mesh: &Mesh<'_>,
+    options: &MikkTSpaceOptions,
+    fast: &mut FastPath,
+    limits: RunLimits<'_>,
+    tangents: &mut [[f32; 4]],
+    out: &mut Vec<(u32, Frame)>,
+) -> Report {
+    let resolved = fast.resolve(mesh, options, limits, tangents, Some(out));
+    let faces = UndecidedFaces::new(mesh, options, fast, limits, tangents);
+    let left = faces.map(|faces| faces.decide_frames(mesh, limits, tangents, out)).unwrap_or_default();
+    for (corner, frame) in &*out {
+        tangents[*corner as usize] = frame.tangent_and_sign();
+    }
+    let report = whole_report(mesh, fast, tangents, resolved, left);
+    out.iter().for_each(|(corner, _)| tangents[*corner as usize][3] = UNDECIDED);
+    sort_by_key(out, |(corner, _)| u64::from(*corner), &mut Vec::new());
+    Report { triangles: triangle_count(mesh), ..report }
+}
+
+/// The report of a whole mesh. `tangents`: the final ones. `resolved`: the counts of what was resolved. `left`: those of the faces that were
+/// left.
+fn whole_report(
+    mesh: &Mesh<'_>,
+    fast: &FastPath,
+    tangents: &[[f32; 4]],
+    resolved: Option<Report>,
+    left: Report,
+) -> Report {
     let uv_degenerate_triangles = fast.flat_triangles;
     let Some(resolved) = resolved else { return Report { uv_degenerate_triangles, ..left } };
     Report {
@@ -149,7 +183,7 @@ pub(crate) fn complete(
         triangles: left.triangles,
         repaired_corners: resolved.repaired_corners + left.repaired_corners,
         mixed_sign_faces: resolved.mixed_sign_faces + left.mixed_sign_faces,
-        split_vertices: fast.count_split_vertices(mesh, out),
+        split_vertices: fast.count_split_vertices(mesh, tangents),
         ..resolved
     }
 }
@@ -164,20 +198,6 @@ pub(crate) fn decide(
 ) -> Report {
     let faces = UndecidedFaces::new(mesh, options, fast, limits, out);
     let report = faces.map(|faces| faces.decide(mesh, limits, out)).unwrap_or_default();
-    Report { triangles: triangle_count(mesh), ..report }
-}
-
-/// As [`decide`], but appends the undecided corners and their full frames to `out`, ascending.
-pub(crate) fn decide_frames(
-    mesh: &Mesh<'_>,
-    options: &MikkTSpaceOptions,
-    fast: &FastPath,
-    limits: RunLimits<'_>,
-    tangents: &[[f32; 4]],
-    out: &mut Vec<(u32, Frame)>,
-) -> Report {
-    let faces = UndecidedFaces::new(mesh, options, fast, limits, tangents);
-    let report = faces.map(|faces| faces.decide_frames(mesh, limits, tangents, out)).unwrap_or_default();
     Report { triangles: triangle_count(mesh), ..report }
 }
 

@@ -24,7 +24,7 @@
 use crate::math::add;
 use crate::topology::triangles::NONE;
 
-use crate::tangents::fast::undecided::{UndecidedTriangles, kinds};
+use crate::tangents::fast::undecided::{FrameTerm, UndecidedTriangles, kinds};
 
 /// A group: the triangles around a vertex that are connected by edges there and have one orientation.
 #[derive(Clone, Copy, Debug)]
@@ -61,6 +61,8 @@ pub(crate) struct Fans {
     /// The group of each entry, or [`NONE`].
     pub group_of_entry: Vec<u32>,
     pub groups: Vec<Group>,
+    /// What the members of each group add to its frame besides the tangent. Empty where full frames are not wanted.
+    pub frame_sums: Vec<FrameTerm>,
     /// The edges between triangles of opposite orientation, both with UV area.
     pub mirrored_edges: usize,
     pending: Vec<u32>,
@@ -216,6 +218,14 @@ impl Fans {
                 }
             }
         }
+    }
+}
+
+/// Adds what a member of a group adds to its frame.
+#[inline(always)]
+pub(crate) fn add_frame_term(sum: &mut FrameTerm, term: &FrameTerm) {
+    for lane in 0..6 {
+        sum[lane] += term[lane];
     }
 }
 

@@ -3,8 +3,8 @@
 use crate::math::{V3, add, direction_in_plane, dot};
 use crate::tangents::mikktspace::derivatives::derivative;
 
-use crate::tangents::fast::fans::{Fans, Group};
-use crate::tangents::fast::undecided::{UndecidedTriangles, kinds};
+use crate::tangents::fast::fans::{Fans, Group, add_frame_term};
+use crate::tangents::fast::undecided::{FrameTerm, UndecidedTriangles, kinds};
 
 /// The most triangles around a vertex whose groups are separated here: the bits of a mask.
 const MAX_ENTRIES: usize = if cfg!(small_limits) { 5 } else { u64::BITS as usize };
@@ -74,6 +74,16 @@ impl PairwiseTest {
                         let [x, y, z, _] = mesh.term(other.entry);
                         add(sum, [x, y, z])
                     });
+                    if !mesh.frame_terms.is_empty() {
+                        let mut sum = FrameTerm::default();
+                        let joined = members.iter().enumerate().filter(|(at, _)| mask >> at & 1 == 1);
+                        for (_, other) in joined.filter(|(_, other)| !other.joins_any) {
+                            mesh.frame_term(other.entry)
+                                .into_iter()
+                                .for_each(|term| add_frame_term(&mut sum, term));
+                        }
+                        fans.frame_sums.push(sum);
+                    }
                     fans.groups.push(Group { sum, marks: 0, vertex, preserves });
                     fans.groups.len() as u32 - 1
                 }

@@ -13,6 +13,7 @@
 //! needs a repair, and large groups that are not one subgroup, stay undecided, and go through the general path; with such a vertex go those
 //! that it shares a triangle without UV area or a degenerate triangle with, because the groups around these depend on each other.
 
+use crate::Frame;
 use crate::Indices;
 use crate::Mesh;
 use crate::exec::limits::RunLimits;
@@ -24,12 +25,12 @@ use crate::tangents::report::Report;
 use crate::topology::triangles::NONE;
 use crate::util::radix_sort::{first, pair, second, sort};
 
-use crate::tangents::fast::fans::Fans;
+use crate::tangents::fast::fans::{Fans, add_frame_term};
 use crate::tangents::fast::pairs::PairwiseTest;
 use crate::tangents::fast::passes::is_clearly_usable;
 use crate::tangents::fast::proof::is_one_subgroup;
 use crate::tangents::fast::state::{FastPath, triangle_list};
-use crate::tangents::fast::undecided::{UndecidedTriangles, kinds};
+use crate::tangents::fast::undecided::{FrameTerm, UndecidedTriangles, kinds};
 
 /// The memory of the resolution, reused from mesh to mesh.
 #[derive(Debug, Default)]
@@ -48,12 +49,15 @@ pub(crate) struct Resolution {
 impl FastPath {
     /// Writes the tangents of undecided vertices, but for those that the general path has to compute: `exceptions.undecided` then lists the
     /// faces of these. Returns the counts of what was resolved; `None` where nothing was tried.
+    ///
+    /// `frames`: where given, receives the corners that were resolved and their full frames.
     pub fn resolve(
         &mut self,
         mesh: &Mesh<'_>,
         options: &MikkTSpaceOptions,
         limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
+        frames: Option<&mut Vec<(u32, Frame)>>,
     ) -> Option<Report> {
         let Self { weld, split, exceptions, tail_runs, workers, resolution, .. } = self;
         let list = triangle_list(mesh, weld, split);
@@ -62,7 +66,8 @@ impl FastPath {
             return None;
         }
         let Resolution { triangles, fans, .. } = resolution;
-        triangles.collect(&list, faces, weld.count, out, &mut workers[0].block, limits);
+        let block = &mut workers[0].block;
+        triangles.collect(&list, (faces, weld.count), out, block, frames.is_some(), limits);
         let place = |&edge: &u32| triangles.entry_of(edge);
         let tail_runs: Vec<Vec<u32>> = tail_runs.iter().map(|run| run.iter().map(place).collect()).collect();
         if limits.is_cancelled() {
@@ -72,6 +77,9 @@ impl FastPath {
         resolution.find_tangents(cosine_of_degrees(options.threshold));
         resolution.find_left(options.mode, out);
         let report = resolution.write(out);
+        if let Some(frames) = frames {
+            resolution.list_frames(frames);
+        }
         let is_left =
             |triangle: &[u32; 3]| triangle.iter().any(|&vertex| resolution.is_left[vertex as usize]);
         let mut is_face_left = resolution.triangles.triangles.iter().map(is_left);
@@ -105,6 +113,11 @@ impl Resolution {
                     group.marks |= marks.to_bits();
                 }
             }
+        }
+        fans.frame_sums.clear();
+        if !triangles.frame_terms.is_empty() {
+            fans.frame_sums.resize(fans.groups.len(), FrameTerm::default());
+            add_frame_terms(triangles, &fans.group_of_entry, &mut fans.frame_sums);
         }
         for group in 0..fans.groups.len() {
             let joined = threshold_cosine == -1.0 && is_one_subgroup(fans.groups[group].marks);
@@ -171,24 +184,27 @@ impl Resolution {
     }
 
     /// The entries of an undecided vertex with their tangents, and whether these need no repair.
-    ///
-    /// A corner that no group has reached keeps the default. One of a degenerate triangle has what the first other corner at the vertex has.
     fn values_at(&self, vertex: usize) -> impl Iterator<Item = (u32, [f32; 4], bool)> {
-        let Self { triangles, fans, tangents, is_usable, .. } = self;
+        self.groups_at(vertex).map(move |(entry, group, is_usable)| {
+            let tangent = self.tangents.get(group).copied();
+            (entry, tangent.unwrap_or_else(|| DEFAULT_FRAME.tangent_and_sign()), is_usable)
+        })
+    }
+
+    /// The entries of an undecided vertex with their groups, and whether the tangents need no repair.
+    ///
+    /// A corner that no group has reached keeps the default; its group is a number above all. One of a degenerate triangle has what the first
+    /// other corner at the vertex has.
+    fn groups_at(&self, vertex: usize) -> impl Iterator<Item = (u32, usize, bool)> {
+        let Self { triangles, fans, is_usable, .. } = self;
         let entries = fans.entries_of(vertex);
         let is_degenerate = |entry: u32| triangles.kind(entry) & kinds::DEGENERATE != 0;
         let first_good = entries.iter().copied().find(|&entry| !is_degenerate(entry));
         entries.iter().map(move |&entry| {
             let source = if is_degenerate(entry) { first_good } else { Some(entry) };
             let group = source.map_or(NONE, |source| fans.group_of_entry[source as usize]) as usize;
-            match tangents.get(group) {
-                Some(&tangent) => (entry, tangent, is_usable[group]),
-                None => {
-                    let tangent = DEFAULT_FRAME.tangent_and_sign();
-                    let normal = triangles.normal(vertex as u32);
-                    (entry, tangent, needs_no_repair(DEFAULT_FRAME.tangent, normal))
-                }
-            }
+            let default = || needs_no_repair(DEFAULT_FRAME.tangent, triangles.normal(vertex as u32));
+            (entry, group, is_usable.get(group).copied().unwrap_or_else(default))
         })
     }
 
@@ -224,6 +240,23 @@ impl Resolution {
         report
     }
 
+    /// Lists the corners of all vertices that are not left, with their full frames.
+    fn list_frames(&self, frames: &mut Vec<(u32, Frame)>) {
+        let Self { triangles, fans, is_left, tangents, .. } = self;
+        for vertex in (0..is_left.len()).filter(|&vertex| triangles.is_undecided[vertex] && !is_left[vertex])
+        {
+            for (entry, group, _) in self.groups_at(vertex) {
+                let frame = match (tangents.get(group), fans.frame_sums.get(group)) {
+                    (Some(&tangent), Some(&[x, y, z, weight, s, t])) => {
+                        frame(tangent, [x, y, z], weight, [s, t])
+                    }
+                    _ => DEFAULT_FRAME,
+                };
+                frames.push((triangles.corner(entry), frame));
+            }
+        }
+    }
+
     fn count_split(&self, mesh: &Mesh<'_>, out: &[[f32; 4]]) -> usize {
         let Self { triangles, fans, .. } = self;
         let bits = |entry: u32| out[triangles.corner(entry) as usize].map(f32::to_bits);
@@ -245,6 +278,23 @@ impl Resolution {
         }
         count
     }
+}
+
+/// Adds what the members of groups add to their frames.
+fn add_frame_terms(triangles: &UndecidedTriangles, group_of_entry: &[u32], sums: &mut [FrameTerm]) {
+    for (&group, entry) in group_of_entry.iter().zip(0..) {
+        if triangles.kind(entry) & kinds::JOINS_ANY == 0
+            && let (Some(sum), Some(term)) = (sums.get_mut(group as usize), triangles.frame_term(entry))
+        {
+            add_frame_term(sum, term);
+        }
+    }
+}
+
+/// The frame of a group. `bitangent`, `magnitude`: sums of weighted values.
+fn frame([x, y, z, sign]: [f32; 4], bitangent: [f32; 3], weight: f32, magnitude: [f32; 2]) -> Frame {
+    let magnitude = if weight > 0.0 { magnitude.map(|sum| sum / weight) } else { magnitude };
+    Frame { tangent: [x, y, z], bitangent: normalized_unless_zero(bitangent), magnitude, sign }
 }
 
 /// The signs of a triangle's corners. `number`: that of the triangle.

@@ -30,6 +30,10 @@ pub(crate) mod kinds {
 /// What a corner adds to its group: the weighted tangent, and the corner's [`marks`] as a fourth number.
 pub(crate) type MarkedTerm = [f32; 4];
 
+/// What a corner adds to the frame of its group besides the tangent: the weighted bitangent, the weight, the weighted lengths of dP/du and
+/// dP/dv.
+pub(crate) type FrameTerm = [f32; 6];
+
 /// The triangles with undecided vertices. An *entry* is a corner of one of these triangles, three per triangle. The memory is reused from
 /// mesh to mesh.
 #[derive(Debug, Default)]
@@ -42,6 +46,8 @@ pub(crate) struct UndecidedTriangles {
     pub kinds: Vec<u8>,
     /// What the corners of each triangle add.
     pub terms: Vec<[MarkedTerm; 3]>,
+    /// What the corners of each triangle add to full frames. Empty where these are not wanted.
+    pub frame_terms: Vec<[FrameTerm; 3]>,
     /// The values of each vertex.
     pub records: Vec<VertexRecord>,
     /// True for undecided vertices. All triangles around them are here.
@@ -56,23 +62,26 @@ pub(crate) struct UndecidedTriangles {
 
 impl UndecidedTriangles {
     /// Collects and evaluates the triangles. `faces`: the first triangles of the faces with undecided corners, ascending. `out`: the
-    /// tangents of all corners.
+    /// tangents of all corners. `full_frames`: whether full frames are wanted.
     pub fn collect(
         &mut self,
         list: &TriangleList<'_>,
-        faces: &[u32],
-        vertex_count: usize,
+        (faces, vertex_count): (&[u32], usize),
         out: &[[f32; 4]],
         block: &mut TriangleBlock,
+        full_frames: bool,
         limits: RunLimits<'_>,
     ) {
         self.number_vertices(list, faces, vertex_count, out);
         self.terms.resize(self.triangles.len(), [[0.0; 4]; 3]);
+        self.frame_terms.clear();
+        self.frame_terms.resize(if full_frames { self.triangles.len() } else { 0 }, [[0.0; 6]; 3]);
         limits.width.run(EvaluateTriangles {
             triangles: &self.triangles,
             records: &self.records,
             block,
             terms: &mut self.terms,
+            frame_terms: &mut self.frame_terms,
         });
         self.find_kinds();
     }
@@ -157,6 +166,12 @@ impl UndecidedTriangles {
         self.terms[entry as usize / 3][entry as usize % 3]
     }
 
+    /// What an entry adds to the frame of its group.
+    #[inline(always)]
+    pub fn frame_term(&self, entry: u32) -> Option<&FrameTerm> {
+        self.frame_terms.get(entry as usize / 3).map(|terms| &terms[entry as usize % 3])
+    }
+
     /// The kind of an entry's triangle.
     #[inline(always)]
     pub fn kind(&self, entry: u32) -> u8 {
@@ -187,12 +202,14 @@ struct EvaluateTriangles<'a> {
     records: &'a [VertexRecord],
     block: &'a mut TriangleBlock,
     terms: &'a mut [[MarkedTerm; 3]],
+    /// As many, or none.
+    frame_terms: &'a mut [[FrameTerm; 3]],
 }
 
 impl Task for EvaluateTriangles<'_> {
     #[inline(always)]
     fn run(self) {
-        let Self { block, .. } = self;
+        let Self { block, mut frame_terms, .. } = self;
         for (triangles, terms) in self.triangles.chunks(BLOCK_SIZE).zip(self.terms.chunks_mut(BLOCK_SIZE)) {
             for (i, triangle) in triangles.iter().take(BLOCK_SIZE).enumerate() {
                 for k in 0..3 {
@@ -206,6 +223,18 @@ impl Task for EvaluateTriangles<'_> {
                 for k in 0..3 {
                     let [x, y, z, _] = block.sum[k][i];
                     terms[k] = [x, y, z, f32::from_bits(block.marks[k][i])];
+                }
+            }
+            if frame_terms.is_empty() {
+                continue;
+            }
+            let of_block;
+            (of_block, frame_terms) = frame_terms.split_at_mut(triangles.len());
+            block.bitangent_terms();
+            for (i, terms) in of_block.iter_mut().take(BLOCK_SIZE).enumerate() {
+                for k in 0..3 {
+                    let ([x, y, z, weight], [s, t]) = (block.sum[k][i], block.magnitude_sum[k][i]);
+                    terms[k] = [x, y, z, weight, s, t];
                 }
             }
         }
