@@ -1,39 +1,35 @@
 //! glTF 2.0 and GLB: documents that are read, edited, and written with everything else preserved.
 //!
 //! ```text
-//! load, parse, container, buffers, resources, references   reading: the file, the JSON, the buffers, checks
-//! document, edits, edit_document, edit_image,
-//! edit_material, checkpoint, schema                                   a document, its edits, and the parts of its JSON
+//! load, container, json, buffers, resources            reading: the file, its JSON, its buffers
+//! document, schema, references                         the one truth: a JSON value and buffers; typed parts; checks of references
+//! compression/                                         compressed data becomes plain data
 //! accessors, stored_elements, elements                 accessors as arrays, and arrays as accessors
-//! tangents/, normals/, convert/, compression/          operations on documents; primitives/ is what they share
+//! tangents/, normals/, convert/                        operations on documents; primitives/ is what they share
+//! edit/                                                edits, which all operations write through
 //! inspect, compare, scene, materials, image_uses       descriptions of documents
-//! json_text, output_layout, unused_data, save          writing: edited text, offsets, removal of unused data, files
+//! unused_data, output, save                            writing: what is left out, where the rest goes, files
 //! ```
 
 mod accessors;
 mod buffers;
-mod checkpoint;
 mod compare;
 mod compression;
 pub(crate) mod container;
 mod convert;
 mod document;
-mod edit_document;
-mod edit_image;
-mod edit_material;
-mod edits;
+mod edit;
 mod element_type;
 mod elements;
 mod file_bytes;
 mod image_uses;
 mod inspect;
-mod json_text;
+mod json;
 mod load;
 mod materials;
 mod normals;
 mod objects_only;
-mod output_layout;
-mod parse;
+mod output;
 mod primitives;
 mod progress;
 mod references;
@@ -46,10 +42,10 @@ mod stored_elements;
 mod tangents;
 mod unused_data;
 
-pub use checkpoint::Checkpoint;
 pub use compare::{Pair, PairedCorners, Unpaired, pair_tangents};
 pub use convert::{ConversionSummary, convert_vertices};
 pub use document::Document;
+pub use edit::Checkpoint;
 pub use element_type::{ComponentType, ElementType};
 pub use elements::{Elements, NewAccessor, Target};
 pub use inspect::{PrimitiveInfo, inspect};

@@ -76,25 +76,28 @@ fn json_text() {
         parse(r#"{"asset":{"version":"1.0"},"meshes":{}}"#),
         "asset.version: is \"1.0\"; convert the file",
     );
-    refused(parse(r#"{"asset":{"version":"2.0"},"meshes":[],"meshes":[]}"#), "duplicate field `meshes`");
+    refused(
+        parse(r#"{"asset":{"version":"2.0"},"meshes":[],"meshes":[]}"#),
+        "an object has the key \"meshes\" twice",
+    );
     refused(
         parse(r#"{"asset":{"version":"2.0"},"meshes":[{"primitives":7}]}"#),
-        "meshes[0].primitives: invalid type",
+        "meshes[0].primitives: is 7; it must be an array; export the file again",
     );
-    let deep = |member: &str| {
-        let nested = format!("{}{}", "[".repeat(500_000), "]".repeat(500_000));
-        parse(format!("{{\"asset\":{{\"version\":\"2.0\"}},\"{member}\":{nested}}}"))
+    let nested = |depth: usize| {
+        let nested = format!("{}{}", "[".repeat(depth), "]".repeat(depth));
+        parse(format!("{{\"asset\":{{\"version\":\"2.0\"}},\"extras\":{nested}}}"))
     };
-    refused(deep("meshes"), "meshes[0]: invalid type: sequence, expected an object");
+    refused(nested(500_000), "the JSON is nested more than 100 levels deep");
+    assert!(nested(90).is_ok());
+    let keys: String = (0..1_000_000).map(|i| format!(",\"k{i}\":1")).collect();
+    assert!(parse(format!("{{\"asset\":{{\"version\":\"2.0\"}}{keys}}}")).is_ok());
+    refused(
+        parse(r#"{"asset":{"version":"2.0"},"extras":1e999}"#),
+        "the number 1e+999 is out of range",
+    );
     let by_position = r#"{"asset":{"version":"2.0"},"meshes":[["name",[{"attributes":{}}]]]}"#;
-    refused(parse(by_position), "meshes[0]: invalid type: sequence, expected an object");
-    let text = json_of(&deep("extras").unwrap().to_glb().unwrap());
-    assert!(text.contains("[[[[") && text.len() > 1_000_000);
-}
-
-fn json_of(glb: &[u8]) -> String {
-    let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
-    String::from_utf8(glb[20..20 + length].to_vec()).unwrap()
+    refused(parse(by_position), "meshes[0]: is an array; it must be an object");
 }
 
 /// Eight bytes in a buffer, two accessors over it; the second is sparse.
@@ -133,11 +136,11 @@ fn accessors() {
     refused(read_with(0, "/accessors/0/byteOffset", json!(u64::MAX)), "do not fit");
     refused(read_with(0, "/accessors/0/count", json!(5)), "accessors[0]: 5 elements");
     refused(read_with(0, "/accessors/0/count", json!(u64::MAX)), "do not fit");
-    refused(read_with(0, "/accessors/0/count", json!(-1)), "accessors[0].count: invalid value");
-    refused(read_with(0, "/accessors/0/count", json!(1.5)), "accessors[0].count: invalid type");
+    refused(read_with(0, "/accessors/0/count", json!(-1)), "accessors[0].count: is -1; it must be a whole number of 0 or more");
+    refused(read_with(0, "/accessors/0/count", json!(1.5)), "accessors[0].count: is 1.5; it must be a whole number of 0 or more");
     refused(read_with(0, "/accessors/0/componentType", json!(5124)), "5124 is not a component type");
     refused(read_with(0, "/accessors/0/componentType", json!(5126)), "accessors[0]");
-    refused(read_with(0, "/accessors/0/type", json!("VEC5")), "accessors[0].type: unknown variant `VEC5`");
+    refused(read_with(0, "/accessors/0/type", json!("VEC5")), "accessors[0].type: is \"VEC5\"; it must be one of SCALAR, VEC2");
     refused(
         read_with(0, "/accessors/0/type", json!("VEC2")),
         "accessors[0]: 4 elements of 4 bytes from byte 0 on do not fit its buffer view of 8 bytes",
@@ -268,7 +271,8 @@ fn references_to_images_outside_the_folder_are_kept() {
         Document::open(&path, &LoadOptions::default().with_allow_outside(allow_outside)).unwrap()
     };
     assert!(read(false).warnings()[0].contains("images[0].uri: \"../secret.png\" lies outside"));
-    assert!(json_of(&read(false).to_glb().unwrap()).contains("../secret.png"));
+    let kept = b"../secret.png";
+    assert!(read(false).to_glb().unwrap().windows(kept.len()).any(|bytes| bytes == kept));
     assert!(read(true).to_glb().unwrap().windows(7).any(|bytes| bytes == b" secret"));
 }
 

@@ -238,7 +238,7 @@ pub fn fix_images(
         }));
     }
     for (index, bytes) in rewritten {
-        document.replace_image(index, bytes, "image/png")?;
+        document.set_image(index, bytes, "image/png")?;
     }
     Ok(fixed)
 }

@@ -18,6 +18,8 @@ pub enum BufferSource {
     /// Decompressed bytes of a buffer that had none.
     #[cfg_attr(not(feature = "meshopt"), expect(dead_code, reason = "only meshopt fills buffers"))]
     Decoded(Vec<u8>),
+    /// Bytes of edits.
+    New(NewBytes),
     /// None; the clause says why, and what to do.
     Absent(&'static str),
 }
@@ -60,4 +62,42 @@ pub fn load_buffer(
         return Err(ContentError::invalid(format!("buffers[{index}].byteLength"), problem));
     }
     Ok(store)
+}
+
+/// The bytes of edits: one piece per buffer view.
+#[derive(Debug, Default)]
+pub struct NewBytes {
+    /// The pieces and their offsets, in ascending order.
+    pieces: Vec<(usize, Vec<u8>)>,
+    length: usize,
+}
+
+impl NewBytes {
+    /// Appends a piece at the next multiple of four. Returns its offset.
+    pub fn push(&mut self, bytes: Vec<u8>) -> usize {
+        let offset = self.length.next_multiple_of(4);
+        self.length = offset + bytes.len();
+        self.pieces.push((offset, bytes));
+        offset
+    }
+
+    /// The number of bytes with the padding between pieces.
+    pub fn len(&self) -> usize {
+        self.length
+    }
+
+    /// A range of bytes; none if it is not within one piece.
+    pub fn range(&self, offset: usize, length: usize) -> Option<&[u8]> {
+        let after = self.pieces.partition_point(|(start, _)| *start <= offset);
+        let (start, bytes) = self.pieces.get(after.checked_sub(1)?)?;
+        let from = offset - start;
+        bytes.get(from..from.checked_add(length)?)
+    }
+
+    /// Drops all pieces from an offset on.
+    pub fn truncate(&mut self, length: usize) {
+        let kept = self.pieces.partition_point(|(start, _)| *start < length);
+        self.pieces.truncate(kept);
+        self.length = length;
+    }
 }

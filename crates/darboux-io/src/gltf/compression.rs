@@ -8,13 +8,10 @@ mod no_meshopt;
 
 use std::collections::BTreeSet;
 
-use serde::Deserialize;
 use serde_json::Value;
-use serde_json::value::RawValue;
 
 use super::document::Document;
 use super::element_type::ComponentType;
-use super::json_text::{member, set_member};
 use super::schema::Accessor;
 use crate::Error;
 use crate::error::ContentError;
@@ -59,14 +56,9 @@ impl Document {
         accessors: &BTreeSet<usize>,
         budget: &mut DecodeBudget,
     ) -> Result<(), ContentError> {
-        let broken = |error: serde_json::Error| ContentError::invalid("accessors", error.to_string());
-        let array = member(self.text(), "accessors").map_err(broken)?.unwrap_or("[]");
-        let texts: Vec<&RawValue> = serde_json::from_str(array).map_err(broken)?;
-        let mut edited = Vec::new();
         for &index in accessors {
-            let text = self.edits.accessors.get(&index).map_or(texts[index].get(), String::as_str);
-            let stored: StoredBounds = serde_json::from_str(text).map_err(broken)?;
-            if stored.min.is_none() && stored.max.is_none() {
+            let stored = ["min", "max"].map(|key| self.element("accessors", index).get(key).and_then(numbers));
+            if stored == [None, None] {
                 continue;
             }
             let Accessor { count, element_type, component_type, .. } = self.root.accessors[index];
@@ -75,26 +67,19 @@ impl Document {
                 &format!("accessors[{index}]"),
             )?;
             let Some((min, max)) = self.find_elements(index)?.bounds() else { continue };
-            let mut new = text.to_owned();
-            for (key, old, found) in [("min", stored.min, min), ("max", stored.max, max)] {
-                if old.is_some_and(|old| !same_values(&old, &found, component_type)) {
-                    new = set_member(&new, key, Some(&Value::from(found).to_string())).map_err(broken)?;
+            for (key, old, found) in [("min", &stored[0], min), ("max", &stored[1], max)] {
+                if old.as_ref().is_some_and(|old| !same_values(old, &found, component_type)) {
+                    self.edit_element("accessors", index, |accessor| accessor[key] = found.into())?;
                 }
             }
-            if new != text {
-                edited.push((index, new));
-            }
         }
-        self.edits.accessors.extend(edited);
         Ok(())
     }
 }
 
-/// The bounds in an accessor's JSON.
-#[derive(Deserialize)]
-struct StoredBounds {
-    min: Option<Vec<f64>>,
-    max: Option<Vec<f64>>,
+/// The numbers of an array; none if it is not one of numbers.
+fn numbers(array: &Value) -> Option<Vec<f64>> {
+    array.as_array()?.iter().map(Value::as_f64).collect()
 }
 
 /// Whether bounds are equal as numbers of the component type: JSON may spell them with fewer digits.
@@ -120,12 +105,4 @@ impl DecodeBudget {
             .ok_or_else(|| ContentError::unsupported(at, self.limit.exceeded("the file decompresses to")))?;
         Ok(())
     }
-}
-
-/// `object` without an extension, and without an empty `extensions`.
-fn without_extension(object: &str, name: &str) -> serde_json::Result<String> {
-    let Some(extensions) = member(object, "extensions")? else { return Ok(object.to_owned()) };
-    let rest = set_member(extensions, name, None)?;
-    let is_empty = rest.trim_matches(['{', '}', ' ', '\t', '\r', '\n']).is_empty();
-    set_member(object, "extensions", (!is_empty).then_some(&rest))
 }

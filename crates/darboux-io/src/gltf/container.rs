@@ -24,11 +24,6 @@ pub struct Container {
 }
 
 impl Container {
-    /// The byte order mark before JSON text, if there is one.
-    pub fn mark(&self) -> Option<&'static [u8]> {
-        (!self.is_glb && self.json.start > 0).then_some(BOM)
-    }
-
     /// Finds the parts of a file. Its first bytes decide between the containers.
     pub fn parse(file: &[u8]) -> Result<Self, ContentError> {
         if file.starts_with(MAGIC) {
@@ -103,11 +98,11 @@ fn word(file: &[u8], at: usize) -> Option<u32> {
 
 /// A GLB of `json`, the binary chunk `bin` and other chunks. Errors: more than the 4 GiB that a GLB can hold.
 pub fn glb<'a>(
-    json: String,
+    json: Vec<u8>,
     bin: Option<Vec<Segment<'a>>>,
     other_chunks: Vec<(u32, &'a [u8])>,
 ) -> Result<Vec<Segment<'a>>, ContentError> {
-    let mut chunks = vec![(JSON, vec![Segment::Owned(json.into_bytes())], b' ')];
+    let mut chunks = vec![(JSON, vec![Segment::Owned(json)], b' ')];
     chunks.extend(bin.map(|segments| (BIN, segments, 0)));
     chunks.extend(other_chunks.into_iter().map(|(kind, chunk)| (kind, vec![Segment::Borrowed(chunk)], 0)));
     let padded = |segments: &[Segment<'_>]| segments::length(segments).next_multiple_of(4);

@@ -1,60 +1,73 @@
-//! A glTF document: the file as it was read, and the edits to it.
+//! A glTF document: its JSON and its buffers, which reading fills, edits change, and writing stores.
 
+use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use serde::de::DeserializeOwned;
-use serde_json::value::RawValue;
+use serde_json::Value;
 
 use super::buffers::BufferSource;
 use super::container::Container;
-use super::edits::Edits;
+use super::edit::ImageFile;
 use super::file_bytes::FileBytes;
-use super::parse;
+use super::json::{self, TextLayout};
 use super::resources::Resources;
 use super::schema::{self, Root};
+use super::unused_data::Unreferenced;
 use crate::error::ContentError;
 use crate::memory_limit::Budget;
 use crate::{Error, LoadOptions};
 
 /// A glTF document: read from a file, edited, and written to another file or in place.
 ///
-/// Everything that is not edited is kept as text and bytes, unknown extensions and the spelling of numbers included.
+/// Everything that is not edited is kept, unknown extensions, the order of keys and the spelling of numbers included. A document without edits
+/// is written byte for byte.
 #[derive(Debug)]
 pub struct Document {
     pub(super) name: String,
     /// The input file, links resolved.
     pub(super) input: Option<PathBuf>,
-    /// The whole file, if it is a GLB; else empty.
+    /// The whole file as it was read.
     pub(super) file: FileBytes,
     pub(super) container: Container,
-    /// The JSON text as it was read.
-    pub(super) text: String,
+    /// The JSON with all edits.
+    pub(super) json: Value,
+    /// The layout of the JSON as it was read.
+    pub(super) layout: TextLayout,
+    /// Parts of the JSON as types; every edit renews what it changes (`edit.rs`).
     pub(super) root: Root,
     pub(super) resources: Resources,
-    pub(super) buffer_sources: Vec<BufferSource>,
-    pub(super) edits: Edits,
+    /// The bytes of each buffer.
+    pub(super) buffers: Vec<BufferSource>,
+    /// The new content of images that are files, by the index of the image.
+    pub(super) image_files: BTreeMap<usize, ImageFile>,
+    pub(super) is_changed: bool,
+    /// What nothing in the input refers to, and is kept.
+    pub(super) unreferenced: Unreferenced,
+    /// The ranges of buffers that held compressed views, by the buffer.
+    pub(super) decoded_ranges: Vec<(usize, Range<usize>)>,
     /// The number of new bytes that came from compressed meshes.
     pub(super) decompressed_bytes: usize,
     pub(super) options: LoadOptions,
     /// The most elements of an accessor with a buffer view.
     pub(super) backed_count: OnceLock<usize>,
-    /// The JSON of every primitive of every mesh, as it was read.
-    pub(super) primitive_texts: OnceLock<Vec<Vec<Box<RawValue>>>>,
+    /// Whether a warning about unused data that stays has been given.
+    pub(super) is_unused_data_reported: bool,
     pub(super) warnings: Vec<String>,
 }
 
 impl Document {
     /// The memory that may be computed for a document of this size, or decompressed from it.
     pub(super) fn memory_limit(&self) -> Budget {
-        let buffers = self.buffer_sources.iter();
-        let embedded = buffers.map(|source| match source {
-            BufferSource::Chunk | BufferSource::Absent(_) => [0, 0],
+        let embedded = self.buffers.iter().map(|source| match source {
+            BufferSource::Chunk | BufferSource::Absent(_) | BufferSource::New(_) => [0, 0],
             BufferSource::File(file) => [file.bytes.len(), 0],
             BufferSource::Data(bytes) => [bytes.len(), 0],
             BufferSource::Decoded(bytes) => [0, bytes.len()],
         });
-        let start = [self.file.len().max(self.text.len()), self.decompressed_bytes];
+        let start = [self.file.len(), self.decompressed_bytes];
         let [read, decompressed] = embedded.fold(start, |sum, bytes| [sum[0] + bytes[0], sum[1] + bytes[1]]);
         self.options.budget(read, decompressed)
     }
@@ -79,6 +92,11 @@ impl Document {
         &self.warnings
     }
 
+    /// The JSON, edits included.
+    pub fn json(&self) -> &Value {
+        &self.json
+    }
+
     /// The meshes, edits included.
     pub fn meshes(&self) -> &[schema::Mesh] {
         &self.root.meshes
@@ -96,31 +114,28 @@ impl Document {
 
     /// Whether there are edits.
     pub fn is_changed(&self) -> bool {
-        !self.edits.is_empty()
+        self.is_changed
     }
 
-    /// The JSON text as it was read.
-    pub(super) fn text(&self) -> &str {
-        &self.text
+    /// The JSON as another type.
+    pub(super) fn read<T: DeserializeOwned>(&self) -> Result<T, ContentError> {
+        json::read(&self.json, "")
     }
 
-    /// The JSON text as it was read, parsed as another type.
-    pub(super) fn parsed<T: DeserializeOwned>(&self) -> Result<T, ContentError> {
-        parse::parse(&self.text)
+    /// The JSON of an element of an array of the root object; null if it does not exist.
+    pub(super) fn element(&self, array: &str, index: usize) -> &Value {
+        &self.json[array][index]
     }
 
     /// The bytes of a buffer view, and its stride. `at` is the JSON path that refers to it.
     pub(super) fn view(&self, index: usize, at: &str) -> Result<(&[u8], Option<usize>), ContentError> {
         let views = &self.root.buffer_views;
-        if let Some(new) = index.checked_sub(views.len()).and_then(|new| self.edits.new_views.get(new)) {
-            return Ok((&new.bytes, new.stride));
-        }
         let view = views.get(index).ok_or_else(|| {
             let problem = format!("buffer view {index} does not exist: there are {}", views.len());
             ContentError::invalid(at, format!("{problem}; export the file again"))
         })?;
-        let at = format!("bufferViews[{index}]");
-        let bytes = self.buffer_range(view.buffer, view.byte_offset, view.byte_length, &at)?;
+        let at = || format!("bufferViews[{index}]");
+        let bytes = self.buffer_range(view.buffer, view.byte_offset, view.byte_length, at)?;
         Ok((bytes, view.byte_stride))
     }
 
@@ -130,24 +145,27 @@ impl Document {
         buffer: usize,
         offset: usize,
         length: usize,
-        at: &str,
+        at: impl Fn() -> String,
     ) -> Result<&[u8], ContentError> {
-        let bytes = self.buffer(buffer, &format!("{at}.buffer"))?;
+        if let Some(BufferSource::New(bytes)) = self.buffers.get(buffer) {
+            return bytes.range(offset, length).ok_or_else(|| outside_buffer(offset, length, bytes.len(), &at()));
+        }
+        let bytes = self.buffer(buffer, || format!("{}.buffer", at()))?;
         let range = offset.checked_add(length).and_then(|end| bytes.get(offset..end));
-        range.ok_or_else(|| outside_buffer(offset, length, bytes.len(), at))
+        range.ok_or_else(|| outside_buffer(offset, length, bytes.len(), &at()))
     }
 
-    /// The bytes of a buffer. `at` is the JSON path that refers to it.
-    pub(super) fn buffer(&self, index: usize, at: &str) -> Result<&[u8], ContentError> {
-        let (Some(buffer), Some(store)) = (self.root.buffers.get(index), self.buffer_sources.get(index))
-        else {
+    /// The bytes of a buffer of the input; none for that of new bytes. `at` is the JSON path that refers to it.
+    pub(super) fn buffer(&self, index: usize, at: impl Fn() -> String) -> Result<&[u8], ContentError> {
+        let (Some(buffer), Some(source)) = (self.root.buffers.get(index), self.buffers.get(index)) else {
             let problem = format!("buffer {index} does not exist: there are {}", self.root.buffers.len());
-            return Err(ContentError::invalid(at, format!("{problem}; export the file again")));
+            return Err(ContentError::invalid(at(), format!("{problem}; export the file again")));
         };
-        let bytes = match store {
+        let bytes = match source {
             BufferSource::Chunk => &self.file[self.container.bin.clone().unwrap_or_default()],
             BufferSource::File(file) => &file.bytes,
             BufferSource::Data(bytes) | BufferSource::Decoded(bytes) => bytes,
+            BufferSource::New(_) => &[],
             BufferSource::Absent(why) => {
                 return Err(ContentError::resource(format!("buffers[{index}]"), *why));
             }

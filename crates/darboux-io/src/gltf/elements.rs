@@ -1,11 +1,8 @@
 //! Elements of accessors as bytes, and new accessors made of them.
 
-use std::fmt::Write as _;
-
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 
 use super::element_type::{ComponentType, ElementType};
-use super::json_text;
 use super::schema::{Accessor, Sparse};
 
 /// The elements of an accessor as bytes, one after the other, with sparse elements in place.
@@ -146,33 +143,29 @@ impl Target {
 }
 
 impl Accessor {
-    /// The JSON of a new accessor, with the name, extras and extensions of `metadata_of`.
-    pub(super) fn to_json(&self, bounds: Option<Bounds>, metadata_of: Option<&Accessor>) -> String {
-        let mut text = "{".to_owned();
+    /// The JSON of a new accessor.
+    pub(super) fn to_json(&self, bounds: Option<Bounds>) -> Map<String, Value> {
+        let mut element = Map::new();
+        let mut set = |key: &str, value: Value| element.insert(key.to_owned(), value);
         if let Some(view) = self.buffer_view {
-            let _ = write!(text, "\"bufferView\":{view},");
+            set("bufferView", view.into());
         }
-        let _ = write!(text, "\"componentType\":{}", self.component_type.code());
+        set("componentType", self.component_type.code().into());
         if self.normalized {
-            text.push_str(",\"normalized\":true");
+            set("normalized", true.into());
         }
-        let _ = write!(text, ",\"count\":{},\"type\":\"{}\"", self.count, self.element_type.name());
+        set("count", self.count.into());
+        set("type", self.element_type.name().into());
         if let Some((min, max)) = bounds {
-            let (min, max) = (Value::from(min), Value::from(max));
-            let _ = write!(text, ",\"min\":{min},\"max\":{max}");
+            set("min", min.into());
+            set("max", max.into());
         }
         if let Some(Sparse { count, indices, values }) = self.sparse.as_deref() {
-            let (kind, indices, values) =
-                (indices.component_type.code(), indices.buffer_view, values.buffer_view);
-            let indices = format!("{{\"bufferView\":{indices},\"componentType\":{kind}}}");
-            let values = format!("{{\"bufferView\":{values}}}");
-            let _ =
-                write!(text, ",\"sparse\":{{\"count\":{count},\"indices\":{indices},\"values\":{values}}}");
+            let kind = indices.component_type.code();
+            let indices = json!({ "bufferView": indices.buffer_view, "componentType": kind });
+            let values = json!({ "bufferView": values.buffer_view });
+            set("sparse", json!({ "count": count, "indices": indices, "values": values }));
         }
-        for (key, value) in metadata_of.map(Accessor::descriptions).into_iter().flatten() {
-            let _ = write!(text, ",{}:{value}", json_text::quoted(key));
-        }
-        text.push('}');
-        text
+        element
     }
 }

@@ -1,22 +1,9 @@
 //! Finds the materials' textures that use an image.
 
-use serde::Deserialize;
 use serde_json::Value;
 
-use super::Document;
 use super::materials::Texture;
-use super::objects_only::read_from_objects;
-
-read_from_objects! { StoredUses }
-
-#[derive(Deserialize)]
-#[serde(remote = "Self")]
-struct StoredUses {
-    #[serde(default)]
-    materials: Vec<Value>,
-    #[serde(default)]
-    textures: Vec<Texture>,
-}
+use super::{Document, json};
 
 /// The members of materials that are normal maps.
 const NORMAL_MAPS: [&str; 2] = ["normalTexture", "clearcoatNormalTexture"];
@@ -26,14 +13,12 @@ impl Document {
     ///
     /// They cannot where a material also uses the image as another texture, and where its texture refers to the same picture in several formats.
     pub fn normal_map_obstacle(&self, image: usize) -> Option<&'static str> {
-        let Ok(StoredUses { materials, textures }) = self.parsed() else {
-            return Some("belongs to materials that are nested too deeply");
-        };
+        let textures: Vec<Texture> = json::read(&self.json["textures"], "textures").unwrap_or_default();
         let is_texture = |index: u64| {
             let texture = usize::try_from(index).ok().and_then(|index| textures.get(index));
             texture.is_some_and(|texture| texture.image() == Some(image))
         };
-        if materials.iter().any(|material| has_other_use(material, "", &is_texture)) {
+        if has_other_use(&self.json["materials"], "", &is_texture) {
             return Some("is used as another texture, too");
         }
         let is_in_several_formats =

@@ -1,18 +1,21 @@
 //! Opens documents: reads the file, its JSON and its buffers, and checks them.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::OnceLock;
+
+use serde_json::Value;
 
 use super::buffers::load_buffer;
 use super::container::Container;
 use super::document::Document;
-use super::edits::Edits;
 use super::file_bytes::{FileAccess, FileBytes};
-use super::parse::parse_root;
+use super::json::{self, TextLayout};
 use super::references;
 use super::resources::Resources;
 use super::schema::Root;
-use crate::error::ContentError;
+use super::unused_data::Unreferenced;
+use crate::error::{ContentError, shortened};
 use crate::memory_limit;
 use crate::{Error, LoadOptions, paths};
 
@@ -74,42 +77,43 @@ impl Document {
 
     fn parse(
         name: &str,
-        mut file: FileBytes,
+        file: FileBytes,
         mut resources: Resources,
         options: LoadOptions,
     ) -> Result<Self, ContentError> {
         let container = Container::parse(&file)?;
-        let text = String::from_utf8(file[container.json.clone()].to_vec()).map_err(|error| {
+        let text = std::str::from_utf8(&file[container.json.clone()]).map_err(|error| {
             ContentError::invalid("", format!("the JSON is not UTF-8: {error}; export the file again"))
         })?;
-        if !container.is_glb {
-            file = FileBytes::Read(Vec::new());
-        }
-        let root = parse_root(&text)?;
-        references::check(&text)?;
+        let (json, layout) = (json::parse(text)?, TextLayout::of(text));
+        let root = read_root(&json)?;
+        references::check(&json)?;
         let chunk = container.bin.clone().map(|range| &file[range]);
-        let buffer_sources = root
+        let buffers = root
             .buffers
             .iter()
             .enumerate()
             .map(|(i, buffer)| load_buffer(i, buffer, chunk, &mut resources))
             .collect::<Result<_, _>>()?;
-        let warnings = image_warnings(&root, &resources);
         let document = Self {
             name: name.to_owned(),
             input: None,
+            warnings: image_warnings(&root, &resources),
+            unreferenced: Unreferenced::of(&json),
             file,
             container,
-            text,
+            json,
+            layout,
             root,
             resources,
-            buffer_sources,
-            edits: Edits::default(),
+            buffers,
+            image_files: BTreeMap::new(),
+            is_changed: false,
+            decoded_ranges: Vec::new(),
             decompressed_bytes: 0,
             options,
             backed_count: OnceLock::new(),
-            primitive_texts: OnceLock::new(),
-            warnings,
+            is_unused_data_reported: false,
         };
         document.check_primitive_count()?;
         document.check_sizes()?;
@@ -131,6 +135,23 @@ impl Document {
                 if count == 1 { "s" } else { "" }
             )),
         ))
+    }
+}
+
+/// The typed parts of a document. Errors: it is not glTF 2.0.
+fn read_root(json: &Value) -> Result<Root, ContentError> {
+    let asset = &json["asset"];
+    match &asset["version"] {
+        Value::String(version) if !version.starts_with("2.") => {
+            let problem = format!("is {:?}; convert the file to glTF 2.0", shortened(version));
+            Err(ContentError::invalid("asset.version", problem))
+        }
+        Value::Null => {
+            let problem =
+                "asset.version is missing, so this is not a glTF file; give a .gltf or .glb file of glTF 2.0";
+            Err(ContentError::invalid("", problem))
+        }
+        _ => json::read(json, ""),
     }
 }
 

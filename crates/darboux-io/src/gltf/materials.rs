@@ -220,7 +220,7 @@ impl Document {
     /// The appearance of every material. Errors: textures, samplers or images that do not exist.
     pub fn appearances(&self) -> Result<Vec<Appearance>, Error> {
         let appearances = || -> Result<Vec<Appearance>, ContentError> {
-            let all: StoredMaterials = self.parsed()?;
+            let all: StoredMaterials = self.read()?;
             let appearance = |(index, material)| self.appearance(&all, index, material);
             all.materials.iter().enumerate().map(appearance).collect()
         };
@@ -297,7 +297,7 @@ impl Document {
     }
 
     fn find_image(&self, index: usize) -> Result<Cow<'_, [u8]>, ContentError> {
-        if let Some(file) = self.edits.image_files.get(&index) {
+        if let Some(file) = self.image_files.get(&index) {
             return Ok(file.bytes.as_slice().into());
         }
         let at = format!("images[{index}]");

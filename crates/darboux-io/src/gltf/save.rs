@@ -9,8 +9,9 @@ use std::path::{Path, PathBuf};
 use super::buffers::BufferSource;
 use super::container::glb;
 use super::document::Document;
-use super::edits::ImageFile;
-use super::output_layout::{FileUris, OutputLayout};
+use super::edit::ImageFile;
+use super::json::TextLayout;
+use super::output::{FileUris, OutputLayout};
 use super::resources::{LocatedFile, UriTarget, encode_path, portable};
 use super::segments::{self, Segment};
 use crate::error::ContentError;
@@ -64,7 +65,7 @@ impl Document {
     /// The file of a buffer that an earlier run made for new data, if the document has edits: it gets a new file for that buffer. The old
     /// file is kept, since other documents may refer to it.
     pub(super) fn replaced_file(&self, buffer: usize) -> Option<&LocatedFile> {
-        match (self.root.buffers.get(buffer), self.buffer_sources.get(buffer)) {
+        match (self.root.buffers.get(buffer), self.buffers.get(buffer)) {
             (Some(buffer), Some(BufferSource::File(file)))
                 if buffer.was_made_by_darboux() && self.is_changed() =>
             {
@@ -109,7 +110,7 @@ impl Document {
             self.container.other_chunks.iter().map(|(kind, range)| (*kind, &self.file[range.clone()]));
         let segments = || {
             let mut layout = OutputLayout::glb(self)?;
-            let json = layout.json(&FileUris::default())?;
+            let json = layout.json(&FileUris::default(), &TextLayout::default())?;
             glb(json, layout.binaries.pop().map(|binary| binary.segments), chunks.collect())
         };
         segments().map_err(|error| error.in_file(self.name()))
@@ -126,26 +127,20 @@ impl Document {
         let in_file = |error: ContentError| error.in_file(self.name());
         let layout = OutputLayout::gltf(self).map_err(in_file)?;
         let kept = |buffer| !layout.unused_data.has_buffer(buffer) && self.replaced_file(buffer).is_none();
-        let is_kept = |image| !self.edits.image_files.contains_key(&image);
+        let is_kept = |image| !self.image_files.contains_key(&image);
         let renamed = self.copy_files(&self.files_of(kept, is_kept), &mut names, staging)?;
         if !self.container.is_glb && !self.is_changed() && renamed.is_empty() {
-            return Ok(self
-                .container
-                .mark()
-                .into_iter()
-                .chain([self.text().as_bytes()])
-                .map(Segment::Borrowed)
-                .collect());
+            return Ok(vec![Segment::Borrowed(&self.file)]);
         }
         let name = Path::new(target.file_stem().unwrap_or(OsStr::new("buffer"))).with_added_extension("bin");
         let mut uris = FileUris { renamed, ..FileUris::default() };
         for binary in &layout.binaries {
             uris.binaries.push(names.place_segments(&name, staging, &binary.segments)?);
         }
-        for (&image, ImageFile { relative, bytes, .. }) in &self.edits.image_files {
+        for (&image, ImageFile { relative, bytes, .. }) in &self.image_files {
             uris.images.insert(image, names.place_segments(relative, staging, &[Segment::Borrowed(bytes)])?);
         }
-        Ok(vec![Segment::Owned(layout.json(&uris).map_err(in_file)?.into_bytes())])
+        Ok(vec![Segment::Owned(layout.json(&uris, &self.layout).map_err(in_file)?)])
     }
 
     /// Copies the files that the document refers to into the output's folder, unless that is the document's folder. Returns the files
@@ -193,7 +188,7 @@ impl Document {
         is_wanted_buffer: impl Fn(usize) -> bool,
         is_wanted_image: impl Fn(usize) -> bool,
     ) -> Vec<LocatedFile> {
-        let buffers = self.buffer_sources.iter().enumerate().filter_map(|(buffer, store)| match store {
+        let buffers = self.buffers.iter().enumerate().filter_map(|(buffer, store)| match store {
             BufferSource::File(file) if is_wanted_buffer(buffer) => Some(file.located.clone()),
             _ => None,
         });

@@ -133,7 +133,7 @@ impl Document {
     /// [decompressed](Document::decompress) first. Errors: joints outside the scene, missing matrices, nodes with several parents, more
     /// than 2^20 instances.
     pub fn placed_meshes(&self) -> Result<PlacedMeshes, Error> {
-        let scenes: Scenes = self.parsed().map_err(|error: ContentError| error.in_file(self.name()))?;
+        let scenes: Scenes = self.read().map_err(|error| error.in_file(self.name()))?;
         let nodes = placed_nodes(&scenes).map_err(|error| error.in_file(self.name()))?;
         let mut placed = PlacedMeshes { meshes: Vec::new(), skins: vec![Vec::new(); scenes.skins.len()] };
         if scenes.nodes.is_empty() {

@@ -1,17 +1,17 @@
-//! The parts of glTF's JSON that are parsed. All other parts are kept as text.
+//! The parts of glTF's JSON that are read as types.
 //!
 //! [`Mesh`], [`Primitive`] and [`Accessor`] are what [`Document`](super::Document) shows of the file.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
-use serde_json::value::RawValue;
+use serde_json::Value;
 
 use super::element_type::{ComponentType, ElementType};
 use super::objects_only::read_from_objects;
 
 read_from_objects! {
-    Root, Asset, VersionProbe, AssetProbe, Mesh, Primitive, PrimitiveExtensions, Variants, VariantMapping, Draco, Material,
+    Root, Asset, Mesh, Primitive, PrimitiveExtensions, Variants, VariantMapping, Draco, Material,
     MaterialExtensions, Clearcoat, Anisotropy, TextureInfo, TextureInfoExtensions, TextureTransform, Accessor,
     Sparse, SparseIndices, SparseValues, BufferView, BufferViewExtensions, Meshopt, Buffer, Image,
 }
@@ -40,20 +40,6 @@ pub(super) struct Root {
 #[serde(remote = "Self")]
 pub(super) struct Asset {
     pub version: String,
-}
-
-/// The version alone, for files whose other content cannot be parsed.
-#[derive(Debug, Deserialize)]
-#[serde(remote = "Self")]
-pub(super) struct VersionProbe {
-    pub asset: Option<AssetProbe>,
-}
-
-/// The metadata of a file, which may lack the version.
-#[derive(Debug, Deserialize)]
-#[serde(remote = "Self")]
-pub(super) struct AssetProbe {
-    pub version: Option<String>,
 }
 
 /// A mesh: a list of primitives.
@@ -248,25 +234,12 @@ pub struct Accessor {
     pub element_type: ElementType,
     /// The elements that replace those of the buffer view.
     pub(super) sparse: Option<Box<Sparse>>,
-    /// The name, as JSON text.
-    pub(super) name: Option<Box<RawValue>>,
-    /// The extras, as JSON text.
-    pub(super) extras: Option<Box<RawValue>>,
-    /// The extensions, as JSON text.
-    pub(super) extensions: Option<Box<RawValue>>,
 }
 
 impl Accessor {
     /// Whether some elements are stored apart from the buffer view, by their indices.
     pub fn is_sparse(&self) -> bool {
         self.sparse.is_some()
-    }
-
-    /// The keys and JSON texts of the members that describe the accessor.
-    pub(super) fn descriptions(&self) -> impl Iterator<Item = (&'static str, &str)> {
-        [("name", &self.name), ("extras", &self.extras), ("extensions", &self.extensions)]
-            .into_iter()
-            .filter_map(|(key, value)| Some((key, value.as_ref()?.get())))
     }
 }
 
@@ -363,17 +336,17 @@ pub(super) struct Buffer {
     pub uri: Option<String>,
     /// The number of bytes.
     pub byte_length: usize,
-    /// The name, as JSON text.
-    pub(super) name: Option<Box<RawValue>>,
+    /// The name.
+    pub(super) name: Option<Value>,
 }
 
 impl Buffer {
     /// The name of buffers made for new data of a `.gltf`, by which later runs recognise them.
-    pub(super) const NAME_FOR_NEW_DATA: &str = "\"darboux\"";
+    pub(super) const NAME_FOR_NEW_DATA: &str = "darboux";
 
     /// True if an earlier run of Darboux made the buffer, for new data.
     pub(super) fn was_made_by_darboux(&self) -> bool {
-        self.name.as_ref().is_some_and(|name| name.get() == Self::NAME_FOR_NEW_DATA)
+        self.name.as_ref().is_some_and(|name| name == Self::NAME_FOR_NEW_DATA)
     }
 }
 

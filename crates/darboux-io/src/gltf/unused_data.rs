@@ -1,275 +1,257 @@
-//! Finds accessors, buffer views and bytes that the input referred to and that nothing refers to after the edits, and removes them.
+//! Finds accessors, buffer views and bytes that nothing refers to any more.
 //!
-//! Data that the input itself did not refer to is kept.
+//! What nothing in the input referred to is kept: it may be there for a reason that is not written in the file.
 //!
 //! ```text
-//! unused accessors = accessors referred to before the edits - accessors referred to after them
-//! unused views     = views of these accessors               - views that anything else refers to
-//! unused bytes     = ranges of these views                  - ranges of all other views
+//! unused accessors = accessors without a reference
+//! unused views     = views that only unused accessors refer to
+//! unused bytes     = ranges of unused views, and of removed compression - ranges of all other views
 //! ```
 
-use std::collections::BTreeSet;
 use std::ops::Range;
 
+use serde_json::Value;
+
+use super::buffers::BufferSource;
 use super::document::Document;
-use super::json_text::{edit_array, member, set_member, without_elements};
-use super::references::{IndexReference, ReferenceKind, references, unknown_extension};
-use super::schema::{BufferView, Meshopt};
+use super::references::{Reference, ReferenceKind, references, renumber, unknown_extension};
+use super::schema::Meshopt;
+
+/// The accessors and buffer views that nothing in the input refers to, in ascending order.
+#[derive(Debug, Default)]
+pub struct Unreferenced {
+    accessors: Vec<usize>,
+    views: Vec<usize>,
+}
+
+impl Unreferenced {
+    /// Those of a document as it was read.
+    pub fn of(json: &Value) -> Self {
+        let references = references(json);
+        let rest = |array: &str, kinds: &[ReferenceKind]| {
+            let count = json[array].as_array().map_or(0, Vec::len);
+            let is_used = marked(count, &references, kinds);
+            (0..count).filter(|&index| !is_used[index]).collect()
+        };
+        Self {
+            accessors: rest("accessors", &[ReferenceKind::Accessor]),
+            views: rest("bufferViews", &[ReferenceKind::View, ReferenceKind::ViewOfAccessor]),
+        }
+    }
+}
 
 /// The data that the output does not need.
 #[derive(Debug, Default)]
 pub struct UnusedData {
-    /// Indices of accessors. New accessors follow those of the input.
-    accessors: BTreeSet<usize>,
-    views: BTreeSet<usize>,
-    /// Buffers without any used byte.
-    buffers: BTreeSet<usize>,
-    /// The unused ranges of each buffer, in ascending order.
-    unused_ranges: Vec<Vec<UnusedRange>>,
+    is_unused_accessor: Vec<bool>,
+    is_unused_view: Vec<bool>,
+    buffers: Vec<BufferUse>,
 }
 
-/// An unused range of a buffer, a multiple of [`ALIGNMENT`] long.
-#[derive(Clone, Debug)]
-struct UnusedRange {
-    range: Range<usize>,
-    /// The total length of all unused ranges up to the end of this one.
-    total: usize,
+/// The use of a buffer.
+#[derive(Debug, Default)]
+struct BufferUse {
+    /// Whether there were references, and none is left.
+    is_unused: bool,
+    /// The ranges that are not kept, multiples of [`ALIGNMENT`], in ascending order.
+    unused_ranges: Vec<Range<usize>>,
 }
 
 /// Bytes move by multiples of this number, so that alignment is kept.
 const ALIGNMENT: usize = 16;
 
 impl UnusedData {
-    /// The unused data of a document; nothing if an unknown extension might refer to it.
-    pub fn of(document: &Document) -> serde_json::Result<Self> {
-        let found = if document.is_changed() { Self::find(document)? } else { None };
-        Ok(found.filter(|_| unknown_extension(document.text()).is_none()).unwrap_or_default())
-    }
-
-    /// As [`UnusedData::of`], without regard to extensions. None: some references cannot be read.
-    fn find(document: &Document) -> serde_json::Result<Option<Self>> {
-        let (before, after) = (references(document.text()), references(&edited(document)?));
-        let (Some(before), Some(after)) = (before, after) else { return Ok(None) };
-        let accessors = unused_accessors(document, &before, &after);
-        let views = unused_views(document, &accessors, &before, &after);
-        let stored: Vec<BufferView> = match member(document.text(), "bufferViews")? {
-            Some(views) => serde_json::from_str(views)?,
-            None => Vec::new(),
-        };
-        let mut unused_data = Self { accessors, views, buffers: BTreeSet::new(), unused_ranges: Vec::new() };
-        let uses = uses(document, &stored, &unused_data.views);
-        for (buffer, uses) in uses.into_iter().enumerate() {
-            let length = document.root.buffers[buffer].byte_length;
-            if uses.live.is_empty() && !uses.dead.is_empty() {
-                unused_data.buffers.insert(buffer);
-            }
-            unused_data.unused_ranges.push(uses.unused_ranges(length));
+    /// The unused data of a document; nothing without edits, or if an unknown extension might refer to it.
+    pub fn of(document: &Document) -> Self {
+        match document.is_changed() && unknown_extension(&document.json).is_none() {
+            true => Self::find(document),
+            false => Self::default(),
         }
-        Ok(Some(unused_data))
     }
 
-    /// Whether a buffer of the input is removed.
+    /// As [`UnusedData::of`], without regard to edits and extensions.
+    fn find(document: &Document) -> Self {
+        let references = references(&document.json);
+        let is_unused_accessor = unused_accessors(document, &references);
+        let is_unused_view = unused_views(document, &references, &is_unused_accessor);
+        let buffers = ranges_of_buffers(document, &is_unused_view);
+        let buffers = buffers.into_iter().zip(&document.root.buffers);
+        let buffers = buffers.map(|(ranges, buffer)| ranges.usage(buffer.byte_length)).collect();
+        Self { is_unused_accessor, is_unused_view, buffers }
+    }
+
+    /// Whether an accessor is removed.
+    fn has_accessor(&self, accessor: usize) -> bool {
+        self.is_unused_accessor.get(accessor).is_some_and(|&is_unused| is_unused)
+    }
+
+    /// Whether a buffer view is removed.
+    pub fn has_view(&self, view: usize) -> bool {
+        self.is_unused_view.get(view).is_some_and(|&is_unused| is_unused)
+    }
+
+    /// Whether a buffer is removed.
     pub fn has_buffer(&self, buffer: usize) -> bool {
-        self.buffers.contains(&buffer)
+        self.buffers.get(buffer).is_some_and(|buffer| buffer.is_unused)
     }
 
-    /// Whether a new buffer view is removed, by its index among the new ones.
-    pub fn has_new_view(&self, document: &Document, place: usize) -> bool {
-        self.views.contains(&(document.root.buffer_views.len() + place))
-    }
-
-    /// Whether parts of a buffer are removed.
-    pub fn has_unused_ranges(&self, buffer: usize) -> bool {
-        self.unused_ranges.get(buffer).is_some_and(|unused_ranges| !unused_ranges.is_empty())
-    }
-
-    /// The parts of a buffer that are kept.
-    pub fn kept<'a>(&self, buffer: usize, bytes: &'a [u8]) -> Vec<&'a [u8]> {
+    /// The ranges of a buffer of `length` bytes that are kept, in ascending order.
+    pub fn kept_ranges(&self, buffer: usize, length: usize) -> Vec<Range<usize>> {
         if self.has_buffer(buffer) {
             return Vec::new();
         }
-        let unused_ranges = self.unused_ranges.get(buffer).into_iter().flatten().map(|unused| &unused.range);
-        let ends = unused_ranges.clone().map(|unused| unused.start).chain([bytes.len()]);
-        let starts = [0].into_iter().chain(unused_ranges.map(|unused| unused.end));
-        starts.zip(ends).map(|(start, end)| &bytes[start..end]).filter(|part| !part.is_empty()).collect()
+        let unused = self.buffers.get(buffer).map_or(&[][..], |buffer| &buffer.unused_ranges);
+        let starts = [0].into_iter().chain(unused.iter().map(|unused| unused.end));
+        let ends = unused.iter().map(|unused| unused.start).chain([length]);
+        starts.zip(ends).map(|(start, end)| start..end).filter(|kept| !kept.is_empty()).collect()
     }
 
-    /// The offset of a byte after the unused ranges before it are removed.
-    pub fn moved(&self, buffer: usize, offset: usize) -> usize {
-        let unused_ranges = self.unused_ranges.get(buffer).map_or(&[][..], Vec::as_slice);
-        let before = unused_ranges.partition_point(|unused| unused.range.end <= offset);
-        offset - before.checked_sub(1).map_or(0, |last| unused_ranges[last].total)
+    /// The number of buffer views that are kept.
+    pub fn view_count(&self, all: usize) -> usize {
+        all - self.is_unused_view.iter().filter(|&&is_unused| is_unused).count()
     }
 
-    /// The JSON of the root object without the unused accessors and buffer views, with references renumbered.
-    pub fn cleared(&self, root: String) -> serde_json::Result<String> {
-        if self.accessors.is_empty() && self.views.is_empty() {
-            return Ok(root);
+    /// The JSON without the unused accessors and with references renumbered; none if nothing is unused. Buffer views are still all there.
+    pub fn cleared(&self, json: &Value) -> Option<Value> {
+        let has_unused = |list: &[bool]| list.contains(&true);
+        if !has_unused(&self.is_unused_accessor) && !has_unused(&self.is_unused_view) {
+            return None;
         }
-        let references = references(&root);
-        let references = references.ok_or_else(|| serde::de::Error::custom("a reference is not an index"))?;
-        let mut cleared = self.renumbered(&root, references);
-        for (key, dead) in [("accessors", &self.accessors), ("bufferViews", &self.views)] {
-            if let Some(array) = member(&cleared, key)? {
-                let kept = without_elements(array, dead)?;
-                cleared = set_member(&cleared, key, kept.as_deref())?;
+        let [accessors, views] = [&self.is_unused_accessor, &self.is_unused_view].map(|list| new_indices(list));
+        let mut cleared = json.clone();
+        renumber(&mut cleared, |Reference { kind, index }| {
+            let new = match kind {
+                ReferenceKind::Accessor => accessors.get(index),
+                ReferenceKind::View | ReferenceKind::ViewOfAccessor => views.get(index),
+                _ => None,
+            };
+            new.copied().unwrap_or(index)
+        });
+        if let Some(Value::Array(accessors)) = cleared.get_mut("accessors") {
+            let mut index = 0..;
+            accessors.retain(|_| index.next().is_none_or(|index| !self.has_accessor(index)));
+            if accessors.is_empty() {
+                cleared.as_object_mut().and_then(|root| root.shift_remove("accessors"));
             }
         }
-        Ok(cleared)
-    }
-
-    fn renumbered(&self, root: &str, mut references: Vec<IndexReference>) -> String {
-        references.sort_by_key(|reference| reference.range.start);
-        let [accessors, views] =
-            [&self.accessors, &self.views].map(|dead| Vec::from_iter(dead.iter().copied()));
-        let mut out = String::with_capacity(root.len());
-        let mut copied = 0;
-        for IndexReference { kind, index, range } in references {
-            let dead = match kind {
-                ReferenceKind::Accessor => &accessors,
-                ReferenceKind::View | ReferenceKind::ViewOfAccessor => &views,
-                _ => continue,
-            };
-            out.push_str(&root[copied..range.start]);
-            out.push_str(&(index - dead.partition_point(|&dead| dead < index)).to_string());
-            copied = range.end;
-        }
-        out.push_str(&root[copied..]);
-        out
+        Some(cleared)
     }
 }
 
 impl Document {
     /// A warning if unused data is kept because an unknown extension might refer to it. Returned once per document.
     pub(super) fn unused_data_warning(&mut self) -> Option<String> {
-        let extension = unknown_extension(self.text()).filter(|_| !self.edits.is_unused_data_reported)?;
-        let unused_data = UnusedData::find(self).ok().flatten()?;
-        let has_unused_ranges =
-            (0..unused_data.unused_ranges.len()).any(|buffer| unused_data.has_unused_ranges(buffer));
-        let is_there = has_unused_ranges || !unused_data.accessors.is_empty();
-        self.edits.is_unused_data_reported = is_there;
-        is_there.then(|| {
-            format!(
-                "data that is no longer used is kept in the file: the extension {extension} may refer to it"
-            )
+        let extension = unknown_extension(&self.json).filter(|_| !self.is_unused_data_reported)?.to_owned();
+        let unused_data = UnusedData::find(self);
+        let has_unused_bytes = unused_data.buffers.iter().any(|buffer| !buffer.unused_ranges.is_empty());
+        self.is_unused_data_reported = has_unused_bytes || unused_data.is_unused_accessor.contains(&true);
+        self.is_unused_data_reported.then(|| {
+            format!("data that is no longer used is kept in the file: the extension {extension} may refer to it")
         })
     }
 }
 
-/// The JSON of the root object with all edits of references.
-fn edited(document: &Document) -> serde_json::Result<String> {
-    let edits = &document.edits;
-    let mut root = document.text().to_owned();
-    if let Some(meshes) = member(&root, "meshes")? {
-        let meshes = document.edited_meshes(meshes)?;
-        root = set_member(&root, "meshes", Some(&meshes))?;
-    }
-    for (key, edited, appended) in edits.edited_arrays() {
-        let elements = edit_array(member(&root, key)?.unwrap_or("[]"), edited, appended)?;
-        root = set_member(&root, key, Some(&elements))?;
-    }
-    if let Some(images) = member(&root, "images")? {
-        let images = edit_array(images, &edits.images, &[])?;
-        root = set_member(&root, "images", Some(&images))?;
-    }
-    let accessors = member(&root, "accessors")?.unwrap_or("[]");
-    let accessors = edit_array(accessors, &edits.accessors, &edits.new_accessors)?;
-    set_member(&root, "accessors", Some(&accessors).filter(|text| *text != "[]").map(String::as_str))
+/// The index of every element after the unused ones before it are removed.
+fn new_indices(is_unused: &[bool]) -> Vec<usize> {
+    let mut next = 0;
+    let step = |&is_unused: &bool| {
+        let new = next;
+        next += usize::from(!is_unused);
+        new
+    };
+    is_unused.iter().map(step).collect()
 }
 
-fn numbers(references: &[IndexReference], kinds: &[ReferenceKind]) -> BTreeSet<usize> {
-    references
-        .iter()
-        .filter(|reference| kinds.contains(&reference.kind))
-        .map(|reference| reference.index)
-        .collect()
-}
-
-fn unused_accessors(
-    document: &Document,
-    before: &[IndexReference],
-    after: &[IndexReference],
-) -> BTreeSet<usize> {
-    let mut used = numbers(before, &[ReferenceKind::Accessor]);
-    used.extend(&document.edits.formerly_referenced);
-    used.retain(|&number| number < document.root.accessors.len());
-    &used - &numbers(after, &[ReferenceKind::Accessor])
-}
-
-fn unused_views(
-    document: &Document,
-    unused_accessors: &BTreeSet<usize>,
-    before: &[IndexReference],
-    after: &[IndexReference],
-) -> BTreeSet<usize> {
-    let mut used = numbers(before, &[ReferenceKind::View, ReferenceKind::ViewOfAccessor]);
-    let mut live = numbers(after, &[ReferenceKind::View]);
-    for (number, accessor) in document.root.accessors.iter().enumerate() {
-        let views = if unused_accessors.contains(&number) { &mut used } else { &mut live };
-        views.extend(accessor.buffer_view);
-        let sparse = accessor.sparse.iter();
-        views.extend(sparse.flat_map(|sparse| [sparse.indices.buffer_view, sparse.values.buffer_view]));
-    }
-    used.retain(|&number| number < document.root.buffer_views.len() + document.edits.new_views.len());
-    &used - &live
-}
-
-/// The ranges of a buffer that buffer views refer to.
-#[derive(Clone, Default)]
-struct BufferUses {
-    live: Vec<Range<usize>>,
-    dead: Vec<Range<usize>>,
-}
-
-/// The uses of each buffer of the input. `stored` are the buffer views of the file, `dead` are those that are removed.
-fn uses(document: &Document, stored: &[BufferView], dead: &BTreeSet<usize>) -> Vec<BufferUses> {
-    let mut uses = vec![BufferUses::default(); document.root.buffers.len()];
-    for (number, (old, new)) in stored.iter().zip(&document.root.buffer_views).enumerate() {
-        let is_dead = dead.contains(&number);
-        let mut note = |buffer: usize, offset: usize, length: usize, is_dead: bool| {
-            let Some(uses) = uses.get_mut(buffer) else { return };
-            let list = if is_dead { &mut uses.dead } else { &mut uses.live };
-            list.push(offset..offset.saturating_add(length));
-        };
-        note(old.buffer, old.byte_offset, old.byte_length, is_dead);
-        if let Some(Meshopt { buffer, byte_offset, byte_length, .. }) = old.extensions.meshopt.as_deref() {
-            let is_decoded = new.extensions.meshopt.is_none();
-            note(*buffer, *byte_offset, *byte_length, is_dead || is_decoded);
+/// Whether each of `count` elements has a reference of one of some kinds.
+fn marked(count: usize, references: &[Reference], kinds: &[ReferenceKind]) -> Vec<bool> {
+    let mut is_marked = vec![false; count];
+    for Reference { kind, index } in references {
+        if let Some(is_marked) = is_marked.get_mut(*index).filter(|_| kinds.contains(kind)) {
+            *is_marked = true;
         }
     }
-    uses
+    is_marked
 }
 
-impl BufferUses {
-    /// The parts of dead ranges outside live ones, below `length`, in multiples of [`ALIGNMENT`].
-    fn unused_ranges(self, length: usize) -> Vec<UnusedRange> {
-        let live = merged_ranges(self.live);
-        let (mut unused_ranges, mut total) = (Vec::new(), 0);
-        for dead in merged_ranges(self.dead) {
-            let first = live.partition_point(|live| live.end <= dead.start);
-            let within = live[first..].iter().take_while(|live| live.start < dead.end);
-            let starts = [dead.start].into_iter().chain(within.clone().map(|live| live.end));
-            let ends = within.map(|live| live.start).chain([dead.end]);
-            for (start, end) in starts.zip(ends) {
-                let whole = end.min(length).saturating_sub(start) / ALIGNMENT * ALIGNMENT;
-                total += whole;
-                unused_ranges
-                    .extend((whole > 0).then_some(UnusedRange { range: start..start + whole, total }));
+fn unused_accessors(document: &Document, references: &[Reference]) -> Vec<bool> {
+    let mut is_used = marked(document.root.accessors.len(), references, &[ReferenceKind::Accessor]);
+    document.unreferenced.accessors.iter().for_each(|&kept| is_used[kept] = true);
+    is_used.into_iter().map(|is_used| !is_used).collect()
+}
+
+fn unused_views(document: &Document, references: &[Reference], is_unused_accessor: &[bool]) -> Vec<bool> {
+    let mut is_used = marked(document.root.buffer_views.len(), references, &[ReferenceKind::View]);
+    document.unreferenced.views.iter().for_each(|&kept| is_used[kept] = true);
+    let accessors = document.root.accessors.iter().zip(is_unused_accessor);
+    for (accessor, _) in accessors.filter(|&(_, &is_unused)| !is_unused) {
+        let sparse = accessor.sparse.iter();
+        let views = sparse.flat_map(|sparse| [sparse.indices.buffer_view, sparse.values.buffer_view]);
+        for view in views.chain(accessor.buffer_view) {
+            if let Some(is_used) = is_used.get_mut(view) {
+                *is_used = true;
             }
         }
-        unused_ranges
+    }
+    is_used.into_iter().map(|is_used| !is_used).collect()
+}
+
+/// The ranges of a buffer that are used, and those that no longer are.
+#[derive(Clone, Default)]
+struct BufferRanges {
+    used: Vec<Range<usize>>,
+    unused: Vec<Range<usize>>,
+}
+
+fn ranges_of_buffers(document: &Document, is_unused_view: &[bool]) -> Vec<BufferRanges> {
+    let mut buffers = vec![BufferRanges::default(); document.root.buffers.len()];
+    let mut note = |buffer: usize, offset: usize, length: usize, is_unused: bool| {
+        // Pieces of the buffer of new bytes are written view by view.
+        let is_new = matches!(document.buffers.get(buffer), Some(BufferSource::New(_)));
+        let Some(ranges) = buffers.get_mut(buffer).filter(|_| !is_new) else { return };
+        let list = if is_unused { &mut ranges.unused } else { &mut ranges.used };
+        list.push(offset..offset.saturating_add(length));
+    };
+    for (view, &is_unused) in document.root.buffer_views.iter().zip(is_unused_view) {
+        note(view.buffer, view.byte_offset, view.byte_length, is_unused);
+        if let Some(Meshopt { buffer, byte_offset, byte_length, .. }) = view.extensions.meshopt.as_deref() {
+            note(*buffer, *byte_offset, *byte_length, is_unused);
+        }
+    }
+    for (buffer, range) in &document.decoded_ranges {
+        note(*buffer, range.start, range.len(), true);
+    }
+    buffers
+}
+
+impl BufferRanges {
+    /// What is kept of a buffer of `length` bytes.
+    fn usage(self, length: usize) -> BufferUse {
+        let is_unused = self.used.is_empty() && !self.unused.is_empty();
+        let used = merged(self.used);
+        let mut unused_ranges = Vec::new();
+        for unused in merged(self.unused) {
+            let first = used.partition_point(|used| used.end <= unused.start);
+            let within = used[first..].iter().take_while(|used| used.start < unused.end);
+            let starts = [unused.start].into_iter().chain(within.clone().map(|used| used.end));
+            let ends = within.map(|used| used.start).chain([unused.end]);
+            for (start, end) in starts.zip(ends) {
+                let whole = end.min(length).saturating_sub(start) / ALIGNMENT * ALIGNMENT;
+                unused_ranges.extend((whole > 0).then_some(start..start + whole));
+            }
+        }
+        BufferUse { is_unused, unused_ranges }
     }
 }
 
 /// Joins ranges that touch. The result is in ascending order.
-fn merged_ranges(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
+fn merged(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
     ranges.sort_unstable_by_key(|range| range.start);
-    let mut merged_ranges: Vec<Range<usize>> = Vec::new();
+    let mut merged: Vec<Range<usize>> = Vec::new();
     for range in ranges {
-        match merged_ranges.last_mut() {
+        match merged.last_mut() {
             Some(last) if range.start <= last.end => last.end = last.end.max(range.end),
-            _ => merged_ranges.push(range),
+            _ => merged.push(range),
         }
     }
-    merged_ranges
+    merged
 }

@@ -152,7 +152,7 @@ impl DocumentBuilder {
             }
         }
         let chunk = vec![segments::Segment::Borrowed(&self.bytes)];
-        let glb = container::glb(document.to_string(), Some(chunk), Vec::new())?;
+        let glb = container::glb(document.to_string().into_bytes(), Some(chunk), Vec::new())?;
         Ok(segments::joined(&glb))
     }
 }

@@ -6,14 +6,12 @@ use std::panic;
 use ::draco_core::{
     DataType, DecodeLimits, DecoderBuffer, FaceIndex, Mesh, MeshDecoder, PointAttribute, PointIndex,
 };
-use serde_json::value::RawValue;
 
-use super::{DecodeBudget, without_extension};
+use super::DecodeBudget;
 use crate::error::ContentError;
 use crate::gltf::document::Document;
 use crate::gltf::element_type::{ComponentType, ElementType};
 use crate::gltf::elements::{Elements, Target};
-use crate::gltf::json_text::{member, set_member};
 use crate::gltf::schema::{Accessor, Draco, Primitive};
 
 const NAME: &str = "KHR_draco_mesh_compression";
@@ -40,16 +38,10 @@ impl Document {
                 if !self.has_data(&wanted, &draco, &sources, &at)? {
                     self.decode_primitive(&wanted, &draco, budget, &mut sources, &at)?;
                 }
-                let text = self.primitive_text(mesh, i).unwrap_or_default();
-                let stripped = without_extension(text, NAME);
-                stripped
-                    .and_then(|text| self.replace_primitive(mesh, i, text))
-                    .map_err(|error| ContentError::invalid(&at, error.to_string()))?;
+                self.remove_primitive_extension(mesh, i, NAME)?;
             }
         }
-        self.edits.removed_extensions.push(NAME);
-        self.store_accessors(&sources)
-            .map_err(|error| ContentError::invalid("accessors", error.to_string()))?;
+        self.undeclare_extensions(&[NAME]);
         Ok(sources.into_keys().collect())
     }
 
@@ -117,25 +109,12 @@ impl Document {
             let size = elements.element_size();
             self.decompressed_bytes += elements.bytes.len();
             let view = self.push_view(elements.bytes, size, target.stride(size), Some(target));
-            let accessor = &mut self.root.accessors[index];
-            (accessor.buffer_view, accessor.byte_offset) = (Some(view), 0);
+            self.edit_element("accessors", index, |accessor| {
+                accessor.as_object_mut().and_then(|accessor| accessor.shift_remove("byteOffset"));
+                accessor["bufferView"] = view.into();
+            })?;
             sources.insert(index, (draco.buffer_view, id));
         }
-        Ok(())
-    }
-
-    /// Sets the new buffer views in the JSON of the decoded accessors.
-    fn store_accessors(&mut self, sources: &Sources) -> serde_json::Result<()> {
-        let array = member(self.text(), "accessors")?.unwrap_or("[]");
-        let texts: Vec<&RawValue> = serde_json::from_str(array)?;
-        let mut edited = Vec::with_capacity(sources.len());
-        for &index in sources.keys() {
-            if let Some(view) = self.root.accessors[index].buffer_view {
-                let text = set_member(texts[index].get(), "byteOffset", None)?;
-                edited.push((index, set_member(&text, "bufferView", Some(&view.to_string()))?));
-            }
-        }
-        self.edits.accessors.extend(edited);
         Ok(())
     }
 }

@@ -9,13 +9,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use ::meshopt as codec;
-use serde_json::value::RawValue;
+use serde_json::Value;
 
-use super::{DecodeBudget, without_extension};
+use super::DecodeBudget;
 use crate::error::ContentError;
 use crate::gltf::buffers::BufferSource;
 use crate::gltf::document::Document;
-use crate::gltf::json_text::{member, set_member};
+use crate::gltf::json;
 use crate::gltf::schema::{BufferView, Meshopt};
 
 const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
@@ -36,7 +36,7 @@ impl Document {
         let mut views_of_buffer: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (i, view) in self.root.buffer_views.iter().enumerate() {
             let has_fallback =
-                !matches!(self.buffer_sources.get(view.buffer), Some(BufferSource::Absent(_)) | None);
+                !matches!(self.buffers.get(view.buffer), Some(BufferSource::Absent(_)) | None);
             if view.extensions.meshopt.is_some() && !has_fallback {
                 views.insert(i);
                 views_of_buffer.entry(view.buffer).or_default().push(i);
@@ -50,7 +50,7 @@ impl Document {
         for ((buffer, views), length) in views_of_buffer.into_iter().zip(lengths) {
             self.fill_buffer(buffer, &views, length)?;
         }
-        self.remove_meshopt().map_err(|error| ContentError::invalid("bufferViews", error.to_string()))?;
+        self.remove_meshopt()?;
         Ok(views)
     }
 
@@ -96,8 +96,8 @@ impl Document {
             let bytes = self.decode_view(view, compressed, &view_path(i))?;
             content[view.byte_offset..][..bytes.len()].copy_from_slice(&bytes);
         }
-        self.root.buffers[buffer].byte_length = length;
-        self.buffer_sources[buffer] = BufferSource::Decoded(content);
+        self.buffers[buffer] = BufferSource::Decoded(content);
+        self.edit_element("buffers", buffer, |buffer| buffer["byteLength"] = length.into())?;
         Ok(())
     }
 
@@ -106,7 +106,7 @@ impl Document {
         let Meshopt { buffer, byte_offset, byte_length, byte_stride: stride, count, .. } = *compressed;
         let broken =
             |problem: String| ContentError::invalid(at, format!("{problem}; compress the file again"));
-        let stream = self.buffer_range(buffer, byte_offset, byte_length, at)?;
+        let stream = self.buffer_range(buffer, byte_offset, byte_length, || at.to_owned())?;
         let length = view.byte_length;
         if count.checked_mul(stride) != Some(length) {
             return Err(broken(format!(
@@ -139,31 +139,19 @@ impl Document {
     }
 
     /// Removes the extensions from the JSON.
-    fn remove_meshopt(&mut self) -> serde_json::Result<()> {
-        let text = self.text();
-        let array = |key| Ok(member(text, key)?.unwrap_or("[]"));
-        let views: Vec<&RawValue> = serde_json::from_str(array("bufferViews")?)?;
-        let buffers: Vec<&RawValue> = serde_json::from_str(array("buffers")?)?;
-        let mut edited_views = BTreeMap::new();
-        for (i, view) in views.iter().enumerate() {
-            if self.root.buffer_views[i].extensions.meshopt.is_some() {
-                edited_views.insert(i, without_meshopt(view.get())?);
+    fn remove_meshopt(&mut self) -> Result<(), ContentError> {
+        for view in 0..self.root.buffer_views.len() {
+            let compressed = self.root.buffer_views[view].extensions.meshopt.as_deref();
+            if let Some(Meshopt { buffer, byte_offset, byte_length, .. }) = compressed {
+                let range = *byte_offset..byte_offset.saturating_add(*byte_length);
+                self.decoded_ranges.push((*buffer, range));
+                self.edit_element("bufferViews", view, without_meshopt)?;
             }
         }
-        let mut edited_buffers = BTreeMap::new();
-        for (i, buffer) in buffers.iter().enumerate() {
-            let mut text = without_meshopt(buffer.get())?;
-            if let BufferSource::Decoded(bytes) = &self.buffer_sources[i] {
-                text = set_member(&text, "byteLength", Some(&bytes.len().to_string()))?;
-            }
-            if text != buffer.get() {
-                edited_buffers.insert(i, text);
-            }
+        for buffer in 0..self.root.buffers.len() {
+            self.edit_element("buffers", buffer, without_meshopt)?;
         }
-        self.root.buffer_views.iter_mut().for_each(|view| view.extensions.meshopt = None);
-        self.edits.views.extend(edited_views);
-        self.edits.buffers.extend(edited_buffers);
-        self.edits.removed_extensions.extend(NAMES);
+        self.undeclare_extensions(&NAMES);
         Ok(())
     }
 }
@@ -172,8 +160,10 @@ fn view_path(view: usize) -> String {
     format!("bufferViews[{view}].extensions")
 }
 
-fn without_meshopt(object: &str) -> serde_json::Result<String> {
-    NAMES.into_iter().try_fold(object.to_owned(), |text, name| without_extension(&text, name))
+fn without_meshopt(object: &mut Value) {
+    for name in NAMES {
+        json::remove_extension(object, name);
+    }
 }
 
 /// Decodes a stream. None: the stream is broken, or the combination is not allowed.

@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use darboux::Convention;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use serde_json::{Map, Value};
 
 use crate::Error;
 use crate::gltf::Document;
-use crate::gltf::json_text::{keys, member, quoted, set_member};
 use crate::gltf::schema::Material;
 
 /// The member of `asset.extras` with the name of a convention.
@@ -23,17 +23,17 @@ impl Document {
 
     fn noted_convention(&self) -> Result<Option<Convention>, Error> {
         let Some(note) = self.note() else { return Ok(None) };
-        let name: Result<String, _> = serde_json::from_str(note);
-        let convention = name
-            .map_err(|_| format!("{note} is not a string"))
+        let convention = note
+            .as_str()
+            .ok_or_else(|| format!("{note} is not a string"))
             .and_then(|name| name.parse().map_err(|error: darboux::ConventionError| error.to_string()));
         let advice = "a newer version may support it; remove the member if it is wrong";
         let named = |problem| self.invalid(format!("asset.extras.{MEMBER}"), format!("{problem}; {advice}"));
         convention.map(Some).map_err(named)
     }
 
-    fn note(&self) -> Option<&str> {
-        member(member(self.asset_text()?, "extras").ok()??, MEMBER).ok()?
+    fn note(&self) -> Option<&Value> {
+        self.json["asset"]["extras"].get(MEMBER)
     }
 
     /// Whether the document is marked with a convention.
@@ -54,32 +54,25 @@ impl Document {
 
     /// Marks the document with a convention, or removes the mark for glTF's. Errors: `asset.extras` is not an object.
     pub(super) fn set_convention(&mut self, convention: Convention) -> Result<(), Error> {
-        let name = (convention != Convention::GLTF).then(|| quoted(&convention.to_string()));
-        if name.as_deref() == self.note() {
+        let name = (convention != Convention::GLTF).then(|| Value::from(convention.to_string()));
+        if name.as_ref() == self.note() {
             return Ok(());
         }
-        let asset = self.asset_text().unwrap_or("{}").to_owned();
-        let noted = (|| {
-            let extras = member(&asset, "extras")?.unwrap_or("{}");
-            let noted = set_member(extras, MEMBER, name.as_deref())?;
-            let noted = (!keys(&noted)?.is_empty()).then_some(noted);
-            set_member(&asset, "extras", noted.as_deref())
-        })();
-        let noted = noted.map_err(|_: serde_json::Error| {
-            self.invalid(
-                "asset.extras",
-                format!("is not an object, so that {MEMBER} cannot be stored; remove it"),
-            )
-        })?;
-        self.edits.asset = Some(noted);
-        Ok(())
-    }
-
-    fn asset_text(&self) -> Option<&str> {
-        match &self.edits.asset {
-            Some(edited) => Some(edited),
-            None => member(self.text(), "asset").ok()?,
+        let asset = self.json.get_mut("asset").and_then(Value::as_object_mut);
+        let extras = asset.map(|asset| asset.entry("extras").or_insert_with(|| Map::new().into()));
+        let Some(extras) = extras.and_then(Value::as_object_mut) else {
+            let problem = format!("is not an object, so that {MEMBER} cannot be stored; remove it");
+            return Err(self.invalid("asset.extras", problem));
+        };
+        match name {
+            Some(name) => drop(extras.insert(MEMBER.to_owned(), name)),
+            None => drop(extras.shift_remove(MEMBER)),
         }
+        if extras.is_empty() {
+            self.json["asset"].as_object_mut().and_then(|asset| asset.shift_remove("extras"));
+        }
+        self.is_changed = true;
+        Ok(())
     }
 }
 
@@ -151,7 +144,7 @@ pub fn warnings(document: &Document, from: Convention, to: Convention) -> Vec<St
         }
     }
     // A file whose scene cannot be parsed is refused by the conversion.
-    let Ok(scene) = serde_json::from_str::<SceneParts>(document.text()) else { return warnings };
+    let Ok(scene) = document.read::<SceneParts>() else { return warnings };
     if from.uv_origin != to.uv_origin
         && scene.extensions_used.iter().any(|name| name == "KHR_texture_transform")
     {

@@ -4,16 +4,15 @@ use std::collections::{BTreeMap, HashMap};
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use serde_json::value::RawValue;
+use serde_json::Value;
 
 use super::attributes::floats;
 use super::axes::AxisChange;
 use crate::Error;
 use crate::error::ContentError;
-use crate::gltf::json_text::{edit_array, member, set_member};
 use crate::gltf::primitives::canonical::CanonicalAccessors;
 use crate::gltf::primitives::limits;
-use crate::gltf::{Document, ElementType, NewAccessor, Target};
+use crate::gltf::{Document, ElementType, NewAccessor, Target, json};
 
 /// Converts the transforms of a scene.
 pub struct SceneConverter<'a> {
@@ -57,72 +56,60 @@ impl<'a> SceneConverter<'a> {
         Ok(nodes || skins || animations)
     }
 
-    /// Edits every element of an array of the root object, on top of earlier edits. Returns whether one changed.
+    /// Edits every element of an array of the root object. Returns whether one changed.
     fn each(
         &mut self,
         document: &mut Document,
-        key: &'static str,
-        edit: fn(&mut Self, &mut Document, &str, &str) -> Result<String, Error>,
+        array: &'static str,
+        edit: fn(&mut Self, &mut Document, &str, &mut Value) -> Result<(), Error>,
     ) -> Result<bool, Error> {
-        let array = member(document.text(), key).ok().flatten().unwrap_or("[]");
-        let stored: Vec<Box<RawValue>> = parsed(document, key, array)?;
-        let mut edits = document.edits.scene.remove(key).unwrap_or_default();
+        let count = document.json[array].as_array().map_or(0, Vec::len);
         let mut has_changed = false;
-        for (index, stored) in stored.iter().enumerate() {
-            let text = edits.get(&index).map_or(stored.get(), String::as_str);
-            let new = edit(self, document, &format!("{key}[{index}]"), text)?;
-            if new != text {
-                edits.insert(index, new);
-                has_changed = true;
-            }
-        }
-        if !edits.is_empty() {
-            document.edits.scene.insert(key, edits);
+        for index in 0..count {
+            let mut element = document.element(array, index).clone();
+            edit(self, document, &format!("{array}[{index}]"), &mut element)?;
+            let changed = document.edit_element(array, index, |stored| *stored = element);
+            has_changed |= changed.map_err(|error| error.in_file(document.name()))?;
         }
         Ok(has_changed)
     }
 
-    fn node(&mut self, document: &mut Document, at: &str, text: &str) -> Result<String, Error> {
+    fn node(&mut self, document: &mut Document, at: &str, node: &mut Value) -> Result<(), Error> {
         let change = self.change;
-        let mut new = text.to_owned();
-        edit_numbers(document, at, &mut new, "matrix", |matrix| change.matrix::<f64>(matrix))?;
-        edit_numbers(document, at, &mut new, "translation", |vector| change.vector::<f64>(vector))?;
-        edit_numbers(document, at, &mut new, "rotation", |rotation| change.rotation::<f64>(rotation))?;
-        edit_numbers(document, at, &mut new, "scale", |scale| change.scale::<f64>(scale))?;
-        self.instances(document, at, new)
+        edit_numbers(document, at, node, "matrix", |matrix| change.matrix::<f64>(matrix))?;
+        edit_numbers(document, at, node, "translation", |vector| change.vector::<f64>(vector))?;
+        edit_numbers(document, at, node, "rotation", |rotation| change.rotation::<f64>(rotation))?;
+        edit_numbers(document, at, node, "scale", |scale| change.scale::<f64>(scale))?;
+        self.instances(document, at, node)
     }
 
     /// Converts the transforms of `EXT_mesh_gpu_instancing`.
-    fn instances(&mut self, document: &mut Document, at: &str, node: String) -> Result<String, Error> {
-        const PATH: [&str; 3] = ["extensions", "EXT_mesh_gpu_instancing", "attributes"];
-        let Some(attributes) = nested(&node, &PATH) else { return Ok(node) };
-        let at = format!("{at}.{}", PATH.join("."));
-        let known: BTreeMap<String, usize> = parsed(document, &at, attributes)?;
-        let mut new = attributes.to_owned();
-        for (name, accessor) in known {
-            if let Some(kind) = TransformKind::of(&name) {
-                let accessor = self.accessor(document, accessor, kind)?;
-                new = edited(document, &at, set_member(&new, &name, Some(&accessor.to_string())))?;
+    fn instances(&mut self, document: &mut Document, at: &str, node: &mut Value) -> Result<(), Error> {
+        let attributes = node.pointer_mut("/extensions/EXT_mesh_gpu_instancing/attributes");
+        let Some(Value::Object(attributes)) = attributes else { return Ok(()) };
+        for (name, accessor) in attributes {
+            if let Some(kind) = TransformKind::of(name) {
+                let at = format!("{at}.extensions.EXT_mesh_gpu_instancing.attributes.{name}");
+                self.reference(document, &at, accessor, kind)?;
             }
         }
-        edited(document, &at, set_nested(&node, &PATH, &new))
+        Ok(())
     }
 
-    fn skin(&mut self, document: &mut Document, at: &str, text: &str) -> Result<String, Error> {
+    fn skin(&mut self, document: &mut Document, at: &str, skin: &mut Value) -> Result<(), Error> {
         const KEY: &str = "inverseBindMatrices";
-        let at = format!("{at}.{KEY}");
-        let Some(accessor) = member(text, KEY).ok().flatten() else { return Ok(text.to_owned()) };
-        let old = parsed(document, &at, accessor)?;
-        let new = self.accessor(document, old, TransformKind::Matrix)?;
-        edited(document, &at, set_member(text, KEY, Some(&new.to_string())))
+        match skin.get_mut(KEY) {
+            Some(accessor) => {
+                self.reference(document, &format!("{at}.{KEY}"), accessor, TransformKind::Matrix)
+            }
+            None => Ok(()),
+        }
     }
 
-    fn animation(&mut self, document: &mut Document, at: &str, text: &str) -> Result<String, Error> {
-        let animation: Animation = parsed(document, at, text)?;
-        let array = member(text, "samplers").ok().flatten().unwrap_or("[]");
-        let samplers: Vec<Box<RawValue>> = parsed(document, at, array)?;
+    fn animation(&mut self, document: &mut Document, at: &str, animation: &mut Value) -> Result<(), Error> {
+        let parsed: Animation = read(document, at, animation)?;
         let mut kinds: BTreeMap<usize, Option<TransformKind>> = BTreeMap::new();
-        for (index, Channel { sampler, target }) in animation.channels.iter().enumerate() {
+        for (index, Channel { sampler, target }) in parsed.channels.iter().enumerate() {
             let at = format!("{at}.channels[{index}]");
             let unsupported =
                 |problem: &str| Err(ContentError::unsupported(&at, problem).in_file(document.name()));
@@ -138,19 +125,29 @@ impl<'a> SceneConverter<'a> {
                 );
             }
         }
-        let mut new = BTreeMap::new();
         for (index, kind) in kinds {
-            let (Some(sampler), Some(kind)) = (samplers.get(index), kind) else { continue };
-            let at = format!("{at}.samplers[{index}]");
-            let AnimationSampler { output } = parsed(document, &at, sampler.get())?;
-            let output = self.accessor(document, output, kind)?.to_string();
-            new.insert(index, edited(document, &at, set_member(sampler.get(), "output", Some(&output)))?);
+            let sampler = animation.get_mut("samplers").and_then(|samplers| samplers.get_mut(index));
+            let (Some(sampler), Some(kind)) = (sampler, kind) else { continue };
+            let at = format!("{at}.samplers[{index}].output");
+            let Some(output) = sampler.get_mut("output") else {
+                return Err(document.invalid(at, "is missing; export the file again"));
+            };
+            self.reference(document, &at, output, kind)?;
         }
-        if new.is_empty() {
-            return Ok(text.to_owned());
-        }
-        let array = edited(document, at, edit_array(array, &new, &[]))?;
-        edited(document, at, set_member(text, "samplers", Some(&array)))
+        Ok(())
+    }
+
+    /// Replaces a reference to an accessor by that of the converted accessor.
+    fn reference(
+        &mut self,
+        document: &mut Document,
+        at: &str,
+        accessor: &mut Value,
+        kind: TransformKind,
+    ) -> Result<(), Error> {
+        let old = read(document, at, accessor)?;
+        *accessor = self.accessor(document, old, kind)?.into();
+        Ok(())
     }
 
     fn accessor(&mut self, document: &mut Document, old: usize, kind: TransformKind) -> Result<usize, Error> {
@@ -198,53 +195,27 @@ struct ChannelTarget {
     path: String,
 }
 
-#[derive(Deserialize)]
-struct AnimationSampler {
-    output: usize,
-}
-
 /// Changes a member that is an array of `N` numbers, if the object has it.
 fn edit_numbers<const N: usize>(
     document: &Document,
     at: &str,
-    object: &mut String,
+    object: &mut Value,
     key: &str,
     change: impl Fn([f64; N]) -> [f64; N],
 ) -> Result<(), Error> {
+    let Some(member) = object.get_mut(key) else { return Ok(()) };
     let at = format!("{at}.{key}");
-    let Some(text) = member(object, key).ok().flatten() else { return Ok(()) };
-    let numbers: Vec<f64> = parsed(document, &at, text)?;
+    let numbers: Vec<f64> = read(document, &at, member)?;
     let numbers: [f64; N] = numbers.try_into().map_err(|numbers: Vec<f64>| {
         document.invalid(&at, format!("has {} numbers instead of {N}; export the file again", numbers.len()))
     })?;
     let new = change(numbers);
     if new != numbers {
-        let new = serde_json::to_string(new.as_slice());
-        *object = edited(document, &at, new.and_then(|new| set_member(object, key, Some(&new))))?;
+        *member = new.to_vec().into();
     }
     Ok(())
 }
 
-/// The text of the value at a path of members, if there is one.
-fn nested<'a>(object: &'a str, path: &[&str]) -> Option<&'a str> {
-    path.iter().try_fold(object, |object, key| member(object, key).ok()?)
-}
-
-fn set_nested(object: &str, path: &[&str], value: &str) -> serde_json::Result<String> {
-    match path {
-        [] => Ok(value.to_owned()),
-        [key, rest @ ..] => {
-            let inner = set_nested(member(object, key)?.unwrap_or("{}"), rest, value)?;
-            set_member(object, key, Some(&inner))
-        }
-    }
-}
-
-fn parsed<T: DeserializeOwned>(document: &Document, at: &str, text: &str) -> Result<T, Error> {
-    serde_json::from_str(text)
-        .map_err(|error| document.invalid(at, format!("{error}; export the file again")))
-}
-
-fn edited(document: &Document, at: &str, text: serde_json::Result<String>) -> Result<String, Error> {
-    text.map_err(|error| document.invalid(at, format!("cannot be edited: {error}; export the file again")))
+fn read<T: DeserializeOwned>(document: &Document, at: &str, value: &Value) -> Result<T, Error> {
+    json::read(value, at).map_err(|error| error.in_file(document.name()))
 }

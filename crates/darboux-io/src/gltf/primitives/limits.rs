@@ -22,7 +22,7 @@ pub fn check_output(document: &Document) -> Result<(), Error> {
 
 /// As [`check_output`], with bytes that have not been added to the document yet.
 pub fn check_more_output(document: &Document, bytes: usize) -> Result<(), Error> {
-    let written = document.edits.new_byte_count.saturating_add(bytes);
+    let written = document.new_byte_count().saturating_add(bytes);
     check(document, written, "share bytes so often that the result needs")
 }
 

@@ -1,0 +1,242 @@
+//! Edits of documents. Every edit changes the JSON and renews the typed part that it changes, so that readers see one document.
+//!
+//! ```text
+//! edit              elements of arrays, new data
+//! edit/primitives   attributes, triangles and other members of primitives
+//! edit/images       the content of images
+//! edit/materials    normal maps and colours of materials
+//! edit/checkpoint   takes edits back
+//! ```
+
+mod checkpoint;
+mod images;
+mod materials;
+mod primitives;
+
+pub use checkpoint::Checkpoint;
+pub use images::ImageFile;
+
+use serde_json::{Map, Value, json};
+
+use super::buffers::{BufferSource, NewBytes};
+use super::document::Document;
+use super::element_type::ComponentType;
+use super::elements::{Elements, NewAccessor, Target};
+use super::json;
+use super::schema::{self, Root};
+use crate::error::ContentError;
+
+impl Document {
+    /// Appends an accessor with new buffer views. Returns its index. It is written if something refers to it then.
+    ///
+    /// Panics if `new.elements.bytes` does not have the length of `count` elements.
+    pub fn push_accessor(&mut self, new: NewAccessor) -> usize {
+        let description = new.metadata_of.map(|index| self.element("accessors", index).clone());
+        let bounds = new.bounds.then(|| new.elements.bounds()).flatten();
+        let stored = self.store(new);
+        let mut element = stored.to_json(bounds);
+        for key in ["name", "extras", "extensions"] {
+            if let Some(value) = description.as_ref().and_then(|description| description.get(key)) {
+                element.insert(key.to_owned(), value.clone());
+            }
+        }
+        if let Some(backed) = self.backed_count.get_mut() {
+            *backed = (*backed).max(stored.count);
+        }
+        self.root.accessors.push(stored);
+        self.push_element("accessors", Value::Object(element))
+    }
+
+    /// As [`Document::push_accessor`], unless the accessor `old`, which `new` would replace, has the same elements: then `old` is
+    /// kept. A second run with the same result thus stores nothing new.
+    pub(super) fn push_in_place_of(&mut self, old: Option<usize>, new: NewAccessor) -> usize {
+        let is_same = |&old: &usize| self.find_elements(old).is_ok_and(|elements| elements == new.elements);
+        match old.filter(is_same) {
+            Some(old) => old,
+            None => self.push_accessor(new),
+        }
+    }
+
+    /// Stores the elements of `new` in new buffer views.
+    fn store(&mut self, new: NewAccessor) -> schema::Accessor {
+        let elements = new.elements;
+        let size = elements.element_size();
+        assert_eq!(elements.bytes.len(), elements.count * size, "bytes are not whole elements");
+        let places = new.sparse.then(|| elements.sparse_indices()).flatten();
+        let (buffer_view, sparse) = match places {
+            Some(places) if places.is_empty() => (None, None),
+            Some(places) => (None, Some(Box::new(self.push_sparse(&elements, &places)))),
+            None => {
+                let stride = new.target.stride(size);
+                (Some(self.push_view(elements.bytes, size, stride, Some(new.target))), None)
+            }
+        };
+        schema::Accessor {
+            buffer_view,
+            byte_offset: 0,
+            component_type: elements.component_type,
+            normalized: elements.normalized,
+            count: elements.count,
+            element_type: elements.element_type,
+            sparse,
+        }
+    }
+
+    fn push_sparse(&mut self, elements: &Elements, places: &[u32]) -> schema::Sparse {
+        let size = elements.element_size();
+        let indices: Vec<_> = places.iter().flat_map(|place| place.to_le_bytes()).collect();
+        let values: Vec<_> = places
+            .iter()
+            .flat_map(|&place| &elements.bytes[place as usize * size..(place as usize + 1) * size])
+            .copied()
+            .collect();
+        let indices = schema::SparseIndices {
+            buffer_view: self.push_view(indices, 4, 4, None),
+            byte_offset: 0,
+            component_type: ComponentType::U32,
+        };
+        let values =
+            schema::SparseValues { buffer_view: self.push_view(values, size, size, None), byte_offset: 0 };
+        schema::Sparse { count: places.len(), indices, values }
+    }
+
+    /// Appends a buffer view of elements of `size` bytes, `stride` bytes apart. Returns its index.
+    pub(super) fn push_view(
+        &mut self,
+        bytes: Vec<u8>,
+        size: usize,
+        stride: usize,
+        target: Option<Target>,
+    ) -> usize {
+        let bytes = if stride == size { bytes } else { spread(&bytes, size, stride) };
+        let byte_length = bytes.len();
+        let (buffer, byte_offset) = self.push_bytes(bytes);
+        let byte_stride = (stride != size).then_some(stride);
+        let mut element = Map::new();
+        element.insert("buffer".to_owned(), buffer.into());
+        element.insert("byteOffset".to_owned(), byte_offset.into());
+        element.insert("byteLength".to_owned(), byte_length.into());
+        element.extend(byte_stride.map(|stride| ("byteStride".to_owned(), stride.into())));
+        element.extend(target.and_then(Target::code).map(|code| ("target".to_owned(), code.into())));
+        let extensions = schema::BufferViewExtensions::default();
+        self.root.buffer_views.push(schema::BufferView { buffer, byte_offset, byte_length, byte_stride, extensions });
+        self.push_element("bufferViews", Value::Object(element))
+    }
+
+    /// Appends bytes to the buffer of new bytes, which is made on first use. Returns the buffer and the offset.
+    fn push_bytes(&mut self, bytes: Vec<u8>) -> (usize, usize) {
+        if !matches!(self.buffers.last(), Some(BufferSource::New(_))) {
+            self.buffers.push(BufferSource::New(NewBytes::default()));
+            self.root.buffers.push(schema::Buffer { uri: None, byte_length: 0, name: None });
+            self.push_element("buffers", json!({ "byteLength": 0 }));
+        }
+        let buffer = self.buffers.len() - 1;
+        let Some(BufferSource::New(new)) = self.buffers.last_mut() else { unreachable!("was pushed") };
+        let offset = new.push(bytes);
+        self.set_new_length();
+        (buffer, offset)
+    }
+
+    /// Stores the length of the buffer of new bytes.
+    fn set_new_length(&mut self) {
+        let buffer = self.buffers.len() - 1;
+        let length = self.new_byte_count();
+        self.root.buffers[buffer].byte_length = length;
+        self.json["buffers"][buffer]["byteLength"] = length.into();
+    }
+
+    /// The number of bytes of edits.
+    pub(super) fn new_byte_count(&self) -> usize {
+        match self.buffers.last() {
+            Some(BufferSource::New(new)) => new.len(),
+            _ => 0,
+        }
+    }
+
+    /// Appends an element to an array of the root object. Returns its index. The caller appends the typed element, if there is one.
+    fn push_element(&mut self, array: &str, element: Value) -> usize {
+        self.is_changed = true;
+        let elements = &mut self.json[array];
+        if !elements.is_array() {
+            *elements = Value::Array(Vec::new());
+        }
+        let Some(elements) = elements.as_array_mut() else { unreachable!("was made an array") };
+        elements.push(element);
+        elements.len() - 1
+    }
+
+    /// Edits an element of an array of the root object. Returns whether it changed.
+    ///
+    /// Errors: the result cannot be read; then the element stays as it was.
+    pub(super) fn edit_element(
+        &mut self,
+        array: &'static str,
+        index: usize,
+        edit: impl FnOnce(&mut Value),
+    ) -> Result<bool, ContentError> {
+        let Some(stored) = self.json.get_mut(array).and_then(|elements| elements.get_mut(index)) else {
+            return Err(ContentError::invalid(format!("{array}[{index}]"), "does not exist"));
+        };
+        let mut edited = stored.clone();
+        edit(&mut edited);
+        if edited == *stored {
+            return Ok(false);
+        }
+        self.root.renew(array, index, &edited)?;
+        *stored = edited;
+        self.is_changed = true;
+        Ok(true)
+    }
+
+    /// Declares extensions that readers must support, unless they are declared already.
+    pub(super) fn require_extensions(&mut self, names: impl IntoIterator<Item = &'static str>) {
+        for name in names {
+            for list in ["extensionsUsed", "extensionsRequired"] {
+                let is_declared =
+                    self.json[list].as_array().is_some_and(|list| list.iter().any(|declared| declared == name));
+                if !is_declared {
+                    self.push_element(list, name.into());
+                }
+            }
+        }
+    }
+
+    /// Removes the declarations of extensions that the document no longer has.
+    pub(super) fn undeclare_extensions(&mut self, names: &[&str]) {
+        let Some(root) = self.json.as_object_mut() else { return };
+        for list in ["extensionsUsed", "extensionsRequired"] {
+            let Some(Value::Array(declared)) = root.get_mut(list) else { continue };
+            let count = declared.len();
+            declared.retain(|declared| !names.iter().any(|name| declared == name));
+            self.is_changed |= declared.len() < count;
+            if declared.is_empty() {
+                root.shift_remove(list);
+            }
+        }
+    }
+}
+
+impl Root {
+    /// Reads an element again whose JSON has changed, if it is one of the typed parts. Errors: it cannot be read.
+    fn renew(&mut self, array: &'static str, index: usize, element: &Value) -> Result<(), ContentError> {
+        let at = format!("{array}[{index}]");
+        match array {
+            "accessors" => self.accessors[index] = json::read(element, &at)?,
+            "bufferViews" => self.buffer_views[index] = json::read(element, &at)?,
+            "buffers" => self.buffers[index] = json::read(element, &at)?,
+            "images" => self.images[index] = json::read(element, &at)?,
+            "materials" => self.materials[index] = json::read(element, &at)?,
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+/// Elements of `size` bytes, moved `stride` bytes apart.
+fn spread(bytes: &[u8], size: usize, stride: usize) -> Vec<u8> {
+    let mut spread = vec![0; bytes.len() / size * stride];
+    for (slot, element) in spread.chunks_exact_mut(stride).zip(bytes.chunks_exact(size)) {
+        slot[..size].copy_from_slice(element);
+    }
+    spread
+}
