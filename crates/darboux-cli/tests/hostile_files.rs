@@ -57,13 +57,18 @@ fn glb(json: &Value, binary: &[u8]) -> Vec<u8> {
 /// leave the folder as it was.
 #[track_caller]
 fn refused(name: &str, bytes: &[u8], words: &[&str], part: &str) {
+    refused_with_addresses((256 << 20) + 4 * bytes.len(), name, bytes, words, part);
+}
+
+/// As [`refused`], with this many bytes of addresses.
+fn refused_with_addresses(addresses: usize, name: &str, bytes: &[u8], words: &[&str], part: &str) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join(name);
     fs::write(&path, bytes).expect("a file");
     let mut arguments = vec![words[0], text(&path)];
     let out = folder.path().join("out.png");
     arguments.extend(words[1..].iter().map(|&word| if word == "OUT" { text(&out) } else { word }));
-    let run = darboux_with_addresses((256 << 20) + 4 * bytes.len(), &arguments).exits(1);
+    let run = darboux_with_addresses(addresses, &arguments).exits(1);
     assert!(run.stdout.is_empty(), "{words:?}");
     assert!(run.stderr.starts_with(&format!("error: {}: ", path.display())), "{words:?}: {}", run.stderr);
     assert!(run.stderr.lines().count() == 1 && run.stderr.contains(part), "{words:?}: {}", run.stderr);
@@ -247,13 +252,15 @@ fn lists_of_empty_primitives_are_refused() {
     let primitives = vec![r#"{"attributes":{}}"#; 550_000].join(",");
     let file = format!(r#"{{"asset":{{"version":"2.0"}},"meshes":[{{"primitives":[{primitives}]}}]}}"#);
     for words in [&["tangents"][..], &["normals"], &["inspect"]] {
-        refused(
-            "many.gltf",
-            file.as_bytes(),
-            words,
-            "has 550000 primitives, which need more than the memory limit",
-        );
+        // A JSON value takes more memory than its text, within the memory limit.
+        let addresses = (256 << 20) + 64 * file.len();
+        let part = "has 550000 primitives, which need more than the memory limit";
+        refused_with_addresses(addresses, "many.gltf", file.as_bytes(), words, part);
     }
+    let objects = r#"{"":0},"#.repeat(3_000_000);
+    let file = format!(r#"{{"asset":{{"version":"2.0"}},"extras":[{objects}0]}}"#);
+    let part = "has JSON that needs more than the memory limit of";
+    refused_with_addresses((256 << 20) + 64 * file.len(), "objects.gltf", file.as_bytes(), &["tangents"], part);
 }
 
 #[test]

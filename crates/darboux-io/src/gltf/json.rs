@@ -2,16 +2,18 @@
 //!
 //! Exponents are the exception: serde_json writes `1E5` as `1e+5`.
 
+use std::cell::Cell;
 use std::fmt;
 
 use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 use serde_json::ser::PrettyFormatter;
-use serde_json::value::Value;
-use serde_json::{Map, Number};
+use serde_json::map::Entry;
+use serde_json::{Map, Number, Value};
 use serde_path_to_error::Segment;
 
 use crate::error::{ContentError, shortened};
+use crate::memory_limit::Budget;
 
 /// The deepest nesting of arrays and objects. Deeper JSON could exhaust the stack of a program that walks it.
 const MAX_DEPTH: usize = 100;
@@ -19,14 +21,18 @@ const MAX_DEPTH: usize = 100;
 /// Parses the JSON of a document.
 ///
 /// Errors: it is not JSON; an object has a key twice, of which readers would see different values; it is nested more than 100 levels deep;
-/// a number is beyond the range of 64-bit floats.
-pub fn parse(text: &str) -> Result<Value, ContentError> {
+/// a number is beyond the range of 64-bit floats; the value would take more memory than `limit`.
+pub fn parse(text: &str, limit: Budget) -> Result<Value, ContentError> {
     let mut parser = serde_json::Deserializer::from_str(text);
-    let parsed = StrictValue { depth: 0 }.deserialize(&mut parser).and_then(|value| {
+    let bytes_left = Cell::new(limit.bytes);
+    let parsed = StrictValue { depth: 0, bytes_left: &bytes_left }.deserialize(&mut parser).and_then(|value| {
         parser.end()?;
         Ok(value)
     });
     parsed.map_err(|error| {
+        if bytes_left.get() == 0 {
+            return ContentError::unsupported("", limit.exceeded("has JSON that needs"));
+        }
         let (what, problem) = (if error.is_data() { "" } else { "is not JSON: " }, error.to_string());
         ContentError::invalid("", format!("{what}{}; export the file again", shortened(&problem)))
     })
@@ -90,22 +96,34 @@ fn expected_value(name: &str) -> String {
 /// The key by which serde_json passes numbers with their spelling, apart from integers of 64 bits.
 const NUMBER_KEY: &str = "$serde_json::private::Number";
 
+/// The memory of a value, its text included; of a member, its key included; and of the table of an object.
+const BYTES_PER_VALUE: usize = 112;
+const BYTES_PER_MEMBER: usize = 48;
+const BYTES_PER_TABLE: usize = 400;
+
 /// Reads a value strictly.
 #[derive(Clone, Copy)]
-struct StrictValue {
+struct StrictValue<'a> {
     depth: usize,
+    /// The memory that values may still take; 0 once it is spent.
+    bytes_left: &'a Cell<usize>,
 }
 
-impl StrictValue {
+impl StrictValue<'_> {
     fn inner<E: serde::de::Error>(self) -> Result<Self, E> {
         if self.depth == MAX_DEPTH {
             return Err(E::custom(format_args!("the JSON is nested more than {MAX_DEPTH} levels deep")));
         }
-        Ok(Self { depth: self.depth + 1 })
+        Ok(Self { depth: self.depth + 1, ..self })
+    }
+
+    fn spend<E: serde::de::Error>(self, bytes: usize) -> Result<(), E> {
+        self.bytes_left.set(self.bytes_left.get().saturating_sub(bytes));
+        if self.bytes_left.get() == 0 { Err(E::custom("more than the memory limit")) } else { Ok(()) }
     }
 }
 
-impl<'de> DeserializeSeed<'de> for StrictValue {
+impl<'de> DeserializeSeed<'de> for StrictValue<'_> {
     type Value = Value;
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Value, D::Error> {
@@ -113,7 +131,7 @@ impl<'de> DeserializeSeed<'de> for StrictValue {
     }
 }
 
-impl<'de> Visitor<'de> for StrictValue {
+impl<'de> Visitor<'de> for StrictValue<'_> {
     type Value = Value;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -148,6 +166,7 @@ impl<'de> Visitor<'de> for StrictValue {
         let inner = self.inner()?;
         let mut array = Vec::new();
         while let Some(element) = elements.next_element_seed(inner)? {
+            self.spend(BYTES_PER_VALUE)?;
             array.push(element);
         }
         Ok(Value::Array(array))
@@ -158,11 +177,15 @@ impl<'de> Visitor<'de> for StrictValue {
         let mut object = Map::new();
         while let Some(key) = members.next_key::<Key>()? {
             let Key::Member(key) = key else { return number(&members.next_value::<String>()?) };
+            if object.is_empty() {
+                self.spend(BYTES_PER_TABLE)?;
+            }
             match object.entry(key) {
-                serde_json::map::Entry::Vacant(entry) => {
+                Entry::Vacant(entry) => {
+                    self.spend(BYTES_PER_VALUE + BYTES_PER_MEMBER + entry.key().len())?;
                     entry.insert(members.next_value_seed(inner)?);
                 }
-                serde_json::map::Entry::Occupied(entry) => {
+                Entry::Occupied(entry) => {
                     return Err(A::Error::custom(format_args!("an object has the key {:?} twice", entry.key())));
                 }
             }
@@ -261,8 +284,15 @@ pub fn remove_extension(object: &mut Value, name: &str) -> bool {
     is_removed
 }
 
+/// Parses JSON without a limit of memory.
+#[cfg(test)]
+pub fn parse_test(text: &str) -> Result<Value, ContentError> {
+    parse(text, Budget { bytes: usize::MAX, option: "" })
+}
+
 #[cfg(test)]
 mod tests {
+    use super::parse_test as parse;
     use super::*;
 
     fn problem(text: &str) -> String {
@@ -294,6 +324,10 @@ mod tests {
         assert!(problem("[1e400]").contains("the number 1e+400 is out of range"));
         assert!(problem("[1,]").starts_with("is not JSON: "));
         assert!(problem("{} {}").starts_with("is not JSON: "));
+        let limit = Budget { bytes: 1 << 20, option: "--memory-limit" };
+        let many = format!("[{}0]", "{\"\":0},".repeat(10_000));
+        let refused = super::parse(&many, limit).expect_err("6 MB").into_clause();
+        assert!(refused.contains("has JSON that needs more than the memory limit of 1 MiB"), "{refused}");
     }
 
     #[test]

@@ -16,7 +16,7 @@ use super::resources::Resources;
 use super::schema::Root;
 use super::unused_data::Unreferenced;
 use crate::error::{ContentError, shortened};
-use crate::memory_limit;
+use crate::memory_limit::{self, Budget};
 use crate::{Error, LoadOptions, paths};
 
 impl Document {
@@ -85,9 +85,11 @@ impl Document {
         let text = std::str::from_utf8(&file[container.json.clone()]).map_err(|error| {
             ContentError::invalid("", format!("the JSON is not UTF-8: {error}; export the file again"))
         })?;
-        let (json, layout) = (json::parse(text)?, TextLayout::of(text));
+        let limit = options.budget(file.len(), 0);
+        let (json, layout) = (json::parse(text, limit)?, TextLayout::of(text));
+        check_primitive_count(&json, limit)?;
         let root = read_root(&json)?;
-        references::check(&json)?;
+        let references = references::check(&json)?;
         let chunk = container.bin.clone().map(|range| &file[range]);
         let buffers = root
             .buffers
@@ -99,7 +101,7 @@ impl Document {
             name: name.to_owned(),
             input: None,
             warnings: image_warnings(&root, &resources),
-            unreferenced: Unreferenced::of(&json),
+            unreferenced: Unreferenced::new(&json, &references),
             file,
             container,
             json,
@@ -115,27 +117,21 @@ impl Document {
             backed_count: OnceLock::new(),
             is_unused_data_reported: false,
         };
-        document.check_primitive_count()?;
         document.check_sizes()?;
         Ok(document)
     }
+}
 
-    /// Checks that the primitives do not need more memory than the limit.
-    fn check_primitive_count(&self) -> Result<(), ContentError> {
-        let count: usize = self.root.meshes.iter().map(|mesh| mesh.primitives.len()).sum();
-        let limit = self.memory_limit();
-        if count.saturating_mul(memory_limit::BYTES_PER_PRIMITIVE) <= limit.bytes {
-            return Ok(());
-        }
-        Err(ContentError::unsupported(
-            "meshes",
-            limit.exceeded(&format!(
-                "has {count} primitive{}, which need{}",
-                if count == 1 { "" } else { "s" },
-                if count == 1 { "s" } else { "" }
-            )),
-        ))
+/// Checks that the primitives do not need more memory than the limit.
+fn check_primitive_count(json: &Value, limit: Budget) -> Result<(), ContentError> {
+    let meshes = json["meshes"].as_array().into_iter().flatten();
+    let count: usize = meshes.filter_map(|mesh| mesh["primitives"].as_array()).map(Vec::len).sum();
+    if count.saturating_mul(memory_limit::BYTES_PER_PRIMITIVE) <= limit.bytes {
+        return Ok(());
     }
+    let (primitives, need) = if count == 1 { ("primitive", "needs") } else { ("primitives", "need") };
+    let problem = limit.exceeded(&format!("has {count} {primitives}, which {need}"));
+    Err(ContentError::unsupported("meshes", problem))
 }
 
 /// The typed parts of a document. Errors: it is not glTF 2.0.

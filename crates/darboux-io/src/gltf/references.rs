@@ -160,14 +160,16 @@ pub fn renumber(json: &mut Value, new: impl Fn(Reference) -> usize) {
     }
 }
 
-/// Checks that every reference in the JSON of a document refers to an element that exists.
-pub fn check(json: &Value) -> Result<(), ContentError> {
+/// All references of a document as it was read. Errors: one of them does not refer to an element that exists.
+pub fn check(json: &Value) -> Result<Vec<Reference>, ContentError> {
+    let mut found = Vec::new();
     for &(kind, path) in PATHS {
         let (array, element) = kind.array();
         let count = length(&json[array]);
         let mut broken = None;
         visit(json, path, &mut Vec::new(), &mut |value, steps| {
             let index = index(value);
+            found.extend(index.map(|index| Reference { kind, index }));
             // A default scene without scenes is harmless: everything is shown.
             let exists = index.is_some_and(|index| index < count || (kind, count) == (ReferenceKind::Scene, 0));
             if !exists && broken.is_none() {
@@ -182,7 +184,8 @@ pub fn check(json: &Value) -> Result<(), ContentError> {
             return Err(ContentError::invalid(at, format!("{problem}; export the file again")));
         }
     }
-    check_animations(json)
+    check_animations(json)?;
+    Ok(found)
 }
 
 /// Checks the references of animation channels to the samplers of their own animation.
@@ -235,8 +238,9 @@ fn visit<'a>(value: &'a Value, path: &str, steps: &mut Vec<Step<'a>>, call: &mut
         Value::Array(elements) if first == "*" => {
             elements.iter().enumerate().for_each(|(i, value)| step(Step::Index(i), value));
         }
+        // Most objects have few members, which are compared faster than one key is hashed.
         Value::Object(members) => {
-            if let Some((key, value)) = members.get_key_value(first) {
+            if let Some((key, value)) = members.iter().find(|(key, _)| *key == first) {
                 step(Step::Key(key), value);
             }
         }
@@ -308,7 +312,7 @@ fn extension_names<'a>(value: &'a Value, names: &mut BTreeSet<&'a str>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gltf::json::parse;
+    use crate::gltf::json::parse_test as parse;
 
     #[test]
     fn references_are_found_where_gltf_has_them() {

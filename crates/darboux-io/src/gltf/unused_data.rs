@@ -25,12 +25,11 @@ pub struct Unreferenced {
 }
 
 impl Unreferenced {
-    /// Those of a document as it was read.
-    pub fn of(json: &Value) -> Self {
-        let references = references(json);
+    /// Those of a document as it was read, and all its references.
+    pub fn new(json: &Value, references: &[Reference]) -> Self {
         let rest = |array: &str, kinds: &[ReferenceKind]| {
             let count = json[array].as_array().map_or(0, Vec::len);
-            let is_used = marked(count, &references, kinds);
+            let is_used = marked(count, references, kinds);
             (0..count).filter(|&index| !is_used[index]).collect()
         };
         Self {

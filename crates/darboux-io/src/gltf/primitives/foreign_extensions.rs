@@ -52,7 +52,7 @@ fn mentions_vertices(json: &Value) -> bool {
 #[cfg(test)]
 mod tests {
     use super::affected_extensions;
-    use crate::gltf::json::parse;
+    use crate::gltf::json::parse_test as parse;
 
     #[test]
     fn extensions_with_vertices_of_their_own_are_named() {
