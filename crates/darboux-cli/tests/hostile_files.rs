@@ -260,7 +260,13 @@ fn lists_of_empty_primitives_are_refused() {
     let objects = r#"{"":0},"#.repeat(3_000_000);
     let file = format!(r#"{{"asset":{{"version":"2.0"}},"extras":[{objects}0]}}"#);
     let part = "has JSON that needs more than the memory limit of";
-    refused_with_addresses((256 << 20) + 64 * file.len(), "objects.gltf", file.as_bytes(), &["tangents"], part);
+    refused_with_addresses(
+        (256 << 20) + 64 * file.len(),
+        "objects.gltf",
+        file.as_bytes(),
+        &["tangents"],
+        part,
+    );
 }
 
 #[test]

@@ -92,10 +92,7 @@ fn json_text() {
     assert!(nested(90).is_ok());
     let keys: String = (0..1_000_000).map(|i| format!(",\"k{i}\":1")).collect();
     assert!(parse(format!("{{\"asset\":{{\"version\":\"2.0\"}}{keys}}}")).is_ok());
-    refused(
-        parse(r#"{"asset":{"version":"2.0"},"extras":1e999}"#),
-        "the number 1e+999 is out of range",
-    );
+    refused(parse(r#"{"asset":{"version":"2.0"},"extras":1e999}"#), "the number 1e+999 is out of range");
     let by_position = r#"{"asset":{"version":"2.0"},"meshes":[["name",[{"attributes":{}}]]]}"#;
     refused(parse(by_position), "meshes[0]: is an array; it must be an object");
 }
@@ -136,11 +133,20 @@ fn accessors() {
     refused(read_with(0, "/accessors/0/byteOffset", json!(u64::MAX)), "do not fit");
     refused(read_with(0, "/accessors/0/count", json!(5)), "accessors[0]: 5 elements");
     refused(read_with(0, "/accessors/0/count", json!(u64::MAX)), "do not fit");
-    refused(read_with(0, "/accessors/0/count", json!(-1)), "accessors[0].count: is -1; it must be a whole number of 0 or more");
-    refused(read_with(0, "/accessors/0/count", json!(1.5)), "accessors[0].count: is 1.5; it must be a whole number of 0 or more");
+    refused(
+        read_with(0, "/accessors/0/count", json!(-1)),
+        "accessors[0].count: is -1; it must be a whole number of 0 or more",
+    );
+    refused(
+        read_with(0, "/accessors/0/count", json!(1.5)),
+        "accessors[0].count: is 1.5; it must be a whole number of 0 or more",
+    );
     refused(read_with(0, "/accessors/0/componentType", json!(5124)), "5124 is not a component type");
     refused(read_with(0, "/accessors/0/componentType", json!(5126)), "accessors[0]");
-    refused(read_with(0, "/accessors/0/type", json!("VEC5")), "accessors[0].type: is \"VEC5\"; it must be one of SCALAR, VEC2");
+    refused(
+        read_with(0, "/accessors/0/type", json!("VEC5")),
+        "accessors[0].type: is \"VEC5\"; it must be one of SCALAR, VEC2",
+    );
     refused(
         read_with(0, "/accessors/0/type", json!("VEC2")),
         "accessors[0]: 4 elements of 4 bytes from byte 0 on do not fit its buffer view of 8 bytes",

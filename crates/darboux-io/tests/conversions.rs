@@ -352,7 +352,11 @@ fn transforms_that_cannot_be_converted_are_errors() {
             json!([{"mesh": 0, "translation": [1, 0]}]),
             "nodes[0].translation: has 2 numbers instead of 3",
         ),
-        ("nodes", json!([{"mesh": 0, "matrix": "none"}]), "nodes[0].matrix: is \"none\"; it must be an array"),
+        (
+            "nodes",
+            json!([{"mesh": 0, "matrix": "none"}]),
+            "nodes[0].matrix: is \"none\"; it must be an array",
+        ),
     ];
     for (key, value, part) in cases {
         let mut document = model(|builder| {

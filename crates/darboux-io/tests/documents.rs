@@ -115,8 +115,14 @@ fn an_edit_keeps_the_rest_of_the_text() {
     let mut expected: Value = serde_json::from_str(&odd()).unwrap();
     expected["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = json!(2);
     let push = |array: &mut Value, element| array.as_array_mut().unwrap().push(element);
-    push(&mut expected["accessors"], json!({"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC4"}));
-    push(&mut expected["bufferViews"], json!({"buffer": 1, "byteOffset": 0, "byteLength": 48, "target": 34962}));
+    push(
+        &mut expected["accessors"],
+        json!({"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC4"}),
+    );
+    push(
+        &mut expected["bufferViews"],
+        json!({"buffer": 1, "byteOffset": 0, "byteLength": 48, "target": 34962}),
+    );
     push(&mut expected["buffers"], json!({"name": "darboux", "byteLength": 48, "uri": "out.bin"}));
     // Texts are compared, so that the order of keys and the digits of numbers count.
     let text = fs::read_to_string(folder.path().join("out.gltf")).unwrap();

@@ -1,5 +1,6 @@
-//! Finds the bytes of buffers: the binary chunk of a GLB, files, and `data:` URIs.
+//! The bytes of buffers and images: the binary chunk of a GLB, files, `data:` URIs, and those of edits.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::resources::{ResourceFile, Resources, UriTarget, decode_data_uri};
@@ -100,4 +101,13 @@ impl NewBytes {
         self.pieces.truncate(kept);
         self.length = length;
     }
+}
+
+/// The new content of an image that is a file.
+#[derive(Clone, Debug)]
+pub struct ImageFile {
+    /// The path relative to the document's folder.
+    pub relative: PathBuf,
+    pub bytes: Vec<u8>,
+    pub media_type: String,
 }

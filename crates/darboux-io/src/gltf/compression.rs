@@ -57,7 +57,8 @@ impl Document {
         budget: &mut DecodeBudget,
     ) -> Result<(), ContentError> {
         for &index in accessors {
-            let stored = ["min", "max"].map(|key| self.element("accessors", index).get(key).and_then(numbers));
+            let stored =
+                ["min", "max"].map(|key| self.element("accessors", index).get(key).and_then(numbers));
             if stored == [None, None] {
                 continue;
             }

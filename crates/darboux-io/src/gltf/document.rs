@@ -8,14 +8,13 @@ use std::sync::OnceLock;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::buffers::BufferSource;
+use super::buffers::{BufferSource, ImageFile};
 use super::container::Container;
-use super::edit::ImageFile;
 use super::file_bytes::FileBytes;
 use super::json::{self, TextLayout};
+use super::references::Unreferenced;
 use super::resources::Resources;
 use super::schema::{self, Root};
-use super::unused_data::Unreferenced;
 use crate::error::ContentError;
 use crate::memory_limit::Budget;
 use crate::{Error, LoadOptions};
@@ -148,7 +147,9 @@ impl Document {
         at: impl Fn() -> String,
     ) -> Result<&[u8], ContentError> {
         if let Some(BufferSource::New(bytes)) = self.buffers.get(buffer) {
-            return bytes.range(offset, length).ok_or_else(|| outside_buffer(offset, length, bytes.len(), &at()));
+            return bytes
+                .range(offset, length)
+                .ok_or_else(|| outside_buffer(offset, length, bytes.len(), &at()));
         }
         let bytes = self.buffer(buffer, || format!("{}.buffer", at()))?;
         let range = offset.checked_add(length).and_then(|end| bytes.get(offset..end));

@@ -14,7 +14,6 @@ mod materials;
 mod primitives;
 
 pub use checkpoint::Checkpoint;
-pub use images::ImageFile;
 
 use serde_json::{Map, Value, json};
 
@@ -119,7 +118,13 @@ impl Document {
         element.extend(byte_stride.map(|stride| ("byteStride".to_owned(), stride.into())));
         element.extend(target.and_then(Target::code).map(|code| ("target".to_owned(), code.into())));
         let extensions = schema::BufferViewExtensions::default();
-        self.root.buffer_views.push(schema::BufferView { buffer, byte_offset, byte_length, byte_stride, extensions });
+        self.root.buffer_views.push(schema::BufferView {
+            buffer,
+            byte_offset,
+            byte_length,
+            byte_stride,
+            extensions,
+        });
         self.push_element("bufferViews", Value::Object(element))
     }
 
@@ -192,8 +197,9 @@ impl Document {
     pub(super) fn require_extensions(&mut self, names: impl IntoIterator<Item = &'static str>) {
         for name in names {
             for list in ["extensionsUsed", "extensionsRequired"] {
-                let is_declared =
-                    self.json[list].as_array().is_some_and(|list| list.iter().any(|declared| declared == name));
+                let is_declared = self.json[list]
+                    .as_array()
+                    .is_some_and(|list| list.iter().any(|declared| declared == name));
                 if !is_declared {
                     self.push_element(list, name.into());
                 }

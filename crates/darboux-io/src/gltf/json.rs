@@ -7,8 +7,8 @@ use std::fmt;
 
 use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
-use serde_json::ser::PrettyFormatter;
 use serde_json::map::Entry;
+use serde_json::ser::PrettyFormatter;
 use serde_json::{Map, Number, Value};
 use serde_path_to_error::Segment;
 
@@ -25,10 +25,11 @@ const MAX_DEPTH: usize = 100;
 pub fn parse(text: &str, limit: Budget) -> Result<Value, ContentError> {
     let mut parser = serde_json::Deserializer::from_str(text);
     let bytes_left = Cell::new(limit.bytes);
-    let parsed = StrictValue { depth: 0, bytes_left: &bytes_left }.deserialize(&mut parser).and_then(|value| {
-        parser.end()?;
-        Ok(value)
-    });
+    let parsed =
+        StrictValue { depth: 0, bytes_left: &bytes_left }.deserialize(&mut parser).and_then(|value| {
+            parser.end()?;
+            Ok(value)
+        });
     parsed.map_err(|error| {
         if bytes_left.get() == 0 {
             return ContentError::unsupported("", limit.exceeded("has JSON that needs"));
@@ -47,7 +48,10 @@ pub fn read<T: DeserializeOwned>(value: &Value, at: &str) -> Result<T, ContentEr
             let path = if path == "." { "" } else { path.as_str() };
             let separator = if at.is_empty() || path.is_empty() || path.starts_with('[') { "" } else { "." };
             let problem = mismatch(found, &error.inner().to_string());
-            ContentError::invalid(format!("{at}{separator}{path}"), format!("{problem}; export the file again"))
+            ContentError::invalid(
+                format!("{at}{separator}{path}"),
+                format!("{problem}; export the file again"),
+            )
         })
     })
 }
@@ -186,7 +190,10 @@ impl<'de> Visitor<'de> for StrictValue<'_> {
                     entry.insert(members.next_value_seed(inner)?);
                 }
                 Entry::Occupied(entry) => {
-                    return Err(A::Error::custom(format_args!("an object has the key {:?} twice", entry.key())));
+                    return Err(A::Error::custom(format_args!(
+                        "an object has the key {:?} twice",
+                        entry.key()
+                    )));
                 }
             }
         }
@@ -308,7 +315,8 @@ mod tests {
 
     #[test]
     fn text_keeps_its_indentation() {
-        for text in ["{\n\t\"a\": [\n\t\t1,\n\t\t{}\n\t]\n}\n", "{\r\n  \"a\": 1\r\n}", "{\n    \"a\": []\n}"] {
+        for text in ["{\n\t\"a\": [\n\t\t1,\n\t\t{}\n\t]\n}\n", "{\r\n  \"a\": 1\r\n}", "{\n    \"a\": []\n}"]
+        {
             let written = TextLayout::of(text).text(&parse(text).unwrap()).unwrap();
             assert_eq!(String::from_utf8(written).unwrap(), text);
         }
@@ -339,7 +347,8 @@ mod tests {
         }
         let value = parse(r#"{"list":[{"count":1},{"count":"x"}]}"#).unwrap();
         let error = read::<Vec<Inner>>(&value["list"], "list").expect_err("a string").in_file("f");
-        let expected = "f: list[1].count: is \"x\"; it must be a whole number of 0 or more; export the file again";
+        let expected =
+            "f: list[1].count: is \"x\"; it must be a whole number of 0 or more; export the file again";
         assert_eq!(error.to_string(), expected);
     }
 }

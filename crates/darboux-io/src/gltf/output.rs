@@ -10,9 +10,8 @@ use std::path::PathBuf;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Value, json};
 
-use super::buffers::BufferSource;
+use super::buffers::{BufferSource, ImageFile};
 use super::document::Document;
-use super::edit::ImageFile;
 use super::json::TextLayout;
 use super::resources::{UriTarget, encode_data_uri, image_type};
 use super::schema::{Buffer, BufferView};
@@ -133,8 +132,9 @@ impl<'a> OutputLayout<'a> {
                 continue;
             }
             source.get_or_insert(i);
+            let is_whole = kept.len() == 1 && kept[0].len() == buffer.byte_length;
             let file = match store {
-                BufferSource::File(file) if kept == [0..buffer.byte_length] => Some(&file.located.path),
+                BufferSource::File(file) if is_whole => Some(&file.located.path),
                 _ => None,
             };
             match file.and_then(|path| merged.get(&(path, buffer.byte_length))) {
@@ -305,14 +305,18 @@ impl<'a> OutputLayout<'a> {
     fn views(&self) -> Elements<'_> {
         let stored = self.document.json["bufferViews"].as_array().into_iter().flatten().enumerate();
         let kept = stored.filter(|&(view, _)| !self.unused_data.has_view(view));
-        kept.map(|(_, view)| self.moved_view(view)).chain(self.image_views.iter().map(Cow::Borrowed)).collect()
+        kept.map(|(_, view)| self.moved_view(view))
+            .chain(self.image_views.iter().map(Cow::Borrowed))
+            .collect()
     }
 
     /// The JSON of a buffer view after the move, with every extension that refers to a buffer.
     fn moved_view<'v>(&self, view: &'v Value) -> Cow<'v, Value> {
         let mut moved = self.moved(view);
         let extensions = view.get("extensions").and_then(Value::as_object);
-        for (name, extension) in extensions.into_iter().flatten().filter(|(_, extension)| extension.is_object()) {
+        for (name, extension) in
+            extensions.into_iter().flatten().filter(|(_, extension)| extension.is_object())
+        {
             if let Cow::Owned(extension) = self.moved(extension) {
                 moved.to_mut()["extensions"][name] = extension;
             }

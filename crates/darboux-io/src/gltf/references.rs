@@ -171,7 +171,8 @@ pub fn check(json: &Value) -> Result<Vec<Reference>, ContentError> {
             let index = index(value);
             found.extend(index.map(|index| Reference { kind, index }));
             // A default scene without scenes is harmless: everything is shown.
-            let exists = index.is_some_and(|index| index < count || (kind, count) == (ReferenceKind::Scene, 0));
+            let exists =
+                index.is_some_and(|index| index < count || (kind, count) == (ReferenceKind::Scene, 0));
             if !exists && broken.is_none() {
                 broken = Some((path_of(steps), index));
             }
@@ -205,6 +206,39 @@ fn check_animations(json: &Value) -> Result<(), ContentError> {
     Ok(())
 }
 
+/// The accessors and buffer views that nothing in the input refers to, in ascending order.
+#[derive(Debug, Default)]
+pub struct Unreferenced {
+    pub accessors: Vec<usize>,
+    pub views: Vec<usize>,
+}
+
+impl Unreferenced {
+    /// Those of a document as it was read. `references`: all that it has.
+    pub fn new(json: &Value, references: &[Reference]) -> Self {
+        let rest = |array: &str, kinds: &[ReferenceKind]| {
+            let count = json[array].as_array().map_or(0, Vec::len);
+            let is_used = marked(count, references, kinds);
+            (0..count).filter(|&index| !is_used[index]).collect()
+        };
+        Self {
+            accessors: rest("accessors", &[ReferenceKind::Accessor]),
+            views: rest("bufferViews", &[ReferenceKind::View, ReferenceKind::ViewOfAccessor]),
+        }
+    }
+}
+
+/// Whether each of `count` elements has a reference of one of some kinds.
+pub fn marked(count: usize, references: &[Reference], kinds: &[ReferenceKind]) -> Vec<bool> {
+    let mut is_marked = vec![false; count];
+    for Reference { kind, index } in references {
+        if let Some(is_marked) = is_marked.get_mut(*index).filter(|_| kinds.contains(kind)) {
+            *is_marked = true;
+        }
+    }
+    is_marked
+}
+
 /// A value as an index; none if it is not one.
 fn index(value: &Value) -> Option<usize> {
     value.as_u64().and_then(|index| usize::try_from(index).ok())
@@ -221,7 +255,12 @@ enum Step<'a> {
 }
 
 /// Calls a function for every value at a path, with the steps to it.
-fn visit<'a>(value: &'a Value, path: &str, steps: &mut Vec<Step<'a>>, call: &mut dyn FnMut(&'a Value, &[Step<'a>])) {
+fn visit<'a>(
+    value: &'a Value,
+    path: &str,
+    steps: &mut Vec<Step<'a>>,
+    call: &mut dyn FnMut(&'a Value, &[Step<'a>]),
+) {
     if path.is_empty() {
         return call(value, steps);
     }

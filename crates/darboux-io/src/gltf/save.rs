@@ -6,10 +6,9 @@ use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-use super::buffers::BufferSource;
+use super::buffers::{BufferSource, ImageFile};
 use super::container::glb;
 use super::document::Document;
-use super::edit::ImageFile;
 use super::json::TextLayout;
 use super::output::{FileUris, OutputLayout};
 use super::resources::{LocatedFile, UriTarget, encode_path, portable};

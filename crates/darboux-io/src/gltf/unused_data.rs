@@ -14,30 +14,8 @@ use serde_json::Value;
 
 use super::buffers::BufferSource;
 use super::document::Document;
-use super::references::{Reference, ReferenceKind, references, renumber, unknown_extension};
+use super::references::{Reference, ReferenceKind, marked, references, renumber, unknown_extension};
 use super::schema::Meshopt;
-
-/// The accessors and buffer views that nothing in the input refers to, in ascending order.
-#[derive(Debug, Default)]
-pub struct Unreferenced {
-    accessors: Vec<usize>,
-    views: Vec<usize>,
-}
-
-impl Unreferenced {
-    /// Those of a document as it was read, and all its references.
-    pub fn new(json: &Value, references: &[Reference]) -> Self {
-        let rest = |array: &str, kinds: &[ReferenceKind]| {
-            let count = json[array].as_array().map_or(0, Vec::len);
-            let is_used = marked(count, references, kinds);
-            (0..count).filter(|&index| !is_used[index]).collect()
-        };
-        Self {
-            accessors: rest("accessors", &[ReferenceKind::Accessor]),
-            views: rest("bufferViews", &[ReferenceKind::View, ReferenceKind::ViewOfAccessor]),
-        }
-    }
-}
 
 /// The data that the output does not need.
 #[derive(Debug, Default)]
@@ -116,7 +94,8 @@ impl UnusedData {
         if !has_unused(&self.is_unused_accessor) && !has_unused(&self.is_unused_view) {
             return None;
         }
-        let [accessors, views] = [&self.is_unused_accessor, &self.is_unused_view].map(|list| new_indices(list));
+        let [accessors, views] =
+            [&self.is_unused_accessor, &self.is_unused_view].map(|list| new_indices(list));
         let mut cleared = json.clone();
         renumber(&mut cleared, |Reference { kind, index }| {
             let new = match kind {
@@ -145,7 +124,9 @@ impl Document {
         let has_unused_bytes = unused_data.buffers.iter().any(|buffer| !buffer.unused_ranges.is_empty());
         self.is_unused_data_reported = has_unused_bytes || unused_data.is_unused_accessor.contains(&true);
         self.is_unused_data_reported.then(|| {
-            format!("data that is no longer used is kept in the file: the extension {extension} may refer to it")
+            format!(
+                "data that is no longer used is kept in the file: the extension {extension} may refer to it"
+            )
         })
     }
 }
@@ -159,17 +140,6 @@ fn new_indices(is_unused: &[bool]) -> Vec<usize> {
         new
     };
     is_unused.iter().map(step).collect()
-}
-
-/// Whether each of `count` elements has a reference of one of some kinds.
-fn marked(count: usize, references: &[Reference], kinds: &[ReferenceKind]) -> Vec<bool> {
-    let mut is_marked = vec![false; count];
-    for Reference { kind, index } in references {
-        if let Some(is_marked) = is_marked.get_mut(*index).filter(|_| kinds.contains(kind)) {
-            *is_marked = true;
-        }
-    }
-    is_marked
 }
 
 fn unused_accessors(document: &Document, references: &[Reference]) -> Vec<bool> {

@@ -35,8 +35,7 @@ impl Document {
         }
         let mut views_of_buffer: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (i, view) in self.root.buffer_views.iter().enumerate() {
-            let has_fallback =
-                !matches!(self.buffers.get(view.buffer), Some(BufferSource::Absent(_)) | None);
+            let has_fallback = !matches!(self.buffers.get(view.buffer), Some(BufferSource::Absent(_)) | None);
             if view.extensions.meshopt.is_some() && !has_fallback {
                 views.insert(i);
                 views_of_buffer.entry(view.buffer).or_default().push(i);

@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::ImageFile;
 use crate::gltf::Document;
-use crate::gltf::buffers::BufferSource;
+use crate::gltf::buffers::{BufferSource, ImageFile};
 use crate::gltf::schema::Root;
 
 /// A document's state at one moment; made by [`Document::checkpoint`].

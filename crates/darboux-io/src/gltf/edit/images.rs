@@ -7,17 +7,9 @@ use serde_json::Value;
 use crate::Error;
 use crate::error::ContentError;
 use crate::gltf::Document;
+use crate::gltf::buffers::ImageFile;
 use crate::gltf::resources::{UriTarget, encode_data_uri};
 use crate::gltf::schema::Image;
-
-/// The new content of an image that is a file.
-#[derive(Clone, Debug)]
-pub struct ImageFile {
-    /// The path relative to the document's folder.
-    pub relative: PathBuf,
-    pub bytes: Vec<u8>,
-    pub media_type: String,
-}
 
 /// Where the content of an image is.
 enum Content {
@@ -36,7 +28,12 @@ impl Document {
         replaced.map_err(|error| error.in_file(self.name()))
     }
 
-    fn replace_content(&mut self, index: usize, bytes: Vec<u8>, media_type: &str) -> Result<(), ContentError> {
+    fn replace_content(
+        &mut self,
+        index: usize,
+        bytes: Vec<u8>,
+        media_type: &str,
+    ) -> Result<(), ContentError> {
         let content = self.image_content(index)?;
         let says_type = self.root.images[index].mime_type.is_some() || matches!(content, Content::View);
         let (key, value) = match content {
@@ -59,7 +56,12 @@ impl Document {
         self.set_media_type(index, says_type, media_type)
     }
 
-    fn set_media_type(&mut self, index: usize, says_type: bool, media_type: &str) -> Result<(), ContentError> {
+    fn set_media_type(
+        &mut self,
+        index: usize,
+        says_type: bool,
+        media_type: &str,
+    ) -> Result<(), ContentError> {
         if says_type {
             self.edit_element("images", index, |image| image["mimeType"] = media_type.into())?;
         }

@@ -91,7 +91,8 @@ impl Document {
         texture: usize,
         uv_set: usize,
     ) -> Result<bool, ContentError> {
-        let keeps_transform = self.root.materials.get(material).is_some_and(|stored| uses_set(stored, uv_set));
+        let keeps_transform =
+            self.root.materials.get(material).is_some_and(|stored| uses_set(stored, uv_set));
         self.edit_element("materials", material, |material| {
             let old = material["normalTexture"].take();
             let mut new = json!({ "index": texture, "texCoord": uv_set });
