@@ -28,8 +28,7 @@ struct Member {
 
 impl Member {
     fn joins(&self, other: &Self, threshold_cosine: f32) -> bool {
-        self.entry == other.entry
-            || self.joins_any
+        self.joins_any
             || other.joins_any
             || dot(self.s, other.s) > threshold_cosine && dot(self.t, other.t) > threshold_cosine
     }
@@ -45,7 +44,7 @@ impl PairwiseTest {
         group: u32,
         threshold_cosine: f32,
     ) -> bool {
-        let Group { vertex, preserves, .. } = fans.groups[group as usize];
+        let Group { vertex, marks, preserves, .. } = fans.groups[group as usize];
         let entries = fans.entries_of(vertex as usize);
         if entries.len() > MAX_ENTRIES {
             return false;
@@ -57,7 +56,9 @@ impl PairwiseTest {
         let bit = |is: bool, at: usize| if is { 1 << at } else { 0 };
         masks.clear();
         masks.extend(members.iter().map(|member| {
-            let joined = members.iter().map(|other| member.joins(other, threshold_cosine));
+            let joined = members.iter().map(|other| {
+                mesh.are_of_one_face(member.entry, other.entry) || member.joins(other, threshold_cosine)
+            });
             joined.enumerate().fold(0, |mask, (at, joined)| mask | bit(joined, at))
         }));
         if masks.iter().all(|mask| mask.count_ones() as usize == members.len()) {
@@ -84,7 +85,7 @@ impl PairwiseTest {
                         }
                         fans.frame_sums.push(sum);
                     }
-                    fans.groups.push(Group { sum, marks: 0, vertex, preserves });
+                    fans.groups.push(Group { sum, marks, vertex, preserves });
                     fans.groups.len() as u32 - 1
                 }
             };

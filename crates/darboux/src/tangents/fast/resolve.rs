@@ -13,6 +13,8 @@
 //! needs a repair, and large groups that are not one subgroup, stay undecided, and go through the general path; with such a vertex go those
 //! that it shares a triangle without UV area or a degenerate triangle with, because the groups around these depend on each other.
 
+use std::ops::Range;
+
 use crate::Frame;
 use crate::Indices;
 use crate::Mesh;
@@ -62,7 +64,7 @@ impl FastPath {
         let Self { weld, split, exceptions, tail_runs, workers, resolution, .. } = self;
         let list = triangle_list(mesh, weld, split);
         let faces = &mut exceptions.undecided;
-        if faces.is_empty() || list.is_split() || limits.is_cancelled() {
+        if faces.is_empty() || limits.is_cancelled() {
             return None;
         }
         let Resolution { triangles, fans, .. } = resolution;
@@ -80,10 +82,8 @@ impl FastPath {
         if let Some(frames) = frames {
             resolution.list_frames(frames);
         }
-        let is_left =
-            |triangle: &[u32; 3]| triangle.iter().any(|&vertex| resolution.is_left[vertex as usize]);
-        let mut is_face_left = resolution.triangles.triangles.iter().map(is_left);
-        faces.retain(|_| is_face_left.next().unwrap_or(true));
+        let mut is_complete = resolution.triangles.faces().map(|face| resolution.is_complete(face));
+        faces.retain(|_| !is_complete.next().unwrap_or(false));
         Some(report)
     }
 
@@ -135,6 +135,46 @@ impl Resolution {
         for &vertex in &triangles.inexact {
             is_left[vertex as usize] |= triangles.is_undecided[vertex as usize];
         }
+        self.join_corners_of_quads();
+    }
+
+    /// The corners on the diagonal of a quad have two entries. One that no group has reached takes the group of the other. Where the groups
+    /// differ, the reference averages two frames; so it does where a frame is not finite, and so not equal to itself, which a sum of opposite
+    /// directions can be. These vertices are left.
+    fn join_corners_of_quads(&mut self) {
+        let Self { triangles, fans, is_left, .. } = self;
+        for second in (1..triangles.kinds.len()).filter(|&at| triangles.is_second[at]) {
+            for (a, corner) in (3 * (second as u32 - 1)..).zip(triangles.corners[second - 1]) {
+                let Some(k) = (0..3).find(|&k| triangles.corners[second][k] == corner) else { continue };
+                let [a, b] = [a as usize, 3 * second + k];
+                match (fans.group_of_entry[a], fans.group_of_entry[b]) {
+                    (NONE, group) | (group, NONE) => {
+                        fans.group_of_entry[a] = group;
+                        fans.group_of_entry[b] = group;
+                    }
+                    (one, other) => {
+                        let is_doubtful = !is_one_subgroup(fans.groups[one as usize].marks);
+                        is_left[triangles.vertex(a as u32) as usize] |= one != other || is_doubtful;
+                    }
+                }
+            }
+        }
+    }
+
+    /// True for a face without a vertex that is left. `face`: its triangles.
+    fn is_complete(&self, face: Range<usize>) -> bool {
+        !self.triangles.triangles[face].as_flattened().iter().any(|&vertex| self.is_left[vertex as usize])
+    }
+
+    /// The corners of a face, those on the diagonal of a quad twice.
+    fn corners_of(&self, face: Range<usize>) -> impl Iterator<Item = usize> {
+        self.triangles.corners[face].as_flattened().iter().map(|&corner| corner as usize)
+    }
+
+    /// True for a face with a triangle whose corners can have both signs. The corners of all others have the orientation of their triangle.
+    fn can_have_both_signs(&self, face: Range<usize>) -> bool {
+        let kinds = self.triangles.kinds[face].iter();
+        kinds.fold(0, |all, kind| all | kind) & (kinds::JOINS_ANY | kinds::DEGENERATE) != 0
     }
 
     /// Finds the vertices that stay undecided.
@@ -167,17 +207,18 @@ impl Resolution {
 
     /// Leaves the vertices of triangles whose corners have both signs.
     fn leave_mixed_signs(&mut self, out: &[[f32; 4]]) {
+        let sign = |corner: u32| out[corner as usize][3];
         let mut signs: Vec<[f32; 3]> =
-            self.triangles.numbers.iter().map(|&number| signs_of(out, number)).collect();
+            self.triangles.corners.iter().map(|corners| corners.map(sign)).collect();
         for vertex in (0..self.is_left.len()).filter(|&vertex| self.triangles.is_undecided[vertex]) {
             for (entry, tangent, _) in self.values_at(vertex) {
                 signs[entry as usize / 3][entry as usize % 3] = tangent[3];
             }
         }
-        for (triangle, signs) in self.triangles.triangles.iter().zip(signs) {
-            if signs != [signs[0]; 3] {
-                for vertex in triangle.map(|vertex| vertex as usize) {
-                    self.is_left[vertex] |= self.triangles.is_undecided[vertex];
+        for face in self.triangles.faces() {
+            if has_both_signs(signs[face.clone()].as_flattened().iter().copied()) {
+                for &vertex in self.triangles.triangles[face].as_flattened() {
+                    self.is_left[vertex as usize] |= self.triangles.is_undecided[vertex as usize];
                 }
             }
         }
@@ -212,9 +253,6 @@ impl Resolution {
     /// vertex that is left.
     fn write(&self, out: &mut [[f32; 4]]) -> Report {
         let Self { triangles, fans, is_left, .. } = self;
-        let is_complete = |entry: u32| {
-            !triangles.triangles[entry as usize / 3].iter().any(|&vertex| is_left[vertex as usize])
-        };
         let count = |kind: u8| triangles.kinds.iter().filter(|&&other| other & kind != 0).count();
         let mut report = Report {
             degenerate_triangles: count(kinds::DEGENERATE),
@@ -226,18 +264,30 @@ impl Resolution {
         {
             for (entry, tangent, is_usable) in self.values_at(vertex) {
                 out[triangles.corner(entry) as usize] = tangent;
-                report.repaired_corners += usize::from(!is_usable && is_complete(entry));
+                report.repaired_corners += usize::from(!is_usable && self.is_counted(entry));
             }
         }
-        // The corners of all other triangles have its orientation.
-        let is_doubtful = |kind: u8| kind & (kinds::JOINS_ANY | kinds::DEGENERATE) != 0;
-        for (triangle, &number) in triangles.numbers.iter().enumerate() {
-            if is_doubtful(triangles.kinds[triangle]) && is_complete(3 * triangle as u32) {
-                let signs = signs_of(out, number);
-                report.mixed_sign_faces += usize::from(signs != [signs[0]; 3]);
-            }
+        for face in triangles.faces().filter(|face| self.can_have_both_signs(face.clone())) {
+            let signs = self.corners_of(face.clone()).map(|corner| out[corner][3]);
+            report.mixed_sign_faces += usize::from(has_both_signs(signs) && self.is_complete(face));
         }
         report
+    }
+
+    /// True for one entry of each corner of faces without a vertex that is left.
+    fn is_counted(&self, entry: u32) -> bool {
+        let is_second = &self.triangles.is_second;
+        let at = entry as usize / 3;
+        let first = if is_second[at] { at - 1 } else { at };
+        let end = if is_second.get(first + 1) == Some(&true) { first + 2 } else { first + 1 };
+        !self.is_repeated(entry) && self.is_complete(first..end)
+    }
+
+    /// True for the second entry of a corner.
+    fn is_repeated(&self, entry: u32) -> bool {
+        let UndecidedTriangles { is_second, corners, .. } = &self.triangles;
+        let at = entry as usize / 3;
+        is_second[at] && corners[at - 1].contains(&self.triangles.corner(entry))
     }
 
     /// Lists the corners of all vertices that are not left, with their full frames.
@@ -245,7 +295,7 @@ impl Resolution {
         let Self { triangles, fans, is_left, tangents, .. } = self;
         for vertex in (0..is_left.len()).filter(|&vertex| triangles.is_undecided[vertex] && !is_left[vertex])
         {
-            for (entry, group, _) in self.groups_at(vertex) {
+            for (entry, group, _) in self.groups_at(vertex).filter(|(entry, ..)| !self.is_repeated(*entry)) {
                 let frame = match (tangents.get(group), fans.frame_sums.get(group)) {
                     (Some(&tangent), Some(&[x, y, z, weight, s, t])) => {
                         frame(tangent, [x, y, z], weight, [s, t])
@@ -297,9 +347,10 @@ fn frame([x, y, z, sign]: [f32; 4], bitangent: [f32; 3], weight: f32, magnitude:
     Frame { tangent: [x, y, z], bitangent: normalized_unless_zero(bitangent), magnitude, sign }
 }
 
-/// The signs of a triangle's corners. `number`: that of the triangle.
-fn signs_of(out: &[[f32; 4]], number: u32) -> [f32; 3] {
-    [0, 1, 2].map(|k| out[3 * number as usize + k][3])
+/// True when the signs differ.
+fn has_both_signs(mut signs: impl Iterator<Item = f32>) -> bool {
+    let first = signs.next();
+    signs.any(|sign| Some(sign) != first)
 }
 
 /// As [`is_usable`], which is asked only near its limits.

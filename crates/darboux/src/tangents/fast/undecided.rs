@@ -3,15 +3,18 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
+use std::ops::Range;
+
 use crate::exec::limits::RunLimits;
 use crate::exec::simd::Task;
 use crate::math::dot;
-use crate::tangents::mikktspace::derivatives::derivative;
+use crate::tangents::mikktspace::derivatives::{derivative, doubled_area};
 use crate::topology::triangles::NONE;
 
 use crate::tangents::fast::edge_tail::are_degenerate;
 use crate::tangents::fast::kernel::{BLOCK_SIZE, TriangleBlock};
 use crate::tangents::fast::proof::{UNDECIDED, marks};
+use crate::tangents::fast::quads::MIN_AREA;
 use crate::tangents::fast::triangle_list::TriangleList;
 use crate::tangents::fast::vertex_record::VertexRecord;
 
@@ -40,6 +43,10 @@ pub(crate) type FrameTerm = [f32; 6];
 pub(crate) struct UndecidedTriangles {
     /// The number of each triangle in the mesh's triangle list, ascending.
     pub numbers: Vec<u32>,
+    /// The corners of the mesh of each triangle.
+    pub corners: Vec<[u32; 3]>,
+    /// True for the second half of a quad, whose first half is before it.
+    pub is_second: Vec<bool>,
     /// The vertices of each triangle, numbered in the order of their first entries.
     pub triangles: Vec<[u32; 3]>,
     /// The [`kinds`] of each triangle.
@@ -52,7 +59,8 @@ pub(crate) struct UndecidedTriangles {
     pub records: Vec<VertexRecord>,
     /// True for undecided vertices. All triangles around them are here.
     pub is_undecided: Vec<bool>,
-    /// Vertices at which the terms may not be the reference's: some triangle's derivatives are too small to be normalised.
+    /// Vertices at which the terms or frames may not be the reference's: some triangle's derivatives are too small to be normalised, or a quad
+    /// is one that the general path handles.
     pub inexact: Vec<u32>,
     /// The welded vertex of each vertex.
     welded: Vec<u32>,
@@ -84,6 +92,7 @@ impl UndecidedTriangles {
             frame_terms: &mut self.frame_terms,
         });
         self.find_kinds();
+        self.unify_quads();
     }
 
     fn number_vertices(
@@ -101,8 +110,12 @@ impl UndecidedTriangles {
         self.numbers.clear();
         self.numbers.extend(faces.iter().flat_map(|&face| list.face_of(face)));
         self.triangles.clear();
+        self.corners.clear();
+        self.is_second.clear();
         for &triangle in &self.numbers {
             let corners = list.corners(triangle);
+            self.corners.push(corners);
+            self.is_second.push(list.face_of(triangle).start != triangle);
             let vertices = corners.map(|corner| {
                 let welded = list.vertex(corner);
                 let number = &mut self.number_of_welded[welded as usize];
@@ -136,15 +149,51 @@ impl UndecidedTriangles {
         }
     }
 
+    /// Gives both halves of each quad one orientation, as the reference does. The vertices of quads with a degenerate half, and those with a
+    /// half of nearly no UV area, whose derivatives can be infinite, are listed as inexact.
+    fn unify_quads(&mut self) {
+        for second in (1..self.kinds.len()).filter(|&at| self.is_second[at]) {
+            let halves = [second - 1, second];
+            let kinds = halves.map(|half| self.kinds[half]);
+            let uvs =
+                halves.map(|half| self.triangles[half].map(|vertex| uv_of(&self.records[vertex as usize])));
+            let areas = uvs.map(|uvs| doubled_area(uvs).abs());
+            let has_any = |kind: u8| (kinds[0] | kinds[1]) & kind != 0;
+            let is_small = |at: usize| kinds[at] & kinds::JOINS_ANY == 0 && areas[at] <= MIN_AREA;
+            if has_any(kinds::DEGENERATE) || is_small(0) || is_small(1) {
+                self.inexact.extend(halves.iter().flat_map(|&half| self.triangles[half]));
+            }
+            if !has_any(kinds::DEGENERATE) {
+                let first_decides = kinds[1] & kinds::JOINS_ANY != 0 || areas[0] >= areas[1];
+                let orientation = kinds[if first_decides { 0 } else { 1 }] & kinds::PRESERVES;
+                for half in halves {
+                    self.kinds[half] = self.kinds[half] & !kinds::PRESERVES | orientation;
+                }
+            }
+        }
+    }
+
+    /// The triangles of each face.
+    pub fn faces(&self) -> impl Iterator<Item = Range<usize>> {
+        let firsts = (0..self.is_second.len()).filter(|&at| !self.is_second[at]);
+        firsts.map(|first| first..first + if self.is_second.get(first + 1) == Some(&true) { 2 } else { 1 })
+    }
+
+    /// True when the triangles of two entries belong to one face.
+    pub fn are_of_one_face(&self, a: u32, b: u32) -> bool {
+        let (a, b) = (a.min(b) as usize / 3, a.max(b) as usize / 3);
+        a == b || a + 1 == b && self.is_second[b]
+    }
+
     /// The number here of an entry of the mesh's triangle list.
     pub fn entry_of(&self, entry: u32) -> u32 {
         3 * self.numbers.partition_point(|&number| number < entry / 3) as u32 + entry % 3
     }
 
-    /// The corner of the mesh at an entry, where all faces are triangles.
+    /// The corner of the mesh at an entry.
     #[inline(always)]
     pub fn corner(&self, entry: u32) -> u32 {
-        3 * self.numbers[entry as usize / 3] + entry % 3
+        self.corners[entry as usize / 3][entry as usize % 3]
     }
 
     /// The normal of a vertex.
@@ -179,6 +228,11 @@ impl UndecidedTriangles {
     }
 }
 
+/// The UV in a record.
+fn uv_of([.., u, v]: &VertexRecord) -> [f32; 2] {
+    [*u, *v]
+}
+
 /// The kind of a triangle that the kernel does not vouch for, and whether its terms are exact all the same.
 #[cold]
 fn doubtful_kind(records: [VertexRecord; 3]) -> (u8, bool) {
@@ -186,7 +240,7 @@ fn doubtful_kind(records: [VertexRecord; 3]) -> (u8, bool) {
     if are_degenerate(positions) {
         return (kinds::DEGENERATE, true);
     }
-    let derivative = derivative(positions, records.map(|[.., u, v]| [u, v]));
+    let derivative = derivative(positions, records.each_ref().map(uv_of));
     let orientation = if derivative.preserves { kinds::PRESERVES } else { 0 };
     if derivative.joins_any {
         return (orientation | kinds::JOINS_ANY, true);
