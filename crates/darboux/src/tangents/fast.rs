@@ -22,6 +22,7 @@
 //! for each vertex v to which all its triangles have been added:               proof.rs
 //!     if one orientation and nothing opposite and one fan and the tangent needs no repair:
 //!         tangent[v] = normalize(sum[v]), with the sign of the orientation
+//!     else if no triangle has UV area: tangent[v] = the default
 //!     else: v is undecided
 //! copy the tangents of vertices to corners, list the faces of undecided ones  exceptions.rs
 //! unless the mode corrects edges:                                             edge_tail.rs, vertex_names.rs
@@ -63,11 +64,14 @@
 //! - **Groups.** A group is a flood fill around its vertex, from triangle to triangle across matched edges, where the orientation is equal.
 //!   Triangles without UV area take part in one more decision, which is not local: each adopts the orientation of the first group that
 //!   reaches it at any of its vertices. So the fills run in the reference's order, by their first triangles. All vertices of such a triangle
-//!   are undecided, so no fill that could reach it is missing.
+//!   are undecided, so no fill that could reach it is missing, but for those around which no triangle has UV area: no fill starts there, since
+//!   fills start from triangles with UV area alone. Their corners keep the default, which the first pass writes.
 //! - **Sums.** All members of a group join when nothing is opposite (the test above, on the marks of the members alone). The group's sum is
 //!   the sum of its triangles in their order, and the terms come from the same kernel. Triangles without UV area add nothing. Where the test
 //!   fails, or the threshold is smaller, all pairs of members are compared as the reference compares them (`pairs.rs`).
 //! - **Copies.** A corner of a degenerate triangle takes the tangent of the first other corner at its vertex.
+//! - **Quads.** Both halves take one orientation before groups are found, and join each other. A corner on the diagonal is in two triangles: where
+//!   one of them is in no group, the other's counts; where their groups differ, the vertex is left to the general path, which averages.
 //!
 //! A vertex whose tangent has to be repaired stays undecided, and so does one with too many triangles for pairs. The general path then groups
 //! these vertices anew. Their groups depend on those of other vertices through triangles without UV area and through degenerate triangles

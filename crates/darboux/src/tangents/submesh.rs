@@ -3,7 +3,7 @@
 //! The fast path ([`crate::tangents::fast`]) writes the tangents of vertices that it can decide, and the sign [`UNDECIDED`] at all other
 //! corners. The faces with an undecided corner are a submesh, which holds everything that decides about its undecided corners:
 //! - an undecided vertex has all its faces there;
-//! - a UV-degenerate triangle, whose orientation depends on the groups of all its vertices, leaves all of them undecided;
+//! - a UV-degenerate triangle, whose orientation depends on the groups of all its vertices, leaves all of them undecided that have groups;
 //! - where a corner of a degenerate triangle copies a decided corner, a face with that corner is there.
 
 use crate::Faces;

@@ -18,8 +18,8 @@
 //! Where the order of the reference's last edges matters, the half-edges of each of its runs are matched with each other only
 //! (see `edge_tail.rs`).
 //!
-//! A triangle without UV area adopts the orientation of the first group that reaches it, whichever of its three vertices that is at. All
-//! three are undecided, so all groups that can reach it are found here, in the reference's order.
+//! A triangle without UV area adopts the orientation of the first group that reaches it, whichever of its three vertices that is at. Each of
+//! these is undecided or has no groups, so all groups that can reach the triangle are found here, in the reference's order.
 
 use crate::math::add;
 use crate::topology::triangles::NONE;

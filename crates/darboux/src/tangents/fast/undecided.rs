@@ -193,7 +193,7 @@ impl UndecidedTriangles {
     /// The corner of the mesh at an entry.
     #[inline(always)]
     pub fn corner(&self, entry: u32) -> u32 {
-        self.corners[entry as usize / 3][entry as usize % 3]
+        self.corners.as_flattened()[entry as usize]
     }
 
     /// The normal of a vertex.
@@ -206,19 +206,19 @@ impl UndecidedTriangles {
     /// The vertex of an entry.
     #[inline(always)]
     pub fn vertex(&self, entry: u32) -> u32 {
-        self.triangles[entry as usize / 3][entry as usize % 3]
+        self.triangles.as_flattened()[entry as usize]
     }
 
     /// What an entry adds to its group.
     #[inline(always)]
     pub fn term(&self, entry: u32) -> MarkedTerm {
-        self.terms[entry as usize / 3][entry as usize % 3]
+        self.terms.as_flattened()[entry as usize]
     }
 
     /// What an entry adds to the frame of its group.
     #[inline(always)]
     pub fn frame_term(&self, entry: u32) -> Option<&FrameTerm> {
-        self.frame_terms.get(entry as usize / 3).map(|terms| &terms[entry as usize % 3])
+        self.frame_terms.as_flattened().get(entry as usize)
     }
 
     /// The kind of an entry's triangle.
