@@ -147,7 +147,9 @@ impl Document {
         let buffer = self.buffers.len() - 1;
         let length = self.new_byte_count();
         self.root.buffers[buffer].byte_length = length;
-        self.json["buffers"][buffer]["byteLength"] = length.into();
+        if let Some(stored) = self.json.get_mut("buffers").and_then(|buffers| buffers[buffer].get_mut("byteLength")) {
+            *stored = length.into();
+        }
     }
 
     /// The number of bytes of edits.
@@ -161,13 +163,12 @@ impl Document {
     /// Appends an element to an array of the root object. Returns its index. The caller appends the typed element, if there is one.
     fn push_element(&mut self, array: &str, element: Value) -> usize {
         self.is_changed = true;
-        let elements = &mut self.json[array];
-        if !elements.is_array() {
-            *elements = Value::Array(Vec::new());
+        if let Some(Value::Array(elements)) = self.json.get_mut(array) {
+            elements.push(element);
+            return elements.len() - 1;
         }
-        let Some(elements) = elements.as_array_mut() else { unreachable!("was made an array") };
-        elements.push(element);
-        elements.len() - 1
+        self.json[array] = Value::Array(vec![element]);
+        0
     }
 
     /// Edits an element of an array of the root object. Returns whether it changed.

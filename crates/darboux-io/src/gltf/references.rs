@@ -336,7 +336,7 @@ pub fn unknown_extension(json: &Value) -> Option<&str> {
 fn extension_names<'a>(value: &'a Value, names: &mut BTreeSet<&'a str>) {
     match value {
         Value::Object(members) => {
-            for (key, value) in members {
+            for (key, value) in members.iter().filter(|(_, value)| value.is_object() || value.is_array()) {
                 if let ("extensions", Value::Object(extensions)) = (key.as_str(), value) {
                     names.extend(extensions.keys().map(String::as_str));
                 }

@@ -119,7 +119,10 @@ impl UnusedData {
 impl Document {
     /// A warning if unused data is kept because an unknown extension might refer to it. Returned once per document.
     pub(super) fn unused_data_warning(&mut self) -> Option<String> {
-        let extension = unknown_extension(&self.json).filter(|_| !self.is_unused_data_reported)?.to_owned();
+        if self.is_unused_data_reported || !self.is_changed {
+            return None;
+        }
+        let extension = unknown_extension(&self.json)?.to_owned();
         let unused_data = UnusedData::find(self);
         let has_unused_bytes = unused_data.buffers.iter().any(|buffer| !buffer.unused_ranges.is_empty());
         self.is_unused_data_reported = has_unused_bytes || unused_data.is_unused_accessor.contains(&true);
