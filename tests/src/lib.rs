@@ -23,21 +23,8 @@ pub use engine::{Engine, engines};
 pub use generate::Case;
 pub use mesh::{FaceSizes, OwnedMesh};
 
-/// All methods, in the order of their numbers in C.
-pub const METHODS: [darboux::Method; 9] = {
-    use darboux::{Method, MikkTSpaceOptions};
-    [
-        Method::MikkTSpace(MikkTSpaceOptions::new()),
-        Method::AngleArea,
-        Method::Lengyel,
-        Method::LengyelPerVertex,
-        Method::Average,
-        Method::Area,
-        Method::Face,
-        Method::FromNormal,
-        Method::AngleEdge,
-    ]
-};
+/// All methods, in the order of their codes.
+pub const METHODS: &[darboux::Method] = <darboux::Method as darboux::Choice>::ALL;
 
 /// The examples of docs/rust.md run.
 #[cfg(doctest)]

@@ -5,7 +5,7 @@ use std::time::Duration;
 use darboux::internal::cancel_checks::{cancel_after, check_count};
 use darboux::internal::gpu_resume;
 use darboux::{
-    Cancel, Context, CornerNormals, CornerTangentsRef, Error, Frame, Mesh, Method, MikkTSpaceOptions,
+    Cancel, Choice, Context, CornerNormals, CornerTangentsRef, Error, Frame, Mesh, Method, MikkTSpaceOptions,
     NormalOptions, NormalPlan, Plan, Splitter, TangentOptions, generate_compact_frames, generate_frames_with,
     generate_normals_with, generate_tangents_with, measure_tangents_with, measure_uv_fidelity_with,
     split_normals_with, split_vertices_with, write_frames, write_tangents,
@@ -116,18 +116,11 @@ fn every_function_returns_that_it_was_cancelled() {
     }
 }
 
-const METHODS: [Method; 9] = [
-    Method::MikkTSpace(MikkTSpaceOptions::new()),
-    // This threshold leaves nothing to the fast path.
-    Method::MikkTSpace(MikkTSpaceOptions::new().with_threshold(0.0)),
-    Method::AngleArea,
-    Method::Lengyel,
-    Method::LengyelPerVertex,
-    Method::Average,
-    Method::Area,
-    Method::Face,
-    Method::FromNormal,
-];
+/// Every method, and MikkTSpace with a threshold that leaves nothing to the fast path.
+fn methods() -> impl Iterator<Item = Method> {
+    let scattered = Method::MikkTSpace(MikkTSpaceOptions::new().with_threshold(0.0));
+    Method::ALL.iter().copied().chain([scattered])
+}
 
 /// A call of the library with a context.
 type Call<'a> = Box<dyn Fn(&mut Context) -> Result<(), Error> + Sync + 'a>;
@@ -135,7 +128,7 @@ type Call<'a> = Box<dyn Fn(&mut Context) -> Result<(), Error> + Sync + 'a>;
 /// Every long computation, by every method.
 fn computations<'a>(mesh: &'a Mesh<'a>, plans: &'a [Plan], welded: &'a [u32]) -> Vec<(String, Call<'a>)> {
     let mut calls: Vec<(String, Call<'a>)> = Vec::new();
-    for (method, plan) in METHODS.into_iter().zip(plans) {
+    for (method, plan) in methods().zip(plans) {
         let options = TangentOptions::from(method);
         let mut add = |what: &str, call: Call<'a>| calls.push((format!("{what} {method:?}"), call));
         add("tangents", Box::new(move |context| generate_tangents_with(mesh, &options, context).map(drop)));
@@ -205,7 +198,7 @@ fn every_computation_checks_the_token_regularly_and_stops_soon() {
     let mesh = families::grid(150, 150, false, true);
     let mesh = &mesh.view();
     let welded: Vec<u32> = (0..mesh.vertex_count() as u32).collect();
-    let plans = METHODS.map(|method| Plan::new(mesh, &TangentOptions::from(method)));
+    let plans: Vec<Plan> = methods().map(|method| Plan::new(mesh, &TangentOptions::from(method))).collect();
     let mut failures = Vec::new();
     for threads in [1, 3] {
         for (name, call) in &computations(mesh, &plans, &welded) {

@@ -39,7 +39,7 @@ fn meshes() -> [OwnedMesh; 5] {
 fn turned() {
     let turn = |[x, y, z]: [f32; 3]| [z, x, y];
     // A perpendicular chosen from the normal alone does not turn with it.
-    for method in METHODS.into_iter().filter(|&method| method != Method::FromNormal) {
+    for method in METHODS.iter().copied().filter(|&method| method != Method::FromNormal) {
         for mut mesh in meshes() {
             let mut expected = frames(&mesh, method);
             mesh.positions.iter_mut().chain(&mut mesh.normals).for_each(|v| *v = turn(*v));
@@ -53,7 +53,7 @@ fn turned() {
 
 #[test]
 fn scaled() {
-    for method in METHODS {
+    for &method in METHODS {
         for mut mesh in meshes() {
             let mut expected = frames(&mesh, method);
             mesh.positions.iter_mut().flatten().for_each(|x| *x *= 8.0);
@@ -67,7 +67,7 @@ fn scaled() {
 
 #[test]
 fn mirrored() {
-    for method in METHODS.into_iter().filter(|&method| method != Method::FromNormal) {
+    for method in METHODS.iter().copied().filter(|&method| method != Method::FromNormal) {
         for mut mesh in meshes() {
             let mut expected = frames(&mesh, method);
             mesh.uvs.iter_mut().for_each(|uv| uv[0] = -uv[0]);
@@ -82,7 +82,7 @@ fn mirrored() {
 /// Faces in another order, each with another first corner. A quad begins at the opposite corner, because a tie cuts it from 0 to 2.
 #[test]
 fn reordered() {
-    for method in METHODS {
+    for &method in METHODS {
         for mesh in meshes() {
             let faces = mesh.face_list();
             let expected = frames(&mesh, method);
@@ -107,7 +107,7 @@ fn reordered() {
 #[test]
 fn cut_quads() {
     let flat = |[x, y, _]: [f32; 3]| [x, y, 0.0];
-    for method in METHODS {
+    for &method in METHODS {
         let mut mesh = families::grid(6, 5, true, false);
         mesh.positions.iter_mut().for_each(|position| *position = flat(*position));
         mesh.normals.fill([0.0, 0.0, 1.0]);
@@ -132,7 +132,7 @@ fn cut_quads() {
 #[test]
 fn orthogonalized_bitangents() {
     let dot = |a: [f32; 3], b: [f32; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f32>();
-    for method in METHODS.into_iter().filter(|&method| method != Method::Face) {
+    for method in METHODS.iter().copied().filter(|&method| method != Method::Face) {
         for mesh in meshes() {
             let options = TangentOptions::from(method);
             let frames = generate_frames(&mesh.view(), &options).corners;

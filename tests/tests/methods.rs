@@ -195,7 +195,7 @@ fn bitangents_without_a_direction_follow_the_fit() {
 /// The corners of a triangle with NaN are counted; the triangle does not count as UV-degenerate.
 #[test]
 fn what_is_not_finite_is_not_uv_degenerate() {
-    for method in METHODS.into_iter().filter(|&method| method != Method::FromNormal) {
+    for method in METHODS.iter().copied().filter(|&method| method != Method::FromNormal) {
         let options = TangentOptions::from(method);
         let counts = |mesh: &OwnedMesh| {
             let report = generate_tangents(&mesh.view(), &options).report;

@@ -1,6 +1,6 @@
 //! Plans on deformed meshes.
 
-use darboux::{Context, Method, MikkTSpaceOptions, Mode, Plan, TangentOptions, generate_tangents};
+use darboux::{Choice, Context, Method, MikkTSpaceOptions, Mode, Plan, TangentOptions, generate_tangents};
 use darboux_tests::{Case, FaceSizes, OwnedMesh, families};
 
 /// The tangents of `moved` by a plan of `base`, as bits.
@@ -56,7 +56,7 @@ fn other_faces_change_nothing() {
         base.clone().with_face_list(&vec![vec![11, 5, 7]; corners / 3]),
         base.clone().with_face_list(&[vec![11; 2], vec![0; corners - 2]]),
     ];
-    for method in [Method::default(), Method::AngleArea, Method::AngleEdge, Method::Lengyel] {
+    for &method in Method::ALL {
         for base in [base.clone(), OwnedMesh { faces: FaceSizes::Triangles, ..base.clone() }] {
             let options = TangentOptions::from(method);
             let plan = Plan::new(&base.view(), &options);
@@ -69,16 +69,10 @@ fn other_faces_change_nothing() {
 
 #[test]
 fn a_waving_surface_keeps_its_groups() {
-    for (mirrored, method) in [
-        (false, Method::default()),
-        (true, Method::default()),
-        (false, Method::AngleArea),
-        (true, Method::AngleArea),
-        (false, Method::AngleEdge),
-        (true, Method::AngleEdge),
-        (true, Method::Lengyel),
-        (true, Method::Average),
-    ] {
+    for (mirrored, &method) in [false, true]
+        .into_iter()
+        .flat_map(|mirrored| Method::ALL.iter().map(move |method| (mirrored, method)))
+    {
         let options = TangentOptions::from(method);
         let base = families::grid(40, 30, false, mirrored);
         let mut waving = base.clone();

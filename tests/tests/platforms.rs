@@ -62,7 +62,7 @@ fn frames_of_mikktspace_are_the_same() {
 #[test]
 fn tangents_of_every_method_are_the_same() {
     let meshes = meshes();
-    let found = METHODS.map(|method| {
+    let found = METHODS.iter().map(|&method| {
         hash(&meshes, |mesh, threshold, hash| {
             let method = match method {
                 Method::MikkTSpace(options) => options.with_threshold(threshold).into(),
@@ -72,6 +72,7 @@ fn tangents_of_every_method_are_the_same() {
             tangents.corners.per_corner().as_flattened().iter().for_each(|float| hash.take_float(*float));
         })
     });
+    let found: Vec<u64> = found.collect();
     let recorded = [
         0xa8c0_af09_4510_12a9,
         0xa229_a664_6a71_2657,

@@ -21,7 +21,7 @@ fn best(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> RecipeMatch {
 fn recipes() -> impl Iterator<Item = Method> {
     let modes =
         [Mode::Reference, Mode::Corrected].map(|mode| MikkTSpaceOptions::new().with_mode(mode).into());
-    METHODS.into_iter().filter(|method| *method != Method::FromNormal).chain(modes)
+    METHODS.iter().copied().filter(|method| *method != Method::FromNormal).chain(modes)
 }
 
 /// The tangents after they were written through the index list by a loop over the corners.

@@ -16,6 +16,8 @@ const GENERATED_PATHS: &[&str] = &[
     "docs/check.md",
     "crates/darboux-cli/generated",
     "bindings/c/include/darboux.h",
+    "bindings/js/lib/core/choices.ts",
+    "bindings/python/python/darboux/_choices.py",
     "shaders/glsl",
     "shaders/hlsl",
     shaders::RENDER_COPIES,
@@ -25,7 +27,7 @@ const GENERATED_PATHS: &[&str] = &[
 ];
 
 /// Packages and the examples in them that write generated files below a given folder.
-const WRITERS: &[(&str, &str)] = &[("darboux-cli", "pages"), ("darboux-c", "header")];
+const WRITERS: &[(&str, &str)] = &[("darboux", "choices"), ("darboux-cli", "pages"), ("darboux-c", "header")];
 
 /// Writes all generated files into the repository.
 pub fn write() -> Outcome {

@@ -1,8 +1,8 @@
 //! Enumerations of the C interface. Callers pass them as `uint32_t`, so that an invalid value is an error instead of undefined behaviour.
 
 use darboux::{
-    Axis, BitangentDirection, Convention, MapVerdict, Method, Mode, NormalWeight, RecipeWriting, Shading,
-    SignRule, SmoothingSeams, TangentDirection, UvOrigin, Winding,
+    Axis, BitangentDirection, Choice, Convention, MapVerdict, Method, Mode, NormalWeight, RecipeWriting,
+    Shading, SignRule, SmoothingSeams, TangentDirection, UvOrigin, Winding,
 };
 
 use crate::status::{Error, darboux_status};
@@ -273,46 +273,30 @@ macro_rules! from_code {
     };
 }
 
-from_code!(method, "darboux_method", MethodCode => Method {
-    Mikktspace => Method::default(),
-    AngleArea => Method::AngleArea,
-    Lengyel => Method::Lengyel,
-    LengyelPerVertex => Method::LengyelPerVertex,
-    Average => Method::Average,
-    Area => Method::Area,
-    Face => Method::Face,
-    FromNormal => Method::FromNormal,
-    AngleEdge => Method::AngleEdge,
-});
-from_code!(mode, "darboux_mode", ModeCode => Mode {
-    Repaired => Mode::Repaired,
-    Reference => Mode::Reference,
-    Corrected => Mode::Corrected,
-});
-/// The code of a method.
-pub(crate) fn method_code(method: Method) -> darboux_method {
-    let code = match method {
-        Method::MikkTSpace(_) => MethodCode::Mikktspace,
-        Method::AngleArea => MethodCode::AngleArea,
-        Method::AngleEdge => MethodCode::AngleEdge,
-        Method::Lengyel => MethodCode::Lengyel,
-        Method::LengyelPerVertex => MethodCode::LengyelPerVertex,
-        Method::Average => MethodCode::Average,
-        Method::Area => MethodCode::Area,
-        Method::Face => MethodCode::Face,
-        _ => MethodCode::FromNormal,
-    };
-    code as u32
+/// The value of a code of a choice of the core: its position in the list. `what`: the type in C. Errors: a code beyond the list.
+fn choice<T: Choice>(what: &str, code: u32) -> Result<T, Error> {
+    T::from_code(code)
+        .ok_or_else(|| Error::new(darboux_status::UnknownValue, format!("{code} is not a value of {what}")))
 }
 
-/// The code of a mode.
-pub(crate) fn mode_code(mode: Mode) -> darboux_mode {
-    let code = match mode {
-        Mode::Reference => ModeCode::Reference,
-        Mode::Corrected => ModeCode::Corrected,
-        _ => ModeCode::Repaired,
-    };
-    code as u32
+pub(crate) fn method(code: u32) -> Result<Method, Error> {
+    choice("darboux_method", code)
+}
+
+pub(crate) fn mode(code: u32) -> Result<Mode, Error> {
+    choice("darboux_mode", code)
+}
+
+pub(crate) fn shading(code: u32) -> Result<Shading, Error> {
+    choice("darboux_shading", code)
+}
+
+pub(crate) fn normal_weight(code: u32) -> Result<NormalWeight, Error> {
+    choice("darboux_normal_weight", code)
+}
+
+pub(crate) fn smoothing_seams(code: u32) -> Result<SmoothingSeams, Error> {
+    choice("darboux_smoothing_seams", code)
 }
 
 /// The code of a verdict.
@@ -341,19 +325,6 @@ from_code!(faces, "darboux_faces", FacesCode => FacesCode {
     Triangles => FacesCode::Triangles,
     Quads => FacesCode::Quads,
     Mixed => FacesCode::Mixed,
-});
-from_code!(shading, "darboux_shading", ShadingCode => Shading {
-    Smooth => Shading::Smooth,
-    Flat => Shading::Flat,
-});
-from_code!(normal_weight, "darboux_normal_weight", NormalWeightCode => NormalWeight {
-    Angle => NormalWeight::Angle,
-    Area => NormalWeight::Area,
-    AngleArea => NormalWeight::AngleArea,
-});
-from_code!(smoothing_seams, "darboux_smoothing_seams", SmoothingSeamsCode => SmoothingSeams {
-    Ignored => SmoothingSeams::Ignored,
-    Respected => SmoothingSeams::Respected,
 });
 from_code!(tangent_encoding, "darboux_tangent_encoding", TangentEncodingCode => TangentEncodingCode {
     Snorm8 => TangentEncodingCode::Snorm8,
@@ -403,3 +374,31 @@ from_code!(program, "darboux_program", ProgramCode => Convention {
     Maya => Convention::MAYA,
     Max => Convention::MAX,
 });
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a list of C codes has the values of the core, in their order.
+    fn is_list_of<T: Choice + PartialEq + std::fmt::Debug>(codes: &[(&str, u32)]) {
+        let names: Vec<String> = T::ALL.iter().map(|value| value.name().replace('-', "")).collect();
+        let expected = names.iter().map(String::as_str).zip(0..);
+        let found = codes.iter().map(|(name, code)| (name.to_ascii_lowercase(), *code));
+        assert!(found.eq(expected.map(|(name, code)| (name.to_owned(), code))), "{codes:?}, not {names:?}");
+    }
+
+    macro_rules! codes {
+        ($codes:ident: $($code:ident)+) => { &[$((stringify!($code), $codes::$code as u32)),+] };
+    }
+
+    #[test]
+    fn enumerations_of_the_header_are_the_lists_of_the_core() {
+        is_list_of::<Method>(
+            codes!(MethodCode: Mikktspace AngleArea Lengyel LengyelPerVertex Average Area Face FromNormal AngleEdge),
+        );
+        is_list_of::<Mode>(codes!(ModeCode: Repaired Reference Corrected));
+        is_list_of::<Shading>(codes!(ShadingCode: Smooth Flat));
+        is_list_of::<NormalWeight>(codes!(NormalWeightCode: Angle Area AngleArea));
+        is_list_of::<SmoothingSeams>(codes!(SmoothingSeamsCode: Ignored Respected));
+    }
+}

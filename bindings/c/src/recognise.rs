@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use darboux::{
-    Channel, MapJudgement, Method, NormalMapJudge, RecipeMatch, RecipeRounding, TexelLayout,
+    Channel, Choice, MapJudgement, Method, NormalMapJudge, RecipeMatch, RecipeRounding, TexelLayout,
     recognise_recipe_with,
 };
 
@@ -102,11 +102,11 @@ pub struct darboux_recipe_match {
 impl From<&RecipeMatch> for darboux_recipe_match {
     fn from(found: &RecipeMatch) -> Self {
         let mode = match found.recipe.method {
-            Method::MikkTSpace(options) => codes::mode_code(options.mode),
+            Method::MikkTSpace(options) => options.mode.code(),
             _ => 0,
         };
         Self {
-            method: codes::method_code(found.recipe.method),
+            method: found.recipe.method.code(),
             mode,
             flips_v: found.recipe.flips_v.into(),
             writing: codes::recipe_writing(found.recipe.writing),

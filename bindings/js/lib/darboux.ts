@@ -1,6 +1,7 @@
 // `darboux`: every function of the package that runs on the CPU.
 
 import { checkIndices, checkOut, checkType, choice, degrees, optionsOf, rowCount, wholeRows } from './core/checks.js';
+import { NORMAL_WEIGHTS, SHADINGS, SMOOTHING_SEAMS } from './core/choices.js';
 import { fullModule, readReport, tangentMesh, tangentOptions } from './core/full.js';
 import { checkedMesh, indexError, readFloats, writeArrays, writeMesh, type Copy } from './core/mesh.js';
 import type * as types from './types.js';
@@ -13,9 +14,6 @@ export { skinFrames, transformFrames } from './core/transform.js';
 export type * from './types.js';
 
 // The position of a name in its list is the code that WebAssembly takes.
-const SHADINGS = ['flat', 'smooth'] as const;
-const WEIGHTS = ['angle', 'area', 'angle-area'] as const;
-const SEAMS = ['ignored', 'respected'] as const;
 const ENCODINGS = ['snorm8', 'snorm10', 'snorm16', 'octahedral', 'diamond'] as const;
 
 /** For each encoding, the type of its array and the number of elements per tangent. */
@@ -174,8 +172,8 @@ export function generateNormals(
   const given = optionsOf(options);
   const mesh = checkedMesh(positions, [], indices, given.faces);
   const shading = choice('shading', given.shading, SHADINGS, 'smooth');
-  const weight = choice('weight', given.weight, WEIGHTS, 'angle');
-  const seams = choice('seams', given.seams, SEAMS, 'ignored');
+  const weight = choice('weight', given.weight, NORMAL_WEIGHTS, 'angle');
+  const seams = choice('seams', given.seams, SMOOTHING_SEAMS, 'ignored');
   const crease = degrees('crease', given.crease);
   return fullModule.call((exports) => {
     writeMesh(exports, mesh);

@@ -1,5 +1,6 @@
 // `darboux/tangents`: MikkTSpace alone, in a WebAssembly module a third of the size.
 
+import { MODES } from './core/choices.js';
 import { checkOut, choice, degrees, optionsOf } from './core/checks.js';
 import { checkedMesh, indexError, readFloats, writeMesh } from './core/mesh.js';
 import { load, type Exports } from './core/wasm-module.js';
@@ -11,9 +12,6 @@ export type * from './types.js';
 interface TangentExports extends Exports {
   generate_tangents(mode: number, threshold: number): number;
 }
-
-/** The position of a mode is the code that WebAssembly takes. */
-const MODES = ['reference', 'repaired', 'corrected'] as const;
 
 const smallModule = load<TangentExports>(simd, () => import('./tangents.scalar.js'));
 

@@ -1,5 +1,7 @@
 // The types of arguments and results.
 
+import type { METHODS, MODES, NORMAL_WEIGHTS, SHADINGS, SMOOTHING_SEAMS } from './core/choices.js';
+
 /** The vertex of each corner. */
 export type Indices = Uint8Array | Uint16Array | Uint32Array;
 
@@ -10,7 +12,7 @@ export type Faces = 3 | 4 | Uint32Array;
  * 'reference': the bits of mikktspace.c, defects included. 'repaired': the same, except that unusable tangents are replaced. 'corrected':
  * known defects of mikktspace.c are corrected as well.
  */
-export type Mode = 'reference' | 'repaired' | 'corrected';
+export type Mode = (typeof MODES)[number];
 
 /** Options of MikkTSpace. The defaults fit normal maps of current bakers. */
 export interface MikkTSpaceOptions {
@@ -26,16 +28,7 @@ export interface MikkTSpaceOptions {
 }
 
 /** How tangents are computed. A normal map needs the method that it was baked with, nearly always 'mikktspace'. */
-export type Method =
-  | 'mikktspace'
-  | 'angle-area'
-  | 'angle-edge'
-  | 'lengyel'
-  | 'lengyel-per-vertex'
-  | 'average'
-  | 'area'
-  | 'face'
-  | 'from-normal';
+export type Method = (typeof METHODS)[number];
 
 /** Options of `generateTangents` of `darboux`. `threshold` is for 'mikktspace' only. */
 export interface TangentOptions extends MikkTSpaceOptions {
@@ -180,13 +173,13 @@ export interface TransformedFrames extends MovedFrames {
 /** Options of `generateNormals`. */
 export interface NormalOptions {
   /** Default: 'smooth'. */
-  shading?: 'flat' | 'smooth' | null;
+  shading?: (typeof SHADINGS)[number] | null;
   /** The weight of each face at a smooth vertex. Default: 'angle'. */
-  weight?: 'angle' | 'area' | 'angle-area' | null;
+  weight?: (typeof NORMAL_WEIGHTS)[number] | null;
   /** Degrees. An edge is sharp if the normals of its faces differ by more. Default: 180, so that no edge is sharp. */
   crease?: number | null;
   /** 'ignored': vertices with equal positions are one vertex. 'respected': only equal indices are one vertex. Default: 'ignored'. */
-  seams?: 'ignored' | 'respected' | null;
+  seams?: (typeof SMOOTHING_SEAMS)[number] | null;
   /** Default: 3. Faces may have any number of corners from 3. */
   faces?: Faces | null;
 }

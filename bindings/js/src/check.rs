@@ -1,7 +1,7 @@
 //! `darboux/check`: what is wrong with models and normal maps, and how tangents were computed.
 
 use darboux::{
-    BitangentDirection, Channel, MapJudgement, MapTiles, Method, Mode, NormalMapJudge, RecipeMatch,
+    BitangentDirection, Channel, Choice, MapJudgement, MapTiles, Method, Mode, NormalMapJudge, RecipeMatch,
     RecipeRounding, RecipeWriting, TexelLayout,
 };
 use darboux_check::{CheckOptions, Finding, FixOptions, check_document, check_map, fix_document};
@@ -245,7 +245,7 @@ impl From<&RecipeMatch> for Recognised {
             _ => None,
         };
         Self {
-            method: name(found.recipe.method),
+            method: found.recipe.method.name(),
             mode,
             flips_v: found.recipe.flips_v,
             writing: match found.recipe.writing {
@@ -264,19 +264,5 @@ impl From<&RecipeMatch> for Recognised {
             sign_flips: found.sign_flips,
             worst: found.worst,
         }
-    }
-}
-
-fn name(method: Method) -> &'static str {
-    match method {
-        Method::MikkTSpace(_) => "mikktspace",
-        Method::AngleArea => "angle-area",
-        Method::AngleEdge => "angle-edge",
-        Method::Lengyel => "lengyel",
-        Method::LengyelPerVertex => "lengyel-per-vertex",
-        Method::Average => "average",
-        Method::Area => "area",
-        Method::Face => "face",
-        _ => "from-normal",
     }
 }

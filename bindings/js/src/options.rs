@@ -1,6 +1,6 @@
-//! Options, which JavaScript passes as numbers: each is a position in a list of names in `lib`.
+//! Options, which JavaScript passes as codes: positions in the lists of `lib/core/choices.ts`, which are those of the core.
 
-use darboux::{Method, MikkTSpaceOptions, Mode, TangentOptions};
+use darboux::{Choice, Method, MikkTSpaceOptions, Mode, TangentOptions};
 
 pub fn tangent_options(mode: u32, threshold: f32, method: u32) -> TangentOptions {
     match self::method(method) {
@@ -10,27 +10,17 @@ pub fn tangent_options(mode: u32, threshold: f32, method: u32) -> TangentOptions
 }
 
 pub fn mikkt_options(mode: u32, threshold: f32) -> MikkTSpaceOptions {
-    let mode = match mode {
-        0 => Mode::Reference,
-        1 => Mode::Repaired,
-        _ => Mode::Corrected,
-    };
-    MikkTSpaceOptions::new().with_mode(mode).with_threshold(threshold)
+    MikkTSpaceOptions::new().with_mode(choice::<Mode>(mode)).with_threshold(threshold)
+}
+
+/// The value of a code. Panics beyond the list, whose names and codes are generated from it.
+pub fn choice<T: Choice>(code: u32) -> T {
+    T::from_code(code).unwrap_or_else(|| panic!("{code} is not the code of a {}", T::WHAT))
 }
 
 #[cfg(feature = "full")]
 fn method(code: u32) -> Method {
-    match code {
-        0 => Method::default(),
-        1 => Method::AngleArea,
-        2 => Method::Lengyel,
-        3 => Method::LengyelPerVertex,
-        4 => Method::Average,
-        5 => Method::Area,
-        6 => Method::Face,
-        7 => Method::FromNormal,
-        _ => Method::AngleEdge,
-    }
+    choice(code)
 }
 
 /// The small module has one method, so that the code of the others is not linked.

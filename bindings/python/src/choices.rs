@@ -1,23 +1,13 @@
 //! Parses the options that Python passes as strings.
 
-use darboux::{Method, MikkTSpaceOptions, Mode, TangentOptions};
+use darboux::{Choice, Method, MikkTSpaceOptions, Mode, TangentOptions};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-const METHODS: &[(&str, Method)] = &[
-    ("mikktspace", Method::MikkTSpace(MikkTSpaceOptions::new())),
-    ("angle-area", Method::AngleArea),
-    ("angle-edge", Method::AngleEdge),
-    ("lengyel", Method::Lengyel),
-    ("lengyel-per-vertex", Method::LengyelPerVertex),
-    ("average", Method::Average),
-    ("area", Method::Area),
-    ("face", Method::Face),
-    ("from-normal", Method::FromNormal),
-];
-
-const MODES: &[(&str, Mode)] =
-    &[("reference", Mode::Reference), ("repaired", Mode::Repaired), ("corrected", Mode::Corrected)];
+/// The value of a name of a list of the core. Errors: a name that is not in it.
+pub fn named_choice<T: Choice>(name: &str) -> PyResult<T> {
+    T::from_name(name).map_err(|error| PyValueError::new_err(error.to_string()))
+}
 
 /// The value of `name` among `choices`. `what` is the argument.
 pub fn choice<T: Copy>(what: &str, name: &str, choices: &[(&str, T)]) -> PyResult<T> {
@@ -31,8 +21,8 @@ pub fn choice<T: Copy>(what: &str, name: &str, choices: &[(&str, T)]) -> PyResul
 /// The options of the core. Errors: an unknown name; a threshold that is not a number; a mode or threshold with another method than
 /// MikkTSpace.
 pub fn tangent_options(method: &str, mode: &str, threshold: f32) -> PyResult<TangentOptions> {
-    let method = choice("method", method, METHODS)?;
-    let mode = choice("mode", mode, MODES)?;
+    let method = named_choice::<Method>(method)?;
+    let mode = named_choice::<Mode>(mode)?;
     if !threshold.is_finite() {
         return Err(PyValueError::new_err(format!(
             "threshold is {threshold}; it must be a number of degrees"
@@ -58,12 +48,8 @@ pub fn is_slow(options: &TangentOptions) -> bool {
 /// The name of a method and, for MikkTSpace, that of its mode.
 pub fn method_name(method: Method) -> (&'static str, Option<&'static str>) {
     let mode = match method {
-        Method::MikkTSpace(options) => {
-            MODES.iter().find(|(_, mode)| *mode == options.mode).map(|(name, _)| *name)
-        }
+        Method::MikkTSpace(options) => Some(options.mode.name()),
         _ => None,
     };
-    let is_same = |known: &Method| std::mem::discriminant(known) == std::mem::discriminant(&method);
-    let name = METHODS.iter().find(|(_, known)| is_same(known)).map_or("unknown", |(name, _)| *name);
-    (name, mode)
+    (method.name(), mode)
 }

@@ -1,23 +1,15 @@
 //! Computes normals per corner.
 
-use darboux::{Context, NormalOptions, NormalWeight, Shading, SmoothingSeams};
+use darboux::{Context, NormalOptions};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, rows_array};
-use crate::choices::choice;
+use crate::choices::named_choice;
 use crate::mesh::{FaceSizes, IndexArray};
 use crate::numbers::degrees;
 use crate::results::named;
 use crate::threads::cancellable;
-
-const SHADINGS: &[(&str, Shading)] = &[("flat", Shading::Flat), ("smooth", Shading::Smooth)];
-
-const WEIGHTS: &[(&str, NormalWeight)] =
-    &[("angle", NormalWeight::Angle), ("area", NormalWeight::Area), ("angle-area", NormalWeight::AngleArea)];
-
-const SEAMS: &[(&str, SmoothingSeams)] =
-    &[("ignored", SmoothingSeams::Ignored), ("respected", SmoothingSeams::Respected)];
 
 /// The options of the core. Errors: unknown names; a crease that is not a number of degrees.
 pub fn normal_options(shading: &str, weight: &str, crease: f32, seams: &str) -> PyResult<NormalOptions> {
@@ -25,10 +17,10 @@ pub fn normal_options(shading: &str, weight: &str, crease: f32, seams: &str) -> 
         return Err(PyValueError::new_err(format!("crease is {crease}; it must be a number of degrees")));
     }
     Ok(NormalOptions::new()
-        .with_shading(choice("shading", shading, SHADINGS)?)
-        .with_weight(choice("weight", weight, WEIGHTS)?)
+        .with_shading(named_choice(shading)?)
+        .with_weight(named_choice(weight)?)
         .with_crease(crease)
-        .with_seams(choice("seams", seams, SEAMS)?))
+        .with_seams(named_choice(seams)?))
 }
 
 /// Compute a unit normal for every corner.

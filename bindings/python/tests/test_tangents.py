@@ -1,11 +1,12 @@
 """generate_tangents and split_vertices: the bits of Rust, from arrays of any type and layout."""
 
 import itertools
-from typing import Any, Callable, Dict, List
+from typing import Any, Callable, Dict, List, get_args
 
 import darboux
 import numpy as np
 import pytest
+from darboux._choices import Method
 from conftest import Mesh, CorpusCase, bits, floats, grid
 
 
@@ -169,7 +170,7 @@ def test_values_that_are_not_finite_are_counted(sheet: Mesh) -> None:
 
 
 def test_methods_differ_and_are_unit(sheet: Mesh) -> None:
-    methods = ["mikktspace", "angle-area", "angle-edge", "lengyel", "lengyel-per-vertex", "average", "area", "face", "from-normal"]
+    methods = get_args(Method)
     found = [darboux.generate_tangents(*sheet.arrays, method=method) for method in methods]
     assert len({tangents.tobytes() for tangents in found}) == len(methods)
     for tangents in found:

@@ -34,6 +34,7 @@
 )]
 
 mod cancel;
+mod choice;
 mod context;
 mod convention;
 pub mod encode;
@@ -57,6 +58,7 @@ mod transform;
 mod util;
 
 pub use cancel::Cancel;
+pub use choice::{Choice, UnknownName};
 pub use context::Context;
 pub use convention::{
     Axes, Axis, BitangentDirection, Convention, ConventionError, Conversion, Handedness, SignRule,

@@ -1,22 +1,10 @@
 //! Prints the core's results for every case of the conformance suite as lines of JSON, with floats as bits, for tests of the bindings to other languages.
 
 use darboux::{
-    Mesh, Method, MikkTSpaceOptions, Mode, Plan, TangentOptions, Tangents, generate_frames,
+    Choice, Mesh, Method, MikkTSpaceOptions, Mode, Plan, TangentOptions, Tangents, generate_frames,
     generate_tangents, split_vertices,
 };
 use darboux_tests::corpus::{CorpusCase, corpus};
-
-/// The other methods and their names as strings.
-const METHODS: &[(&str, Method)] = &[
-    ("angle-area", Method::AngleArea),
-    ("angle-edge", Method::AngleEdge),
-    ("lengyel", Method::Lengyel),
-    ("lengyel-per-vertex", Method::LengyelPerVertex),
-    ("average", Method::Average),
-    ("area", Method::Area),
-    ("face", Method::Face),
-    ("from-normal", Method::FromNormal),
-];
 
 fn main() {
     // JSON has neither NaN nor infinities, so the cases with such thresholds are left to the tests in Rust.
@@ -67,10 +55,11 @@ fn line(CorpusCase { name, mesh, .. }: &CorpusCase, mikkt: MikkTSpaceOptions) ->
 
 /// The results of the other methods.
 fn methods(mesh: &Mesh<'_>) -> String {
-    let of = |&(name, method): &(&str, Method)| {
-        format!("{name:?}: {}", bits(generate_tangents(mesh, &method.into()).corners.per_corner()))
+    let of = |&method: &Method| {
+        let tangents = generate_tangents(mesh, &method.into()).corners;
+        format!("{:?}: {}", method.name(), bits(tangents.per_corner()))
     };
-    format!("{{{}}}", METHODS.iter().map(of).collect::<Vec<_>>().join(", "))
+    format!("{{{}}}", Method::ALL[1..].iter().map(of).collect::<Vec<_>>().join(", "))
 }
 
 /// The positions of a bent mesh.

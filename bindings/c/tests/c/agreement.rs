@@ -101,7 +101,7 @@ const MODES: [Mode; 3] = [Mode::Repaired, Mode::Reference, Mode::Corrected];
 fn tangents_in_all_methods_and_modes() {
     for mesh in meshes(300) {
         let (view, count) = (mesh.view(), mesh.corner_count());
-        for (method_code, method) in (0..).zip(METHODS) {
+        for (method_code, &method) in (0..).zip(METHODS) {
             for (mode_code, mode) in (0..).zip(MODES) {
                 for (threshold_code, threshold) in [(0.0, 180.0), (30.0, 30.0), (0.001, 0.0)] {
                     let method = match method {

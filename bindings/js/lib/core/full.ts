@@ -1,6 +1,7 @@
 // The full WebAssembly module, which `darboux` and its plans share: its exports, the codes of options, and reports.
 
 import { choice, degrees, optionsOf } from './checks.js';
+import { METHODS, MODES } from './choices.js';
 import { checkedMesh, type Mesh } from './mesh.js';
 import { load, type Exports } from './wasm-module.js';
 import type * as types from '../types.js';
@@ -46,12 +47,6 @@ export interface FullExports extends Exports {
   encode_tangents(encoding: number): number;
   decode_tangents(encoding: number): number;
 }
-
-// The position of a name in its list is the code that WebAssembly takes.
-const MODES = ['reference', 'repaired', 'corrected'] as const;
-const METHODS = [
-  'mikktspace', 'angle-area', 'lengyel', 'lengyel-per-vertex', 'average', 'area', 'face', 'from-normal', 'angle-edge',
-] as const;
 
 /** The counts of a report, in the order in which WebAssembly writes them. */
 const COUNTS = [

@@ -5,6 +5,7 @@ from typing import Any, Callable, Dict, List, Literal, Optional, Sequence, Tuple
 import numpy as np
 import numpy.typing as npt
 
+from ._choices import Method, Mode, NormalWeight, Shading, SmoothingSeams
 from ._results import (
     BakedMaps,
     Converted,
@@ -24,13 +25,6 @@ from ._results import (
 _Floats = npt.NDArray[np.float32]
 _Path = Union[str, "os.PathLike[str]"]
 _Progress = Callable[[int, int], object]
-_Method = Literal[
-    "mikktspace", "angle-area", "angle-edge", "lengyel", "lengyel-per-vertex", "average", "area", "face", "from-normal"
-]
-_Mode = Literal["reference", "repaired", "corrected"]
-_Shading = Literal["flat", "smooth"]
-_Weight = Literal["angle", "area", "angle-area"]
-_Seams = Literal["ignored", "respected"]
 
 __all__ = [
     "CONVENTIONS",
@@ -85,8 +79,8 @@ def generate_tangents(
     indices: Optional[npt.ArrayLike] = None,
     *,
     faces: Optional[npt.ArrayLike] = None,
-    method: _Method = "mikktspace",
-    mode: _Mode = "repaired",
+    method: Method = "mikktspace",
+    mode: Mode = "repaired",
     threshold: float = 180.0,
     full: Literal[False] = False,
     threads: Optional[int] = None,
@@ -101,8 +95,8 @@ def generate_tangents(
     indices: Optional[npt.ArrayLike] = None,
     *,
     faces: Optional[npt.ArrayLike] = None,
-    method: _Method = "mikktspace",
-    mode: _Mode = "repaired",
+    method: Method = "mikktspace",
+    mode: Mode = "repaired",
     threshold: float = 180.0,
     full: Literal[False] = False,
     threads: Optional[int] = None,
@@ -117,8 +111,8 @@ def generate_tangents(
     indices: Optional[npt.ArrayLike] = None,
     *,
     faces: Optional[npt.ArrayLike] = None,
-    method: _Method = "mikktspace",
-    mode: _Mode = "repaired",
+    method: Method = "mikktspace",
+    mode: Mode = "repaired",
     threshold: float = 180.0,
     full: Literal[True],
     threads: Optional[int] = None,
@@ -133,8 +127,8 @@ def generate_tangents(
     indices: Optional[npt.ArrayLike] = None,
     *,
     faces: Optional[npt.ArrayLike] = None,
-    method: _Method = "mikktspace",
-    mode: _Mode = "repaired",
+    method: Method = "mikktspace",
+    mode: Mode = "repaired",
     threshold: float = 180.0,
     full: Literal[True],
     threads: Optional[int] = None,
@@ -149,10 +143,10 @@ def generate_normals(
     indices: Optional[npt.ArrayLike] = None,
     *,
     faces: Optional[npt.ArrayLike] = None,
-    shading: _Shading = "smooth",
-    weight: _Weight = "angle",
+    shading: Shading = "smooth",
+    weight: NormalWeight = "angle",
     crease: float = 180.0,
-    seams: _Seams = "ignored",
+    seams: SmoothingSeams = "ignored",
     return_report: Literal[False] = False,
 ) -> _Floats: ...
 @overload
@@ -161,10 +155,10 @@ def generate_normals(
     indices: Optional[npt.ArrayLike] = None,
     *,
     faces: Optional[npt.ArrayLike] = None,
-    shading: _Shading = "smooth",
-    weight: _Weight = "angle",
+    shading: Shading = "smooth",
+    weight: NormalWeight = "angle",
     crease: float = 180.0,
-    seams: _Seams = "ignored",
+    seams: SmoothingSeams = "ignored",
     return_report: Literal[True],
 ) -> Tuple[_Floats, NormalReport]: ...
 def measure_tangents(a: npt.ArrayLike, b: npt.ArrayLike) -> TangentDifference: ...
@@ -207,8 +201,8 @@ class Plan:
         indices: Optional[npt.ArrayLike] = None,
         *,
         faces: Optional[npt.ArrayLike] = None,
-        method: _Method = "mikktspace",
-        mode: _Mode = "repaired",
+        method: Method = "mikktspace",
+        mode: Mode = "repaired",
         threshold: float = 180.0,
         threads: Optional[int] = None,
     ) -> "Plan": ...
@@ -238,8 +232,8 @@ class Document:
     def add_tangents(
         self,
         *,
-        method: _Method = "mikktspace",
-        mode: _Mode = "repaired",
+        method: Method = "mikktspace",
+        mode: Mode = "repaired",
         threshold: float = 180.0,
         encoding: Literal["f32x4", "snorm16x4", "snorm8x4"] = "f32x4",
         overwrite: bool = False,
@@ -251,10 +245,10 @@ class Document:
     def add_normals(
         self,
         *,
-        shading: _Shading = "smooth",
-        weight: _Weight = "angle",
+        shading: Shading = "smooth",
+        weight: NormalWeight = "angle",
         crease: float = 180.0,
-        seams: _Seams = "ignored",
+        seams: SmoothingSeams = "ignored",
         overwrite: bool = False,
         progress: Optional[_Progress] = None,
     ) -> Dict[str, Any]: ...

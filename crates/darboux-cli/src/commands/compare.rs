@@ -8,8 +8,7 @@ mod text;
 
 use std::path::Path;
 
-use clap::ValueEnum;
-use darboux::TangentOptions;
+use darboux::{Choice, TangentOptions};
 use darboux_io::SaveOptions;
 use darboux_io::gltf::{AddTangentsOptions, Document, Pair, Progress, add_tangents, pair_tangents};
 
@@ -81,7 +80,7 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
         refuse_used(path, [&first, &second])?;
     }
     if let Some(method) = arguments.method {
-        give_tangents(&mut second, method.into(), &progress)?;
+        give_tangents(&mut second, method, &progress)?;
     }
     drop(progress);
     let warnings_of = |document: &Document| -> Vec<String> {
@@ -107,7 +106,7 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
         version: VERSION,
         first: first.name().to_owned(),
         second: arguments.second.as_ref().map(|_| second.name().to_owned()),
-        method: arguments.method.and_then(|method| Some(method.to_possible_value()?.get_name().to_owned())),
+        method: arguments.method.map(|method| method.name().to_owned()),
         worst: statistics::worst(&pairs, arguments.worst),
         within_tolerance: arguments.tolerance.map(within),
         verdict: Verdict::new(&totals, one_sided),

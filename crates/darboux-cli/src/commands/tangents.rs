@@ -5,7 +5,7 @@ mod device;
 pub mod summary;
 
 use darboux::internal::vertex_progress::set_vertex_progress;
-use darboux::{Context, Mesh, Method, MikkTSpaceOptions, TangentOptions};
+use darboux::{Context, Mesh, Method, MikkTSpaceOptions, Mode, TangentOptions};
 use darboux_io::gltf::{
     AddNormalsOptions, AddTangentsOptions, Generate, Progress, TangentsOutcome, TangentsTotals,
     WrittenTangents, add_normals, add_tangents_with,
@@ -21,10 +21,9 @@ use crate::gpu::open_early;
 use crate::inputs::{UsageError, output_suffix};
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
-use crate::options::method::MethodName;
 use crate::terminal::FileProgress;
 use crate::text::{counted, nonzero_counts};
-use arguments::{Device, Mode, TangentsArguments};
+use arguments::{Device, TangentsArguments};
 use device::{TangentDevice, may_use_gpu};
 use summary::{DeviceReport, TangentsFileSummary};
 
@@ -53,7 +52,7 @@ impl FileCommand for TangentsArguments {
             ("--device gpu", self.device == Device::Gpu),
         ];
         match mikktspace_options.iter().find(|(_, is_set)| *is_set) {
-            Some((option, _)) if self.method != MethodName::MikkTSpace => {
+            Some((option, _)) if self.method != Method::default() => {
                 Err(UsageError(format!("{option} needs --method mikktspace; remove one of them")))
             }
             _ if self.device == Device::Gpu => open_early().map_err(UsageError),
@@ -154,9 +153,9 @@ fn advice(without_normals: usize) -> Option<String> {
 
 fn options(arguments: &TangentsArguments) -> AddTangentsOptions {
     AddTangentsOptions::default()
-        .with_tangents(match arguments.method.into() {
+        .with_tangents(match arguments.method {
             Method::MikkTSpace(options) => {
-                options.with_mode(arguments.mode.into()).with_threshold(arguments.threshold).into()
+                options.with_mode(arguments.mode).with_threshold(arguments.threshold).into()
             }
             method => TangentOptions::from(method),
         })

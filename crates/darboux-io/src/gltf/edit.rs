@@ -147,7 +147,9 @@ impl Document {
         let buffer = self.buffers.len() - 1;
         let length = self.new_byte_count();
         self.root.buffers[buffer].byte_length = length;
-        if let Some(stored) = self.json.get_mut("buffers").and_then(|buffers| buffers[buffer].get_mut("byteLength")) {
+        if let Some(stored) =
+            self.json.get_mut("buffers").and_then(|buffers| buffers[buffer].get_mut("byteLength"))
+        {
             *stored = length.into();
         }
     }

@@ -1,5 +1,7 @@
 //! The options of tangent generation: a method, and for MikkTSpace a mode and an angular threshold.
 
+use crate::choice::choice;
+
 /// Options of [`generate_tangents`](crate::generate_tangents) and [`generate_frames`](crate::generate_frames). The default, MikkTSpace with
 /// its default options, is right for normal maps from today's bakers.
 ///
@@ -60,6 +62,28 @@ pub enum Method {
     Face,
     /// A perpendicular of the normal, without any UVs (Duff et al. 2017).
     FromNormal,
+}
+
+choice! {
+    Method, "method",
+    Self::MikkTSpace(_) = Self::MikkTSpace(MikkTSpaceOptions::new()) =>
+        "mikktspace", "The standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF)";
+    Self::AngleArea = Self::AngleArea =>
+        "angle-area", "Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map";
+    Self::Lengyel = Self::Lengyel =>
+        "lengyel", "The sum of dP/du, not normalised, separate for each UV orientation";
+    Self::LengyelPerVertex = Self::LengyelPerVertex =>
+        "lengyel-per-vertex", "The sum of dP/du per vertex, as in three.js and many tutorials: wrong at mirrored seams";
+    Self::Average = Self::Average =>
+        "average", "The mean of the triangles' tangents, for engines that compute it on the GPU";
+    Self::Area = Self::Area =>
+        "area", "The mean of the triangles' tangents, weighted by area: large faces dominate";
+    Self::Face = Self::Face =>
+        "face", "One tangent per face, not smoothed: for flat shading and measurements";
+    Self::FromNormal = Self::FromNormal =>
+        "from-normal", "Any direction perpendicular to the normal, independent of UVs: for sampling, not for normal maps";
+    Self::AngleEdge = Self::AngleEdge =>
+        "angle-edge", "Weighted by angle and edge lengths: the default of meshoptimizer, gltfpack -gt and Godot from 4.6 on";
 }
 
 impl Default for Method {
@@ -124,4 +148,14 @@ pub enum Mode {
     Repaired,
     /// As `Repaired`, with complete edge matching (the reference's issue 5) and one sign per face.
     Corrected,
+}
+
+choice! {
+    Mode, "mode",
+    Self::Repaired = Self::Repaired =>
+        "repaired", "The bits of the reference where its tangent is usable, a unit tangent elsewhere";
+    Self::Reference = Self::Reference =>
+        "reference", "The bits of the reference, including zero-length and non-finite tangents";
+    Self::Corrected = Self::Corrected =>
+        "corrected", "Like repaired, with all edges matched and one sign per triangle";
 }

@@ -4,13 +4,13 @@ use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, ValueEnum};
-use darboux::Convention;
+use darboux::{Convention, Method};
 use darboux_bake::{Bitangent, MapKind};
 
+use crate::options::choice::choice;
 use crate::options::convention::{ConventionParser, NamedConvention};
 use crate::options::files::jobs;
 use crate::options::messages::MessageOptions;
-use crate::options::method::MethodName;
 use crate::options::reading::ReadOptions;
 use crate::options::shading::{NormalsChoice, normals_choice};
 
@@ -123,8 +123,8 @@ pub struct BakeArguments {
     pub no_high_maps: bool,
 
     /// How tangents are computed; by default those of the low model's file are used, and mikktspace if it has none for the UV set
-    #[arg(long, value_enum, value_name = "NAME", help_heading = "Frames")]
-    pub method: Option<MethodName>,
+    #[arg(long, value_parser = choice::<Method>(), value_name = "NAME", help_heading = "Frames")]
+    pub method: Option<Method>,
 
     /// How the renderer rebuilds the bitangent
     #[arg(long, value_enum, value_name = "HOW", default_value_t, help_heading = "Frames")]

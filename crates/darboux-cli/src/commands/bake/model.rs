@@ -35,7 +35,7 @@ pub fn write_model(
     document.set_normal_map(map.to_bytes().map_err(sentence)?, &name, &primitives).map_err(sentence)?;
     let options = AddTangentsOptions::default().with_overwrite(low.with_unused_tangents > 0);
     let options = match arguments.method {
-        Some(method) => options.with_tangents(darboux::Method::from(method).into()),
+        Some(method) => options.with_tangents(method.into()),
         None => options,
     };
     let tangents = add_tangents(&mut document, &options, &mut |_| {}).map_err(sentence)?;

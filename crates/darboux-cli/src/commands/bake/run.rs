@@ -184,7 +184,7 @@ fn sentence(error: darboux_io::Error) -> String {
 }
 
 fn low_options(arguments: &BakeArguments) -> LowModelOptions {
-    let tangents = arguments.method.map(|method| darboux::Method::from(method).into());
+    let tangents = arguments.method.map(Into::into);
     LowModelOptions::default()
         .with_uv_set(arguments.uv_set)
         .with_tangents(tangents)

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use darboux::BitangentDirection;
+use darboux::{BitangentDirection, Choice, Method};
 use darboux_check::{CheckOptions, Code, Severity};
 
+use crate::options::choice::choice;
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
-use crate::options::method::MethodName;
 use crate::options::shading::{ShadingChoice, shading};
 
 pub const ABOUT: &str = "\
@@ -98,8 +98,15 @@ pub struct CheckArguments {
     pub fix: bool,
 
     /// How --fix makes tangents again: as the normal map was baked, so nearly always mikktspace
-    #[arg(long, value_enum, value_name = "NAME", default_value_t, requires = "fix", help_heading = "Repair")]
-    pub method: MethodName,
+    #[arg(
+        long,
+        value_parser = choice::<Method>(),
+        value_name = "NAME",
+        default_value = Method::default().name(),
+        requires = "fix",
+        help_heading = "Repair"
+    )]
+    pub method: Method,
 
     /// How --fix makes missing normals: flat, smooth or crease=DEG
     #[arg(

@@ -227,7 +227,7 @@ impl CheckArguments {
         let codes = Code::ALL.iter().copied().filter(|&code| self.reports(code));
         FixOptions::default()
             .with_check(self.check_options())
-            .with_tangents(TangentOptions::from(darboux::Method::from(self.method)))
+            .with_tangents(TangentOptions::from(self.method))
             .with_normals(self.normals.options())
             .with_codes(codes)
     }

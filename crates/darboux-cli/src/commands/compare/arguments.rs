@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
+use darboux::Method;
 
 use crate::options::angle::degrees;
+use crate::options::choice::choice;
 use crate::options::messages::MessageOptions;
-use crate::options::method::MethodName;
 use crate::options::reading::ReadOptions;
 
 pub const ABOUT: &str = "\
@@ -43,8 +44,8 @@ pub struct CompareArguments {
     pub second: Option<PathBuf>,
 
     /// Compare A with the tangents that this method computes for A; `darboux methods` lists the methods
-    #[arg(long, value_enum, value_name = "NAME")]
-    pub method: Option<MethodName>,
+    #[arg(long, value_parser = choice::<Method>(), value_name = "NAME")]
+    pub method: Option<Method>,
 
     /// How many of the worst corners are listed
     #[arg(long, value_name = "COUNT", default_value_t = 5)]

@@ -1,8 +1,9 @@
 //! The arguments of `darboux normals`.
 
-use clap::{Args, ValueEnum};
-use darboux::{NormalOptions, NormalWeight, SmoothingSeams};
+use clap::Args;
+use darboux::{Choice, NormalOptions, NormalWeight, SmoothingSeams};
 
+use crate::options::choice::choice;
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
 use crate::options::shading::{ShadingChoice, shading};
@@ -36,8 +37,13 @@ pub struct NormalsArguments {
     pub normals: ShadingChoice,
 
     /// The weight of each face at a smooth vertex
-    #[arg(long, value_enum, default_value_t, help_heading = "Normals")]
-    pub weight: Weight,
+    #[arg(
+        long,
+        value_parser = choice::<NormalWeight>(),
+        default_value = NormalWeight::default().name(),
+        help_heading = "Normals"
+    )]
+    pub weight: NormalWeight,
 
     /// Do not smooth across vertices with different indices, even at equal positions
     #[arg(long, help_heading = "Normals")]
@@ -55,28 +61,6 @@ impl NormalsArguments {
     /// The options of the library.
     pub fn shading(&self) -> NormalOptions {
         let seams = if self.respect_seams { SmoothingSeams::Respected } else { SmoothingSeams::Ignored };
-        self.normals.options().with_weight(self.weight.into()).with_seams(seams)
-    }
-}
-
-/// `--weight`: the names of [`NormalWeight`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Weight {
-    /// The angle of its corner: independent of the triangulation of flat surfaces
-    #[default]
-    Angle,
-    /// Its area
-    Area,
-    /// Angle times area: wide faces stay flat beside bevels
-    AngleArea,
-}
-
-impl From<Weight> for NormalWeight {
-    fn from(weight: Weight) -> Self {
-        match weight {
-            Weight::Angle => Self::Angle,
-            Weight::Area => Self::Area,
-            Weight::AngleArea => Self::AngleArea,
-        }
+        self.normals.options().with_weight(self.weight).with_seams(seams)
     }
 }

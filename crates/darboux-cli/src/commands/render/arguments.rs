@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use darboux::{Choice, Method, UnknownName};
 use darboux_render::FrameMistake;
 
 use crate::options::messages::MessageOptions;
-use crate::options::method::MethodName;
 use crate::options::reading::ReadOptions;
 
 pub const ABOUT: &str = "\
@@ -216,14 +216,14 @@ impl MistakeChoice {
 }
 
 /// `--tangents` and `--against`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TangentSource {
     /// The tangents in the file.
     File,
     /// Tangents that shaders derive per pixel.
     Derivatives,
     /// The tangents of a method.
-    Method(MethodName),
+    Method(Method),
 }
 
 impl TangentSource {
@@ -232,20 +232,19 @@ impl TangentSource {
         match self {
             Self::File => "file".to_owned(),
             Self::Derivatives => "derivatives".to_owned(),
-            Self::Method(method) => {
-                method.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
-            }
+            Self::Method(method) => method.name().to_owned(),
         }
     }
 }
 
 fn source(text: &str) -> Result<TangentSource, String> {
-    let unknown =
-        |_| "expected file, derivatives or a method; `darboux methods` lists the methods".to_owned();
+    let unknown = |_: UnknownName| {
+        "expected file, derivatives or a method; `darboux methods` lists the methods".to_owned()
+    };
     match text {
         "file" => Ok(TangentSource::File),
         "derivatives" => Ok(TangentSource::Derivatives),
-        method => MethodName::from_str(method, false).map(TangentSource::Method).map_err(unknown),
+        method => method.parse().map(TangentSource::Method).map_err(unknown),
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clap::ValueEnum;
-use darboux::{NormalOptions, Shading, TangentOptions};
+use darboux::{Method, NormalOptions, Shading, TangentOptions};
 use darboux_gpu::{Gpu, GpuError};
 use darboux_io::SaveOptions;
 use darboux_io::gltf::{AddNormalsOptions, AddTangentsOptions, Document, add_normals, add_tangents};
@@ -20,7 +20,6 @@ use crate::gpu::without_driver_messages;
 use crate::heat_scale::{ENDS, FLIP, RAMP};
 use crate::inputs::Input;
 use crate::json::{VERSION, print_report};
-use crate::options::method::MethodName;
 use crate::paths::{is_png, refuse_missing_folder};
 use crate::terminal::Messages;
 use crate::text::counted;
@@ -210,11 +209,8 @@ fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<Lo
     let flat = NormalOptions::new().with_shading(Shading::Flat);
     let flat = AddNormalsOptions::default().with_normals(flat);
     add_normals(&mut document, &flat, &mut |_| {}).map_err(sentence)?;
-    let of_file = if has_tangents(&document) {
-        TangentSource::File
-    } else {
-        TangentSource::Method(MethodName::default())
-    };
+    let of_file =
+        if has_tangents(&document) { TangentSource::File } else { TangentSource::Method(Method::default()) };
     let tangents = match source {
         Some(TangentSource::File) if of_file != TangentSource::File => {
             let name = document.name();
@@ -224,7 +220,7 @@ fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<Lo
             return Ok(LoadedModel { document, source, warnings });
         }
         Some(TangentSource::Method(method)) => {
-            let tangents = TangentOptions::from(darboux::Method::from(method));
+            let tangents = TangentOptions::from(method);
             AddTangentsOptions::default().with_tangents(tangents).with_overwrite(true)
         }
         None => AddTangentsOptions::default(),

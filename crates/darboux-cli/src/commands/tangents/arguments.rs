@@ -2,12 +2,13 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
+use darboux::{Choice, Method, Mode};
 use darboux_io::gltf::TangentEncoding;
 
 use crate::options::angle::degrees;
+use crate::options::choice::choice;
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
-use crate::options::method::MethodName;
 use crate::options::shading::{NormalsChoice, normals_choice};
 
 pub const ABOUT: &str = "\
@@ -46,11 +47,17 @@ pub struct TangentsArguments {
     /// How tangents are computed: as the normal map was baked, so nearly always mikktspace
     ///
     /// `darboux methods` explains the choice.
-    #[arg(long, value_enum, value_name = "NAME", default_value_t, help_heading = "Tangents")]
-    pub method: MethodName,
+    #[arg(
+        long,
+        value_parser = choice::<Method>(),
+        value_name = "NAME",
+        default_value = Method::default().name(),
+        help_heading = "Tangents"
+    )]
+    pub method: Method,
 
     /// Which defects of the MikkTSpace reference implementation are kept
-    #[arg(long, value_enum, default_value_t, help_heading = "Tangents")]
+    #[arg(long, value_parser = choice::<Mode>(), default_value = Mode::default().name(), help_heading = "Tangents")]
     pub mode: Mode,
 
     /// Split the tangents of faces whose directions differ by this angle or more, in degrees
@@ -136,28 +143,6 @@ pub enum Device {
     Cpu,
     /// The fastest GPU; a file fails if there is none or if the GPU fails
     Gpu,
-}
-
-/// `--mode`: the names of [`darboux::Mode`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Mode {
-    /// The bits of the reference, including zero-length and non-finite tangents
-    Reference,
-    /// The bits of the reference where its tangent is usable, a unit tangent elsewhere
-    #[default]
-    Repaired,
-    /// Like repaired, with all edges matched and one sign per triangle
-    Corrected,
-}
-
-impl From<Mode> for darboux::Mode {
-    fn from(mode: Mode) -> Self {
-        match mode {
-            Mode::Reference => Self::Reference,
-            Mode::Repaired => Self::Repaired,
-            Mode::Corrected => Self::Corrected,
-        }
-    }
 }
 
 /// Encodings of the library that glTF does not support.

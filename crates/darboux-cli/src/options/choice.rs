@@ -1,0 +1,10 @@
+//! Options whose values are a list of the core: `--method`, `--mode`, `--weight`.
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use darboux::Choice;
+
+/// Accepts the names of a list; the help shows their descriptions.
+pub fn choice<T: Choice + Send + Sync>() -> impl TypedValueParser<Value = T> {
+    let values = T::ALL.iter().map(|value| PossibleValue::new(value.name()).help(value.summary()));
+    PossibleValuesParser::new(values).try_map(|name| T::from_name(&name))
+}

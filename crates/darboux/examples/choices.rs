@@ -1,0 +1,62 @@
+//! Generates the lists of choices of the bindings, below the folder of its argument: the names for TypeScript, whose positions are the codes
+//! that WebAssembly takes, and the literals for Python.
+//!
+//! `cargo xtask gen` runs it with the repository's root.
+
+use std::error::Error;
+use std::fs::{create_dir_all, write};
+use std::path::Path;
+
+use darboux::{Choice, Method, Mode, NormalWeight, Shading, SmoothingSeams};
+
+/// A list: the name of its type, that of its constant, and the names of its values.
+struct List {
+    singular: &'static str,
+    plural: &'static str,
+    names: Vec<&'static str>,
+}
+
+impl List {
+    fn of<T: Choice>(singular: &'static str, plural: &'static str) -> Self {
+        Self { singular, plural, names: T::ALL.iter().map(|value| value.name()).collect() }
+    }
+
+    fn quoted(&self, quote: char) -> String {
+        let names: Vec<String> = self.names.iter().map(|name| format!("{quote}{name}{quote}")).collect();
+        names.join(", ")
+    }
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let root = std::env::args_os().nth(1).ok_or("usage: choices FOLDER")?;
+    let lists = [
+        List::of::<Method>("Method", "METHODS"),
+        List::of::<Mode>("Mode", "MODES"),
+        List::of::<Shading>("Shading", "SHADINGS"),
+        List::of::<NormalWeight>("NormalWeight", "NORMAL_WEIGHTS"),
+        List::of::<SmoothingSeams>("SmoothingSeams", "SMOOTHING_SEAMS"),
+    ];
+    let write_below = |path: &str, text: String| -> Result<(), Box<dyn Error>> {
+        let path = Path::new(&root).join(path);
+        path.parent().map(create_dir_all).transpose()?;
+        Ok(write(path, text)?)
+    };
+    write_below("bindings/js/lib/core/choices.ts", typescript(&lists))?;
+    write_below("bindings/python/python/darboux/_choices.py", python(&lists))
+}
+
+fn typescript(lists: &[List]) -> String {
+    let list = |list: &List| format!("export const {} = [{}] as const;\n", list.plural, list.quoted('\''));
+    let lines: String = lists.iter().map(list).collect();
+    format!(
+        "// Generated from the core. The position of a name in its list is the code that WebAssembly takes.\n\n{lines}"
+    )
+}
+
+fn python(lists: &[List]) -> String {
+    let list = |list: &List| format!("{} = Literal[{}]\n", list.singular, list.quoted('"'));
+    let lines: String = lists.iter().map(list).collect();
+    format!(
+        "\"\"\"The names of choices. Generated from the core.\"\"\"\n\nfrom typing import Literal\n\n{lines}"
+    )
+}
