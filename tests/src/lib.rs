@@ -6,6 +6,7 @@
 pub mod check;
 pub mod compare;
 pub mod corpus;
+mod damage;
 pub mod engine;
 pub mod families;
 pub mod generate;

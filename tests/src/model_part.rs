@@ -4,7 +4,7 @@
 use darboux_dice::Dice;
 
 use crate::OwnedMesh;
-use crate::generate::{damage_faces, negate_zeros};
+use crate::damage::{damage_faces, negate_zeros};
 
 /// A part of one to four sheets.
 pub(crate) fn model_part(dice: &mut Dice) -> OwnedMesh {

@@ -112,6 +112,7 @@ mod proof;
 mod quads;
 mod replay;
 mod resolve;
+mod resolve_run;
 mod resume;
 mod scattered;
 mod schedule;

@@ -16,12 +16,10 @@
 use std::ops::Range;
 
 use crate::Frame;
-use crate::Indices;
 use crate::Mesh;
-use crate::exec::limits::RunLimits;
-use crate::math::{cosine_of_degrees, normalized_unless_zero};
+use crate::math::normalized_unless_zero;
 use crate::tangents::mikktspace::raw_frames::DEFAULT_FRAME;
-use crate::tangents::options::{MikkTSpaceOptions, Mode};
+use crate::tangents::options::Mode;
 use crate::tangents::repair::is_usable;
 use crate::tangents::report::Report;
 use crate::topology::triangles::NONE;
@@ -31,14 +29,13 @@ use crate::tangents::fast::fans::{Fans, add_frame_term};
 use crate::tangents::fast::pairs::PairwiseTest;
 use crate::tangents::fast::passes::is_clearly_usable;
 use crate::tangents::fast::proof::is_one_subgroup;
-use crate::tangents::fast::state::{FastPath, triangle_list};
 use crate::tangents::fast::undecided::{FrameTerm, UndecidedTriangles, kinds};
 
 /// The memory of the resolution, reused from mesh to mesh.
 #[derive(Debug, Default)]
 pub(crate) struct Resolution {
-    triangles: UndecidedTriangles,
-    fans: Fans,
+    pub triangles: UndecidedTriangles,
+    pub fans: Fans,
     pairs: PairwiseTest,
     /// The tangent and the sign of each group.
     tangents: Vec<[f32; 4]>,
@@ -48,54 +45,9 @@ pub(crate) struct Resolution {
     is_left: Vec<bool>,
 }
 
-impl FastPath {
-    /// Writes the tangents of undecided vertices, but for those that the general path has to compute: `exceptions.undecided` then lists the
-    /// faces of these. Returns the counts of what was resolved; `None` where nothing was tried.
-    ///
-    /// `frames`: where given, receives the corners that were resolved and their full frames.
-    pub fn resolve(
-        &mut self,
-        mesh: &Mesh<'_>,
-        options: &MikkTSpaceOptions,
-        limits: RunLimits<'_>,
-        out: &mut [[f32; 4]],
-        frames: Option<&mut Vec<(u32, Frame)>>,
-    ) -> Option<Report> {
-        let Self { weld, split, exceptions, tail_runs, workers, resolution, .. } = self;
-        let list = triangle_list(mesh, weld, split);
-        let faces = &mut exceptions.undecided;
-        if faces.is_empty() || limits.is_cancelled() {
-            return None;
-        }
-        let Resolution { triangles, fans, .. } = resolution;
-        let block = &mut workers[0].block;
-        triangles.collect(&list, (faces, weld.count), out, block, frames.is_some(), limits);
-        let place = |&edge: &u32| triangles.entry_of(edge);
-        let tail_runs: Vec<Vec<u32>> = tail_runs.iter().map(|run| run.iter().map(place).collect()).collect();
-        if limits.is_cancelled() {
-            return None;
-        }
-        fans.find(triangles, &tail_runs);
-        resolution.find_tangents(cosine_of_degrees(options.threshold));
-        resolution.find_left(options.mode, out);
-        let report = resolution.write(out);
-        if let Some(frames) = frames {
-            resolution.list_frames(frames);
-        }
-        let mut is_complete = resolution.triangles.faces().map(|face| resolution.is_complete(face));
-        faces.retain(|_| !is_complete.next().unwrap_or(false));
-        Some(report)
-    }
-
-    /// The number of vertices of the mesh whose corners have different tangents. `out`: the tangents of all corners.
-    pub fn count_split_vertices(&self, mesh: &Mesh<'_>, out: &[[f32; 4]]) -> usize {
-        if matches!(mesh.indices(), Indices::Unindexed) { 0 } else { self.resolution.count_split(mesh, out) }
-    }
-}
-
 impl Resolution {
     /// Adds up the tangents of all groups.
-    fn find_tangents(&mut self, threshold_cosine: f32) {
+    pub fn find_tangents(&mut self, threshold_cosine: f32) {
         let Self { triangles, fans, pairs, tangents, is_usable: usable, is_left } = self;
         is_left.clear();
         is_left.resize(triangles.is_undecided.len(), false);
@@ -162,7 +114,7 @@ impl Resolution {
     }
 
     /// True for a face without a vertex that is left. `face`: its triangles.
-    fn is_complete(&self, face: Range<usize>) -> bool {
+    pub fn is_complete(&self, face: Range<usize>) -> bool {
         !self.triangles.triangles[face].as_flattened().iter().any(|&vertex| self.is_left[vertex as usize])
     }
 
@@ -178,7 +130,7 @@ impl Resolution {
     }
 
     /// Finds the vertices that stay undecided.
-    fn find_left(&mut self, mode: Mode, out: &[[f32; 4]]) {
+    pub fn find_left(&mut self, mode: Mode, out: &[[f32; 4]]) {
         let count = self.is_left.len();
         if mode != Mode::Reference {
             for vertex in (0..count).filter(|&vertex| self.triangles.is_undecided[vertex]) {
@@ -251,7 +203,7 @@ impl Resolution {
 
     /// Writes the tangents of all vertices that are not left. Returns the counts of all triangles, and those of corners of triangles without a
     /// vertex that is left.
-    fn write(&self, out: &mut [[f32; 4]]) -> Report {
+    pub fn write(&self, out: &mut [[f32; 4]]) -> Report {
         let Self { triangles, fans, is_left, .. } = self;
         let count = |kind: u8| triangles.kinds.iter().filter(|&&other| other & kind != 0).count();
         let mut report = Report {
@@ -291,7 +243,7 @@ impl Resolution {
     }
 
     /// Lists the corners of all vertices that are not left, with their full frames.
-    fn list_frames(&self, frames: &mut Vec<(u32, Frame)>) {
+    pub fn list_frames(&self, frames: &mut Vec<(u32, Frame)>) {
         let Self { triangles, fans, is_left, tangents, .. } = self;
         for vertex in (0..is_left.len()).filter(|&vertex| triangles.is_undecided[vertex] && !is_left[vertex])
         {
@@ -307,7 +259,7 @@ impl Resolution {
         }
     }
 
-    fn count_split(&self, mesh: &Mesh<'_>, out: &[[f32; 4]]) -> usize {
+    pub fn count_split(&self, mesh: &Mesh<'_>, out: &[[f32; 4]]) -> usize {
         let Self { triangles, fans, .. } = self;
         let bits = |entry: u32| out[triangles.corner(entry) as usize].map(f32::to_bits);
         let mut count = 0;
