@@ -4,6 +4,8 @@
 
 mod companions;
 #[cfg(feature = "obj")]
+mod corner_tree;
+#[cfg(feature = "obj")]
 mod document;
 #[cfg(feature = "obj")]
 mod faces;

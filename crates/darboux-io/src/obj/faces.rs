@@ -6,12 +6,16 @@
 //! ears    3  else ears are cut off (G. H. Meisters, "Polygons Have Ears", 1975), and used if fewer triangles are folded or empty
 //! ```
 //!
-//! Coordinates are compared without the one along the axis, not rotated: products of 32-bit numbers are then nearly exact in 64 bits.
+//! Coordinates are compared without the one along the axis, not rotated: products of 32-bit numbers are then nearly exact in 64 bits. Whether a
+//! corner lies in an ear is asked of a tree of the corners ([`corner_tree`](super::corner_tree)), not of every corner.
 
 use tobj::{LoadError, Model};
 
-/// The most comparisons of a corner with an ear in one file. Ears of a face need at most the cube of its corners, in practice far fewer than the square.
-const MAX_COMPARISONS: u64 = 1 << 29;
+use super::corner_tree::{CornerTree, area};
+
+/// The most steps that the ears of one file may take: tries of a corner, and nodes of the tree that a try visits. A face of ordinary shape takes
+/// about a hundred per corner.
+const MAX_STEPS: u64 = 1 << 26;
 
 type Triangle = [usize; 3];
 
@@ -19,7 +23,7 @@ type Triangle = [usize; 3];
 ///
 /// Errors: a face without corners.
 pub fn triangulate(models: &mut [Model]) -> Result<usize, LoadError> {
-    let (mut folded, mut comparisons) = (0, MAX_COMPARISONS);
+    let (mut folded, mut steps) = (0, MAX_STEPS);
     for mesh in models.iter_mut().map(|model| &mut model.mesh) {
         if mesh.face_arities.is_empty() {
             continue;
@@ -35,7 +39,7 @@ pub fn triangulate(models: &mut [Model]) -> Result<usize, LoadError> {
                 _ => {
                     let positions: Vec<[f64; 3]> =
                         corners.iter().map(|&v| position(&mesh.positions, v)).collect();
-                    let cut = cut(&positions, &mut comparisons);
+                    let cut = cut(&positions, &mut steps);
                     folded += usize::from(cut.is_folded);
                     cut.triangles
                 }
@@ -58,11 +62,11 @@ struct Cut {
     is_folded: bool,
 }
 
-fn cut(positions: &[[f64; 3]], comparisons: &mut u64) -> Cut {
+fn cut(positions: &[[f64; 3]], steps: &mut u64) -> Cut {
     let fan: Vec<Triangle> = fan(positions.len()).collect();
     let Some(polygon) = Polygon::of(positions) else { return Cut { triangles: fan, is_folded: false } };
     let faults = polygon.faults(&fan);
-    let ears = if faults > 0 { polygon.ears(comparisons) } else { None };
+    let ears = if faults > 0 { polygon.ears(steps) } else { None };
     let triangles = ears.filter(|ears| polygon.faults(ears) < faults).unwrap_or(fan);
     let is_folded = triangles.iter().any(|&triangle| polygon.area(triangle) < 0.0);
     Cut { triangles, is_folded }
@@ -92,8 +96,7 @@ impl Polygon {
 
     /// Twice the area of a triangle, negative if it is clockwise.
     fn area(&self, [a, b, c]: Triangle) -> f64 {
-        let [a, b, c] = [a, b, c].map(|corner| self.corners[corner]);
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        area([a, b, c].map(|corner| self.corners[corner]))
     }
 
     /// The number of triangles that are folded or empty.
@@ -103,22 +106,34 @@ impl Polygon {
 
     /// Cuts off ears: triangles of neighbours that contain no other corner. Corners on a straight line are kept for other ears while there are any.
     ///
-    /// None: no ear is left, because the face crosses itself, or the comparisons are used up.
-    fn ears(&self, comparisons: &mut u64) -> Option<Vec<Triangle>> {
+    /// None: no ear is left, because the face crosses itself, or the steps are used up.
+    fn ears(&self, steps: &mut u64) -> Option<Vec<Triangle>> {
         let count = self.corners.len();
         let mut ring = Ring::new(count);
+        let mut tree = CornerTree::new(&self.corners);
+        // The corner that lay in the triangle of a corner when it was last tried, and that triangle.
+        let mut obstacles: Vec<Option<(Triangle, usize)>> = vec![None; count];
         let mut triangles = Vec::with_capacity(count - 2);
         let (mut at, mut tried, mut takes_empty) = (0, 0, false);
         while triangles.len() + 3 < count {
+            *steps = steps.checked_sub(1)?;
             let ear = ring.triangle(at);
             let area = self.area(ear);
             let is_ear = match takes_empty {
                 true => area == 0.0,
-                false => area > 0.0 && self.is_clear(ear, &ring, comparisons)?,
+                false => {
+                    let is_known =
+                        obstacles[at].is_some_and(|(of, obstacle)| of == ear && tree.has(obstacle));
+                    if area > 0.0 && !is_known {
+                        obstacles[at] = tree.corner_in(ear, steps)?.map(|obstacle| (ear, obstacle));
+                    }
+                    area > 0.0 && obstacles[at].is_none()
+                }
             };
             if is_ear {
                 triangles.push(ear);
                 ring.remove(at);
+                tree.remove(at);
                 (at, tried, takes_empty) = (ring.next[ring.next[at]], 0, false);
                 continue;
             }
@@ -132,23 +147,6 @@ impl Polygon {
         }
         triangles.push(ring.triangle(at));
         Some(triangles)
-    }
-
-    /// Whether no other corner of the ring lies in a triangle or on its border. Corners at the places of the triangle's own are allowed: they join
-    /// outlines and holes. None: the comparisons are used up.
-    fn is_clear(&self, ear: Triangle, ring: &Ring, comparisons: &mut u64) -> Option<bool> {
-        let [a, b, c] = ear;
-        let mut corner = ring.next[c];
-        while corner != a {
-            *comparisons = comparisons.checked_sub(1)?;
-            let is_inside =
-                [[a, b], [b, c], [c, a]].iter().all(|&[from, to]| self.area([from, to, corner]) >= 0.0);
-            if is_inside && ear.iter().all(|&own| self.corners[own] != self.corners[corner]) {
-                return Some(false);
-            }
-            corner = ring.next[corner];
-        }
-        Some(true)
     }
 }
 
@@ -200,7 +198,7 @@ mod tests {
 
     /// The triangles of a face, which must cover it: all face as it does, and their areas add up to its own.
     fn covering(positions: &[[f64; 3]]) -> Vec<Triangle> {
-        let cut = cut(positions, &mut MAX_COMPARISONS.clone());
+        let cut = cut(positions, &mut MAX_STEPS.clone());
         let polygon = Polygon::of(positions).expect("the face has an area");
         assert!(!cut.is_folded && polygon.faults(&cut.triangles) == 0, "{:?}", cut.triangles);
         let area =
@@ -275,7 +273,7 @@ mod tests {
 
     #[test]
     fn faces_without_an_area_and_crossed_ones_stay_fans() {
-        let whole = |positions: &[[f64; 3]]| cut(positions, &mut MAX_COMPARISONS.clone());
+        let whole = |positions: &[[f64; 3]]| cut(positions, &mut MAX_STEPS.clone());
         let line = whole(&flat(&[[0.0, 0.0], [1.0, 1.0], [3.0, 3.0], [2.0, 2.0]]));
         assert!(!line.is_folded && line.triangles == [[0, 1, 2], [0, 2, 3]]);
         let broken = whole(&flat(&[[0.0, 0.0], [f64::NAN, 1.0], [3.0, 3.0], [2.0, 2.0]]));
@@ -287,8 +285,35 @@ mod tests {
         assert!(!doubled.is_folded && doubled.triangles == line.triangles);
     }
 
+    /// A star whose every second corner lies further inside, with radii that differ so that corners lie near ears.
+    fn star(corners: usize) -> Vec<[f64; 3]> {
+        let at = |i: usize| {
+            let angle = std::f64::consts::TAU * i as f64 / corners as f64;
+            let radius = if i % 2 == 0 { 0.3 + 0.1 * (7.0 * angle).sin() } else { 1.0 };
+            [radius * angle.cos(), radius * angle.sin(), 0.0].map(|x| f64::from(x as f32))
+        };
+        (0..corners).map(at).collect()
+    }
+
     #[test]
-    fn comparisons_are_limited() {
+    fn large_faces_take_steps_in_proportion_to_their_corners() {
+        // Both the star and the same corner triple over and over, which crosses itself.
+        let triple = flat(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
+        for corners in [3000, 24_000] {
+            let used = |positions: &[[f64; 3]]| {
+                let mut steps = MAX_STEPS;
+                let cut = cut(positions, &mut steps);
+                (cut, MAX_STEPS - steps)
+            };
+            let (cut, steps) = used(&star(corners));
+            assert!(!cut.is_folded && steps < 200 * corners as u64, "{corners} corners: {steps} steps");
+            let (_, steps) = used(&triple.repeat(corners / 3));
+            assert!(steps < 200 * corners as u64, "{corners} corners of one triangle: {steps} steps");
+        }
+    }
+
+    #[test]
+    fn steps_are_limited() {
         let arrow = flat(&[[-2.0, -1.0], [0.0, 1.0], [2.0, -1.0], [0.0, 3.0]]);
         assert!(cut(&arrow, &mut 0).is_folded);
     }
