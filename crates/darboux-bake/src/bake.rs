@@ -7,6 +7,7 @@ use darboux::internal::jobs;
 
 use crate::band::Bake;
 use crate::budget::Budget;
+use crate::common_box::CommonBox;
 use crate::high::HighGroup;
 use crate::images::{Band, Images, TexelState};
 use crate::layout::{BLOCK, Layout};
@@ -74,6 +75,8 @@ pub fn bake(
     check_surfaces(low, high)?;
     let mut budget = Budget::new(options.memory_limit);
     budget.add(memory::of_bake(high, options))?;
+    let space = CommonBox::around(low);
+    let (low, high, options) = (&*space.low(low), &*space.high(high), &space.options(options));
     let layout = Layout::new(low, options.size, options.surface_convention, &mut budget)?;
     let groups = group_surfaces(low, high, context)?;
     let mut images = Images::background(options, &budget)?;
@@ -83,6 +86,7 @@ pub fn bake(
         layout: &layout,
         options,
         conversion: options.surface_convention.generated().to(options.map_convention),
+        space,
         samples: pattern(options.samples_per_axis),
     };
     let mut report = bake_bands(&stages, &mut images, context, progress)?;

@@ -3,6 +3,7 @@
 use darboux::Conversion;
 
 use crate::bvh::{Hit, PreparedRay, Shaft, Sides, Stack};
+use crate::common_box::CommonBox;
 use crate::coverage::{Coverage, TEXELS};
 use crate::face::Face;
 use crate::frame::ShadingFrame;
@@ -24,6 +25,8 @@ pub struct Bake<'a> {
     pub layout: &'a Layout,
     pub options: &'a BakeOptions,
     pub conversion: Conversion,
+    /// The box in which rays are followed; heights and positions leave it again.
+    pub space: CommonBox,
     /// The places of samples within a texel.
     pub samples: Vec<[i64; 2]>,
 }
@@ -215,13 +218,14 @@ impl Bake<'_> {
             image[at] = self.conversion.vector(narrow(texel.object_normal));
         }
         if let Some(image) = &mut band.height {
-            image[at] = texel.height as f32;
+            image[at] = self.space.restored(texel.height) as f32;
         }
         if let Some(image) = &mut band.occlusion {
             image[at] = texel.occlusion as f32;
         }
         if let Some(image) = &mut band.position {
-            image[at] = self.conversion.vector(narrow(texel.position));
+            let position = texel.position.map(|x| self.space.restored(x));
+            image[at] = self.conversion.vector(narrow(position));
         }
     }
 }

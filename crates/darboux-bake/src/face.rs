@@ -30,7 +30,7 @@ impl Face {
         let vertices = corners.map(|corner| low.mesh.vertex_of_corner(corner));
         let normals = vertices.map(|vertex| low.mesh.normals().get(vertex));
         let tangents = corners.map(|corner| low.tangents[corner]);
-        let positions = vertices.map(|vertex| low.mesh.positions().get(vertex));
+        let positions = vertices.map(|vertex| low.space.position(low.mesh.positions().get(vertex)));
         let texels = layout.texels(low, &placed);
         let [a, b, c] = positions.map(wide);
         Self {
@@ -40,7 +40,7 @@ impl Face {
             normals,
             tangents,
             bitangents: [0, 1, 2].map(|i| bitangent(normals[i], tangents[i])),
-            cage: low.cage.map(|cage| vertices.map(|vertex| cage.get(vertex))),
+            cage: low.cage.map(|cage| vertices.map(|vertex| low.space.position(cage.get(vertex)))),
             texels,
             area: area(texels),
             face_normal: unit(cross(sub(b, a), sub(c, a))).unwrap_or_default(),

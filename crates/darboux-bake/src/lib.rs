@@ -19,6 +19,7 @@ mod band;
 mod beyond;
 mod budget;
 mod bvh;
+mod common_box;
 mod coverage;
 mod error;
 mod face;

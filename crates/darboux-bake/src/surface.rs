@@ -2,6 +2,7 @@
 
 use darboux::{Error, Faces, Indices, Mesh, NormalOptions, Strided, generate_normals};
 
+use crate::common_box::CommonBox;
 use crate::frame::ShadingFrame;
 use crate::vector::{Vector, add_scaled, box_diagonal, narrow, weighted, wide};
 use crate::{BakeError, NormalTexture};
@@ -13,6 +14,7 @@ pub struct LowSurface<'a> {
     pub(crate) tangents: &'a [[f32; 4]],
     pub(crate) cage: Option<Strided<'a, 3>>,
     pub(crate) group: usize,
+    pub(crate) space: CommonBox,
 }
 
 impl<'a> LowSurface<'a> {
@@ -29,7 +31,7 @@ impl<'a> LowSurface<'a> {
             let (expected, found) = (mesh.corner_count(), tangents.len());
             return Err(Error::InputLength { what: "tangents", expected, found }.into());
         }
-        Ok(Self { mesh, tangents, cage: None, group: 0 })
+        Ok(Self { mesh, tangents, cage: None, group: 0, space: CommonBox::default() })
     }
 
     /// This surface with a cage, from which rays begin: the mesh with its vertices moved.
@@ -47,6 +49,11 @@ impl<'a> LowSurface<'a> {
     #[must_use]
     pub fn with_group(self, group: usize) -> Self {
         Self { group, ..self }
+    }
+
+    /// This surface with its places in a common box.
+    pub(crate) fn in_space(self, space: CommonBox) -> Self {
+        Self { space, ..self }
     }
 
     /// The mesh.
@@ -73,6 +80,7 @@ pub struct HighSurface<'a> {
     /// Without UVs; normals are zeros where there are none.
     pub(crate) mesh: Mesh<'a>,
     pub(crate) group: usize,
+    pub(crate) space: CommonBox,
     normal_map: Option<SurfaceMap<'a>>,
 }
 
@@ -97,7 +105,8 @@ impl<'a> HighSurface<'a> {
         let positions = positions.into();
         let normals = normals.unwrap_or_else(|| Strided::repeated(&[0.0; 3], positions.len()));
         let uvs = Strided::repeated(&[0.0; 2], positions.len());
-        Ok(Self { mesh: Mesh::triangles(positions, normals, uvs, indices)?, group: 0, normal_map: None })
+        let mesh = Mesh::triangles(positions, normals, uvs, indices)?;
+        Ok(Self { mesh, group: 0, space: CommonBox::default(), normal_map: None })
     }
 
     /// This surface with a normal map of its own: its normals are those that a renderer shows, with the bitangent per pixel.
@@ -138,6 +147,11 @@ impl<'a> HighSurface<'a> {
         Self { group, ..self }
     }
 
+    /// This surface with its places in a common box.
+    pub(crate) fn in_space(self, space: CommonBox) -> Self {
+        Self { space, ..self }
+    }
+
     pub(crate) fn triangle_count(&self) -> usize {
         self.mesh.face_count()
     }
@@ -147,8 +161,10 @@ impl<'a> HighSurface<'a> {
         &self.mesh
     }
 
+    /// The corners of a triangle in the common box.
     pub(crate) fn corners(&self, triangle: usize) -> [[f32; 3]; 3] {
-        [0, 1, 2].map(|corner| self.mesh.positions().get(self.mesh.vertex_of_corner(3 * triangle + corner)))
+        let vertices = [0, 1, 2].map(|corner| self.mesh.vertex_of_corner(3 * triangle + corner));
+        vertices.map(|vertex| self.space.position(self.mesh.positions().get(vertex)))
     }
 
     pub(crate) fn normals(&self, triangle: usize) -> [[f32; 3]; 3] {
@@ -169,9 +185,11 @@ pub fn inflated_cage(mesh: &Mesh<'_>, offset: f32) -> Result<Vec<[f32; 3]>, Bake
     if !matches!(mesh.faces(), Faces::Triangles) {
         return Err(BakeError::NotTriangles);
     }
-    let directions = generate_normals(mesh.positions(), mesh.indices(), mesh.faces(), &NormalOptions::new())?;
     let mut cage: Vec<[f32; 3]> =
         (0..mesh.vertex_count()).map(|vertex| mesh.positions().get(vertex)).collect();
+    let space = CommonBox::of_positions(mesh.positions());
+    let in_box: Vec<[f32; 3]> = cage.iter().map(|&position| space.position(position)).collect();
+    let directions = generate_normals(&in_box, mesh.indices(), mesh.faces(), &NormalOptions::new())?;
     for (corner, &direction) in directions.corners.per_corner().iter().enumerate() {
         let vertex = mesh.vertex_of_corner(corner);
         let from = wide(mesh.positions().get(vertex));

@@ -50,6 +50,13 @@ pub struct PreparedRay {
 const MARGIN: f32 = 5e-7;
 
 impl PreparedRay {
+    /// Whether the ray has places and a direction.
+    #[inline(always)]
+    pub fn is_finite(&self) -> bool {
+        let is_finite = |v: &[f32; 3]| v.iter().all(|x| x.is_finite());
+        self.origins.iter().all(is_finite) && is_finite(&self.shear)
+    }
+
     /// `bounds`: the box of all triangles.
     pub fn new(ray: &Ray, bounds: &[[f32; 3]; 2]) -> Self {
         let direction = ray.direction;

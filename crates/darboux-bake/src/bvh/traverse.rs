@@ -85,6 +85,10 @@ impl Bvh {
         let mut best: Option<Hit> = None;
         let mut limit = ray.length;
         stack.len = 0;
+        // Comparisons with NaN would enter the boxes of absent children.
+        if !ray.is_finite() {
+            return None;
+        }
         for node in start {
             push_children(node, ray, limit, stack);
         }

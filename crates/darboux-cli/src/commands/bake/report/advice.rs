@@ -46,6 +46,19 @@ pub fn has_many_misses(report: &BakeReport) -> bool {
 
 /// The reason why maps of this bake would show nothing of the high models; none where they do.
 pub fn failure(report: &BakeReport, arguments: &BakeArguments) -> Option<String> {
+    let is_all = |count: u64, of: u64| count > 0 && count == of;
+    if is_all(report.non_finite_low_triangles, report.low_triangles) {
+        return Some(
+            "every triangle of the low model has positions or normals that are not finite where the scene has them, so there is nothing to bake; scale the model down"
+                .to_owned(),
+        );
+    }
+    if is_all(report.non_finite_triangles, report.high_triangles) {
+        return Some(
+            "every triangle of the high models has positions that are not finite where their scenes have them, or is too large beside the low model; scale the models to one size"
+                .to_owned(),
+        );
+    }
     if report.charted_texels == 0 {
         return Some("no triangle of the low model covers a texel; check its UVs".to_owned());
     }
