@@ -9,6 +9,51 @@ use crate::samples::STEPS;
 /// Texels per block.
 pub const TEXELS: usize = BLOCK * BLOCK;
 
+/// The texels of a block that still need triangles. Where many triangles lie over each other, most of them find none.
+#[derive(Clone, Debug)]
+pub struct Open {
+    /// One bit per texel.
+    rows: [u32; BLOCK],
+}
+
+impl Open {
+    /// All texels.
+    pub const ALL: Self = Self { rows: [u32::MAX; BLOCK] };
+
+    /// Visits the open texels whose sample a triangle covers, and closes those for which `visit` returns true. `corners`: in steps from the upper
+    /// left corner of the block; `sample`: the place of the samples within their texels.
+    pub fn visit_covered(
+        &mut self,
+        corners: [[i64; 2]; 3],
+        sample: [i64; 2],
+        mut visit: impl FnMut(usize) -> bool,
+    ) {
+        let [a, b, c] = if area(corners) < 0 { [corners[0], corners[2], corners[1]] } else { corners };
+        let edges = [Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)];
+        let range = |i: usize| {
+            let least = corners.iter().map(|corner| corner[i]).fold(i64::MAX, i64::min) - sample[i];
+            let greatest = corners.iter().map(|corner| corner[i]).fold(i64::MIN, i64::max) - sample[i];
+            let first = (least + STEPS - 1).div_euclid(STEPS).clamp(0, BLOCK as i64);
+            let end = (greatest.div_euclid(STEPS) + 1).clamp(0, BLOCK as i64);
+            first as usize..end as usize
+        };
+        let columns = range(0);
+        let of_columns = (1u64 << columns.end).wrapping_sub(1 << columns.start.min(columns.end)) as u32;
+        for y in range(1) {
+            let mut rest = self.rows[y] & of_columns;
+            while rest != 0 {
+                let x = rest.trailing_zeros() as usize;
+                rest &= rest - 1;
+                let at = [x, y].map(|texel| texel as i64 * STEPS);
+                let at = [at[0] + sample[0], at[1] + sample[1]];
+                if edges.iter().all(|edge| edge.has_inside(at)) && visit(y * BLOCK + x) {
+                    self.rows[y] &= !(1 << x);
+                }
+            }
+        }
+    }
+}
+
 /// The triangles that cover the texels of a block, for one sample per texel.
 #[derive(Debug)]
 pub struct Coverage {
@@ -16,45 +61,29 @@ pub struct Coverage {
     pub owners: Vec<Option<Placed>>,
     /// Whether more than one triangle covers the sample.
     pub overlaps: Vec<bool>,
+    /// The texels without an overlap.
+    open: Open,
 }
 
 impl Coverage {
     pub fn new() -> Self {
-        Self { owners: vec![None; TEXELS], overlaps: vec![false; TEXELS] }
+        Self { owners: vec![None; TEXELS], overlaps: vec![false; TEXELS], open: Open::ALL }
     }
 
     pub fn clear(&mut self) {
         self.owners.fill(None);
         self.overlaps.fill(false);
+        self.open = Open::ALL;
     }
 
     /// Adds a triangle. `corners`: in steps from the upper left corner of the block; `sample`: the place of the samples within their texels.
     pub fn add(&mut self, placed: Placed, corners: [[i64; 2]; 3], sample: [i64; 2]) {
-        visit_covered(corners, sample, |texel| match self.owners[texel] {
-            None => self.owners[texel] = Some(placed),
-            Some(_) => self.overlaps[texel] = true,
+        let Self { owners, overlaps, open } = self;
+        open.visit_covered(corners, sample, |texel| {
+            overlaps[texel] = owners[texel].is_some();
+            owners[texel].get_or_insert(placed);
+            overlaps[texel]
         });
-    }
-}
-
-/// Visits the texels of a block whose sample a triangle covers. Arguments as of [`Coverage::add`].
-pub fn visit_covered(corners: [[i64; 2]; 3], sample: [i64; 2], mut visit: impl FnMut(usize)) {
-    let [a, b, c] = if area(corners) < 0 { [corners[0], corners[2], corners[1]] } else { corners };
-    let edges = [Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)];
-    let range = |i: usize| {
-        let least = corners.iter().map(|corner| corner[i]).fold(i64::MAX, i64::min) - sample[i];
-        let greatest = corners.iter().map(|corner| corner[i]).fold(i64::MIN, i64::max) - sample[i];
-        let first = (least + STEPS - 1).div_euclid(STEPS).clamp(0, BLOCK as i64);
-        let end = (greatest.div_euclid(STEPS) + 1).clamp(0, BLOCK as i64);
-        first..end
-    };
-    for y in range(1) {
-        for x in range(0) {
-            let at = [x * STEPS + sample[0], y * STEPS + sample[1]];
-            if edges.iter().all(|edge| edge.has_inside(at)) {
-                visit(y as usize * BLOCK + x as usize);
-            }
-        }
     }
 }
 

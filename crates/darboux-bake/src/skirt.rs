@@ -28,8 +28,11 @@ impl Skirt {
             };
             for y in range(1) {
                 for x in range(0) {
-                    let square = square_of_distance([x as f64 + 0.5, y as f64 + 0.5], corners);
                     let texel = &mut nearest[y * BLOCK + x];
+                    if texel.is_some_and(|(square, _)| square == 0.0) {
+                        continue;
+                    }
+                    let square = square_of_distance([x as f64 + 0.5, y as f64 + 0.5], corners);
                     if square < REACH * REACH && texel.is_none_or(|(other, _)| square < other) {
                         *texel = Some((square, placed));
                     }

@@ -1,7 +1,7 @@
 //! [`verify`]: shades the low surfaces with a map that was written, as a renderer does, and measures the angle to the high surfaces.
 //!
 //! ```text
-//! points      one per texel and triangle that covers it, at a random place
+//! points      one per texel and triangle that covers it, of at most 64, at a random place
 //! truth       the normal where the point's ray hits the high surfaces
 //! shown       the map, filtered, in the frame at the point
 //! statistics  the angles between both: of all points, by place, and for renderers with other frames
@@ -26,7 +26,7 @@ pub use errors::ErrorStatistics;
 pub use places::{Mistake, VerifiedPlace};
 pub use summary::Verification;
 
-/// Compares what a renderer shows with the high surfaces, at one random point per texel and triangle (fewer where the map has more than 2048
+/// Compares what a renderer shows with the high surfaces, at one random point per texel and triangle, of at most the first 64 at a texel (fewer where the map has more than 2048
 /// rows or columns, or where there would be more than 8,388,608 points: then one texel in each square of several is compared).
 ///
 /// `low`: as the renderer has them; `baked`: the images of [`bake`](crate::bake()) with these options; `written`: the normal map as it is in its

@@ -2,7 +2,7 @@
 
 use super::places::{Mistake, VerifiedPlace};
 use crate::bvh::{Sides, Stack};
-use crate::coverage::{Coverage, TEXELS, visit_covered};
+use crate::coverage::{Coverage, Open, TEXELS};
 use crate::face::Face;
 use crate::frame::ShadingFrame;
 use crate::high::HighGroup;
@@ -22,6 +22,10 @@ const MAX_HEAT_SIDE: usize = 2048;
 /// The most points that are expected. Where charts cover the image more often than twice at its largest side, as those of repeated textures do, one
 /// texel in larger cells is compared.
 const MAX_POINTS: f64 = (2 * MAX_HEAT_SIDE * MAX_HEAT_SIDE) as f64;
+
+/// The most triangles that are compared at a texel: the first ones, in the order of surfaces and triangles. Trim sheets and tiled parts may lie over each
+/// other by the thousand.
+const MAX_TRIANGLES_PER_TEXEL: u8 = 64;
 
 /// What all bands share.
 pub struct Points<'a> {
@@ -93,19 +97,22 @@ impl Points<'_> {
                 let low = &self.low[placed.surface as usize];
                 coverage.add(*placed, self.layout.steps_in_block(low, placed, [column, row]), sample);
             }
+            let (mut open, mut compared) = (Open::ALL, [0; TEXELS]);
             for placed in self.layout.block(column, row) {
                 let low = &self.low[placed.surface as usize];
                 let mut face = None;
-                visit_covered(self.layout.steps_in_block(low, placed, [column, row]), sample, |texel| {
+                open.visit_covered(self.layout.steps_in_block(low, placed, [column, row]), sample, |texel| {
                     let [x, y] = [column * BLOCK + texel % BLOCK, row * BLOCK + texel / BLOCK];
                     let is_chosen = y % side * side + x % side == of_cell;
                     if !is_chosen || x >= self.layout.size[0] || y >= self.layout.size[1] {
-                        return;
+                        return true;
                     }
                     let face = face.get_or_insert_with(|| Face::new(self.layout, self.low, *placed));
                     let place = [0, 1].map(|i| [x, y][i] as f64 + sample[i] as f64 / STEPS as f64);
                     let owner = coverage.owners[texel.min(TEXELS - 1)];
                     self.compare(face, place, owner, &mut stack, &mut band);
+                    compared[texel] += 1;
+                    compared[texel] == MAX_TRIANGLES_PER_TEXEL
                 });
             }
         }

@@ -162,8 +162,9 @@ fn moved(pairs: &[Pair]) -> impl Iterator<Item = String> {
 fn draw(pairs: &[Pair], path: &Path, force: bool, warnings: &mut Vec<String>) -> Result<String, String> {
     let mut map = HeatMap::new();
     for corners in pairs.iter().filter_map(|pair| pair.corners.as_ref().ok()) {
-        map.draw(corners);
+        map.add(corners);
     }
+    map.draw();
     if map.too_large() > 0 {
         warnings.push(format!(
             "{}: only the corners of {} triangles are drawn: their UVs span more than the map, or there are too many triangles",
