@@ -737,3 +737,20 @@ fn tangents_come_from_the_file_unless_a_method_is_named() {
     pair.bake(&["--bits", "16", "--force", "--method", "mikktspace"]).exits(0);
     assert!(near(&pair.texel("map.png").0, &[1.0 - leaning, 0.5, upright], 1e-5));
 }
+
+/// The model is larger than the maps: with a limit between both it fails, and the maps must not stay behind.
+#[cfg(unix)]
+#[test]
+fn nothing_is_written_when_one_of_several_outputs_fails() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let line = r#"ulimit -f 120; trap "" XFSZ; exec "$0" bake "$1" --high "$1" -o n.png --size 256 --map normal,ao --ao-rays 4 --write-model w.glb"#;
+    let run = std::process::Command::new("bash")
+        .args(["-c", line, env!("CARGO_BIN_EXE_darboux"), text(&asset("made/shield.glb"))])
+        .current_dir(folder.path())
+        .output()
+        .expect("bash runs");
+    let stderr = String::from_utf8_lossy(&run.stderr);
+    assert_eq!(run.status.code(), Some(1), "{stderr}");
+    assert!(stderr.contains("w.glb"), "{stderr}");
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0, "{stderr}");
+}

@@ -36,7 +36,7 @@ pub use error::Error;
 pub use load_options::{LoadOptions, OptionNames};
 pub use memory_limit::MemoryLimit;
 pub use paths::{FileKind, resolve_input};
-pub use staging::{RunId, SaveOptions};
+pub use staging::{Outputs, RunId, SaveOptions};
 
 /// The examples of docs/io.md compile and run.
 #[cfg(doctest)]

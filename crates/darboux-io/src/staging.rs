@@ -37,6 +37,36 @@ struct Staged {
     replace: bool,
 }
 
+/// Several outputs that are written together or not at all: each is staged under a temporary name, and [`Outputs::commit`] renames them all.
+///
+/// Dropped before, it removes what was staged.
+pub struct Outputs {
+    staging: Staging,
+}
+
+impl Outputs {
+    /// No outputs yet. `run`: the run that they belong to, if any.
+    pub fn new(run: Option<RunId>) -> Self {
+        Self { staging: Staging::new(run) }
+    }
+
+    /// Renames every output to its name, in the order of staging. Returns all files written, buffers beside documents first. Errors: a file that
+    /// cannot be renamed, or that was made by another process meanwhile where replacing was not permitted.
+    pub fn commit(self) -> Result<Vec<PathBuf>, Error> {
+        self.staging.commit()
+    }
+
+    pub(crate) fn staging(&mut self) -> &mut Staging {
+        &mut self.staging
+    }
+}
+
+impl fmt::Debug for Outputs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.staging.staged.iter().map(|staged| &staged.target)).finish()
+    }
+}
+
 /// How a document or an image is written.
 #[derive(Clone, Copy, Debug, Default)]
 #[non_exhaustive]

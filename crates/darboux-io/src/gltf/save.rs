@@ -14,7 +14,7 @@ use super::output::{FileUris, OutputLayout};
 use super::resources::{LocatedFile, UriTarget, encode_path, portable};
 use super::segments::{self, Segment};
 use crate::error::ContentError;
-use crate::staging::Staging;
+use crate::staging::{Outputs, Staging};
 use crate::{Error, FileKind, SaveOptions, paths};
 
 impl Document {
@@ -40,9 +40,16 @@ impl Document {
     /// output without [`SaveOptions::force`]; the input, or a file that it refers to, as output; a `.gltf` of a GLB that has chunks of
     /// unknown type. After an error, no file is left.
     pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<Vec<PathBuf>, Error> {
+        let mut outputs = Outputs::new(options.run);
+        self.stage(path, options, &mut outputs)?;
+        outputs.commit()
+    }
+
+    /// Stages the document as one of several outputs. The files that a `.gltf` needs get their names at once. Errors as of [`Document::save`].
+    pub fn stage(&self, path: &Path, options: &SaveOptions, outputs: &mut Outputs) -> Result<(), Error> {
         let is_glb = is_glb(path)?;
         let target = self.checked_target(path, options)?;
-        self.write(&target, is_glb, options)
+        self.stage_at(&target, is_glb, options, outputs.staging())
     }
 
     /// Replaces the input file, with the same container and permissions. Returns the files written, none without edits.
@@ -95,10 +102,20 @@ impl Document {
     }
 
     fn write(&self, target: &Path, is_glb: bool, options: &SaveOptions) -> Result<Vec<PathBuf>, Error> {
-        let mut staging = Staging::new(options.run);
-        let segments = if is_glb { self.glb_segments()? } else { self.stage_gltf(target, &mut staging)? };
-        staging.stage(target, options.force, |file| segments::write(&segments, file))?;
-        staging.commit()
+        let mut outputs = Outputs::new(options.run);
+        self.stage_at(target, is_glb, options, outputs.staging())?;
+        outputs.commit()
+    }
+
+    fn stage_at(
+        &self,
+        target: &Path,
+        is_glb: bool,
+        options: &SaveOptions,
+        staging: &mut Staging,
+    ) -> Result<(), Error> {
+        let segments = if is_glb { self.glb_segments()? } else { self.stage_gltf(target, staging)? };
+        staging.stage(target, options.force, |file| segments::write(&segments, file))
     }
 
     fn glb_segments(&self) -> Result<Vec<Segment<'_>>, Error> {

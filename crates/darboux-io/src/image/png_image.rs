@@ -9,7 +9,7 @@ use super::channels;
 use super::chunks::{self, Chunk, Chunks};
 use crate::LoadOptions;
 use crate::error::ContentError;
-use crate::staging::Staging;
+use crate::staging::Outputs;
 use crate::{Error, SaveOptions, paths};
 
 /// A PNG with 8 or 16 bits per channel: grey with alpha, RGB or RGBA, to which a palette is expanded; grey alone where it is made here.
@@ -239,12 +239,17 @@ impl PngImage {
     /// Writes the image. Errors: an existing file without [`SaveOptions::force`], or one that is not regular; a path that cannot be
     /// written. After an error, no file is left.
     pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<PathBuf, Error> {
+        let mut outputs = Outputs::new(options.run);
+        self.stage(path, options, &mut outputs)?;
+        outputs.commit()?;
+        Ok(path.to_owned())
+    }
+
+    /// Stages the image as one of several outputs. Errors as of [`PngImage::save`].
+    pub fn stage(&self, path: &Path, options: &SaveOptions, outputs: &mut Outputs) -> Result<(), Error> {
         let target = paths::resolve_output(path, options.force, |_| None)?;
         let bytes = self.to_bytes()?;
-        let mut staging = Staging::new(options.run);
-        staging.stage(&target, options.force, |file| file.write_all(&bytes))?;
-        staging.commit()?;
-        Ok(path.to_owned())
+        outputs.staging().stage(&target, options.force, |file| file.write_all(&bytes))
     }
 }
 

@@ -1,11 +1,12 @@
 //! Pictures over the UV layout: where rays missed, and how large errors are.
 
 use darboux_bake::{Baked, TexelState, Verification};
+use darboux_io::Outputs;
 use darboux_io::image::PngImage;
 
 use super::arguments::BakeArguments;
 use super::report::advice;
-use super::write::save;
+use super::write::stage;
 use crate::heat_scale::{ramp, row, scale_position};
 
 const OUTSIDE: [u8; 3] = [16, 16, 16];
@@ -22,6 +23,7 @@ pub fn misses(
     arguments: &BakeArguments,
     baked: &Baked,
     warnings: &mut Vec<String>,
+    outputs: &mut Outputs,
 ) -> Result<Option<String>, String> {
     let path = arguments.output.with_extension("misses.png");
     if !advice::has_many_misses(&baked.report) {
@@ -46,7 +48,7 @@ pub fn misses(
     };
     let texels: Vec<[u8; 3]> = baked.images.states.iter().map(color).collect();
     let image = PngImage::from_rgb(&path.display().to_string(), baked.images.size, &texels);
-    save(&image.map_err(|error| error.to_string())?, &path, true).map(Some)
+    stage(&image.map_err(|error| error.to_string())?, &path, true, outputs).map(Some)
 }
 
 /// The errors of a verification with the scale below them.

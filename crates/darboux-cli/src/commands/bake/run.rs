@@ -8,16 +8,17 @@ use darboux_bake::{
     BakeOptions, BakeProgress, Baked, HighModel, HighModelOptions, HighSurface, LowModel, LowModelOptions,
     LowSurface, MapSet, bake, check_verification, group_by_name,
 };
+use darboux_io::Outputs;
 use darboux_io::gltf::{Document, PrimitiveCorners};
 
 use super::arguments::{BakeArguments, MatchChoice};
 use super::cage::{Cages, Rays};
-use super::model::write_model;
+use super::model::{refuse_model, stage_model};
 use super::open::open_low;
 use super::pictures;
 use super::report::{BakeReport, advice, summary};
 use super::verified::{PROGRESS_UNITS, Verified};
-use super::write::{all_outputs, refuse_outputs, write_maps};
+use super::write::{all_outputs, commit, refuse_outputs, stage_maps};
 use crate::documents::load_with_obj;
 use crate::json::{VERSION, print_report};
 use crate::terminal::Messages;
@@ -68,6 +69,7 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
     let high_surfaces = models.high_surfaces(arguments, &mut surfaces, &mut warnings)?;
 
     let options = options(arguments, &rays);
+    refuse_model(arguments, &models.low)?;
     if arguments.verify {
         let check = check_verification(&surfaces, &high_surfaces, &options);
         check.map_err(|error| format!("--verify cannot follow the bake: {error}"))?;
@@ -76,18 +78,23 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
     if let Some(reason) = advice::failure(&baked.report, arguments) {
         return Err(reason);
     }
-    let written = write_maps(arguments, &baked.images, &options)?;
-    let misses = pictures::misses(arguments, &baked, &mut warnings)?;
-    let model = write_model(arguments, &models.low, written.normal.as_ref(), &mut warnings)?;
+    let mut outputs = Outputs::new(None);
+    let written = stage_maps(arguments, &baked.images, &options, &mut outputs)?;
+    let misses = pictures::misses(arguments, &baked, &mut warnings, &mut outputs)?;
+    let normal = written.normal.as_ref();
+    let model = stage_model(arguments, &models.low, normal, &mut warnings, &mut outputs)?;
     let verification = match &written.normal {
         Some(normal) if arguments.verify => {
             let surfaces = (&surfaces[..], &high_surfaces[..]);
-            let mut verified = Verified::new(arguments, surfaces, &baked.images, normal, &options, messages)?;
-            verified.write_model(arguments, &models.low)?;
+            let images = &baked.images;
+            let mut verified =
+                Verified::new(arguments, surfaces, images, normal, &options, messages, &mut outputs)?;
+            verified.stage_model(arguments, &models.low, &mut outputs)?;
             Some(verified)
         }
         _ => None,
     };
+    commit(outputs)?;
     warnings.extend(advice::of_report(&baked.report, arguments, misses.as_deref()));
     Ok(BakeReport {
         command: "bake",

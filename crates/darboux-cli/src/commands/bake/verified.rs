@@ -5,13 +5,14 @@ use darboux_bake::{
     BakeOptions, BakeProgress, ErrorStatistics, HighSurface, Images, LowModel, LowSurface, Mistake,
     NormalTexture, Verification, VerifiedPlace, verify,
 };
+use darboux_io::Outputs;
 use darboux_io::image::{Channels, PngImage, normal_vectors};
 use serde::Serialize;
 
 use super::arguments::BakeArguments;
-use super::model::write_painted;
+use super::model::stage_painted;
 use super::pictures;
-use super::write::save;
+use super::write::stage;
 use crate::terminal::Messages;
 
 /// The share of the progress bar that comparing has, and so has baking.
@@ -35,6 +36,7 @@ impl Verified {
         map: &PngImage,
         options: &BakeOptions,
         messages: &Messages,
+        outputs: &mut Outputs,
     ) -> Result<Self, String> {
         let texels = normal_vectors(map, Channels::RGB).map_err(|error| error.to_string())?;
         let written = NormalTexture::new(map.size(), texels, options.map_convention, Convention::GLTF)
@@ -49,17 +51,22 @@ impl Verified {
             .map_err(|error| error.to_string())?;
         let draw = |path: &std::path::PathBuf| {
             let picture = pictures::heat_map(&path.display().to_string(), &errors)?;
-            save(&picture, path, arguments.force)
+            stage(&picture, path, arguments.force, outputs)
         };
         let heat_map = arguments.heat_map.as_ref().map(draw).transpose()?;
         Ok(Self { errors, heat_map, heat_model: None })
     }
 
-    /// Writes the low model with these errors as its colours, if that was asked for. Errors are one sentence each.
-    pub fn write_model(&mut self, arguments: &BakeArguments, low: &LowModel<'_>) -> Result<(), String> {
+    /// Stages the low model with these errors as its colours, if that was asked for. Errors are one sentence each.
+    pub fn stage_model(
+        &mut self,
+        arguments: &BakeArguments,
+        low: &LowModel<'_>,
+        outputs: &mut Outputs,
+    ) -> Result<(), String> {
         let Some(path) = &arguments.heat_model else { return Ok(()) };
         let texture = pictures::heat_texture(&path.display().to_string(), &self.errors)?;
-        self.heat_model = Some(write_painted(arguments, low, &texture, path)?);
+        self.heat_model = Some(stage_painted(arguments, low, &texture, path, outputs)?);
         Ok(())
     }
 

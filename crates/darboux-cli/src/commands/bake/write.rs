@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use darboux::{Channel, Convention, TexelLayout};
 use darboux_bake::{BakeOptions, Images};
-use darboux_io::SaveOptions;
+
 use darboux_io::image::{PngImage, Sample};
+use darboux_io::{Outputs, SaveOptions};
 use serde::Serialize;
 
 use super::arguments::{BakeArguments, MapChoice};
@@ -31,7 +32,7 @@ pub struct WrittenMaps {
 }
 
 /// The chosen maps, each once, with their files.
-pub fn outputs(arguments: &BakeArguments) -> Vec<(MapChoice, PathBuf)> {
+fn maps_of(arguments: &BakeArguments) -> Vec<(MapChoice, PathBuf)> {
     let mut maps: Vec<MapChoice> = Vec::new();
     for &map in &arguments.map {
         if !maps.contains(&map) {
@@ -106,33 +107,40 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
 
 /// Every file that the arguments name for writing.
 pub fn all_outputs(arguments: &BakeArguments) -> Vec<PathBuf> {
-    let maps = outputs(arguments).into_iter().map(|(_, path)| path);
+    let maps = maps_of(arguments).into_iter().map(|(_, path)| path);
     let BakeArguments { write_model, heat_map, heat_model, .. } = arguments;
     maps.chain([write_model, heat_map, heat_model].into_iter().flatten().cloned()).collect()
 }
 
-/// Writes an image and returns its path. Errors are one sentence each.
-pub fn save(image: &PngImage, path: &Path, force: bool) -> Result<String, String> {
-    let _guard = interrupt::writing();
-    let saved = image.save(path, &SaveOptions::default().with_force(force));
-    Ok(saved.map_err(|error| error.to_string())?.display().to_string())
+/// Stages an image and returns its path. Errors are one sentence each.
+pub fn stage(image: &PngImage, path: &Path, force: bool, outputs: &mut Outputs) -> Result<String, String> {
+    let options = SaveOptions::default().with_force(force);
+    image.stage(path, &options, outputs).map_err(|error| error.to_string())?;
+    Ok(path.display().to_string())
 }
 
-/// Writes all maps. Errors are one sentence each.
-pub fn write_maps(
+/// Gives all outputs their names. Errors are one sentence each.
+pub fn commit(outputs: Outputs) -> Result<(), String> {
+    let _guard = interrupt::writing();
+    outputs.commit().map(drop).map_err(|error| error.to_string())
+}
+
+/// Stages all maps. Errors are one sentence each.
+pub fn stage_maps(
     arguments: &BakeArguments,
     images: &Images,
     options: &BakeOptions,
+    outputs: &mut Outputs,
 ) -> Result<WrittenMaps, String> {
     let mut written = WrittenMaps::default();
-    for (map, path) in outputs(arguments) {
+    for (map, path) in maps_of(arguments) {
         let bits = arguments.bits.unwrap_or_else(|| map.default_bits());
         let range = range(map, images, options);
         let image = match bits {
             8 => encode::<u8>(map, images, &range, &path)?,
             _ => encode::<u16>(map, images, &range, &path)?,
         };
-        let file = save(&image, &path, arguments.force)?;
+        let file = stage(&image, &path, arguments.force, outputs)?;
         written.maps.push(WrittenMap { map: map.name(), file, bits, range });
         if map == MapChoice::Normal {
             written.normal = Some(image);
