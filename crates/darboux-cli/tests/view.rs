@@ -88,6 +88,9 @@ fn the_page_and_the_model_are_behind_the_secret() {
     ] {
         assert_eq!(viewer.get(host, path).0, 403, "{path}");
     }
+    for hosts in [format!("{host}\r\nHost: {host}"), format!("{host}\r\nHost: example.com")] {
+        assert_eq!(viewer.get(&hosts, &format!("/{secret}/")).0, 403, "{hosts}");
+    }
     assert_eq!(viewer.get("evil.example", &format!("/{secret}/")).0, 403);
 }
 

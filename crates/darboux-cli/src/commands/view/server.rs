@@ -168,7 +168,9 @@ impl ServedFiles {
     }
 
     fn response_parts(&self, head: &Parts) -> ResponseParts {
-        let host = head.headers.get(HOST).map(HeaderValue::as_bytes);
+        // A request with two hosts is malformed (RFC 9112, section 3.2).
+        let mut hosts = head.headers.get_all(HOST).iter().map(HeaderValue::as_bytes);
+        let host = hosts.next().filter(|_| hosts.next().is_none());
         let path = head.uri.path();
         let below = path.strip_prefix('/').and_then(|path| path.strip_prefix(self.secret.as_str()));
         let Some(name) =
