@@ -96,8 +96,8 @@ fn a_good_map_has_the_error_of_its_resolution_and_of_its_bits() {
 
 #[test]
 fn of_surfaces_that_lie_over_each_other_64_are_compared() {
-    let bench =
-        Bench { high: PAIRS[0].high(20), options: BakeOptions::new([32; 2], [0.1; 2]), ..Bench::new(0) };
+    let (low, high) = (PAIRS[0].low(4), PAIRS[0].high(16));
+    let bench = Bench { low, high, options: BakeOptions::new([32; 2], [0.1; 2]) };
     let tangents = bench.low.tangents();
     let low = LowSurface::new(bench.low.mesh(), &tangents).expect("one tangent per corner");
     let texels = bench.bake().images.normal.expect("chosen");
