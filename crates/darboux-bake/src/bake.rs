@@ -75,8 +75,8 @@ pub fn bake(
     check_surfaces(low, high)?;
     let mut budget = Budget::new(options.memory_limit);
     budget.add(memory::of_bake(high, options))?;
-    let space = CommonBox::around(low);
-    let (low, high, options) = (&*space.low(low), &*space.high(high), &space.options(options));
+    let boxed = Boxed::new(low, high, options);
+    let Boxed { space, low, high, options } = &boxed;
     let layout = Layout::new(low, options.size, options.surface_convention, &mut budget)?;
     let groups = group_surfaces(low, high, context)?;
     let mut images = Images::background(options, &budget)?;
@@ -86,13 +86,39 @@ pub fn bake(
         layout: &layout,
         options,
         conversion: options.surface_convention.generated().to(options.map_convention),
-        space,
+        space: *space,
         samples: pattern(options.samples_per_axis),
     };
     let mut report = bake_bands(&stages, &mut images, context, progress)?;
     fill(&mut images, options.padding, context)?;
     count_triangles(&mut report, low, high, &layout, &groups);
     Ok(Baked { images, report })
+}
+
+/// The surfaces, and the distances of the options, in a box around the places that the low triangles use.
+pub(crate) struct Boxed<'a> {
+    pub space: CommonBox,
+    pub low: Vec<LowSurface<'a>>,
+    pub high: Vec<HighSurface<'a>>,
+    pub options: BakeOptions,
+}
+
+impl<'a> Boxed<'a> {
+    pub fn new(low: &[LowSurface<'a>], high: &[HighSurface<'a>], options: &BakeOptions) -> Self {
+        let used = low.iter().flat_map(|surface| {
+            let vertex = |corner| surface.mesh.positions().get(surface.mesh.vertex_of_corner(corner));
+            (0..surface.mesh.corner_count()).map(vertex)
+        });
+        let space = CommonBox::around(used);
+        let distance = options.distance.map(|distance| space.distance(distance));
+        let occlusion_distance = space.distance(options.occlusion_distance);
+        Self {
+            space,
+            low: low.iter().map(|surface| surface.in_space(space)).collect(),
+            high: high.iter().map(|surface| surface.in_space(space)).collect(),
+            options: BakeOptions { distance, occlusion_distance, ..*options },
+        }
+    }
 }
 
 pub(crate) fn check_options(options: &BakeOptions) -> Result<(), BakeError> {

@@ -187,7 +187,7 @@ pub fn inflated_cage(mesh: &Mesh<'_>, offset: f32) -> Result<Vec<[f32; 3]>, Bake
     }
     let mut cage: Vec<[f32; 3]> =
         (0..mesh.vertex_count()).map(|vertex| mesh.positions().get(vertex)).collect();
-    let space = CommonBox::of_positions(mesh.positions());
+    let space = CommonBox::around(cage.iter().copied());
     let in_box: Vec<[f32; 3]> = cage.iter().map(|&position| space.position(position)).collect();
     let directions = generate_normals(&in_box, mesh.indices(), mesh.faces(), &NormalOptions::new())?;
     for (corner, &direction) in directions.corners.per_corner().iter().enumerate() {

@@ -14,9 +14,8 @@ mod summary;
 
 use darboux::Context;
 
-use crate::bake::{check_options, check_surfaces, for_each_band, group_surfaces};
+use crate::bake::{Boxed, check_options, check_surfaces, for_each_band, group_surfaces};
 use crate::budget::Budget;
-use crate::common_box::CommonBox;
 use crate::layout::Layout;
 use crate::{BakeError, BakeOptions, BakeProgress, HighSurface, Images, LowSurface, NormalTexture, memory};
 use points::{BYTES_PER_POINT, BandPoints, Points, cell_side};
@@ -49,8 +48,8 @@ pub fn verify(
     let unrounded = unrounded.ok_or(BakeError::NoMaps)?;
     let unrounded =
         NormalTexture::new(options.size, unrounded, options.map_convention, options.surface_convention)?;
-    let space = CommonBox::around(low);
-    let (low, high, options) = (&*space.low(low), &*space.high(high), &space.options(options));
+    let boxed = Boxed::new(low, high, options);
+    let Boxed { low, high, options, .. } = &boxed;
     let groups = group_surfaces(low, high, context)?;
     let points = Points {
         low,

@@ -289,7 +289,7 @@ mod tests {
     fn star(corners: usize) -> Vec<[f64; 3]> {
         let at = |i: usize| {
             let angle = std::f64::consts::TAU * i as f64 / corners as f64;
-            let radius = if i % 2 == 0 { 0.3 + 0.1 * (7.0 * angle).sin() } else { 1.0 };
+            let radius = if i.is_multiple_of(2) { 0.3 + 0.1 * (7.0 * angle).sin() } else { 1.0 };
             [radius * angle.cos(), radius * angle.sin(), 0.0].map(|x| f64::from(x as f32))
         };
         (0..corners).map(at).collect()
