@@ -99,11 +99,16 @@ fn check_model(
     repaired: &mut Vec<u8>,
 ) -> Result<Vec<Reported>, darboux_io::Error> {
     let read = || Document::from_bytes("the model", file.to_vec(), None, &LoadOptions::default());
-    let findings = check_document(&mut read()?, &options)?;
+    let mut document = read()?;
+    let is_compressed = document.is_compressed();
+    let findings = check_document(&mut document, &options)?;
     if !repairs {
         return Ok(findings.into_iter().map(|found| reported(found, None)).collect());
     }
-    let mut document = read()?;
+    // The check decompresses a document, and the repair of a map should not.
+    if is_compressed {
+        document = read()?;
+    }
     let fixed = fix_document(&mut document, findings, &FixOptions::default().with_check(options))?;
     if fixed.is_changed {
         *repaired = document.to_glb()?;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 
-use crate::finding::{Finding, Place};
+use crate::place::Place;
 
 /// A primitive by the index of its mesh and its own.
 pub type Key = (usize, usize);
@@ -24,11 +24,6 @@ fn surface_key(document: &Document, name: &PrimitiveName) -> SurfaceKey {
     let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
     let (attributes, targets) = (primitive.attributes.clone(), primitive.targets.clone());
     (attributes, targets, primitive.indices, primitive.mode, primitive.material, primitive.materials())
-}
-
-/// The primitives about which a finding is: the one that it names, and all with the same data.
-pub fn primitives_of(document: &Document, finding: &Finding) -> Vec<PrimitiveName> {
-    primitives_at(document, &finding.place)
 }
 
 /// The primitive that a place names, and all with the same data.

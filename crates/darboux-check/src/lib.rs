@@ -1,7 +1,14 @@
 //! Finds what is wrong with the tangents, normals, UVs and normal maps of glTF models.
 //!
-//! A *rule* looks at one surface, map or material and returns findings; no rule knows another. [`Code`] lists all findings, with what each
-//! looks like on screen, how it comes about and the cure. [`fix_document`] and [`fix_map`] repair what can be repaired without guessing.
+//! ```text
+//! measure/   facts of a surface, map or material, one file per measurement
+//! rules/     facts -> defects: what is wrong, with all indices and numbers; no rule knows another
+//! repair/    defects -> plan: edits; applied, and kept only where the defects shrank
+//! words/     defects -> findings, as people read them
+//! ```
+//!
+//! [`Code`] lists all findings, with what each looks like on screen, how it comes about and the cure. [`fix_document`] and [`fix_map`] repair what can be
+//! repaired without guessing.
 //!
 //! ```
 //! use std::path::Path;
@@ -20,38 +27,33 @@
 
 mod cancelling;
 mod check;
+mod check_options;
 mod code;
-mod contradiction;
-mod expected;
-mod facets;
+mod defect;
+mod facts;
 mod finding;
-mod fit;
-mod fix;
+mod indices;
 mod instances;
-mod map;
-mod map_kind;
 mod map_users;
+mod measure;
 mod obstacles;
-mod orientation;
-mod other_axes;
-mod outliers;
-mod overlap;
-mod reordered;
-mod reversed;
-mod rule;
+mod place;
+mod repair;
 mod rules;
 mod severity;
 mod surface;
-mod text;
-mod turned;
+mod words;
 
 pub use check::{
-    CheckOptions, CheckedMap, ModelOfMaps, check_document, check_map, check_map_on_model, check_model_of_maps,
+    CheckedMap, ModelOfMaps, check_document, check_map, check_map_on_model, check_model_of_maps,
 };
+pub use check_options::CheckOptions;
 pub use code::Code;
-pub use finding::{Evidence, Finding, Place};
-pub use fix::{
-    Change, FixOptions, FixedDocument, FixedFinding, FixedMap, fix_document, fix_map, fix_map_on_model,
+pub use finding::{Evidence, Finding};
+pub use measure::map::MapDirections;
+pub use place::Place;
+pub use repair::{
+    Change, FixOptions, FixedDocument, FixedFinding, FixedMap, PlannedEdit, fix_document, fix_map,
+    fix_map_on_model, plan_repair,
 };
-pub use map::MapDirections;
 pub use severity::Severity;

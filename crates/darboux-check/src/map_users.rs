@@ -6,8 +6,8 @@ use darboux_io::Error;
 use darboux_io::gltf::{Appearance, Document, PrimitiveCorners, PrimitiveName, TextureUse};
 use darboux_io::image::RgbaImage;
 
-use crate::facets::FacetVotes;
 use crate::instances::distinct;
+use crate::measure::facets::FacetVotes;
 use crate::surface::Surface;
 
 /// The primitives that use the images of normal maps, in their own material or in one of their variants.

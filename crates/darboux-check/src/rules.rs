@@ -1,4 +1,4 @@
-//! The rules: each looks at one surface, map or material and returns what it finds. No rule knows another.
+//! The rules: each turns the facts of one surface, map or material into defects. No rule knows another: what several need is measured before.
 
 mod maps;
 mod normals;
@@ -8,11 +8,20 @@ mod tangents;
 mod transforms;
 mod uvs;
 
-pub use maps::{BY_FACES, directions_by_mesh};
-pub use normals::UNIT as UNIT_NORMAL;
-pub use tangents::{SIGN, UNIT as UNIT_TANGENT, has_length, is_finite, leaning};
+use darboux_io::gltf::Appearance;
 
-use crate::rule::{MapRule, MaterialRule, SurfaceRule};
+use crate::defect::Defect;
+use crate::facts::SurfaceFacts;
+use crate::measure::map::Map;
+
+/// A rule about surfaces.
+pub type SurfaceRule = fn(&SurfaceFacts<'_>) -> Vec<Defect>;
+
+/// A rule about normal maps.
+pub type MapRule = fn(&Map) -> Option<Defect>;
+
+/// A rule about the use of normal maps by a material.
+pub type MaterialRule = fn(&Appearance) -> Option<Defect>;
 
 /// All rules about surfaces: causes before what follows from them.
 pub const SURFACE_RULES: &[&[SurfaceRule]] =

@@ -7,7 +7,8 @@ use darboux::{Convention, Mesh, TangentOptions, generate_tangents};
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveInfo};
 
-use crate::finding::Place;
+use crate::indices::Part;
+use crate::place::Place;
 
 /// A primitive with triangles.
 #[derive(Debug)]
@@ -105,26 +106,6 @@ impl Surface {
         length(cross(sub(b, a), sub(c, a))) > 0.0
     }
 
-    /// The triangles whose corners all have normals that point to their back.
-    pub fn triangles_against_normals(&self) -> Vec<usize> {
-        self.triangles_by_normals(|cosine| cosine < 0.0)
-    }
-
-    /// The triangles whose corners all have normals that point to their front.
-    pub fn triangles_along_normals(&self) -> Vec<usize> {
-        self.triangles_by_normals(|cosine| cosine > 0.0)
-    }
-
-    /// The triangles all of whose normals fulfil a condition on their product with the normal of the front.
-    fn triangles_by_normals(&self, condition: impl Fn(f64) -> bool) -> Vec<usize> {
-        let Some(normals) = &self.normals else { return Vec::new() };
-        self.triangles_where(|triangle| {
-            let [a, b, c] = triangle.map(|vertex| self.positions[vertex]);
-            let front = cross(sub(b, a), sub(c, a));
-            triangle.iter().all(|&vertex| condition(dot(front, normals[vertex])))
-        })
-    }
-
     /// The connected part of every vertex, named by one of its vertices. Vertices with the same key are one vertex.
     pub fn parts<K: Eq + Hash>(&self, key: impl Fn(usize) -> K) -> Vec<usize> {
         let mut first = HashMap::new();
@@ -138,12 +119,7 @@ impl Surface {
         (0..parents.len()).map(|vertex| root(&mut parents, vertex)).collect()
     }
 
-    /// Whether that is so for most triangles.
-    pub fn is_wound_against_normals(&self) -> bool {
-        6 * self.triangles_against_normals().len() > self.vertex_of_corner.len()
-    }
-
-    /// Those of some vertices that triangles use, in the same order.
+    /// Drops vertices that no triangle uses; the others keep their order.
     pub fn used(&self, vertices: Vec<usize>) -> Vec<usize> {
         if vertices.is_empty() {
             return vertices;
@@ -157,14 +133,15 @@ impl Surface {
         self.is_used().into_iter().filter(|is_used| *is_used).count()
     }
 
-    /// A number of vertices in percent of those that triangles use.
-    pub fn percent_of_vertices(&self, count: usize) -> f64 {
-        100.0 * count as f64 / self.used_count().max(1) as f64
+    /// The vertices that triangles use whose elements fulfil a condition; none where none does. `elements`: one per vertex.
+    pub fn vertices_where<T>(&self, elements: &[T], condition: impl Fn(&T) -> bool) -> Option<Part> {
+        let found = self.used(indices_where(elements, condition));
+        if found.is_empty() { None } else { Part::new(&found, self.used_count()) }
     }
 
-    /// A number of triangles in percent of all.
-    pub fn percent_of_triangles(&self, count: usize) -> f64 {
-        300.0 * count as f64 / self.vertex_of_corner.len().max(1) as f64
+    /// The triangles whose vertices fulfil a condition; none where none does.
+    pub fn part_of_triangles(&self, condition: impl FnMut([usize; 3]) -> bool) -> Option<Part> {
+        Part::new(&self.triangles_where(condition), self.vertex_of_corner.len() / 3)
     }
 
     /// Per vertex whether a triangle uses it.

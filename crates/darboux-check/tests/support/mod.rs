@@ -4,6 +4,7 @@
 
 pub mod baked;
 pub mod container;
+pub mod damaged;
 pub mod flips;
 pub mod maps;
 pub mod mistakes;

@@ -1,5 +1,7 @@
 //! The interface of the subcommands that write one output file for each input file.
 
+use std::path::Path;
+
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -36,6 +38,11 @@ pub trait FileCommand: Sync {
 
     /// The options that affect outputs, as text; the journal compares these texts.
     fn options(&self) -> String;
+
+    /// A file that all outputs depend on, in addition to their inputs.
+    fn common_input(&self) -> Option<&Path> {
+        None
+    }
 
     /// Whether the command accepts an output that exists if it would write the same.
     fn compares_existing(&self) -> bool {

@@ -62,24 +62,33 @@ pub struct OutputInputs {
     options: String,
     /// The BLAKE3 hash of the input and of all files that it refers to.
     content: String,
+    /// The same of the file that all outputs depend on.
+    #[serde(default)]
+    common_content: Option<String>,
 }
 
 impl OutputInputs {
     /// What the output of `input` depends on now. Errors: a file cannot be read.
     pub fn new(command: &str, options: String, input: &Path, reading: &ReadOptions) -> Result<Self, String> {
-        let content = content_of(input, reading)
-            .map_err(|(file, error)| format!("{}: cannot be read: {error}", file.display()))?;
-        Ok(Self { command: command.into(), version: VERSION.into(), options, content })
+        let content = content_of(input, reading)?;
+        Ok(Self { command: command.into(), version: VERSION.into(), options, content, common_content: None })
+    }
+
+    /// The same for an output that depends on another file, too. Errors: it cannot be read.
+    pub fn with_common_input(self, input: Option<&Path>, reading: &ReadOptions) -> Result<Self, String> {
+        let common_content = input.map(|input| content_of(input, reading)).transpose()?;
+        Ok(Self { common_content, ..self })
     }
 }
 
 /// Hashes the hashes of a model and of all files that it refers to, or of the file alone if it cannot be read as a model.
-fn content_of(input: &Path, reading: &ReadOptions) -> Result<String, (PathBuf, io::Error)> {
+fn content_of(input: &Path, reading: &ReadOptions) -> Result<String, String> {
     let document = reading.open(input);
     let files = document.map_or_else(|_| vec![input.to_owned()], |document| document.source_files());
     let mut all = blake3::Hasher::new();
     for file in files {
-        let hash = hash_of(&file, Links::Follow).map_err(|error| (file, error))?;
+        let hash = hash_of(&file, Links::Follow)
+            .map_err(|error| format!("{}: cannot be read: {error}", file.display()))?;
         all.update(hash.as_bytes());
     }
     Ok(all.finalize().to_hex().to_string())

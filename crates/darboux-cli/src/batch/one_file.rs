@@ -68,7 +68,9 @@ fn resume<W: FileCommand>(
     progress: &FileProgress<'_>,
 ) -> Result<FinishedFile<W::Summary>, String> {
     // Hash the input first: if it changes during the work, the next run sees another hash.
-    let inputs = OutputInputs::new(W::NAME, command.options(), input, &command.files().reading)?;
+    let reading = &command.files().reading;
+    let inputs = OutputInputs::new(W::NAME, command.options(), input, reading)?
+        .with_common_input(command.common_input(), reading)?;
     if let Some(record) = record.filter(|record| record.is_up_to_date(&inputs, folder)) {
         let report = FileReport {
             input: job.input.to_string(),

@@ -38,6 +38,7 @@ Examples:
   darboux check level.glb --allow tangent-other-recipe,map-flat
   darboux check --explain tangent-sign-flipped
   darboux check model.glb --fix                      writes model.fixed.glb
+  darboux check model.glb --fix --dry-run            what would be edited?
   darboux check models/ --fix --in-place --only tangent-sign-flipped,map-green-flipped
   darboux check models/ --json | jq '.files[].findings[] | select(.severity == \"error\")'";
 
@@ -91,11 +92,15 @@ pub struct CheckArguments {
 
     /// Repair what is found, and write the result
     ///
-    /// Wrong tangents are corrected in the way that the others were computed, all are made again where all are wrong, vertices split, normals made or turned over, and the texels of PNG maps rewritten at their bit depth; a palette
+    /// Wrong tangents are corrected in the way that the others were computed, all are made again where all are wrong, vertices split, normals made or flipped, and the texels of PNG maps rewritten at their bit depth; a palette
     /// becomes RGB, and a JPEG map a PNG. Only the findings that are reported are repaired (--only, --allow). Everything else in the file is kept, byte for
     /// byte; a compressed model is decompressed if its geometry is repaired.
     #[arg(long, help_heading = "Repair")]
     pub fix: bool,
+
+    /// Print the edits with which --fix would begin, and write no file
+    #[arg(long, requires = "fix", help_heading = "Repair")]
+    pub dry_run: bool,
 
     /// How --fix makes tangents again: as the normal map was baked, so nearly always mikktspace
     #[arg(

@@ -5,7 +5,9 @@ use std::fs;
 use std::path::Path;
 
 use darboux::TangentOptions;
-use darboux_check::{Change, Code, FixOptions, FixedFinding, Severity, check_document, fix_document};
+use darboux_check::{
+    Change, Code, Finding, FixOptions, FixedFinding, Severity, check_document, fix_document, plan_repair,
+};
 use darboux_io::gltf::Document;
 use darboux_io::image::PngImage;
 use serde::{Deserialize, Serialize};
@@ -13,7 +15,7 @@ use serde_json::{Map, Value};
 
 use super::arguments::CheckArguments;
 use super::model::Model;
-use super::report::ReportedFinding;
+use super::report::{ReportedEdit, ReportedFinding};
 use crate::batch::command::{FileCommand, ProcessedFile};
 use crate::batch::plan::{Job, Output};
 use crate::batch::report::{FileReport, Status, SummarySource};
@@ -29,6 +31,9 @@ use crate::text::counted;
 #[derive(Default, Serialize)]
 pub struct FixSummary {
     pub findings: Vec<ReportedFinding>,
+    /// The edits with which a repair would begin, with `--dry-run`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub planned: Option<Vec<ReportedEdit>>,
     pub warnings: Vec<String>,
 }
 
@@ -60,8 +65,12 @@ impl FileCommand for Repair<'_> {
         format!("{:?}", (self.arguments.fix_options(), &self.arguments.model))
     }
 
+    fn common_input(&self) -> Option<&Path> {
+        self.arguments.model.as_deref()
+    }
+
     fn compares_existing(&self) -> bool {
-        !self.arguments.files.names_output()
+        self.arguments.dry_run || !self.arguments.files.names_output()
     }
 
     fn process(&self, job: &Job, _: &FileProgress<'_>) -> Result<ProcessedFile<FixSummary>, String> {
@@ -83,7 +92,9 @@ impl FileCommand for Repair<'_> {
     }
 
     fn lines(summary: &FixSummary) -> Vec<String> {
-        summary.findings.iter().filter_map(line).collect()
+        let planned = summary.planned.iter().flatten();
+        let planned = planned.map(|edit| format!("{}: would {}", edit.place, edit.action));
+        planned.chain(summary.findings.iter().filter_map(line)).collect()
     }
 
     fn errors(summary: &FixSummary) -> Vec<String> {
@@ -96,6 +107,10 @@ impl FileCommand for Repair<'_> {
 
     fn total(files: &[FileReport<FixSummary>]) -> String {
         let this_run = files.iter().filter_map(|file| file.summary.this_run());
+        if this_run.clone().any(|summary| summary.planned.is_some()) {
+            let edits = this_run.filter_map(|summary| summary.planned.as_ref()).map(Vec::len).sum();
+            return format!("{} planned", counted(edits, "edit", "edits"));
+        }
         let repaired =
             this_run.flat_map(|summary| &summary.findings).filter(|finding| finding.repaired == Some(true));
         let all: Vec<Outcome> = files.iter().flat_map(|file| Outcome::all_of(&file.summary)).collect();
@@ -238,12 +253,19 @@ impl Repair<'_> {
         let sentence = |error: darboux_io::Error| error.to_string();
         let CheckArguments { files, .. } = self.arguments;
         let reading = &files.reading;
-        // The check decompresses a document, and the repair of a map should not: it starts from another copy.
-        let findings =
-            check_document(&mut source.load(reading)?, &self.arguments.check_options()).map_err(sentence)?;
         let mut document = source.load(reading)?;
-        let fixed = fix_document(&mut document, findings, &self.arguments.fix_options()).map_err(sentence)?;
-        if !fixed.is_changed {
+        let is_compressed = document.is_compressed();
+        let findings = check_document(&mut document, &self.arguments.check_options()).map_err(sentence)?;
+        // The check decompresses a document, and the repair of a map should not.
+        if is_compressed {
+            document = source.load(reading)?;
+        }
+        let options = self.arguments.fix_options();
+        if self.arguments.dry_run {
+            return self.planned(&mut document, findings, &options).map_err(sentence);
+        }
+        let fixed = fix_document(&mut document, findings, &options).map_err(sentence)?;
+        if is_compressed && !fixed.is_changed {
             document = source.load(reading)?;
         }
         let mut warnings = document.warnings().to_vec();
@@ -259,11 +281,31 @@ impl Repair<'_> {
         Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, warnings) })
     }
 
+    /// What a repair of a document would begin with.
+    fn planned(
+        &self,
+        document: &mut Document,
+        findings: Vec<Finding>,
+        options: &FixOptions,
+    ) -> Result<ProcessedFile<FixSummary>, darboux_io::Error> {
+        let planned = plan_repair(document, &findings, options)?.into_iter().map(Into::into).collect();
+        let reported = findings.into_iter().filter(|finding| self.arguments.reports(finding.code));
+        let summary = FixSummary {
+            findings: reported.map(Into::into).collect(),
+            planned: Some(planned),
+            warnings: document.warnings().to_vec(),
+        };
+        Ok(ProcessedFile { status: Status::Untouched, files_written: Vec::new(), summary })
+    }
+
     fn fix_image(&self, file: Vec<u8>, job: &Job) -> Result<ProcessedFile<FixSummary>, String> {
         let name = job.input.to_string();
         let files = &self.arguments.files;
         let loading = files.reading.load_options();
         let fixed = self.model.fix_image(&name, &file, &loading, &self.arguments.fix_options())?;
+        if self.arguments.dry_run {
+            return Ok(self.planned_texels(fixed.findings));
+        }
         let becomes_png = matches!(&job.input, Input::File(path) if !is_png(path));
         if fixed.image.is_some() && files.in_place && becomes_png {
             return Err(format!(
@@ -284,6 +326,14 @@ impl Repair<'_> {
         };
         let warnings = self.stale_output(job, is_changed).into_iter().collect();
         Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, warnings) })
+    }
+
+    /// What a repair of an image would do: it is done, and not written.
+    fn planned_texels(&self, fixed: Vec<FixedFinding>) -> ProcessedFile<FixSummary> {
+        let repaired = fixed.iter().filter(|fixed| fixed.repaired);
+        let planned = repaired.map(|fixed| ReportedEdit::of(&fixed.finding)).collect();
+        let summary = FixSummary { planned: Some(planned), ..FixSummary::default() };
+        ProcessedFile { status: Status::Untouched, files_written: Vec::new(), summary }
     }
 
     /// A warning where an output of the name that this run would give is there, and nothing is written because nothing was repaired.
@@ -316,6 +366,6 @@ impl Repair<'_> {
 
     fn summary(&self, fixed: Vec<FixedFinding>, warnings: Vec<String>) -> FixSummary {
         let reported = fixed.into_iter().filter(|fixed| self.arguments.reports(fixed.finding.code));
-        FixSummary { findings: reported.map(Into::into).collect(), warnings }
+        FixSummary { findings: reported.map(Into::into).collect(), planned: None, warnings }
     }
 }

@@ -1,7 +1,9 @@
 //! The JSON report of `darboux check`. json.txt documents its fields.
 
 use darboux::{BitangentDirection, MapJudgement, TangentDirection};
-use darboux_check::{Change, CheckedMap, Code, Evidence, Finding, FixedFinding, MapDirections, Severity};
+use darboux_check::{
+    Change, CheckedMap, Code, Evidence, Finding, FixedFinding, MapDirections, Place, PlannedEdit, Severity,
+};
 use serde::Serialize;
 
 /// The report of a run.
@@ -66,6 +68,43 @@ pub struct ReportedFinding {
     pub change: Option<Change>,
     pub looks_like: &'static str,
     pub cure: String,
+}
+
+/// An edit that a repair would make.
+#[derive(Serialize)]
+pub struct ReportedEdit {
+    /// The place in words.
+    #[serde(skip)]
+    pub place: String,
+    pub mesh: Option<usize>,
+    pub primitive: Option<usize>,
+    pub image: Option<usize>,
+    pub action: String,
+}
+
+impl ReportedEdit {
+    /// The edit that repairs a finding about an image.
+    pub fn of(finding: &Finding) -> Self {
+        let action = format!("repair {}: {}", finding.code, finding.code.repair().unwrap_or_default());
+        Self::at(&finding.place, action)
+    }
+
+    fn at(place: &Place, action: String) -> Self {
+        let name = place.primitive.as_ref();
+        Self {
+            place: place.to_string(),
+            mesh: name.map(|name| name.mesh),
+            primitive: name.map(|name| name.primitive),
+            image: place.image,
+            action,
+        }
+    }
+}
+
+impl From<PlannedEdit> for ReportedEdit {
+    fn from(edit: PlannedEdit) -> Self {
+        Self::at(&edit.place, edit.action)
+    }
 }
 
 impl From<Finding> for ReportedFinding {

@@ -1,0 +1,236 @@
+//! Checks materials and the images of their normal maps, and maps without a document.
+
+use std::collections::BTreeMap;
+
+use darboux::{MapJudgement, SrgbMistake};
+use darboux_io::Error;
+use darboux_io::gltf::{Appearance, Document, PrimitiveName};
+use darboux_io::image::RgbaImage;
+
+use super::surfaces::{defects_of_surface, for_each_surface};
+use crate::cancelling;
+use crate::check_options::CheckOptions;
+use crate::code::Code;
+use crate::defect::Obstacle;
+use crate::defect::{Defect, Fault, MapFault};
+use crate::finding::Finding;
+use crate::map_users::{MapSurfaces, MapUsers};
+use crate::measure::directions::directions_by_mesh;
+use crate::measure::facets::FacetVotes;
+use crate::measure::map::{Map, MapDirections, Vote};
+use crate::obstacles;
+use crate::place::Place;
+use crate::rules::{MAP_RULES, MATERIAL_RULES};
+use crate::surface::Surface;
+use crate::words;
+
+/// The result of [`check_map`].
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CheckedMap {
+    /// The judgement on the texels; none if the image cannot be decoded.
+    pub judgement: Option<MapJudgement>,
+    /// Which channels are inverted, where the faces of a model decide that.
+    pub directions: Option<MapDirections>,
+    /// The findings.
+    pub findings: Vec<Finding>,
+}
+
+/// A judged map and its defects.
+pub struct MapDefects {
+    pub judgement: Option<MapJudgement>,
+    /// The transfer function that was applied once too often.
+    pub srgb_mistake: Option<SrgbMistake>,
+    pub directions: Option<MapDirections>,
+    pub defects: Vec<Defect>,
+}
+
+impl From<MapDefects> for CheckedMap {
+    fn from(MapDefects { judgement, directions, defects, .. }: MapDefects) -> Self {
+        Self { judgement, directions, findings: words::findings(defects) }
+    }
+}
+
+/// Checks the file of an image that is a normal map.
+pub fn check_map(file: &[u8], options: &CheckOptions) -> CheckedMap {
+    map_defects(file, options, None).into()
+}
+
+/// The defects of the file of an image; `vote` gives the votes of the meshes that use the map.
+pub fn map_defects(file: &[u8], options: &CheckOptions, vote: Option<Vote<'_>>) -> MapDefects {
+    let map = Map::read(file, options.green, vote);
+    let obstacle = obstacles::of_image(file);
+    let defects = MAP_RULES.iter().filter_map(|rule| rule(&map));
+    MapDefects {
+        defects: defects.map(|defect| defect.with_obstacle(obstacle.clone())).collect(),
+        directions: directions_by_mesh(&map),
+        srgb_mistake: map.srgb_mistake,
+        judgement: map.judgement.ok(),
+    }
+}
+
+/// As [`map_defects`], for the surfaces of a document that use the map.
+pub fn map_defects_on_surfaces(file: &[u8], surfaces: &MapSurfaces, options: &CheckOptions) -> MapDefects {
+    map_defects(file, options, Some(&|image| surfaces.votes(image)))
+}
+
+/// A model that normal maps are to be put on, and what is wrong with it: the result of [`check_model_of_maps`].
+#[derive(Debug)]
+pub struct ModelOfMaps {
+    surfaces: Vec<Surface>,
+    defects: Vec<Defect>,
+    findings: Vec<Finding>,
+}
+
+impl ModelOfMaps {
+    /// The findings on its tangents, normals and UVs.
+    pub fn findings(&self) -> &[Finding] {
+        &self.findings
+    }
+
+    /// Marks defects of a map and of this model's surfaces that cancel each other, and returns the codes of those of the map.
+    fn mark_cancelling(&self, on_map: &mut [Defect], on_model: &mut [Defect]) -> &'static [Code] {
+        let places: Vec<&Place> = self.surfaces.iter().map(|surface| &surface.place).collect();
+        let index_of = |defect: &Defect| places.iter().position(|place| **place == defect.place);
+        cancelling::mark(on_map, &mut by_surface(on_model, places.len(), index_of))
+    }
+}
+
+/// Checks the tangents, normals and UVs of a model that normal maps are to be put on, whatever maps it has itself. Errors: invalid data of the
+/// document.
+pub fn check_model_of_maps(document: &mut Document) -> Result<ModelOfMaps, Error> {
+    let (mut surfaces, mut defects) = (Vec::new(), Vec::new());
+    for_each_surface(document, &|_| true, |mut surface| {
+        surface.needs_tangents = true;
+        defects.extend(defects_of_surface(&surface));
+        surfaces.push(surface);
+    })?;
+    Ok(ModelOfMaps { surfaces, findings: words::findings(defects.clone()), defects })
+}
+
+/// Checks the file of an image as the normal map of a model, whose faces tell inverted red from inverted green where the map was baked for them.
+///
+/// The findings on the map come first, then those on the model. A finding about green says where the signs of the model's tangents are flipped,
+/// too, so that both mistakes cancel.
+pub fn check_map_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptions) -> CheckedMap {
+    let mut checked = map_defects_on_model(file, model, options);
+    let mut on_model = model.defects.clone();
+    model.mark_cancelling(&mut checked.defects, &mut on_model);
+    checked.defects.extend(on_model);
+    checked.into()
+}
+
+/// The defects of the map alone, on a model.
+pub fn map_defects_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptions) -> MapDefects {
+    let vote = |image: &RgbaImage| {
+        let mut votes = FacetVotes::default();
+        model.surfaces.iter().for_each(|surface| votes.add(surface, None, image));
+        votes
+    };
+    let mut checked = map_defects(file, options, Some(&vote));
+    let cancelled = model.mark_cancelling(&mut checked.defects, &mut model.defects.clone());
+    for defect in checked.defects.iter_mut().filter(|defect| cancelled.contains(&defect.code())) {
+        defect.obstacle.get_or_insert(Obstacle::OnTheModelToo);
+    }
+    checked
+}
+
+/// The defects of materials and of the images of their normal maps, each image once. `on_surfaces`: the other defects, in which those are marked that a
+/// mistake in a map cancels.
+pub fn defects_of_materials(
+    document: &Document,
+    options: &CheckOptions,
+    on_surfaces: &mut [Defect],
+) -> Result<Vec<Defect>, Error> {
+    let (mut defects, mut images) = (Vec::new(), BTreeMap::new());
+    let materials = document.appearances()?;
+    for (index, material) in materials.iter().enumerate() {
+        let place = Place { material: Some(index), ..Place::default() };
+        let found = MATERIAL_RULES.iter().filter_map(|rule| rule(material));
+        defects.extend(found.map(|defect| Defect { place: place.clone(), ..defect }));
+        for image in material.normal_maps().filter_map(|texture| texture.image).filter(|_| options.maps) {
+            images.entry(image).or_insert(index);
+        }
+    }
+    if images.is_empty() {
+        return Ok(defects);
+    }
+    let users = MapUsers::new(document, &materials)?;
+    let mut of_images = Vec::new();
+    for (image, material) in images {
+        let place = Place { image: Some(image), material: Some(material), ..Place::default() };
+        let mut found = defects_of_image(document, &users, image, options)?;
+        if materials.iter().any(|material| inverts(material, image)) {
+            found.iter_mut().filter(|defect| is_inverted(defect)).for_each(|defect| {
+                defect.obstacle.get_or_insert(Obstacle::NegativeScale);
+            });
+        }
+        let names: Vec<&PrimitiveName> = users.names(image).collect();
+        let index_of = |defect: &Defect| {
+            defect.place.primitive.as_ref().and_then(|own| names.iter().position(|name| *name == own))
+        };
+        cancelling::mark(&mut found, &mut by_surface(on_surfaces, names.len(), index_of));
+        of_images.extend(found.into_iter().map(|defect| Defect { place: place.clone(), ..defect }));
+    }
+    compare_maps(&mut of_images);
+    defects.extend(of_images);
+    Ok(defects)
+}
+
+/// Whether a material inverts the red and green of an image, which is its normal map.
+fn inverts(material: &Appearance, image: usize) -> bool {
+    let texture = material.normal_texture.as_ref();
+    material.normal_scale < 0.0 && texture.is_some_and(|texture| texture.image == Some(image))
+}
+
+fn is_inverted(defect: &Defect) -> bool {
+    matches!(defect.code(), Code::MapRedFlipped | Code::MapGreenFlipped)
+}
+
+/// The maps of a model are mostly made by one program. Where the faces show that the red of one map is inverted, and not those of another one
+/// which of its channels is, inverted red is as likely there as inverted green.
+fn compare_maps(of_images: &mut [Defect]) {
+    let with_inverted_red = of_images.iter().find(|defect| defect.code() == Code::MapRedFlipped);
+    let Some(image) = with_inverted_red.and_then(|defect| defect.place.image) else { return };
+    for defect in of_images.iter_mut().filter(|defect| defect.is_fixable()) {
+        if let Fault::Map(MapFault::GreenFlipped { evidence, .. }) = &defect.fault
+            && evidence.faces.is_none()
+        {
+            defect.obstacle = Some(Obstacle::RedLikelier { image });
+        }
+    }
+}
+
+/// The defects of each of `count` surfaces; `index_of` gives the index of that of a defect.
+fn by_surface(
+    defects: &mut [Defect],
+    count: usize,
+    index_of: impl Fn(&Defect) -> Option<usize>,
+) -> Vec<Vec<&mut Defect>> {
+    let mut surfaces: Vec<Vec<&mut Defect>> = (0..count).map(|_| Vec::new()).collect();
+    for defect in defects {
+        if let Some(index) = index_of(defect) {
+            surfaces[index].push(defect);
+        }
+    }
+    surfaces
+}
+
+/// The defects of an image of a document as a normal map. Errors: invalid data of the primitives that use it.
+fn defects_of_image(
+    document: &Document,
+    users: &MapUsers<'_>,
+    image: usize,
+    options: &CheckOptions,
+) -> Result<Vec<Defect>, Error> {
+    let bytes = match document.image_bytes(image) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            let map = Map::unreadable(format!("cannot be read ({error})"), options.green);
+            return Ok(MAP_RULES.iter().filter_map(|rule| rule(&map)).collect());
+        }
+    };
+    let checked = map_defects_on_surfaces(&bytes, &users.of(image)?, options);
+    let obstacle = document.normal_map_obstacle(image).map(str::to_owned).map(Obstacle::NotRewritable);
+    Ok(checked.defects.into_iter().map(|defect| defect.with_obstacle(obstacle.clone())).collect())
+}

@@ -1,0 +1,59 @@
+//! [`Obstacle`]: why a repair leaves a defect.
+
+use super::pair::Pair;
+use crate::code::Code;
+use crate::measure::reversal::Undecided;
+
+/// Why a repair leaves a defect.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Obstacle {
+    /// There is no repair for its code.
+    NoRepair(Code),
+    FlatShadingMayBeWanted,
+    MorphTargetsMoveNormals,
+    /// Nothing says whether faces or normals are reversed.
+    UndecidedReversal(Undecided),
+    /// Tangents depend on normals that are in other axes.
+    NormalsInOtherAxes,
+    /// Why tangents cannot be computed.
+    NoTangents(String),
+    DifferenceIsInvisible,
+    BakedOnQuads,
+    /// A map's vectors point against z, or along another axis.
+    UndecidedOrder {
+        is_z: bool,
+    },
+    EncodedAndInverted,
+    XInAlpha,
+    UnclearChannels,
+    /// The direction is sure by this percentage only.
+    Unsure(f64),
+    OnlyAPartOfMap,
+    FacesLeanToRed,
+    OnlyTheModelTells,
+    ExchangedAndInverted,
+    VectorsLean,
+    MayBeNoMap,
+    NegativeScale,
+    /// The red of another image is inverted, so that it may be here.
+    RedLikelier {
+        image: usize,
+    },
+    /// A mistake of the model cancels that of the map.
+    OnTheModelToo,
+    /// Why an image cannot be rewritten, as a clause of darboux-io.
+    NotRewritable(String),
+    OtherImageFormat,
+    /// A mistake elsewhere cancels it, and is left.
+    PairIsLeft(&'static Pair),
+    NotChosen,
+    OtherMethodWanted,
+    /// The rest needs all tangents computed again, and their recipe is kept.
+    RecipeIsKept,
+    NotRemoved,
+    /// The repair would end in a new defect.
+    WouldEndIn(Code),
+    OnlyInvertedRedIsCertain,
+    /// The sentence of the error that stopped the repair.
+    Failed(String),
+}

@@ -1,0 +1,34 @@
+//! [`Pair`]: mistakes in a map and in tangents that cancel each other.
+
+use crate::code::Code;
+use crate::place::Place;
+
+/// What is wrong with a map, and what is wrong with tangents so that it cancels.
+#[derive(Debug, PartialEq)]
+pub struct Pair {
+    pub on_map: &'static [Code],
+    pub on_surface: &'static [Code],
+}
+
+impl Pair {
+    /// Whether defects of a code are a part of the pair.
+    pub fn contains(&self, code: Code) -> bool {
+        self.on_map.contains(&code) || self.on_surface.contains(&code)
+    }
+}
+
+/// Negated tangents with their old sign w negate the bitangents, too.
+pub static PAIRS: [Pair; 3] = [
+    Pair { on_map: &[Code::MapGreenFlipped], on_surface: &[Code::TangentSignFlipped] },
+    Pair { on_map: &[Code::MapRedFlipped], on_surface: &[Code::TangentNegated, Code::TangentSignFlipped] },
+    Pair { on_map: &[Code::MapRedFlipped, Code::MapGreenFlipped], on_surface: &[Code::TangentNegated] },
+];
+
+/// The mistake that cancels a defect.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cancelled {
+    /// That of the normal map.
+    ByMap(&'static Pair),
+    /// That of a surface, or of several that use the map: the first one.
+    BySurface { pair: &'static Pair, first: Option<Place>, are_several: bool },
+}

@@ -1,0 +1,19 @@
+//! The measurements, one file each. Rules read them from [`SurfaceFacts`](crate::facts::SurfaceFacts) and [`Map`](map::Map).
+
+pub mod contradiction;
+pub mod directions;
+pub mod expected;
+pub mod facets;
+pub mod fit;
+pub mod leaning;
+pub mod map;
+pub mod map_kind;
+pub mod other_axes;
+pub mod outliers;
+pub mod overlap;
+pub mod recipe;
+pub mod reordered;
+pub mod reversal;
+pub mod reversed;
+pub mod turned;
+pub mod values;

@@ -1,0 +1,138 @@
+//! Finds tangents that are far from those of the method that made most of the others, as after a part of them was overwritten.
+//!
+//! Such damage leaves two kinds of tangents: those of the method, and others that have nothing to do with it. Where many lie between the two, the
+//! tangents are those of a method that is not known.
+
+use darboux::internal::recipe_tangents;
+use darboux::{Context, Convention, CornerDifference, Recipe, RecipeMatch};
+
+use crate::facts::SurfaceFacts;
+use crate::measure::expected::{is_measured, rounding};
+use crate::measure::fit::{Difference, Fit};
+use crate::measure::values::{has_length, is_sign};
+use crate::surface::{Surface, length};
+
+/// Degrees to the method's tangent beyond which one is far: bumps lean by a third of their slope (the sine).
+pub const FAR: f64 = 20.0;
+
+/// The least share of vertices with the tangents of the method.
+const MIN_NEAR: f64 = 0.5;
+
+/// The largest share of vertices between near and far: quads that were cut are estimated, and some estimates are wrong.
+const MAX_BETWEEN: f64 = 0.1;
+
+/// The share above which far tangents are an error: one in a hundred is seen on a model that fills the screen. Fewer may be differences between
+/// versions of a method.
+const MIN_FAR: f64 = 0.01;
+
+/// The tangents that are far from those of the method that made the others.
+pub struct Outliers {
+    /// The method of the others.
+    pub recipe: Recipe,
+    /// The vertices, ascending.
+    pub vertices: Vec<usize>,
+    /// The tangents of corners without other mistakes, in the convention in which they are computed, with those of the method at these vertices.
+    pub replaced: Vec<[f32; 4]>,
+}
+
+impl Outliers {
+    /// None where no method explains most tangents, or no part of the others is far from it. `tangents`: of corners, without other mistakes; `best`: the
+    /// recipe that explains them best.
+    pub fn from(facts: &SurfaceFacts<'_>, mut tangents: Vec<[f32; 4]>, best: &RecipeMatch) -> Option<Self> {
+        if (best.close as f64) < MIN_NEAR * best.corners as f64 {
+            return None;
+        }
+        let surface = facts.surface;
+        let made = recipe_tangents(&surface.mesh(surface.uv_set)?, &best.recipe, &mut Context::new()).ok()?;
+        let angles = angles(facts, &tangents, &made)?;
+        let judged = angles.iter().flatten().count() as f64;
+        let count = |is_counted: &dyn Fn(f64) -> bool| {
+            angles.iter().flatten().filter(|angle| is_counted(**angle)).count() as f64
+        };
+        let near = count(&|angle| angle <= rounding(surface));
+        let far = count(&|angle| angle > FAR);
+        let is_damaged = near >= MIN_NEAR * judged
+            && far > MIN_FAR * judged
+            && judged - near - far <= MAX_BETWEEN * judged;
+        if !is_damaged {
+            return None;
+        }
+        let is_far = |vertex: usize| angles[vertex].is_some_and(|angle| angle > FAR);
+        for ((tangent, made), &vertex) in tangents.iter_mut().zip(made).zip(&surface.vertex_of_corner) {
+            if is_far(vertex as usize) {
+                *tangent = made;
+            }
+        }
+        let vertices = surface.used((0..angles.len()).filter(|&vertex| is_far(vertex)).collect());
+        Some(Self { recipe: best.recipe, vertices, replaced: tangents })
+    }
+}
+
+/// Per vertex the smallest angle in degrees between its tangent and the method's at its corners in triangles with an area; none where its tangent
+/// has another mistake, or none can be right for all its corners.
+fn angles(facts: &SurfaceFacts<'_>, of_corners: &[[f32; 4]], made: &[[f32; 4]]) -> Option<Vec<Option<f64>>> {
+    let Surface { tangents, normals, uv_sets, uv_set, .. } = facts.surface;
+    let (tangents, normals, uvs) = (tangents.as_ref()?, normals.as_ref()?, uv_sets.get(uv_set)?);
+    let has_normal = |vertex: usize| length(normals[vertex]).is_finite() && length(normals[vertex]) > 0.0;
+    let is_named = |vertex: usize| {
+        facts.is_on_mirrored_seam[vertex]
+            || facts.has_own_tangent[vertex]
+            || facts.fits.iter().any(|fit| fit.is_rotated(vertex))
+    };
+    let is_judged: Vec<bool> = (0..tangents.len())
+        .map(|vertex| has_length(tangents[vertex]) && has_normal(vertex) && !is_named(vertex))
+        .collect();
+    let mut angles: Vec<Option<f64>> = vec![None; tangents.len()];
+    let corners = of_corners.as_chunks::<3>().0.iter().zip(made.as_chunks::<3>().0);
+    for (triangle, (of_corners, made)) in facts.surface.triangles().zip(corners) {
+        if !is_measured(facts.surface, uvs, triangle) {
+            continue;
+        }
+        let corners = triangle.into_iter().zip(of_corners.iter().zip(made));
+        for (vertex, (tangent, made)) in corners.filter(|(vertex, _)| is_judged[*vertex]) {
+            let angle = CornerDifference::between(*made, *tangent).angle;
+            let smallest = &mut angles[vertex];
+            *smallest = match (angle, *smallest) {
+                (Some(angle), Some(other)) => Some(angle.min(other)),
+                (angle, other) => angle.or(other),
+            };
+        }
+    }
+    Some(angles)
+}
+
+/// The tangents of corners as methods compute them, without what other rules name: signs that are none, and all where some are flipped, become those
+/// of MikkTSpace, negated directions are turned back, and single rotated ones become those of MikkTSpace. None where there are no tangents or none can be computed.
+pub fn tangents_without_other_mistakes(facts: &SurfaceFacts<'_>) -> Option<Vec<[f32; 4]>> {
+    let surface = facts.surface;
+    let of_vertex = surface.tangents.as_ref()?;
+    let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
+    let of_corner = |&vertex: &u32| to_generated.tangent(of_vertex[vertex as usize]);
+    let mut tangents: Vec<[f32; 4]> = surface.vertex_of_corner.iter().map(of_corner).collect();
+    for fit in &facts.fits {
+        for (tangent, &vertex) in tangents.iter_mut().zip(&surface.vertex_of_corner) {
+            if fit.is_negated(vertex as usize) {
+                (0..3).for_each(|i| tangent[i] = -tangent[i]);
+            }
+        }
+    }
+    let single =
+        [Difference::None, Difference::Unknown, Difference::PartlyNegated, Difference::PartlyRotated];
+    let is_about_all = |fit: &Fit| !single.contains(&fit.difference);
+    let all_signs = facts.reversal.is_some() || facts.fits.iter().any(is_about_all);
+    let is_no_sign = |vertex: usize| !is_sign(of_vertex[vertex][3]);
+    let is_rotated = |vertex: usize| facts.fits.iter().any(|fit| fit.is_rotated(vertex));
+    if all_signs || (0..of_vertex.len()).any(|vertex| is_no_sign(vertex) || is_rotated(vertex)) {
+        let expected = facts.expected.as_ref()?;
+        for ((tangent, &vertex), expected) in tangents.iter_mut().zip(&surface.vertex_of_corner).zip(expected)
+        {
+            let (vertex, expected) = (vertex as usize, to_generated.tangent(*expected));
+            if is_rotated(vertex) {
+                *tangent = expected;
+            } else if all_signs || is_no_sign(vertex) {
+                tangent[3] = expected[3];
+            }
+        }
+    }
+    Some(tangents)
+}

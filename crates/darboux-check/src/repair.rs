@@ -1,0 +1,106 @@
+//! Repairs defects: normals first, then tangents, which depend on them, and maps.
+//!
+//! ```text
+//! plan       defects and options -> edits; a pure function
+//! apply      edits change the document
+//! surfaces   what was edited is measured again; an edit that does not shrink the defects of its primitive is taken back
+//! outcome    the report: the difference between the defects before and after
+//! ```
+//!
+//! A repair is final: it goes on until a round changes nothing, so that a second repair would change nothing either.
+
+mod apply;
+mod maps;
+mod options;
+mod outcome;
+mod pairs;
+pub mod plan;
+mod surfaces;
+
+pub use maps::{FixedMap, fix_map, fix_map_on_model};
+pub use options::FixOptions;
+pub use outcome::{Change, FixedDocument, FixedFinding};
+
+use std::collections::BTreeMap;
+
+use darboux_io::Error;
+use darboux_io::gltf::Document;
+
+use crate::defect::Defect;
+use crate::finding::Finding;
+use crate::place::Place;
+use crate::words::edits;
+use pairs::LeftPairs;
+use surfaces::fix_surfaces;
+
+/// An edit that a repair begins with.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PlannedEdit {
+    /// What is changed.
+    pub place: Place,
+    /// What is done, as a clause.
+    pub action: String,
+}
+
+/// What [`fix_document`] begins with: the first edit of each primitive, and what is done to images. What it finds after that decides how it goes on.
+///
+/// `findings`: those of [`check_document`](crate::check_document) with the same options on the same document. Errors: invalid data of the materials.
+pub fn plan_repair(
+    document: &Document,
+    findings: &[Finding],
+    options: &FixOptions,
+) -> Result<Vec<PlannedEdit>, Error> {
+    let defects: Vec<Defect> = findings.iter().map(|finding| finding.defect.clone()).collect();
+    let (of_images, of_surfaces): (Vec<Defect>, Vec<Defect>) =
+        defects.into_iter().partition(|defect| defect.place.image.is_some());
+    let left = LeftPairs::new(document, &of_images, &of_surfaces, options)?;
+    let edits = plan::plan(&left.mark(of_surfaces), options, &BTreeMap::new());
+    let edits =
+        edits.into_iter().map(|edit| PlannedEdit { action: edits::clause(&edit.action), place: edit.place });
+    let of_images = left.mark(of_images).into_iter().filter(|defect| options.repairs(defect));
+    let texels = of_images.map(|defect| PlannedEdit {
+        action: format!("repair {}: {}", defect.code(), defect.code().repair().unwrap_or_default()),
+        place: defect.place,
+    });
+    Ok(edits.chain(texels).collect())
+}
+
+/// Repairs a document.
+///
+/// `findings`: those of [`check_document`](crate::check_document) with the same options on the same document. Data that no finding names is
+/// kept, byte for byte; a compressed document is decompressed if its geometry is repaired. Errors: invalid data; more memory than the limit
+/// permits. After an error the document is unspecified: drop it.
+pub fn fix_document(
+    document: &mut Document,
+    findings: Vec<Finding>,
+    options: &FixOptions,
+) -> Result<FixedDocument, Error> {
+    let before: Vec<Defect> = findings.into_iter().map(|finding| finding.defect).collect();
+    let promised: Vec<Defect> = before.iter().filter(|defect| defect.is_fixable()).cloned().collect();
+    let (of_images, of_surfaces): (Vec<Defect>, Vec<Defect>) =
+        before.into_iter().partition(|defect| defect.place.image.is_some());
+    let copy = if of_images.is_empty() { None } else { decompressed_copy(document)? };
+    let readable = copy.as_ref().unwrap_or(document);
+    let left = LeftPairs::new(readable, &of_images, &of_surfaces, options)?;
+    let mut fixed = fix_surfaces(document, left.mark(of_surfaces), &left, options)?;
+    let copy = copy.filter(|_| document.is_compressed());
+    let of_images = maps::fix_images(document, copy.as_ref(), left.mark(of_images), options)?;
+    fixed.is_changed |= of_images.iter().any(|image| image.repaired);
+    fixed.findings.extend(of_images);
+    for fixed in &mut fixed.findings {
+        fixed.was_fixable |= promised.iter().any(|promised| promised.is_same(&fixed.finding.defect));
+    }
+    Ok(fixed)
+}
+
+/// A decompressed copy of a compressed document, whose surfaces can be read: the repair of a map keeps the compression of the meshes.
+fn decompressed_copy(document: &Document) -> Result<Option<Document>, Error> {
+    if !document.is_compressed() {
+        return Ok(None);
+    }
+    let glb = document.to_glb()?;
+    let mut copy = Document::from_bytes(document.name(), glb, None, document.load_options())?;
+    copy.decompress()?;
+    Ok(Some(copy))
+}

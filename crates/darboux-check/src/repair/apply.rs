@@ -1,0 +1,47 @@
+//! Applies edits to a document.
+
+mod attributes;
+mod correction;
+mod normals;
+mod tangents;
+
+use std::collections::BTreeMap;
+
+use darboux_io::Error;
+use darboux_io::gltf::{Document, PrimitiveName};
+
+use super::options::FixOptions;
+use super::outcome::Change;
+use super::plan::{Action, Edit, WrongTangents};
+use crate::instances::{Key, key, primitives_at};
+
+/// Applies edits, each to its primitive and to all with the same data. Returns what was done to tangents.
+pub fn apply(
+    document: &mut Document,
+    edits: &[Edit],
+    options: &FixOptions,
+) -> Result<BTreeMap<Key, Change>, Error> {
+    let mut changes = BTreeMap::new();
+    let lost_tangents = normals::repair(document, edits, options)?;
+    tangents::make(document, &lost_tangents, options)?;
+    changes.extend(lost_tangents.iter().map(|name| (key(name), Change::RecomputedTangents)));
+    tangents::negate_signs(document, &names(document, edits, |action| *action == Action::NegateSigns))?;
+    let mut wrong: BTreeMap<Key, &WrongTangents> = BTreeMap::new();
+    for edit in edits {
+        if let Action::CorrectTangents(of_edit) = &edit.action {
+            let of_edit: &WrongTangents = of_edit;
+            wrong.extend(primitives_at(document, &edit.place).iter().map(|name| (key(name), of_edit)));
+        }
+    }
+    changes.extend(tangents::correct(document, &wrong, options)?);
+    let made = names(document, edits, |action| *action == Action::MakeTangents);
+    tangents::make(document, &made, options)?;
+    changes.extend(made.iter().map(|name| (key(name), Change::RecomputedTangents)));
+    Ok(changes)
+}
+
+/// The primitives of the edits with some actions.
+fn names(document: &Document, edits: &[Edit], is_chosen: impl Fn(&Action) -> bool) -> Vec<PrimitiveName> {
+    let chosen = edits.iter().filter(|edit| is_chosen(&edit.action));
+    chosen.flat_map(|edit| primitives_at(document, &edit.place)).collect()
+}

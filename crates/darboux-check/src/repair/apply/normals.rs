@@ -1,0 +1,169 @@
+//! Repairs normals: missing ones are made, others get unit length, and normals or faces that are reversed are flipped.
+
+use std::collections::BTreeMap;
+
+use darboux::{Context, Faces, NormalOptions, generate_normals};
+use darboux_io::Error;
+use darboux_io::gltf::{AddNormalsOptions, Document, NormalsOutcome, PrimitiveName, add_normals_to};
+
+use super::attributes::{replace, users_of};
+use crate::instances::primitives_at;
+use crate::measure::values::is_unit;
+use crate::repair::options::FixOptions;
+use crate::repair::plan::{Action, Edit, Flip};
+use crate::surface::length;
+
+/// The attribute.
+const NORMAL: &str = "NORMAL";
+
+/// Applies the edits of normals. Returns the primitives that lost their tangents, because their normals are other ones now.
+pub fn repair(
+    document: &mut Document,
+    edits: &[Edit],
+    options: &FixOptions,
+) -> Result<Vec<PrimitiveName>, Error> {
+    let (mut reversed, mut wrong, mut missing) = (Vec::new(), Vec::new(), Vec::new());
+    for edit in edits {
+        let Action::RepairNormals { flip, make_unit, make } = edit.action else { continue };
+        let names = primitives_at(document, &edit.place);
+        if make_unit {
+            wrong.extend(names.iter().cloned());
+        }
+        if make {
+            missing.extend(names.iter().cloned());
+        }
+        reversed.extend(flip.map(|flip| (flip, names)));
+    }
+    // The faces are flipped first: normals that are made follow them.
+    flip(document, &reversed)?;
+    make_unit(document, &wrong)?;
+    make(document, &missing, options)
+}
+
+/// Makes missing normals.
+fn make(
+    document: &mut Document,
+    names: &[PrimitiveName],
+    options: &FixOptions,
+) -> Result<Vec<PrimitiveName>, Error> {
+    if names.is_empty() {
+        return Ok(Vec::new());
+    }
+    let is_wanted = |name: &PrimitiveName| names.contains(name);
+    let adding = AddNormalsOptions::default().with_normals(options.normals);
+    let made = add_normals_to(document, &adding, &is_wanted, &mut Context::new(), &mut |_| {})?;
+    let lost_tangents = |outcome: &NormalsOutcome| matches!(outcome, NormalsOutcome::Written(written) if written.tangents_removed);
+    let without = made.primitives.into_iter().filter(|primitive| lost_tangents(&primitive.outcome));
+    Ok(without.map(|primitive| primitive.name).collect())
+}
+
+/// Gives normals unit length, and vertices whose normal has no direction a smooth one. Other normals keep their bits.
+fn make_unit(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Error> {
+    for (accessor, users) in users_of(document, NORMAL, names) {
+        let mut normals = document.vectors::<3>(accessor)?.into_owned();
+        let has_direction = |normal: [f32; 3]| length(normal).is_finite() && length(normal) > 1e-9;
+        for normal in normals.iter_mut().filter(|normal| has_direction(**normal)) {
+            if !is_unit(*normal) {
+                let length = length(*normal);
+                *normal = normal.map(|x| (f64::from(x) / length) as f32);
+            }
+        }
+        if !normals.iter().all(|normal| has_direction(*normal)) {
+            let smooth = smooth_normals(document, &users, normals.len())?;
+            for (normal, smooth) in
+                normals.iter_mut().zip(smooth).filter(|(normal, _)| !has_direction(**normal))
+            {
+                *normal = smooth;
+            }
+        }
+        replace(document, (NORMAL, accessor), &users, &normals)?;
+    }
+    Ok(())
+}
+
+/// A smooth normal of every vertex of primitives that share their vertices. Vertices without faces get (0, 0, 1).
+fn smooth_normals(
+    document: &Document,
+    users: &[&PrimitiveName],
+    vertex_count: usize,
+) -> Result<Vec<[f32; 3]>, Error> {
+    let mut normals = vec![[0.0, 0.0, 1.0]; vertex_count];
+    let mut is_known = vec![false; vertex_count];
+    for corners in document.corners()?.iter().filter(|corners| users.contains(&corners.name())) {
+        let Some(positions) = corners.vectors::<3>("POSITION")? else { continue };
+        let numbers: Vec<u32> = (0..positions.len() as u32).collect();
+        let made = generate_normals(&positions, &numbers, Faces::Triangles, &NormalOptions::default());
+        let made = made.map(|made| made.corners.into_per_corner()).unwrap_or_default();
+        for (&vertex, normal) in corners.vertices().iter().zip(made) {
+            if let Some(known) = is_known.get_mut(vertex as usize).filter(|known| !**known) {
+                (*known, normals[vertex as usize]) = (true, normal);
+            }
+        }
+    }
+    Ok(normals)
+}
+
+/// Flips the faces or the normals of primitives, each list with the same data.
+fn flip(document: &mut Document, reversed: &[(Flip, Vec<PrimitiveName>)]) -> Result<(), Error> {
+    let mut flipped = FlippedIndices::new();
+    let mut with_reversed_normals = Vec::new();
+    for (flip, names) in reversed {
+        match flip {
+            Flip::Normals => with_reversed_normals.extend(names.iter().cloned()),
+            Flip::Faces => {
+                let Some(first) = names.first() else { continue };
+                let Some(mut corners) = corners_of(document, first)? else { continue };
+                corners.as_chunks_mut::<3>().0.iter_mut().for_each(|[_, b, c]| std::mem::swap(b, c));
+                set_faces(document, names, &corners, &mut flipped)?;
+            }
+        }
+    }
+    for (accessor, users) in users_of(document, NORMAL, &with_reversed_normals) {
+        let normals = document.vectors::<3>(accessor)?;
+        let reversed: Vec<[f32; 3]> = normals.iter().map(|normal| normal.map(|x| -x)).collect();
+        replace(document, (NORMAL, accessor), &users, &reversed)?;
+    }
+    Ok(())
+}
+
+/// The vertices of the corners of a primitive.
+fn corners_of(document: &Document, name: &PrimitiveName) -> Result<Option<Vec<u32>>, Error> {
+    let all = document.corners()?;
+    Ok(all.iter().find(|corners| corners.name() == name).map(|corners| corners.vertices().to_vec()))
+}
+
+/// The new accessor of indices, by what decides them: the old accessor, the mode and the number of corners.
+type FlippedIndices = BTreeMap<(Option<usize>, u32, usize), usize>;
+
+/// Gives primitives the triangles `corners`. Primitives that shared their indices share the new ones.
+fn set_faces(
+    document: &mut Document,
+    names: &[PrimitiveName],
+    corners: &[u32],
+    flipped: &mut FlippedIndices,
+) -> Result<(), Error> {
+    for name in names {
+        let stored = |document: &Document| {
+            let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
+            (primitive.indices, primitive.mode)
+        };
+        let (old, mode) = stored(document);
+        let key = (old, mode, corners.len());
+        match flipped.get(&key) {
+            Some(&indices) => document.edit_primitive(name.mesh, name.primitive, |json| {
+                json.insert("indices".to_owned(), indices.into());
+                if json.contains_key("mode") {
+                    json.insert("mode".to_owned(), TRIANGLES.into());
+                }
+            })?,
+            None => {
+                document.set_triangles(name.mesh, name.primitive, corners.to_vec())?;
+                flipped.extend(stored(document).0.map(|indices| (key, indices)));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The mode of triangle lists (glTF 2.0, 5.24.4).
+const TRIANGLES: u32 = 4;

@@ -1,0 +1,158 @@
+//! Makes tangents again, or corrects those that are wrong.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use darboux::{Context, Convention, CornerTangents, Mesh, TangentOptions, Tangents};
+use darboux_io::Error;
+use darboux_io::gltf::{AddTangentsOptions, Document, Generate, PrimitiveName, add_tangents_to};
+
+use super::attributes::{replace, users_of};
+use super::correction::{Correction, bits};
+use crate::check::for_each_surface;
+use crate::instances::{Key, key, primitives_at};
+use crate::repair::options::FixOptions;
+use crate::repair::outcome::Change;
+use crate::repair::plan::WrongTangents;
+
+/// The attribute.
+const TANGENT: &str = "TANGENT";
+
+/// Corrects tangents that are wrong, and keeps the bits of the others. Vertices are split where their corners need different tangents; on primitives
+/// with morph targets, all tangents are made again then, with those of the targets. `wrong`: per primitive. Returns what was done to the primitives.
+pub fn correct(
+    document: &mut Document,
+    wrong: &BTreeMap<Key, &WrongTangents>,
+    options: &FixOptions,
+) -> Result<BTreeMap<Key, Change>, Error> {
+    if wrong.is_empty() {
+        return Ok(BTreeMap::new());
+    }
+    let mut corrections = Vec::new();
+    for_each_surface(document, &|name| wrong.contains_key(&key(name)), |surface| {
+        let named = surface.place.primitive.as_ref().and_then(|name| wrong.get(&key(name)));
+        corrections.extend(named.and_then(|wrong| Correction::new(surface, wrong, options)));
+    })?;
+    let (mut split, mut remade) = (Vec::new(), Vec::new());
+    let mut of_accessors: BTreeMap<usize, Vec<Rewritten>> = BTreeMap::new();
+    let mut changes = BTreeMap::new();
+    for correction in corrections {
+        let surface = &correction.surface;
+        let names = primitives_at(document, &surface.place);
+        let change = Change::CorrectedTangents { count: correction.changed_count() };
+        changes.extend(names.iter().map(|name| ((name.mesh, name.primitive), change)));
+        match correction.of_vertices() {
+            Some(of_vertices) => {
+                for (accessor, users) in users_of(document, TANGENT, &names) {
+                    let users = users.into_iter().cloned();
+                    add(of_accessors.entry(accessor).or_default(), users, &of_vertices);
+                }
+            }
+            None if has_targets(document, &names) => {
+                let remade_names = names.iter().map(|name| (name.mesh, name.primitive));
+                changes.extend(remade_names.map(|key| (key, Change::RecomputedTangents)));
+                remade.extend(names);
+            }
+            None => split.push((names, correction)),
+        }
+    }
+    for (accessor, rewritten) in of_accessors {
+        let old = document.vectors::<4>(accessor)?.into_owned();
+        for Rewritten { users, of_vertices } in rewritten {
+            let mut tangents = old.clone();
+            of_vertices.into_iter().for_each(|(vertex, tangent)| tangents[vertex] = tangent);
+            replace(document, (TANGENT, accessor), &users.iter().collect::<Vec<_>>(), &tangents)?;
+        }
+    }
+    split_vertices(document, split)?;
+    make(document, &remade, options)?;
+    Ok(changes)
+}
+
+/// Primitives that share an accessor, and the values that they want.
+struct Rewritten {
+    users: Vec<PrimitiveName>,
+    of_vertices: BTreeMap<usize, [f32; 4]>,
+}
+
+/// Adds primitives to those that want no other values of the same accessor. Where all want others, they get an accessor of their own.
+fn add(
+    rewritten: &mut Vec<Rewritten>,
+    users: impl Iterator<Item = PrimitiveName>,
+    of_vertices: &BTreeMap<usize, [f32; 4]>,
+) {
+    let agrees = |known: &Rewritten| {
+        let is_same = |(vertex, tangent): (&usize, &[f32; 4])| {
+            known.of_vertices.get(vertex).is_none_or(|other| bits(*other) == bits(*tangent))
+        };
+        of_vertices.iter().all(is_same)
+    };
+    match rewritten.iter_mut().find(|known| agrees(known)) {
+        Some(known) => {
+            known.users.extend(users);
+            known.of_vertices.extend(of_vertices);
+        }
+        None => rewritten.push(Rewritten { users: users.collect(), of_vertices: of_vertices.clone() }),
+    }
+}
+
+fn has_targets(document: &Document, names: &[PrimitiveName]) -> bool {
+    names.iter().any(|name| !document.meshes()[name.mesh].primitives[name.primitive].targets.is_empty())
+}
+
+/// Primitives with the same data, and the correction of their tangents.
+type Corrected = (Vec<PrimitiveName>, Correction);
+
+/// Writes corrections that need more vertices. Those of meshes that differ in nothing but their tangents are written one after the other.
+fn split_vertices(document: &mut Document, corrections: Vec<Corrected>) -> Result<(), Error> {
+    let mut turns: Vec<Vec<Corrected>> = Vec::new();
+    for (names, correction) in corrections {
+        let has_same_mesh = |(_, other): &Corrected| {
+            let surface = &correction.surface;
+            surface.mesh(surface.uv_set).is_some_and(|mesh| other.surface.has_mesh(&mesh))
+        };
+        match turns.iter().position(|turn| !turn.iter().any(has_same_mesh)) {
+            Some(turn) => turns[turn].push((names, correction)),
+            None => turns.push(vec![(names, correction)]),
+        }
+    }
+    turns.iter().try_for_each(|turn| split_vertices_at_once(document, turn))
+}
+
+/// As [`split_vertices`], of meshes that differ.
+fn split_vertices_at_once(document: &mut Document, corrections: &[Corrected]) -> Result<(), Error> {
+    let places: BTreeSet<(usize, usize)> =
+        corrections.iter().flat_map(|(names, _)| names).map(|name| (name.mesh, name.primitive)).collect();
+    let is_wanted = |name: &PrimitiveName| places.contains(&(name.mesh, name.primitive));
+    let mut generate = |mesh: &Mesh<'_>, _: &TangentOptions, _: &mut Context| {
+        let corrected = corrections.iter().find(|(_, correction)| correction.surface.has_mesh(mesh));
+        let (_, correction) = corrected.ok_or("its corners are other ones than those that were checked")?;
+        let corners = CornerTangents::from_per_corner(correction.tangent_of_corner.clone());
+        let corners = corners.converted(Convention::GLTF, Convention::GLTF.generated());
+        Ok(Tangents { corners, ..Tangents::default() })
+    };
+    let adding = AddTangentsOptions::default().with_overwrite(true);
+    let (context, generate) = (&mut Context::new(), Generate::With(&mut generate));
+    add_tangents_to(document, &adding, &is_wanted, context, generate, &mut |_| {}).map(drop)
+}
+
+/// Negates the signs w of primitives; the directions of the tangents, whatever method they come from, stay.
+pub fn negate_signs(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Error> {
+    for (accessor, users) in users_of(document, TANGENT, names) {
+        let tangents = document.vectors::<4>(accessor)?;
+        let negated: Vec<[f32; 4]> = tangents.iter().map(|&[x, y, z, w]| [x, y, z, -w]).collect();
+        replace(document, (TANGENT, accessor), &users, &negated)?;
+    }
+    Ok(())
+}
+
+/// Makes the tangents of primitives again. Vertices whose corners need different tangents are split.
+pub fn make(document: &mut Document, names: &[PrimitiveName], options: &FixOptions) -> Result<(), Error> {
+    if names.is_empty() {
+        return Ok(());
+    }
+    let places: BTreeSet<(usize, usize)> = names.iter().map(|name| (name.mesh, name.primitive)).collect();
+    let is_wanted = |name: &PrimitiveName| places.contains(&(name.mesh, name.primitive));
+    let adding = AddTangentsOptions::default().with_tangents(options.tangents).with_overwrite(true);
+    let context = &mut Context::new();
+    add_tangents_to(document, &adding, &is_wanted, context, Generate::OnCpu, &mut |_| {}).map(drop)
+}

@@ -1,0 +1,242 @@
+//! Rewrites the texels of normal maps at their bit depth.
+
+use std::collections::BTreeSet;
+
+use darboux::{
+    BitangentDirection, Convention, Conversion, MapJudgement, MapVerdict, SrgbMistake, TangentDirection,
+};
+use darboux_io::gltf::Document;
+use darboux_io::image::{
+    Channels, DecodeLimits, PngImage, RgbaImage, change_texels, convert_normal_map, linear_to_srgb,
+    srgb_to_linear,
+};
+use darboux_io::{Error, LoadOptions};
+
+use super::options::FixOptions;
+use super::outcome::{FixedFinding, outcome};
+use crate::check::{MapDefects, ModelOfMaps, map_defects, map_defects_on_model, map_defects_on_surfaces};
+use crate::code::Code;
+use crate::defect::Defect;
+use crate::defect::Obstacle;
+use crate::map_users::MapUsers;
+use crate::place::Place;
+use crate::severity::Severity;
+
+/// The result of [`fix_map`].
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct FixedMap {
+    /// The image with its new texels; none if nothing was repaired.
+    pub image: Option<PngImage>,
+    /// The findings, and those that the first repairs revealed.
+    pub findings: Vec<FixedFinding>,
+}
+
+/// Repairs an image file that is a normal map. A JPEG becomes a PNG. Inverted green is left, because it may as well be inverted red:
+/// [`fix_map_on_model`] asks the faces of the model.
+///
+/// `name` stands for the file in messages. Errors: a PNG that needs more memory than `loading` permits.
+pub fn fix_map(
+    name: &str,
+    file: &[u8],
+    loading: &LoadOptions,
+    options: &FixOptions,
+) -> Result<FixedMap, Error> {
+    let check = |file: &[u8]| map_defects(file, &options.check, None);
+    fix_checked(name, file, check(file), &check, loading, options)
+}
+
+/// As [`fix_map`], for the normal map of a model, which is not changed. Its findings are not among those of the result.
+pub fn fix_map_on_model(
+    name: &str,
+    file: &[u8],
+    model: &ModelOfMaps,
+    loading: &LoadOptions,
+    options: &FixOptions,
+) -> Result<FixedMap, Error> {
+    let check = |file: &[u8]| map_defects_on_model(file, model, &options.check);
+    fix_checked(name, file, check(file), &check, loading, options)
+}
+
+/// Checks an image file again after a repair, with all that was known before, so that one repair does not mislead the next.
+type Check<'a> = dyn Fn(&[u8]) -> MapDefects + 'a;
+
+/// Repairs an image file whose findings are known: meshes may have helped to find them.
+fn fix_checked(
+    name: &str,
+    file: &[u8],
+    mut checked: MapDefects,
+    check: &Check<'_>,
+    loading: &LoadOptions,
+    options: &FixOptions,
+) -> Result<FixedMap, Error> {
+    let known = checked.defects.clone();
+    if known.iter().any(|defect| defect.code() == Code::MapRedFlipped && !options.repairs(defect)) {
+        return Ok(all_left(known, &Obstacle::OnlyInvertedRedIsCertain));
+    }
+    // No repair of other texels inverts a channel, but it may reveal that one is inverted.
+    let has_directions =
+        |judgement: &MapJudgement| matches!(judgement.verdict, MapVerdict::OpenGl | MapVerdict::DirectX);
+    let directions_were_hidden = !checked.judgement.as_ref().is_some_and(has_directions);
+    let mut image: Option<PngImage> = None;
+    let mut done = BTreeSet::new();
+    let mut all = known.clone();
+    let remaining = loop {
+        let is_next = |defect: &&Defect| options.repairs(defect) && !done.contains(&defect.code());
+        let Some(next) = checked.defects.iter().find(is_next).map(Defect::code) else {
+            break checked.defects;
+        };
+        done.insert(next);
+        let mut changed = match image.take() {
+            Some(image) => image,
+            None => open(name, file, loading)?,
+        };
+        repair(&mut changed, next, checked.srgb_mistake, options)?;
+        checked = check(&changed.to_bytes()?);
+        keep_reasons(&known, &mut checked.defects);
+        image = Some(changed);
+        for defect in &checked.defects {
+            if !all.iter().any(|known| known.is_same(defect)) {
+                all.push(defect.clone());
+            }
+        }
+    };
+    let is_worse = |left: &&Defect| {
+        is_new_error(left, &known) && !(directions_were_hidden && left.code() == Code::MapGreenFlipped)
+    };
+    if let Some(worse) = remaining.iter().find(is_worse) {
+        return Ok(all_left(known, &Obstacle::WouldEndIn(worse.code())));
+    }
+    let findings: Vec<FixedFinding> =
+        all.into_iter().map(|defect| outcome(defect, &remaining, options)).collect();
+    let is_any_repaired = findings.iter().any(|finding| finding.repaired);
+    Ok(FixedMap { image: image.filter(|_| is_any_repaired), findings })
+}
+
+/// What was known to be left is left for the same reason after other repairs: other images and surfaces may be that.
+fn keep_reasons(known: &[Defect], defects: &mut [Defect]) {
+    for defect in defects {
+        let before = known.iter().find(|known| known.is_same(defect));
+        defect.obstacle = defect.obstacle.take().or(before.and_then(|known| known.obstacle.clone()));
+    }
+}
+
+/// An image that is not changed, and why.
+fn all_left(defects: Vec<Defect>, reason: &Obstacle) -> FixedMap {
+    let left = |defect: Defect| FixedFinding::left(defect, reason.clone());
+    FixedMap { image: None, findings: defects.into_iter().map(left).collect() }
+}
+
+/// Whether a repair has made an image worse: an error that it did not have before.
+fn is_new_error(left: &Defect, known: &[Defect]) -> bool {
+    left.severity == Severity::Error && !known.iter().any(|known| known.is_same(left))
+}
+
+/// The texels of a file; those of a JPEG with 8 bits.
+fn open(name: &str, file: &[u8], loading: &LoadOptions) -> Result<PngImage, Error> {
+    if PngImage::is_png(file) {
+        return PngImage::from_bytes(name, file.to_vec(), loading);
+    }
+    let undecodable = |problem: String| Error::Invalid { file: name.to_owned(), at: String::new(), problem };
+    let decoded = RgbaImage::decode(file, &DecodeLimits::default());
+    let RgbaImage { width, height, texels } = decoded.map_err(|error| undecodable(error.to_string()))?;
+    let texels: Vec<[u8; 3]> = texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
+    PngImage::from_rgb(name, [width, height], &texels)
+}
+
+/// Repairs one finding.
+fn repair(
+    image: &mut PngImage,
+    code: Code,
+    mistake: Option<SrgbMistake>,
+    options: &FixOptions,
+) -> Result<(), Error> {
+    let keep = Convention::GLTF.to(Convention::GLTF);
+    let two_channels: Channels = "rg".parse().expect("two letters");
+    let exchanged: Channels = "grb".parse().expect("three letters");
+    match code {
+        Code::MapGreenFlipped => {
+            convert_normal_map(image, &green(options.check.green), Channels::RGB, Channels::RGB)
+        }
+        Code::MapRedFlipped => {
+            let left = Convention { tangent: TangentDirection::Left, ..Convention::GLTF };
+            convert_normal_map(image, &left.to(Convention::GLTF), Channels::RGB, Channels::RGB)
+        }
+        Code::MapChannelsSwapped => convert_normal_map(image, &keep, exchanged, Channels::RGB),
+        Code::MapTwoChannel => convert_normal_map(image, &keep, two_channels, Channels::RGB),
+        Code::MapSrgb => match mistake {
+            Some(SrgbMistake::Encoded) => change_texels(image, |texel| texel.map(srgb_to_linear)),
+            Some(SrgbMistake::Decoded) => change_texels(image, |texel| texel.map(linear_to_srgb)),
+            _ => Ok(()),
+        },
+        Code::MapNotUnit => change_texels(image, unit),
+        _ => Ok(()),
+    }
+}
+
+/// The conversion that makes green point the wanted way.
+fn green(wanted: BitangentDirection) -> Conversion {
+    let up = Convention::GLTF;
+    let down = Convention { bitangent: BitangentDirection::Down, ..up };
+    match wanted {
+        BitangentDirection::Up => down.to(up),
+        BitangentDirection::Down => up.to(down),
+    }
+}
+
+/// A texel with a vector of length 1. Black, white and middle grey texels are background, and keep their values.
+fn unit(texel: [f64; 3]) -> [f64; 3] {
+    let vector = texel.map(|x| 2.0 * x - 1.0);
+    let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let is_grey = texel.iter().all(|x| (x - texel[0]).abs() < 1.0 / 512.0);
+    if is_grey || length < 0.05 { texel } else { vector.map(|x| (x / length + 1.0) / 2.0) }
+}
+
+/// Repairs the images of a document that defects name. `copy`: where the document is compressed, a copy that is not.
+pub fn fix_images(
+    document: &mut Document,
+    copy: Option<&Document>,
+    defects: Vec<Defect>,
+    options: &FixOptions,
+) -> Result<Vec<FixedFinding>, Error> {
+    let places: BTreeSet<(Option<usize>, Option<usize>)> =
+        defects.iter().map(|defect| (defect.place.image, defect.place.material)).collect();
+    let (mut fixed, mut rewritten) = (Vec::new(), Vec::new());
+    if !defects.iter().any(|defect| options.repairs(defect)) {
+        return Ok(defects.iter().map(|defect| outcome(defect.clone(), &defects, options)).collect());
+    }
+    let readable = copy.unwrap_or(document);
+    let users = MapUsers::new(readable, &readable.appearances()?)?;
+    for (image, material) in places {
+        let of_image = defects.iter().filter(|defect| defect.place.image == image);
+        let has_work = of_image.clone().any(|defect| options.repairs(defect));
+        let (Some(index), true) = (image, has_work) else {
+            fixed.extend(of_image.map(|defect| outcome(defect.clone(), &defects, options)));
+            continue;
+        };
+        let file = document.image_bytes(index)?.into_owned();
+        let name = format!("{}: images[{index}]", document.name());
+        let place = Place { image, material, ..Place::default() };
+        let without_place = |defect: &Defect| Defect { place: Place::default(), ..defect.clone() };
+        let known = of_image.clone().map(without_place).collect();
+        let checked = MapDefects { defects: known, ..map_defects(&file, &options.check, None) };
+        let surfaces = users.of(index)?;
+        let check = |file: &[u8]| map_defects_on_surfaces(file, &surfaces, &options.check);
+        let made = match fix_checked(&name, &file, checked, &check, document.load_options(), options) {
+            Ok(made) => made,
+            Err(error) => {
+                let reason = Obstacle::Failed(error.to_string());
+                fixed.extend(of_image.map(|defect| FixedFinding::left(defect.clone(), reason.clone())));
+                continue;
+            }
+        };
+        if let Some(image) = made.image {
+            rewritten.push((index, image.to_bytes()?));
+        }
+        fixed.extend(made.findings.into_iter().map(|fixed| fixed.at(place.clone())));
+    }
+    for (index, bytes) in rewritten {
+        document.set_image(index, bytes, "image/png")?;
+    }
+    Ok(fixed)
+}

@@ -1,0 +1,103 @@
+//! The results of repairs: each finding with whether it was repaired.
+
+use serde::Serialize;
+
+use super::options::FixOptions;
+use crate::code::Code;
+use crate::defect::Defect;
+use crate::defect::Obstacle;
+use crate::finding::Finding;
+use crate::place::Place;
+use crate::words;
+
+/// What a repair did to the tangents of a primitive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Change {
+    /// Some were corrected, and the others kept.
+    CorrectedTangents {
+        /// The number of vertices.
+        count: usize,
+    },
+    /// All were computed again.
+    RecomputedTangents,
+}
+
+impl Change {
+    /// Two changes, one after the other. What was computed again was not kept.
+    pub(super) fn followed_by(self, next: Self) -> Self {
+        match (self, next) {
+            (Self::CorrectedTangents { count }, Self::CorrectedTangents { count: more }) => {
+                Self::CorrectedTangents { count: count.max(more) }
+            }
+            _ => Self::RecomputedTangents,
+        }
+    }
+}
+
+/// A finding and what became of it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct FixedFinding {
+    /// The finding before the repair; [`Finding::left_because`] says why it is still there.
+    #[serde(flatten)]
+    pub finding: Finding,
+    /// Whether it is gone: repaired, or together with what was.
+    pub repaired: bool,
+    /// What was done to the tangents of its primitive; none for findings about anything else, and where only the signs w were negated.
+    pub change: Option<Change>,
+    #[serde(rename = "fixable")]
+    pub(super) was_fixable: bool,
+}
+
+/// The result of [`fix_document`](crate::fix_document).
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct FixedDocument {
+    /// The findings of the document before the repair, and those that the repair of a map revealed.
+    pub findings: Vec<FixedFinding>,
+    /// Whether a repair was kept. If none was, the document differs from its file at most by being decompressed.
+    pub is_changed: bool,
+}
+
+impl FixedFinding {
+    /// Whether the check said that a repair removes it. [`Finding::left_because`] says why one that is still there is.
+    pub fn was_fixable(&self) -> bool {
+        self.was_fixable
+    }
+
+    /// A defect that is no longer there.
+    pub(super) fn gone(defect: Defect, change: Option<Change>) -> Self {
+        Self { was_fixable: defect.is_fixable(), repaired: true, change, finding: words::finding(defect) }
+    }
+
+    /// The same at a place.
+    pub(super) fn at(self, place: Place) -> Self {
+        let defect = Defect { place, ..self.finding.defect };
+        Self { finding: words::finding(defect), ..self }
+    }
+
+    /// A defect that is still there; `reason` is that of one that could have been repaired.
+    pub(super) fn left(defect: Defect, reason: Obstacle) -> Self {
+        let was_fixable = defect.is_fixable();
+        let finding = words::finding(defect.with_obstacle(Some(reason)));
+        Self { finding, repaired: false, change: None, was_fixable }
+    }
+}
+
+/// What became of a defect. `remaining`: the defects after the repair.
+pub fn outcome(defect: Defect, remaining: &[Defect], options: &FixOptions) -> FixedFinding {
+    let Some(same) = remaining.iter().find(|left| left.is_same(&defect)) else {
+        return FixedFinding::gone(defect, None);
+    };
+    let is_chosen = options.codes.as_ref().is_none_or(|codes| codes.contains(&defect.code()));
+    let is_other_method = defect.code() == Code::TangentOtherRecipe && options.asks_for_other_method();
+    let reason = match &same.obstacle {
+        _ if !is_chosen => Obstacle::NotChosen,
+        _ if is_other_method => Obstacle::OtherMethodWanted,
+        Some(obstacle) => obstacle.clone(),
+        None => Obstacle::NotRemoved,
+    };
+    FixedFinding::left(defect, reason)
+}

@@ -1,0 +1,87 @@
+//! Mistakes of a map and of a surface that cancel each other: bumps look right, and would be inverted if only one were repaired.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use darboux_io::Error;
+use darboux_io::gltf::{Appearance, Document};
+
+use super::options::FixOptions;
+use crate::cancelling::pair_of;
+use crate::defect::Defect;
+use crate::defect::Obstacle;
+use crate::defect::Pair;
+use crate::instances::{Key, key};
+
+/// The primitives and images that are left because a part of such a pair is left, each with the pair.
+#[derive(Debug, Default)]
+pub struct LeftPairs {
+    primitives: BTreeMap<Key, &'static Pair>,
+    images: BTreeMap<usize, &'static Pair>,
+}
+
+impl LeftPairs {
+    /// Finds them. `on_images` and `on_surfaces`: the defects of the document. Errors: invalid data of the materials.
+    pub fn new(
+        document: &Document,
+        on_images: &[Defect],
+        on_surfaces: &[Defect],
+        options: &FixOptions,
+    ) -> Result<Self, Error> {
+        let mut left = Self::default();
+        let of_images = grouped(on_images, |defect| defect.place.image);
+        if of_images.is_empty() {
+            return Ok(left);
+        }
+        let materials = document.appearances()?;
+        for (primitive, on_surface) in grouped(on_surfaces, |defect| defect.place.primitive.as_ref().map(key))
+        {
+            for image in normal_maps_of(document, &materials, primitive) {
+                let on_map = of_images.get(&image).map_or(&[][..], |defects| defects);
+                let pair = pair_of(on_map.iter().copied(), on_surface.iter().copied());
+                if let Some(pair) = pair.filter(|pair| is_left(pair, on_map, &on_surface, options)) {
+                    left.primitives.insert(primitive, pair);
+                    left.images.insert(image, pair);
+                }
+            }
+        }
+        Ok(left)
+    }
+
+    /// The defects, with the reason where they are left.
+    pub fn mark(&self, defects: Vec<Defect>) -> Vec<Defect> {
+        let pair_of = |defect: &Defect| match (&defect.place.primitive, defect.place.image) {
+            (Some(primitive), _) => self.primitives.get(&key(primitive)).copied(),
+            (None, Some(image)) => self.images.get(&image).copied(),
+            (None, None) => None,
+        };
+        let mark = |defect: Defect| {
+            let pair = pair_of(&defect);
+            defect.with_obstacle(pair.map(Obstacle::PairIsLeft))
+        };
+        defects.into_iter().map(mark).collect()
+    }
+}
+
+/// The defects by their group; defects without one are left out.
+fn grouped<G: Ord>(defects: &[Defect], group: impl Fn(&Defect) -> Option<G>) -> BTreeMap<G, Vec<&Defect>> {
+    let mut groups: BTreeMap<G, Vec<&Defect>> = BTreeMap::new();
+    for defect in defects {
+        if let Some(group) = group(defect) {
+            groups.entry(group).or_default().push(defect);
+        }
+    }
+    groups
+}
+
+/// The images of the normal maps of a primitive, those of its variants included.
+fn normal_maps_of(document: &Document, all: &[Appearance], (mesh, primitive): Key) -> BTreeSet<usize> {
+    let materials = document.meshes()[mesh].primitives[primitive].materials();
+    let used = materials.iter().filter_map(|&material| all.get(material));
+    used.flat_map(Appearance::normal_maps).filter_map(|texture| texture.image).collect()
+}
+
+/// Whether a mistake of a pair is left, so that none is repaired.
+fn is_left(pair: &Pair, on_map: &[&Defect], on_surface: &[&Defect], options: &FixOptions) -> bool {
+    let mut of_pair = on_map.iter().chain(on_surface).filter(|defect| pair.contains(defect.code()));
+    of_pair.any(|defect| !options.repairs(defect))
+}

@@ -1,0 +1,216 @@
+//! [`plan`]: which edits repair defects.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::options::FixOptions;
+use crate::code::{Code, Family};
+use crate::defect::{Defect, Fault};
+use crate::indices::Indices;
+use crate::instances::{Key, key};
+use crate::measure::fit::Difference;
+use crate::measure::reversal::Reversal;
+use crate::place::Place;
+
+/// A change of one primitive, and of all with the same data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edit {
+    pub place: Place,
+    pub action: Action,
+}
+
+/// What is changed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Faces or normals are flipped, then normals get length 1, then missing normals are made.
+    RepairNormals { flip: Option<Flip>, make_unit: bool, make: bool },
+    /// All signs w are negated.
+    NegateSigns,
+    /// Tangents that are wrong one by one are corrected.
+    CorrectTangents(Box<WrongTangents>),
+    /// All tangents are computed again.
+    MakeTangents,
+}
+
+/// What is flipped where faces and normals disagree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flip {
+    Faces,
+    Normals,
+}
+
+/// What is known about the tangents of a surface of which some are wrong.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WrongTangents {
+    /// The codes that are repaired.
+    pub codes: BTreeSet<Code>,
+    /// The vertices whose tangents lean, are not those of the method that made the others, or are rotated.
+    pub leaning: Indices,
+    pub outliers: Indices,
+    pub rotated: Indices,
+    /// The vertices whose tangents are negated, or where most are, the others.
+    pub negated: Negated,
+    /// The triangles with both signs, and those whose signs are all flipped.
+    pub mixed: Indices,
+    pub flipped: Indices,
+    /// Whether all signs of the surface are flipped.
+    pub is_all_flipped: bool,
+    pub reversal: Option<Reversal>,
+}
+
+/// The vertices whose tangents are negated.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Negated {
+    #[default]
+    None,
+    Only(Indices),
+    AllBut(Indices),
+}
+
+impl Negated {
+    pub fn contains(&self, vertex: usize) -> bool {
+        match self {
+            Self::None => false,
+            Self::Only(vertices) => vertices.contains(vertex),
+            Self::AllBut(vertices) => !vertices.contains(vertex),
+        }
+    }
+}
+
+impl Action {
+    /// The stage after which the action is not planned again.
+    pub fn stage(&self) -> Stage {
+        match self {
+            Self::RepairNormals { .. } => Stage::Normals,
+            Self::NegateSigns => Stage::Signs,
+            Self::CorrectTangents(_) => Stage::Corrected,
+            Self::MakeTangents => Stage::Made,
+        }
+    }
+}
+
+/// How far the repair of a primitive is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    #[default]
+    Start,
+    Normals,
+    Signs,
+    Corrected,
+    Made,
+    /// Nothing more is planned.
+    Refused,
+}
+
+/// The primitive of a defect.
+pub fn place_of(defect: &Defect) -> Option<Key> {
+    defect.place.primitive.as_ref().map(key)
+}
+
+/// The next edit of each primitive with defects that are to be repaired.
+pub fn plan(defects: &[Defect], options: &FixOptions, stages: &BTreeMap<Key, Stage>) -> Vec<Edit> {
+    let mut of_places: BTreeMap<Key, Vec<&Defect>> = BTreeMap::new();
+    for defect in defects {
+        if let Some(at) = place_of(defect) {
+            of_places.entry(at).or_default().push(defect);
+        }
+    }
+    let edit = |(at, defects): (Key, Vec<&Defect>)| {
+        let stage = stages.get(&at).copied().unwrap_or_default();
+        let action = next_action(&defects, options, stage)?;
+        Some(Edit { place: defects[0].place.clone(), action })
+    };
+    of_places.into_iter().filter_map(edit).collect()
+}
+
+/// The next action on one primitive.
+fn next_action(defects: &[&Defect], options: &FixOptions, stage: Stage) -> Option<Action> {
+    let wanted: Vec<&Defect> = defects.iter().copied().filter(|defect| options.repairs(defect)).collect();
+    let (of_normals, of_tangents): (Vec<&Defect>, Vec<&Defect>) =
+        wanted.into_iter().partition(|defect| defect.family() == Family::Normals);
+    if !of_normals.is_empty() && stage < Stage::Normals {
+        return Some(repair_of_normals(&of_normals));
+    }
+    if of_tangents.is_empty() {
+        return None;
+    }
+    if stage < Stage::Signs && of_tangents.iter().all(|defect| is_about_all_signs(defect)) {
+        return Some(Action::NegateSigns);
+    }
+    let are_single = of_tangents.iter().all(|defect| is_about_single_tangents(defect));
+    if stage < Stage::Corrected && are_single {
+        return Some(Action::CorrectTangents(Box::new(wrong_tangents(defects, &of_tangents))));
+    }
+    let is_kept = stage == Stage::Corrected && are_single && keeps_recipe(defects, options);
+    (stage < Stage::Made && !is_kept).then_some(Action::MakeTangents)
+}
+
+fn repair_of_normals(defects: &[&Defect]) -> Action {
+    let has = |code: Code| defects.iter().any(|defect| defect.code() == code);
+    let flip = defects.iter().find_map(|defect| match defect.fault {
+        Fault::NormalsReversed { reversal: Reversal::Faces, .. } => Some(Flip::Faces),
+        Fault::NormalsReversed { reversal: Reversal::Normals | Reversal::NormalsByTangents, .. } => {
+            Some(Flip::Normals)
+        }
+        _ => None,
+    });
+    let make_unit = has(Code::NormalNotFinite) || has(Code::NormalNotUnit);
+    Action::RepairNormals { flip, make_unit, make: has(Code::NormalMissing) }
+}
+
+/// Whether a defect says that all signs w of a primitive are flipped.
+fn is_about_all_signs(defect: &Defect) -> bool {
+    match &defect.fault {
+        Fault::TangentDiffers(found) => {
+            found.difference == Difference::SignFlipped && found.is_on_all_corners()
+        }
+        _ => false,
+    }
+}
+
+/// Whether a defect is about single tangents, which can be corrected without changing others.
+fn is_about_single_tangents(defect: &Defect) -> bool {
+    match &defect.fault {
+        Fault::TangentNotFinite(_)
+        | Fault::TangentZero(_)
+        | Fault::TangentNotUnit(_)
+        | Fault::TangentLeaning { .. }
+        | Fault::TangentSignNotOne(_)
+        | Fault::TangentSignMixed(_)
+        | Fault::TangentSharedAcrossMirror(_)
+        | Fault::TangentOutliers { .. } => true,
+        Fault::TangentDiffers(found) => {
+            !matches!(found.difference, Difference::Rotated | Difference::OtherUvSet(_))
+        }
+        _ => false,
+    }
+}
+
+/// Whether the tangents of a primitive were computed in another way than MikkTSpace, and are to stay so.
+pub fn keeps_recipe(defects: &[&Defect], options: &FixOptions) -> bool {
+    let is_other = |defect: &&Defect| defect.code() == Code::TangentOtherRecipe && !options.repairs(defect);
+    defects.iter().any(is_other)
+}
+
+/// What all defects of a primitive say about its tangents. `wanted`: those that are to be repaired.
+fn wrong_tangents(defects: &[&Defect], wanted: &[&Defect]) -> WrongTangents {
+    let mut wrong =
+        WrongTangents { codes: wanted.iter().map(|defect| defect.code()).collect(), ..Default::default() };
+    for defect in defects {
+        match &defect.fault {
+            Fault::TangentLeaning { vertices, .. } => wrong.leaning = vertices.clone(),
+            Fault::TangentOutliers { vertices, .. } => wrong.outliers = vertices.items.clone(),
+            Fault::TangentSignMixed(triangles) => wrong.mixed = triangles.items.clone(),
+            Fault::NormalsReversed { reversal, .. } => wrong.reversal = Some(*reversal),
+            Fault::TangentDiffers(found) => match found.difference {
+                Difference::PartlyRotated => wrong.rotated = found.items.clone(),
+                Difference::PartlyNegated => wrong.negated = Negated::Only(found.items.clone()),
+                Difference::Negated => wrong.negated = Negated::AllBut(found.exceptions.clone()),
+                Difference::SignPartlyFlipped => wrong.flipped = found.items.clone(),
+                Difference::SignFlipped => wrong.is_all_flipped = true,
+                _ => {}
+            },
+            _ => {}
+        }
+    }
+    wrong
+}

@@ -1,0 +1,227 @@
+//! Repairs the surfaces of a document, and takes back the repairs that do not help.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use darboux_io::Error;
+use darboux_io::gltf::{Document, PrimitiveName};
+
+use super::apply::apply;
+use super::options::FixOptions;
+use super::outcome::{Change, FixedDocument, FixedFinding, outcome};
+use super::pairs::LeftPairs;
+use super::plan::{Edit, Stage, keeps_recipe, place_of, plan};
+use crate::check::defects_of_surfaces;
+use crate::code::{Code, Family};
+use crate::defect::Defect;
+use crate::defect::Obstacle;
+use crate::instances::{Key, key, primitives_at};
+use crate::severity::Severity;
+
+/// A repair that has not ended after so many rounds is taken as it is. Each round leaves fewer defects than the one before.
+const MAX_ROUNDS: usize = 16;
+
+/// Repairs normals and tangents, but those in `left`.
+pub fn fix_surfaces(
+    document: &mut Document,
+    defects: Vec<Defect>,
+    left: &LeftPairs,
+    options: &FixOptions,
+) -> Result<FixedDocument, Error> {
+    let mut work = Work { groups: BTreeMap::new(), left, options };
+    let mut repair = Repair { after: defects.clone(), ..Repair::default() };
+    if defects.iter().any(|defect| options.repairs(defect)) {
+        document.decompress()?;
+        work.name_groups(document, &defects);
+    }
+    for _ in 0..MAX_ROUNDS {
+        if !work.round(document, &mut repair)? {
+            break;
+        }
+    }
+    let findings = defects.into_iter().map(|defect| work.outcome(defect, &repair)).collect();
+    Ok(FixedDocument { findings, is_changed: repair.is_changed })
+}
+
+/// What the rounds of a repair came to.
+#[derive(Default)]
+struct Repair {
+    is_changed: bool,
+    /// The defects at the end.
+    after: Vec<Defect>,
+    /// What was done to tangents.
+    changes: BTreeMap<Key, Change>,
+    /// The primitives whose repair was taken back in the last round, each with the reason if it is more than that the defects are still there.
+    refused: BTreeMap<Key, Option<Obstacle>>,
+    /// The primitives whose tangents were corrected, and are not all made again to repair the rest.
+    kept: BTreeSet<Key>,
+}
+
+/// What one attempt at a round came to.
+#[derive(Default)]
+struct Attempt {
+    after: Vec<Defect>,
+    changes: BTreeMap<Key, Change>,
+    edited: BTreeSet<Key>,
+    /// The primitives whose last edit was a correction of single tangents.
+    corrected: BTreeSet<Key>,
+}
+
+struct Work<'a> {
+    /// Primitives with the same data, each with the one that defects name.
+    groups: BTreeMap<Key, PrimitiveName>,
+    left: &'a LeftPairs,
+    options: &'a FixOptions,
+}
+
+impl Work<'_> {
+    fn name_groups(&mut self, document: &Document, defects: &[Defect]) {
+        for defect in defects.iter().filter(|defect| defect.place.same_as > 0) {
+            let members = primitives_at(document, &defect.place);
+            self.groups.extend(members.iter().map(key).zip(defect.place.primitive.iter().cycle().cloned()));
+        }
+    }
+
+    /// The primitive that names those with the same data.
+    fn first_of(&self, at: Key) -> Key {
+        self.groups.get(&at).map_or(at, key)
+    }
+
+    /// One repair of everything that is to be repaired, without the edits that do not help. Returns whether anything was changed.
+    fn round(&self, document: &mut Document, repair: &mut Repair) -> Result<bool, Error> {
+        let mut refused = BTreeMap::new();
+        // Every turn refuses the repair of one more primitive at least.
+        loop {
+            let checkpoint = document.checkpoint();
+            let attempt = self.attempt(document, &repair.after, &refused)?;
+            let more = self.refused_after(&repair.after, &attempt);
+            if more.is_empty() {
+                repair.refused = refused;
+                repair.is_changed |= !attempt.edited.is_empty();
+                repair.kept = attempt.corrected;
+                for (at, change) in attempt.changes {
+                    let known = repair.changes.entry(at).or_insert(change);
+                    *known = known.followed_by(change);
+                }
+                repair.after = attempt.after;
+                return Ok(!attempt.edited.is_empty());
+            }
+            refused.extend(more);
+            document.roll_back(checkpoint);
+        }
+    }
+
+    /// Plans and applies edits until nothing more is planned.
+    fn attempt(
+        &self,
+        document: &mut Document,
+        before: &[Defect],
+        refused: &BTreeMap<Key, Option<Obstacle>>,
+    ) -> Result<Attempt, Error> {
+        let mut stages: BTreeMap<Key, Stage> = refused.keys().map(|at| (*at, Stage::Refused)).collect();
+        let mut attempt = Attempt { after: before.to_vec(), ..Attempt::default() };
+        loop {
+            let edits = plan(&attempt.after, self.options, &stages);
+            if edits.is_empty() {
+                let corrected = stages.iter().filter(|(_, stage)| **stage == Stage::Corrected);
+                attempt.corrected = corrected.map(|(at, _)| *at).collect();
+                return Ok(attempt);
+            }
+            let changes = apply(document, &edits, self.options)?;
+            for (at, change) in changes {
+                // What was computed again before was not kept.
+                let at = self.first_of(at);
+                let known = attempt.changes.entry(at).or_insert(change);
+                *known = known.followed_by(change);
+            }
+            let edited =
+                |edit: &Edit| edit.place.primitive.as_ref().map(|name| (key(name), edit.action.stage()));
+            let places: BTreeMap<Key, Stage> = edits.iter().filter_map(edited).collect();
+            self.check_again(document, &mut attempt.after, &places)?;
+            attempt.edited.extend(places.keys().copied());
+            stages.extend(places);
+        }
+    }
+
+    /// Measures the primitives again that were edited.
+    fn check_again(
+        &self,
+        document: &mut Document,
+        defects: &mut Vec<Defect>,
+        edited: &BTreeMap<Key, Stage>,
+    ) -> Result<(), Error> {
+        let is_edited = |at: Key| edited.contains_key(&self.first_of(at));
+        let mut found = defects_of_surfaces(document, &|name| is_edited(key(name)))?;
+        // The defects of a group are named by the primitive that named them before the repair.
+        for named in found.iter_mut().filter_map(|defect| defect.place.primitive.as_mut()) {
+            if let Some(first) = self.groups.get(&key(named)) {
+                *named = first.clone();
+            }
+        }
+        defects.retain(|defect| place_of(defect).is_none_or(|at| !is_edited(at)));
+        defects.extend(self.left.mark(found));
+        Ok(())
+    }
+
+    /// The primitives on which an attempt did not shrink the defects.
+    fn refused_after(&self, before: &[Defect], attempt: &Attempt) -> BTreeMap<Key, Option<Obstacle>> {
+        let of = |defects: &[Defect], at: Key| -> Vec<Defect> {
+            defects.iter().filter(|defect| place_of(defect) == Some(at)).cloned().collect()
+        };
+        let refusal = |&at: &Key| {
+            let (before, after) = (of(before, at), of(&attempt.after, at));
+            if let Some(worse) = after.iter().find(|left| self.is_worse(left, &before)) {
+                return Some((at, Some(Obstacle::WouldEndIn(worse.code()))));
+            }
+            (!self.have_shrunk(&before, &after)).then_some((at, None))
+        };
+        attempt.edited.iter().filter_map(refusal).collect()
+    }
+
+    /// Whether fewer defects are to be repaired than before, or as many on fewer vertices or triangles. With another method than MikkTSpace, tangents
+    /// of another recipe may also become those of the method that was asked for.
+    fn have_shrunk(&self, before: &[Defect], after: &[Defect]) -> bool {
+        let size = |defects: &[Defect]| {
+            let wanted: Vec<&Defect> = defects.iter().filter(|defect| self.options.repairs(defect)).collect();
+            (wanted.len(), wanted.iter().map(|defect| defect.fault.count()).sum::<usize>())
+        };
+        let is_recipe = |defect: &&Defect| defect.code() == Code::TangentOtherRecipe;
+        let recipe = |defects: &[Defect]| defects.iter().find(is_recipe).map(|defect| defect.fault.clone());
+        let has_other_recipe = || self.options.asks_for_other_method() && recipe(before) != recipe(after);
+        size(after) < size(before) || has_other_recipe()
+    }
+
+    /// Whether a defect is worse than a remark, and was not there before as bad as it is. Tangents of another method are no defect where that method is
+    /// asked for.
+    fn is_worse(&self, left: &Defect, before: &[Defect]) -> bool {
+        if left.code() == Code::TangentOtherRecipe && self.options.asks_for_other_method() {
+            return false;
+        }
+        let is_same = |known: &&Defect| known.code() == left.code();
+        let known = before.iter().filter(is_same).map(|known| known.severity).max();
+        match left.severity {
+            Severity::Error => known != Some(Severity::Error),
+            _ => left.severity > Severity::Info && known.is_none(),
+        }
+    }
+
+    /// What became of a defect.
+    fn outcome(&self, defect: Defect, repair: &Repair) -> FixedFinding {
+        let at = place_of(&defect).filter(|_| self.options.repairs(&defect));
+        let remains = repair.after.iter().any(|left| left.is_same(&defect));
+        if let Some(at) = at.filter(|_| remains) {
+            if let Some(Some(reason)) = repair.refused.get(&at) {
+                return FixedFinding::left(defect, reason.clone());
+            }
+            let of_place: Vec<&Defect> =
+                repair.after.iter().filter(|left| place_of(left) == Some(at)).collect();
+            if repair.kept.contains(&at) && keeps_recipe(&of_place, self.options) {
+                return FixedFinding::left(defect, Obstacle::RecipeIsKept);
+            }
+        }
+        let is_about_tangents = defect.family() == Family::Tangents;
+        let at = place_of(&defect).filter(|_| is_about_tangents);
+        let change = at.and_then(|at| repair.changes.get(&at).copied());
+        let fixed = outcome(defect, &repair.after, self.options);
+        FixedFinding { change: change.filter(|_| fixed.repaired), ..fixed }
+    }
+}

@@ -1,0 +1,23 @@
+//! The words of defects of materials.
+
+use super::Said;
+use crate::defect::Fault;
+
+pub fn said(fault: &Fault) -> Said {
+    match fault {
+        Fault::TransformMirrors { axes: [u, v], determinant, rotation } => {
+            let what = if *determinant < 0.0 { "mirrors" } else { "rotates" };
+            Said::new(format!(
+                "KHR_texture_transform {what} its normal texture: u goes to ({:.3}, {:.3}) and v to ({:.3}, {:.3})",
+                u[0], u[1], v[0], v[1]
+            ))
+            .with("determinant of the transform (negative if mirrored)", *determinant, "")
+            .with("direction of u", *rotation, "degrees")
+        }
+        Fault::MapScaleNegative(scale) => Said::new(
+            "normalTexture.scale is negative, so that red and green of its normal map are both inverted",
+        )
+        .with("scale", *scale, ""),
+        _ => unreachable!("a fault of a material"),
+    }
+}

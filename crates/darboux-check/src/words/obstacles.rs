@@ -1,0 +1,113 @@
+//! The words of obstacles, as clauses.
+
+use crate::code::Code;
+use crate::defect::Obstacle;
+use crate::defect::Pair;
+use crate::measure::reversal::Undecided;
+
+/// Why a repair leaves a defect.
+pub fn reason(obstacle: &Obstacle) -> String {
+    let clause = match obstacle {
+        Obstacle::NoTangents(reason) => return format!("tangents cannot be computed: {reason}"),
+        Obstacle::Unsure(percent) => return format!("this is only {percent:.0} % sure"),
+        Obstacle::RedLikelier { image } => {
+            return format!("red may be inverted instead of green, as in images[{image}]");
+        }
+        Obstacle::NotRewritable(clause) => return format!("the image {clause}"),
+        Obstacle::PairIsLeft(pair) => {
+            let [of_map, of_surface] = names(pair);
+            return format!(
+                "{of_surface} and {of_map} cancel here, and one of them is left; repair both or none"
+            );
+        }
+        Obstacle::WouldEndIn(code) => return format!("its repair would end in {code}"),
+        Obstacle::Failed(sentence) => return sentence.clone(),
+        Obstacle::NoRepair(code) => code.left_because().unwrap_or("nothing repairs it"),
+        Obstacle::UndecidedReversal(reason) => undecided(*reason),
+        Obstacle::UndecidedOrder { is_z: true } => {
+            "nothing says whether only blue is inverted or the whole image"
+        }
+        Obstacle::UndecidedOrder { is_z: false } => {
+            "nothing says for certain whether its channels are in another order or it is in object space"
+        }
+        Obstacle::FlatShadingMayBeWanted => "flat shading may be wanted; `darboux normals` makes smooth ones",
+        Obstacle::MorphTargetsMoveNormals => "morph targets move these normals",
+        Obstacle::NormalsInOtherAxes => {
+            "tangents depend on the normals, which are in other axes and have to be repaired first"
+        }
+        Obstacle::DifferenceIsInvisible => "the difference cannot be seen",
+        Obstacle::BakedOnQuads => "the map was probably baked on the quads, for these tangents",
+        Obstacle::EncodedAndInverted => {
+            "invert the channel near 67 of the map again first: `darboux convert --from directx --to opengl` inverts green"
+        }
+        Obstacle::XInAlpha => {
+            "alpha may be wanted for something else; if it is x, `darboux convert --from opengl --to opengl --layout ag --to-layout rgb` computes blue"
+        }
+        Obstacle::UnclearChannels => {
+            "its red and green are too few or too even to tell the slopes of a surface from other data"
+        }
+        Obstacle::OnlyAPartOfMap => "nothing says where one part ends and the other one begins",
+        Obstacle::FacesLeanToRed => {
+            "the faces of the model lean towards inverted red without deciding it; look at one bump with a light beside it and one above it"
+        }
+        Obstacle::OnlyTheModelTells => {
+            "only the faces of the model tell inverted green from inverted red; name the model with --model, or invert green with `darboux convert`"
+        }
+        Obstacle::ExchangedAndInverted => {
+            "one channel is inverted, too, and no faces of a model show which: once red and green are exchanged back, either green is inverted or red is"
+        }
+        Obstacle::VectorsLean => {
+            "scaled to length 1, the vectors would still lean; undo the change of the colours, or export the map again"
+        }
+        Obstacle::MayBeNoMap => {
+            "scaled to length 1, the texels of another kind of image would still be no normals; if this is a normal map, normalise it in the program that made it"
+        }
+        Obstacle::NegativeScale => {
+            "the scale of its material is negative, which inverts red and green: make it positive first, and check again"
+        }
+        Obstacle::OnTheModelToo => {
+            "the tangents of the model have to be repaired with it; put the map on the model and repair that"
+        }
+        Obstacle::OtherImageFormat => {
+            "PNG and JPEG images are rewritten, and no others, because only PNG files are written; save it as a PNG first"
+        }
+        Obstacle::NotChosen => "its code is not among those to repair",
+        Obstacle::OtherMethodWanted => "another method than MikkTSpace was asked for",
+        Obstacle::RecipeIsKept => {
+            "the rest needs all tangents computed again, and those of this recipe are kept"
+        }
+        Obstacle::NotRemoved => "the repair did not remove it",
+        Obstacle::OnlyInvertedRedIsCertain => {
+            "its red is inverted, and only that is certain while it is left"
+        }
+    };
+    clause.to_owned()
+}
+
+fn undecided(reason: Undecided) -> &'static str {
+    match reason {
+        Undecided::OnlyAPart => {
+            "only a part of the surface is reversed, and nothing says whether its faces or its normals are"
+        }
+        Undecided::NoTangents => {
+            "it is open and has no tangents, so that nothing says whether its faces or its normals are reversed"
+        }
+        Undecided::TangentsFollowNormals => {
+            "it is open, so that nothing says whether its faces are reversed or both its normals and the signs w"
+        }
+        Undecided::ContradictoryTangents => {
+            "it is open and its tangents contradict each other, so that nothing says whether its faces or its normals are reversed"
+        }
+    }
+}
+
+/// What cancels, of the map and of the tangents.
+pub fn names(pair: &Pair) -> [&'static str; 2] {
+    let [on_red, on_green] =
+        [Code::MapRedFlipped, Code::MapGreenFlipped].map(|code| pair.on_map.contains(&code));
+    match (on_red, on_green) {
+        (true, true) => ["inverted red and green", "negated tangents"],
+        (true, false) => ["inverted red", "negated tangents and signs w"],
+        _ => ["inverted green", "flipped signs w"],
+    }
+}
