@@ -10,6 +10,7 @@ mod heat_scale;
 mod inputs;
 mod interrupt;
 mod json;
+mod net;
 mod options;
 mod paths;
 mod regular_file;
@@ -26,6 +27,7 @@ pub use batch::distributed::{DistributedBatch, failed_task, run_task};
 #[doc(hidden)]
 pub use command_line::Arguments;
 use command_line::Command;
+pub use net::silence_panics;
 
 /// Runs the command on the process's standard streams and returns its exit code.
 ///
@@ -37,32 +39,7 @@ where
 {
     let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
     match Arguments::try_parse_from(&arguments) {
-        Ok(arguments) => match &arguments.command {
-            Command::Tangents(arguments) => batch::run(arguments),
-            Command::Normals(arguments) => batch::run(arguments),
-            Command::Convert(arguments) => batch::run(arguments),
-            Command::Check(arguments) => commands::check::run(arguments),
-            Command::Compare(arguments) => commands::compare::run(arguments),
-            Command::Inspect(arguments) => commands::inspect::run(arguments),
-            #[cfg(feature = "bake")]
-            Command::Bake(arguments) => commands::bake::run(arguments),
-            Command::Methods => commands::methods::run(),
-            Command::Completions(arguments) => commands::completions::run(arguments),
-            #[cfg(feature = "gpu")]
-            Command::Render(arguments) => commands::render::run(arguments),
-            #[cfg(feature = "view")]
-            Command::View(arguments) => commands::view::run(arguments),
-            #[cfg(feature = "gpu")]
-            Command::Devices(arguments) => commands::devices::run(arguments),
-            #[cfg(not(feature = "bake"))]
-            Command::Bake(_) => commands::missing::run("bake", "full"),
-            #[cfg(not(feature = "gpu"))]
-            Command::Render(_) => commands::missing::run("render", "full"),
-            #[cfg(not(feature = "view"))]
-            Command::View(_) => commands::missing::run("view", "full"),
-            #[cfg(not(feature = "gpu"))]
-            Command::Devices(_) => commands::missing::run("devices", "full"),
-        },
+        Ok(arguments) => net::run(|| run_command(&arguments.command)),
         Err(error) if error.use_stderr() => {
             let text = text::with_printable_arguments(error.render().ansi().to_string(), &arguments);
             let _closed_stderr_is_ignored = write!(anstream::stderr(), "{text}");
@@ -72,5 +49,34 @@ where
             let _closed_stdout_is_ignored = help.print();
             exit::DONE
         }
+    }
+}
+
+fn run_command(command: &Command) -> u8 {
+    match command {
+        Command::Tangents(arguments) => batch::run(arguments),
+        Command::Normals(arguments) => batch::run(arguments),
+        Command::Convert(arguments) => batch::run(arguments),
+        Command::Check(arguments) => commands::check::run(arguments),
+        Command::Compare(arguments) => commands::compare::run(arguments),
+        Command::Inspect(arguments) => commands::inspect::run(arguments),
+        #[cfg(feature = "bake")]
+        Command::Bake(arguments) => commands::bake::run(arguments),
+        Command::Methods => commands::methods::run(),
+        Command::Completions(arguments) => commands::completions::run(arguments),
+        #[cfg(feature = "gpu")]
+        Command::Render(arguments) => commands::render::run(arguments),
+        #[cfg(feature = "view")]
+        Command::View(arguments) => commands::view::run(arguments),
+        #[cfg(feature = "gpu")]
+        Command::Devices(arguments) => commands::devices::run(arguments),
+        #[cfg(not(feature = "bake"))]
+        Command::Bake(_) => commands::missing::run("bake", "full"),
+        #[cfg(not(feature = "gpu"))]
+        Command::Render(_) => commands::missing::run("render", "full"),
+        #[cfg(not(feature = "view"))]
+        Command::View(_) => commands::missing::run("view", "full"),
+        #[cfg(not(feature = "gpu"))]
+        Command::Devices(_) => commands::missing::run("devices", "full"),
     }
 }

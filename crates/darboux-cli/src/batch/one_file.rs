@@ -1,6 +1,5 @@
 //! Processes one file and returns its report; a panic fails this file alone.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use super::command::{FileCommand, ProcessedFile};
@@ -8,6 +7,7 @@ use super::journal::{OutputInputs, Record};
 use super::plan::{Job, Output};
 use super::report::{FileReport, Status, SummarySource};
 use crate::inputs::Input;
+use crate::net;
 use crate::terminal::{FileProgress, Messages};
 
 /// The journal's folder and its record of one output.
@@ -33,7 +33,7 @@ pub fn process_file<W: FileCommand>(
     messages: &Messages,
 ) -> FinishedFile<W::Summary> {
     let progress = messages.file(&job.input.to_string(), job.input.byte_length());
-    let finished = catch_panic(&job.input, || match (entry, &job.input, &job.output) {
+    let finished = net::catch(&job.input, || match (entry, &job.input, &job.output) {
         (Some(entry), Input::File(input), Output::File(output)) => {
             resume(command, job, entry, (input, output), &progress)
         }
@@ -44,18 +44,6 @@ pub fn process_file<W: FileCommand>(
     finished.unwrap_or_else(|sentence| FinishedFile {
         report: FileReport::failed(job.input.to_string(), sentence),
         record: None,
-    })
-}
-
-/// Returns the result of `work`, or one sentence for its panic. `work` shares no state with later files except complete files on disk.
-fn catch_panic<T>(input: &Input, work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
-    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
-        let text =
-            panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-        let reason = text.and_then(|text| text.lines().next()).unwrap_or("unknown reason");
-        Err(format!(
-            "{input}: darboux failed on this file: {reason}; this is a defect of darboux, please report it"
-        ))
     })
 }
 
@@ -106,19 +94,5 @@ fn refuse_existing(output: &Output, command: &impl FileCommand) -> Result<(), St
             Err(format!("{output}: exists; use --force to replace it, or name another output"))
         }
         _ => Ok(()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_panic_becomes_one_sentence() {
-        let sentence =
-            "a.glb: darboux failed on this file: first line; this is a defect of darboux, please report it";
-        let input = Input::File("a.glb".into());
-        assert_eq!(catch_panic::<()>(&input, || panic!("first line\nsecond line")), Err(sentence.into()));
-        assert_eq!(catch_panic(&input, || Ok(3)), Ok(3));
     }
 }

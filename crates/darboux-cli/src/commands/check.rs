@@ -20,6 +20,7 @@ use crate::documents::Source;
 use crate::exit;
 use crate::inputs::{FoundInputs, Input, SearchMode, UsageError, check_stdin, find_inputs};
 use crate::json::{VERSION, to_json};
+use crate::net;
 use crate::terminal::{Messages, write_stdout};
 use arguments::CheckArguments;
 use fix::Repair;
@@ -168,7 +169,7 @@ fn check_file(input: &Input, arguments: &CheckArguments, model: &Model) -> Check
             }
         }
     };
-    check().unwrap_or_else(|sentence: String| failed(name.clone(), sentence))
+    net::catch(input, check).unwrap_or_else(|sentence: String| failed(name.clone(), sentence))
 }
 
 fn failed(input: String, sentence: String) -> CheckedFile {

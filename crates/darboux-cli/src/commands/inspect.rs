@@ -10,6 +10,7 @@ use crate::documents::load;
 use crate::exit;
 use crate::inputs::{Input, SearchMode, UsageError, check_stdin, find_inputs};
 use crate::json::{VERSION, to_json};
+use crate::net;
 use crate::options::reading::ReadOptions;
 use crate::terminal::{Messages, write_stdout};
 use arguments::InspectArguments;
@@ -56,7 +57,8 @@ fn print_problems(files: &[InspectedFile], messages: &Messages) -> u8 {
 }
 
 fn inspect_file(input: &Input, reading: &ReadOptions) -> InspectedFile {
-    let inspected = load(input, reading).and_then(|mut document| {
+    let inspected = net::catch(input, || {
+        let mut document = load(input, reading)?;
         let primitives = inspect(&mut document).map_err(|error| error.to_string())?;
         Ok(InspectedFile {
             input: input.to_string(),
