@@ -1,8 +1,8 @@
 //! Measures of tangents, compared with known values.
 
 use darboux::{
-    CornerDifference, Method, TangentDifference, TangentOptions, generate_tangents, measure_tangents,
-    measure_uv_fidelity,
+    Context, CornerDifference, Method, TangentDifference, TangentOptions, generate_tangents,
+    measure_tangents, measure_tangents_with, measure_uv_fidelity,
 };
 use darboux_tests::{OwnedMesh, families};
 
@@ -37,6 +37,34 @@ fn angles_are_told_apart() {
     assert_eq!(found.histogram, [1, 1, 0, 0, 1, 1, 0, 1, 0, 2]);
     let worst: Vec<usize> = found.worst.iter().map(|(corner, _)| *corner).collect();
     assert_eq!(worst, [6, 5, 4, 3, 2, 1]);
+}
+
+/// Many blocks of corners: a sort of all angles finds the same statistics, whatever the number of threads.
+#[test]
+fn blocks_of_corners_are_measured_as_one_list() {
+    let a = vec![turned(20.0, 1.0); 300_000];
+    let angle = |corner: usize| {
+        [0.0, 1e-4, 3.0, 90.0, 179.0][corner % 5] * ((corner * 7_919) % 1_009) as f64 / 1_009.0
+    };
+    let mut b: Vec<_> = (0..a.len()).map(|corner| turned(20.0 + angle(corner), 1.0)).collect();
+    b.iter_mut().step_by(1_000).for_each(|tangent| *tangent = [0.0; 4]);
+    let mut angles: Vec<(f64, usize)> = (0..a.len())
+        .filter_map(|corner| Some((CornerDifference::between(a[corner], b[corner]).angle?, corner)))
+        .collect();
+    angles.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let measured = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
+        pool.install(|| measure_tangents_with(&a, &b, &mut Context::new())).expect("as many")
+    };
+    let found = measured(1);
+    assert_eq!(found, measured(3));
+    let at = |part: f64| angles[angles.len() - (part * angles.len() as f64).ceil() as usize].0;
+    assert_eq!([found.median, found.p95, found.max], [0.5, 0.95, 1.0].map(at));
+    assert_eq!((found.min, found.without_angle), (0.0, a.len() - angles.len()));
+    let mean = angles.iter().map(|(angle, _)| angle).sum::<f64>() / angles.len() as f64;
+    assert!((found.mean - mean).abs() < 1e-12 * mean, "{} {mean}", found.mean);
+    let worst: Vec<(usize, f64)> = angles[..16].iter().map(|(angle, corner)| (*corner, *angle)).collect();
+    assert_eq!(found.worst, worst);
 }
 
 #[test]

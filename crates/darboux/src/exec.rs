@@ -1,5 +1,6 @@
 //! How work is executed: vector widths, threads, the limits of a call, and windows of the triangle list.
 
+pub(crate) mod blocks;
 #[cfg(feature = "parallel")]
 mod helpers;
 pub(crate) mod limits;

@@ -8,7 +8,7 @@ pub mod stage_arrays;
 pub mod vertex_progress;
 pub mod width_limit;
 
-pub use crate::measure::triangle_area;
+pub use crate::measure::{DifferenceSums, triangle_area};
 pub use crate::recipe::recipe_tangents;
 
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]

@@ -94,8 +94,8 @@ fn repaired_model(model: &Model, findings: Vec<Finding>, healthy: &Model) -> Res
 fn equal(healthy: &mut Document, repaired: &mut Document) -> Result<(), String> {
     for pair in pair_tangents(healthy, repaired).map_err(|error| error.to_string())? {
         let corners = pair.corners.map_err(|unpaired| unpaired.reason)?;
-        let [ours, theirs] = &corners.tangents;
-        let differing = ours.iter().zip(theirs).filter(|(a, b)| a.map(f32::to_bits) != b.map(f32::to_bits));
+        let tangents = (0..corners.len()).map(|corner| corners.tangents(corner));
+        let differing = tangents.filter(|[a, b]| a.map(f32::to_bits) != b.map(f32::to_bits));
         match (corners.moved, differing.count()) {
             (0, 0) => {}
             (moved, tangents) => return Err(format!("{moved} corners moved, {tangents} tangents differ")),

@@ -22,7 +22,7 @@ use crate::{exit, interrupt};
 use arguments::CompareArguments;
 use heat_map::HeatMap;
 use report::{CompareReport, Verdict};
-use statistics::{ComparedPrimitive, Statistics};
+use statistics::Comparison;
 
 /// Runs the command and returns its exit code.
 pub fn run(arguments: &CompareArguments) -> u8 {
@@ -88,13 +88,15 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
     };
     let mut warnings = warnings_of(&first);
     warnings.extend(arguments.second.iter().flat_map(|_| warnings_of(&second)));
+    let without_tangents = nothing_to_compare([&first, &second]);
+    let [first_name, second_name] = [&first, &second].map(|document| document.name().to_owned());
     let pairs = pair_tangents(&mut first, &mut second).map_err(|error| error.to_string())?;
     warnings.extend(moved(&pairs));
-    let primitives: Vec<ComparedPrimitive> = pairs.iter().map(ComparedPrimitive::new).collect();
+    let Comparison { totals, primitives, worst } =
+        Comparison::new(&pairs, arguments.worst).map_err(|error| error.to_string())?;
     if primitives.iter().all(|primitive| primitive.statistics.is_none()) {
-        return Err(nothing_to_compare([&first, &second]));
+        return Err(without_tangents);
     }
-    let totals = Statistics::of(pairs.iter().filter_map(|pair| pair.corners.as_ref().ok()));
     let heat_map = match &arguments.heat_map {
         Some(path) => Some(draw(&pairs, path, arguments.force, &mut warnings)?),
         None => None,
@@ -104,10 +106,10 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
     Ok(CompareReport {
         command: "compare",
         version: VERSION,
-        first: first.name().to_owned(),
-        second: arguments.second.as_ref().map(|_| second.name().to_owned()),
+        first: first_name,
+        second: arguments.second.as_ref().map(|_| second_name),
         method: arguments.method.map(|method| method.name().to_owned()),
-        worst: statistics::worst(&pairs, arguments.worst),
+        worst,
         within_tolerance: arguments.tolerance.map(within),
         verdict: Verdict::new(&totals, one_sided),
         totals,
@@ -149,7 +151,7 @@ fn give_tangents(
 }
 
 /// A warning for each primitive whose corners have other positions in the second file.
-fn moved(pairs: &[Pair]) -> impl Iterator<Item = String> {
+fn moved(pairs: &[Pair<'_>]) -> impl Iterator<Item = String> {
     let moved = pairs.iter().filter_map(|pair| {
         let moved = pair.corners.as_ref().ok()?.moved;
         (moved > 0).then_some((&pair.name, moved))
@@ -159,7 +161,7 @@ fn moved(pairs: &[Pair]) -> impl Iterator<Item = String> {
     })
 }
 
-fn draw(pairs: &[Pair], path: &Path, force: bool, warnings: &mut Vec<String>) -> Result<String, String> {
+fn draw(pairs: &[Pair<'_>], path: &Path, force: bool, warnings: &mut Vec<String>) -> Result<String, String> {
     let mut map = HeatMap::new();
     for corners in pairs.iter().filter_map(|pair| pair.corners.as_ref().ok()) {
         map.add(corners);

@@ -1,5 +1,7 @@
 //! Pairs the tangents of two documents of one model, corner by corner.
 
+use std::borrow::Cow;
+
 use super::primitives::corners::{PrimitiveCorners, triangle_count};
 use super::primitives::limits;
 use super::primitives::triangles::{TriangleMode, mode_name};
@@ -10,11 +12,11 @@ use crate::Error;
 
 /// A primitive of both documents.
 #[derive(Clone, Debug)]
-pub struct Pair {
+pub struct Pair<'a> {
     /// The primitive. Mesh and primitive have the same indices in both documents.
     pub name: PrimitiveName,
     /// The corners, or the reason why they cannot be compared.
-    pub corners: Result<PairedCorners, Unpaired>,
+    pub corners: Result<PairedCorners<'a>, Unpaired>,
 }
 
 /// The reason why a primitive cannot be compared.
@@ -26,29 +28,68 @@ pub struct Unpaired {
     pub is_one_sided: bool,
 }
 
-/// The corners of a primitive, three per triangle, in the order of the files.
+/// The corners of a primitive, three per triangle, in the order of the files. Values are stored per vertex, borrowed from the files if their layout
+/// permits.
 #[derive(Clone, Debug, Default)]
-pub struct PairedCorners {
-    /// The positions in the first document.
-    pub positions: Vec<[f32; 3]>,
-    /// The UVs in the first document, of the set that its tangents follow, if it has that set.
-    pub uvs: Option<Vec<[f32; 2]>>,
-    /// The tangents of both documents.
-    pub tangents: [Vec<[f32; 4]>; 2],
+pub struct PairedCorners<'a> {
+    /// The vertex of each corner in the first document. It is a vertex of all arrays of that document.
+    pub vertices: Vec<u32>,
+    /// The vertex of each corner in the second document. `None` if all are those of the first.
+    pub other_vertices: Option<Vec<u32>>,
+    /// The positions of the first document's vertices; empty if it has none.
+    pub positions: Cow<'a, [[f32; 3]]>,
+    /// The UVs of the first document's vertices, of the set that its tangents follow, if it has that set.
+    pub uvs: Option<Cow<'a, [[f32; 2]]>>,
+    /// The tangents of the vertices of both documents.
+    pub tangents: [Cow<'a, [[f32; 4]]>; 2],
     /// The number of corners with another position in the second document.
     pub moved: usize,
+}
+
+impl PairedCorners<'_> {
+    /// The number of corners.
+    pub fn len(&self) -> usize {
+        self.vertices.len()
+    }
+
+    /// Whether there are no corners.
+    pub fn is_empty(&self) -> bool {
+        self.vertices.is_empty()
+    }
+
+    /// The tangents of a corner in both documents. Panics: there is no such corner.
+    pub fn tangents(&self, corner: usize) -> [[f32; 4]; 2] {
+        let [first, second] = self.vertices_of(corner);
+        [self.tangents[0][first], self.tangents[1][second]]
+    }
+
+    /// The position of a corner in the first document, if it has positions.
+    pub fn position(&self, corner: usize) -> Option<[f32; 3]> {
+        self.positions.get(*self.vertices.get(corner)? as usize).copied()
+    }
+
+    /// The UV of a corner in the first document, if it has the set.
+    pub fn uv(&self, corner: usize) -> Option<[f32; 2]> {
+        self.uvs.as_ref()?.get(*self.vertices.get(corner)? as usize).copied()
+    }
+
+    fn vertices_of(&self, corner: usize) -> [usize; 2] {
+        let second = self.other_vertices.as_ref().unwrap_or(&self.vertices);
+        [self.vertices[corner] as usize, second[corner] as usize]
+    }
 }
 
 /// Pairs the primitives of two documents by the indices of mesh and primitive. Compressed documents are decompressed.
 ///
 /// Errors: different numbers of meshes, primitives or corners; invalid data of a primitive with tangents.
-pub fn pair_tangents(a: &mut Document, b: &mut Document) -> Result<Vec<Pair>, Error> {
+pub fn pair_tangents<'a>(a: &'a mut Document, b: &'a mut Document) -> Result<Vec<Pair<'a>>, Error> {
     for document in [&mut *a, &mut *b] {
         if document.is_compressed() {
             document.decompress()?;
         }
         limits::check_triangles(document, triangle_counts(document))?;
     }
+    let [a, b] = [&*a, &*b];
     let shape = |document: &Document| -> Vec<usize> {
         document.meshes().iter().map(|mesh| mesh.primitives.len()).collect()
     };
@@ -70,7 +111,7 @@ fn has_tangents(primitive: &schema::Primitive) -> bool {
     primitive.attributes.contains_key("TANGENT")
 }
 
-fn pair(a: &Document, b: &Document, candidate: &TangentCandidate) -> Result<Pair, Error> {
+fn pair<'a>(a: &'a Document, b: &'a Document, candidate: &TangentCandidate) -> Result<Pair<'a>, Error> {
     let name = &candidate.name;
     let [first, second] = [a, b].map(|document| &document.meshes()[name.mesh].primitives[name.primitive]);
     if let Some(unpaired) = unpaired([a, b], [first, second]) {
@@ -86,14 +127,21 @@ fn pair(a: &Document, b: &Document, candidate: &TangentCandidate) -> Result<Pair
         );
         return Err(b.invalid(name.path(), problem));
     }
-    let positions = corners.vectors::<3>("POSITION")?.unwrap_or_default();
-    let moved = others.vectors::<3>("POSITION")?.unwrap_or_default();
-    let tangents = corners.vectors("TANGENT")?.unwrap_or_default();
-    let other_tangents = others.vectors("TANGENT")?.unwrap_or_default();
-    let uvs = corners.vectors(&format!("TEXCOORD_{}", candidate.uv.set))?;
-    let moved = positions.iter().zip(&moved).filter(|(position, moved)| position != moved).count();
-    let tangents = [tangents, other_tangents];
-    Ok(Pair { corners: Ok(PairedCorners { positions, uvs, tangents, moved }), name: name.clone() })
+    let positions = corners.vertex_vectors("POSITION")?.unwrap_or_default();
+    let moved = others.vertex_vectors::<3>("POSITION")?.unwrap_or_default();
+    let tangents = [
+        corners.vertex_vectors("TANGENT")?.unwrap_or_default(),
+        others.vertex_vectors("TANGENT")?.unwrap_or_default(),
+    ];
+    let uvs = corners.vertex_vectors(&format!("TEXCOORD_{}", candidate.uv.set))?;
+    let both = corners.vertices().iter().zip(others.vertices());
+    let positions_of =
+        |(first, second): (&u32, &u32)| Some((positions.get(*first as usize)?, moved.get(*second as usize)?));
+    let moved = both.filter_map(positions_of).filter(|(position, moved)| position != moved).count();
+    let other_vertices = (corners.vertices() != others.vertices()).then(|| others.into_vertices());
+    let vertices = corners.into_vertices();
+    let corners = PairedCorners { vertices, other_vertices, positions, uvs, tangents, moved };
+    Ok(Pair { name: name.clone(), corners: Ok(corners) })
 }
 
 /// The reason why two primitives cannot be compared, if there is one.

@@ -1,6 +1,8 @@
 //! Work of other crates, divided among the threads that a context permits.
 
-use crate::exec::threads;
+use std::ops::Range;
+
+use crate::exec::{blocks, threads};
 use crate::{Context, Error};
 
 /// Calls a function with every element of a list. A thread that has finished an element takes the next one.
@@ -40,4 +42,18 @@ pub fn map_with<T: Sync, R: Send>(
 pub fn contexts(context: &Context, jobs: usize) -> Vec<Context> {
     let threads = context.limits().thread_count_of_jobs(jobs);
     (0..threads).map(|_| context.of_one_thread()).collect()
+}
+
+/// Calls `of` for consecutive ranges of the numbers below `count`, each on one thread, and `fold` with their results in order. The ranges do not
+/// depend on the number of threads.
+///
+/// `block`: the length of all ranges but the last. Errors: the context's token was cancelled.
+pub fn fold_blocks<R: Send>(
+    context: &Context,
+    count: usize,
+    block: usize,
+    of: impl Fn(Range<usize>) -> R + Sync,
+    fold: impl FnMut(R),
+) -> Result<(), Error> {
+    blocks::fold_blocks(context.limits(), count, block, of, fold)
 }

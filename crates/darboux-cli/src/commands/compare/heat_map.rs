@@ -7,7 +7,7 @@ use darboux_io::Error;
 use darboux_io::gltf::PairedCorners;
 use darboux_io::image::PngImage;
 
-use super::statistics::differences;
+use super::statistics::difference;
 use crate::heat_scale::{ENDS, FLIP, ramp, row, scale_position};
 
 /// The width and height of the UV square in texels.
@@ -98,10 +98,11 @@ impl HeatMap {
     }
 
     /// Adds the triangles of a primitive. A primitive without UVs is not drawn.
-    pub fn add(&mut self, corners: &PairedCorners) {
-        let uvs = corners.uvs.as_deref().unwrap_or_default().as_chunks::<3>().0;
-        let differences: Vec<CornerDifference> = differences(corners).collect();
-        for (uvs, differences) in uvs.iter().zip(differences.as_chunks::<3>().0) {
+    pub fn add(&mut self, corners: &PairedCorners<'_>) {
+        for triangle in 0..corners.len() / 3 {
+            let places = [0, 1, 2].map(|i| 3 * triangle + i);
+            let [Some(a), Some(b), Some(c)] = places.map(|corner| corners.uv(corner)) else { continue };
+            let (uvs, differences) = ([a, b, c], places.map(|corner| difference(corners, corner)));
             let flips = differences.iter().any(|difference| difference.flips_sign);
             let values = if flips { [f64::INFINITY; 3] } else { differences.map(value) };
             self.triangles.extend(Triangle::new(uvs.map(|uv| uv.map(f64::from)), values));
@@ -214,10 +215,10 @@ mod tests {
     fn drawn(uvs: [[f32; 2]; 3], angle: f32) -> HeatMap {
         let turned = [angle.to_radians().cos(), angle.to_radians().sin(), 0.0, 1.0];
         let corners = PairedCorners {
-            positions: vec![[0.0; 3]; 3],
-            uvs: Some(uvs.to_vec()),
-            tangents: [vec![[1.0, 0.0, 0.0, 1.0]; 3], vec![turned; 3]],
-            moved: 0,
+            vertices: vec![0, 1, 2],
+            uvs: Some(uvs.to_vec().into()),
+            tangents: [vec![[1.0, 0.0, 0.0, 1.0]; 3].into(), vec![turned; 3].into()],
+            ..PairedCorners::default()
         };
         let mut map = HeatMap::new();
         map.add(&corners);

@@ -1,9 +1,11 @@
 //! The statistics of a comparison: angles between tangents, flipped signs, and the worst corners.
 
+use std::cmp::Ordering;
 use std::collections::HashSet;
+use std::ops::Range;
 
-use darboux::internal::triangle_area;
-use darboux::{CornerDifference, TangentDifference, measure_tangents};
+use darboux::internal::{DifferenceSums, jobs, triangle_area};
+use darboux::{Context, CornerDifference, TangentDifference};
 use darboux_io::gltf::{Pair, PairedCorners, PrimitiveName};
 use serde::Serialize;
 
@@ -39,33 +41,23 @@ pub struct Bin {
 }
 
 impl Statistics {
-    /// The statistics of several primitives together.
-    pub fn of<'a>(primitives: impl Iterator<Item = &'a PairedCorners>) -> Self {
-        let (mut tangents, mut others) = (Vec::new(), Vec::new());
-        let (mut sum, mut area, mut unknown, mut different) = (0.0, 0.0, 0, 0);
-        for corners in primitives {
-            tangents.extend_from_slice(&corners.tangents[0]);
-            others.extend_from_slice(&corners.tangents[1]);
-            let (part, part_area) = area_weighted(corners);
-            (sum, area) = (sum + part, area + part_area);
-            unknown += differences(corners).filter(CornerDifference::is_unknown).count();
-            different += differences(corners).filter(is_more_than_rounding).count();
-        }
-        let found = measure_tangents(&tangents, &others).unwrap_or_default();
+    /// `angles`: the angles above zero of the same corners; their order changes.
+    fn new(sums: &Sums, angles: &mut [f64]) -> Self {
+        let found = sums.differences.difference(angles);
         let bins = TangentDifference::HISTOGRAM_BIN_ENDS.into_iter().zip(found.histogram);
         Self {
             corners: found.corners,
             identical: found.identical,
             sign_flips: found.sign_flips,
             without_angle: found.without_angle,
-            unknown,
-            different,
+            unknown: sums.unknown,
+            different: sums.different,
             min: found.min,
             median: found.median,
             p95: found.p95,
             max: found.max,
             mean: found.mean,
-            area_weighted_mean: if area > 0.0 { sum / area } else { 0.0 },
+            area_weighted_mean: if sums.area > 0.0 { sums.weighted / sums.area } else { 0.0 },
             histogram: bins.map(|(up_to, corners)| Bin { up_to, corners }).collect(),
         }
     }
@@ -76,30 +68,120 @@ impl Statistics {
     }
 }
 
-/// The difference at each corner.
-pub fn differences(corners: &PairedCorners) -> impl Iterator<Item = CornerDifference> {
-    let [tangents, others] = &corners.tangents;
-    tangents.iter().zip(others).map(|(a, b)| CornerDifference::between(*a, *b))
+/// The difference at a corner.
+pub fn difference(corners: &PairedCorners<'_>, corner: usize) -> CornerDifference {
+    let [a, b] = corners.tangents(corner);
+    CornerDifference::between(a, b)
 }
 
 fn is_more_than_rounding(difference: &CornerDifference) -> bool {
     difference.flips_sign || difference.is_unknown() || difference.angle > Some(ROUNDING)
 }
 
-/// Returns the sum of angle times weight and the sum of the weights; the weight of a corner is a third of its triangle's area.
-fn area_weighted(corners: &PairedCorners) -> (f64, f64) {
-    let thirds = corners.positions.as_chunks::<3>().0.iter().flat_map(|&triangle| {
-        let third = triangle_area(triangle) / 3.0;
-        [third; 3]
-    });
-    let (mut sum, mut total) = (0.0, 0.0);
-    for (area, difference) in thirds.zip(differences(corners)).filter(|(area, _)| area.is_finite()) {
-        if let Some(angle) = difference.angle {
-            sum += angle * area;
-            total += area;
+/// What [`Statistics`] are computed from, besides the angles above zero.
+#[derive(Default)]
+struct Sums {
+    differences: DifferenceSums,
+    unknown: usize,
+    different: usize,
+    /// The sum of angle times weight. The weight of a corner is a third of its triangle's area.
+    weighted: f64,
+    /// The sum of the weights.
+    area: f64,
+}
+
+impl Sums {
+    fn add(&mut self, difference: &CornerDifference, weight: Option<f64>, angles: &mut Vec<f64>) {
+        self.differences.add(difference, angles);
+        self.unknown += usize::from(difference.is_unknown());
+        self.different += usize::from(is_more_than_rounding(difference));
+        if let (Some(angle), Some(weight)) = (difference.angle, weight.filter(|weight| weight.is_finite())) {
+            self.weighted += angle * weight;
+            self.area += weight;
         }
     }
-    (sum, total)
+
+    fn append(&mut self, later: &Self) {
+        self.differences.append(&later.differences);
+        self.unknown += later.unknown;
+        self.different += later.different;
+        self.weighted += later.weighted;
+        self.area += later.area;
+    }
+}
+
+/// The comparison of all primitives.
+pub struct Comparison {
+    /// All primitives together.
+    pub totals: Statistics,
+    pub primitives: Vec<ComparedPrimitive>,
+    /// The corners that differ most.
+    pub worst: Vec<WorstCorner>,
+}
+
+/// Triangles per block. The blocks are part of the result: a mean is a sum of their sums.
+const BLOCK: usize = 1 << 14;
+
+impl Comparison {
+    /// Compares blocks of triangles on all threads. `worst`: the maximum number of worst corners.
+    pub fn new(pairs: &[Pair<'_>], worst: usize) -> Result<Self, darboux::Error> {
+        let (mut totals, mut angles, mut worst) = (Sums::default(), Vec::new(), Worst::new(worst));
+        let mut primitives = Vec::new();
+        for (number, pair) in pairs.iter().enumerate() {
+            let (corners, first) = (pair.corners.as_ref(), angles.len());
+            let statistics = match corners {
+                Ok(corners) => {
+                    let sums = compare(corners, (pair.name.mesh, number), &mut angles, &mut worst)?;
+                    totals.append(&sums);
+                    Some(Statistics::new(&sums, &mut angles[first..]))
+                }
+                Err(_) => None,
+            };
+            let reason = corners.err().map(|unpaired| unpaired.reason.clone());
+            primitives.push(ComparedPrimitive { name: pair.name.clone(), reason, statistics });
+        }
+        let totals = match &primitives[..] {
+            [ComparedPrimitive { statistics: Some(statistics), .. }] => statistics.clone(),
+            _ => Statistics::new(&totals, &mut angles),
+        };
+        let worst = worst.sorted().into_iter().map(|place| place.describe(pairs)).collect();
+        Ok(Self { totals, primitives, worst })
+    }
+}
+
+/// Compares the corners of a primitive, of which `[mesh, number]` are the indices of its mesh and among the pairs. Appends its angles above zero.
+fn compare(
+    corners: &PairedCorners<'_>,
+    (mesh, number): (usize, usize),
+    angles: &mut Vec<f64>,
+    worst: &mut Worst,
+) -> Result<Sums, darboux::Error> {
+    let of_block = |triangles: Range<usize>| {
+        let (mut sums, mut angles, mut worst) = (Sums::default(), Vec::new(), Worst::new(worst.count));
+        for triangle in triangles {
+            let places = [0, 1, 2].map(|i| 3 * triangle + i);
+            let positions = places.map(|corner| corners.position(corner));
+            let weight = match positions {
+                [Some(a), Some(b), Some(c)] => Some(triangle_area([a, b, c]) / 3.0),
+                _ => None,
+            };
+            for (corner, position) in places.into_iter().zip(positions) {
+                let difference = difference(corners, corner);
+                sums.add(&difference, weight, &mut angles);
+                worst.add(Place { difference, mesh, number, corner, position });
+            }
+        }
+        (sums, angles, worst)
+    };
+    let mut blocks = Sums::default();
+    let mut worst_of_blocks = Worst::new(worst.count);
+    jobs::fold_blocks(&Context::new(), corners.len() / 3, BLOCK, of_block, |(sums, more, worst)| {
+        blocks.append(&sums);
+        angles.extend_from_slice(&more);
+        worst.places.into_iter().for_each(|place| worst_of_blocks.add(place));
+    })?;
+    worst_of_blocks.places.into_iter().for_each(|place| worst.add(place));
+    Ok(blocks)
 }
 
 /// The comparison of one primitive.
@@ -111,14 +193,6 @@ pub struct ComparedPrimitive {
     pub reason: Option<String>,
     #[serde(flatten)]
     pub statistics: Option<Statistics>,
-}
-
-impl ComparedPrimitive {
-    pub fn new(pair: &Pair) -> Self {
-        let statistics = pair.corners.as_ref().ok().map(|corners| Statistics::of([corners].into_iter()));
-        let reason = pair.corners.as_ref().err().map(|unpaired| unpaired.reason.clone());
-        Self { name: pair.name.clone(), reason, statistics }
-    }
 }
 
 /// One of the corners that differ most.
@@ -136,32 +210,108 @@ pub struct WorstCorner {
     pub sign_flip: bool,
 }
 
-/// Finds the corners that differ most, one per position: opposite signs first, then corners without an angle, then the largest angles.
-pub fn worst(pairs: &[Pair], count: usize) -> Vec<WorstCorner> {
-    let mut all = Vec::new();
-    for (number, pair) in pairs.iter().enumerate() {
-        let Ok(corners) = &pair.corners else { continue };
-        for (corner, difference) in differences(corners).enumerate() {
-            if difference.flips_sign || difference.is_unknown() || difference.angle > Some(0.0) {
-                all.push((difference, number, corner));
-            }
+/// A corner that may be one of the worst.
+#[derive(Clone, Copy)]
+struct Place {
+    difference: CornerDifference,
+    mesh: usize,
+    /// The index of the primitive among the pairs.
+    number: usize,
+    corner: usize,
+    position: Option<[f32; 3]>,
+}
+
+impl Place {
+    /// Opposite signs first, then corners without an angle, then the largest angles, then the order of the file.
+    fn order(&self, other: &Self) -> Ordering {
+        let rank = |place: &Self| place.difference.angle.unwrap_or(f64::INFINITY);
+        let by_sign = other.difference.flips_sign.cmp(&self.difference.flips_sign);
+        let by_difference = by_sign.then(rank(other).total_cmp(&rank(self)));
+        by_difference.then((self.number, self.corner).cmp(&(other.number, other.corner)))
+    }
+
+    fn describe(self, pairs: &[Pair<'_>]) -> WorstCorner {
+        let CornerDifference { angle, flips_sign, .. } = self.difference;
+        let (triangle, corner) = (self.corner / 3, self.corner % 3);
+        let name = pairs[self.number].name.clone();
+        WorstCorner { name, triangle, corner, position: self.position, angle, sign_flip: flips_sign }
+    }
+}
+
+/// The corners that differ most, one per position of a mesh. Others are removed from time to time.
+struct Worst {
+    count: usize,
+    places: Vec<Place>,
+    /// True once the first `count` places are sorted and have different positions: later ones must come before the last of them.
+    is_full: bool,
+}
+
+impl Worst {
+    fn new(count: usize) -> Self {
+        Self { count, places: Vec::new(), is_full: count == 0 }
+    }
+
+    fn add(&mut self, place: Place) {
+        let difference = &place.difference;
+        if !(difference.flips_sign || difference.is_unknown() || difference.angle > Some(0.0)) {
+            return;
+        }
+        let last = self.count.checked_sub(1).and_then(|last| self.places.get(last));
+        if self.is_full && last.is_none_or(|last| place.order(last).is_ge()) {
+            return;
+        }
+        self.places.push(place);
+        if self.places.len() > self.count.saturating_mul(2).saturating_add(1 << 10) {
+            self.prune();
         }
     }
-    let rank = |difference: &CornerDifference| difference.angle.unwrap_or(f64::INFINITY);
-    all.sort_unstable_by(|(a, a_number, a_corner), (b, b_number, b_corner)| {
-        let by_difference = b.flips_sign.cmp(&a.flips_sign).then(rank(b).total_cmp(&rank(a)));
-        by_difference.then((a_number, a_corner).cmp(&(b_number, b_corner)))
-    });
-    let mut seen = HashSet::new();
-    let places = all.into_iter().map(|(CornerDifference { angle, flips_sign, .. }, number, corner)| {
-        let pair = &pairs[number];
-        let position = pair.corners.as_ref().ok().and_then(|corners| corners.positions.get(corner)).copied();
-        let (triangle, corner) = (corner / 3, corner % 3);
-        WorstCorner { name: pair.name.clone(), triangle, corner, position, angle, sign_flip: flips_sign }
-    });
-    let is_new = |place: &WorstCorner| {
-        let position = place.position.map(|position| position.map(f32::to_bits));
-        seen.insert((place.name.mesh, position))
-    };
-    places.filter(is_new).take(count).collect()
+
+    /// Keeps the worst corner of each position, and of these the worst.
+    fn prune(&mut self) {
+        self.places.sort_unstable_by(Place::order);
+        let mut seen = HashSet::new();
+        self.places.retain(|place| {
+            let position = place.position.map(|position| position.map(f32::to_bits));
+            seen.len() < self.count && seen.insert((place.mesh, position))
+        });
+        self.is_full = self.places.len() == self.count;
+    }
+
+    fn sorted(mut self) -> Vec<Place> {
+        self.prune();
+        self.places
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pruning between additions removes nothing that a sort of all corners keeps.
+    #[test]
+    fn the_worst_corners_are_those_of_a_sort_of_all() {
+        let places = (0..40_000_usize).map(|corner| {
+            let [mixed, place] = [corner.wrapping_mul(7_919) % 1_013, corner.wrapping_mul(104_729) % 211];
+            let angle = (mixed % 17 > 0).then_some((mixed % 401) as f64);
+            let difference = CornerDifference { angle, flips_sign: mixed % 29 == 0, is_identical: false };
+            let position = Some([place as f32, 0.0, 0.0]);
+            Place { difference, mesh: corner % 2, number: corner % 2, corner, position }
+        });
+        let is_listed = |place: &Place| {
+            let difference = &place.difference;
+            difference.flips_sign || difference.is_unknown() || difference.angle > Some(0.0)
+        };
+        for count in [0, 1, 10, 300, 400, 500] {
+            let mut all: Vec<Place> = places.clone().filter(is_listed).collect();
+            all.sort_unstable_by(Place::order);
+            let mut seen = HashSet::new();
+            all.retain(|place| seen.insert((place.mesh, place.position.map(|x| x.map(f32::to_bits)))));
+            all.truncate(count);
+            let mut worst = Worst::new(count);
+            places.clone().for_each(|place| worst.add(place));
+            let corners =
+                |places: Vec<Place>| -> Vec<usize> { places.iter().map(|place| place.corner).collect() };
+            assert_eq!(corners(worst.sorted()), corners(all), "{count}");
+        }
+    }
 }

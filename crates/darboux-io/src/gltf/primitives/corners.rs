@@ -1,5 +1,7 @@
 //! The corners of a primitive's triangles, and its attributes at each corner.
 
+use std::borrow::Cow;
+
 use super::name::PrimitiveName;
 use super::triangles::TriangleMode;
 use super::{element_count, limits};
@@ -73,22 +75,47 @@ impl<'a> PrimitiveCorners<'a> {
         target.map_or(Ok(None), |target| self.gathered(target, semantic))
     }
 
+    /// The values of an attribute at every vertex, as floats, in the order of the file; none if the primitive does not have it. Every corner's
+    /// vertex is in range.
+    ///
+    /// Errors: as [`PrimitiveCorners::vectors`].
+    pub(in crate::gltf) fn vertex_vectors<const N: usize>(
+        &self,
+        semantic: &str,
+    ) -> Result<Option<Cow<'a, [[f32; N]]>>, Error> {
+        self.checked(&self.primitive.attributes, semantic)
+    }
+
+    /// The vertex of every corner, without a copy.
+    pub(in crate::gltf) fn into_vertices(self) -> Vec<u32> {
+        self.vertices
+    }
+
     fn gathered<const N: usize>(
         &self,
         attributes: &Attributes,
         semantic: &str,
     ) -> Result<Option<Vec<[f32; N]>>, Error> {
+        let vectors = self.checked(attributes, semantic)?;
+        Ok(vectors.map(|vectors| self.vertices.iter().map(|&vertex| vectors[vertex as usize]).collect()))
+    }
+
+    /// An attribute's values per vertex. Errors: invalid data; a corner's vertex is out of range.
+    fn checked<const N: usize>(
+        &self,
+        attributes: &Attributes,
+        semantic: &str,
+    ) -> Result<Option<Cow<'a, [[f32; N]]>>, Error> {
         let Some(&accessor) = attributes.get(semantic) else { return Ok(None) };
         let vectors = self.document.vectors::<N>(accessor)?;
         let vertices = vectors.len();
-        let at = |(at, &index): (usize, &u32)| {
-            let vector = vectors.get(index as usize).copied();
-            vector.ok_or_else(|| {
-                let problem = darboux::Error::IndexOutOfRange { at, index, vertices };
-                self.document.mesh_error(self.name.path(), problem)
-            })
-        };
-        self.vertices.iter().enumerate().map(at).collect::<Result<_, _>>().map(Some)
+        match self.vertices.iter().position(|&vertex| vertex as usize >= vertices) {
+            None => Ok(Some(vectors)),
+            Some(at) => {
+                let problem = darboux::Error::IndexOutOfRange { at, index: self.vertices[at], vertices };
+                Err(self.document.mesh_error(self.name.path(), problem))
+            }
+        }
     }
 }
 
