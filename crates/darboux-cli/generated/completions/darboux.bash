@@ -140,7 +140,7 @@ _darboux() {
                     return 0
                     ;;
                 --method)
-                    COMPREPLY=($(compgen -W "mikktspace angle-area angle-edge lengyel lengyel-per-vertex average area face from-normal" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "mikktspace angle-area lengyel lengyel-per-vertex average area face from-normal angle-edge" -- "${cur}"))
                     return 0
                     ;;
                 --bitangent)
@@ -187,7 +187,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__check)
-            opts="-v -q -o -h --resume --jobs --verbose --allow-outside --memory-limit --explain --only --allow --fail-on --convention --model --no-maps --fix --method --normals --json --quiet --output --out-dir --in-place --force --help"
+            opts="-v -q -o -h --resume --jobs --verbose --allow-outside --memory-limit --explain --only --allow --fail-on --convention --model --no-maps --fix --dry-run --method --normals --json --quiet --output --out-dir --in-place --force --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -226,7 +226,7 @@ _darboux() {
                     return 0
                     ;;
                 --method)
-                    COMPREPLY=($(compgen -W "mikktspace angle-area angle-edge lengyel lengyel-per-vertex average area face from-normal" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "mikktspace angle-area lengyel lengyel-per-vertex average area face from-normal angle-edge" -- "${cur}"))
                     return 0
                     ;;
                 --normals)
@@ -260,7 +260,7 @@ _darboux() {
             fi
             case "${prev}" in
                 --method)
-                    COMPREPLY=($(compgen -W "mikktspace angle-area angle-edge lengyel lengyel-per-vertex average area face from-normal" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "mikktspace angle-area lengyel lengyel-per-vertex average area face from-normal angle-edge" -- "${cur}"))
                     return 0
                     ;;
                 --worst)
@@ -552,11 +552,11 @@ _darboux() {
                     return 0
                     ;;
                 --method)
-                    COMPREPLY=($(compgen -W "mikktspace angle-area angle-edge lengyel lengyel-per-vertex average area face from-normal" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "mikktspace angle-area lengyel lengyel-per-vertex average area face from-normal angle-edge" -- "${cur}"))
                     return 0
                     ;;
                 --mode)
-                    COMPREPLY=($(compgen -W "reference repaired corrected" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "repaired reference corrected" -- "${cur}"))
                     return 0
                     ;;
                 --threshold)

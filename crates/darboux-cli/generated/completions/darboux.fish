@@ -42,17 +42,17 @@ complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l out-dir -d 'Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure of input folders' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l jobs -d 'How many files are processed at the same time; by default one per processor core' -r
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
-complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l method -d 'How tangents are computed: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l method -d 'How tangents are computed: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF)'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
-angle-edge\t'Weighted by angle and edge lengths, meshoptimizer\'s default'
-lengyel\t'The sum of dP/du, separate for each UV orientation'
+lengyel\t'The sum of dP/du, not normalised, separate for each UV orientation'
 lengyel-per-vertex\t'The sum of dP/du per vertex, as in three.js and many tutorials: wrong at mirrored seams'
-average\t'The mean of the triangles\' tangents'
-area\t'The mean of the triangles\' tangents, weighted by area'
-face\t'One tangent per face, not smoothed'
-from-normal\t'Any direction perpendicular to the normal, independent of UVs'"
-complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l mode -d 'Which defects of the MikkTSpace reference implementation are kept' -r -f -a "reference\t'The bits of the reference, including zero-length and non-finite tangents'
-repaired\t'The bits of the reference where its tangent is usable, a unit tangent elsewhere'
+average\t'The mean of the triangles\' tangents, for engines that compute it on the GPU'
+area\t'The mean of the triangles\' tangents, weighted by area: large faces dominate'
+face\t'One tangent per face, not smoothed: for flat shading and measurements'
+from-normal\t'Any direction perpendicular to the normal, independent of UVs: for sampling, not for normal maps'
+angle-edge\t'Weighted by angle and edge lengths: the default of meshoptimizer, gltfpack -gt and Godot from 4.6 on'"
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l mode -d 'Which defects of the MikkTSpace reference implementation are kept' -r -f -a "repaired\t'The bits of the reference where its tangent is usable, a unit tangent elsewhere'
+reference\t'The bits of the reference, including zero-length and non-finite tangents'
 corrected\t'Like repaired, with all edges matched and one sign per triangle'"
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l threshold -d 'Split the tangents of faces whose directions differ by this angle or more, in degrees' -r
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l device -d 'The device that computes the tangents; all devices give the same bits' -r -f -a "auto\t'The CPU, unless DARBOUX_GPU_TRIANGLES is set'
@@ -265,15 +265,15 @@ never\t'Findings do not change the exit code'"
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l convention -d 'Where the green of normal maps should point' -r -f -a "opengl\t'Green up: glTF, OpenGL, Blender, Unity, Godot'
 directx\t'Green down: DirectX, Unreal'"
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l model -d 'The model that the images are normal maps of: its faces tell inverted green from inverted red, and its tangents, normals and UVs are checked, too' -r -F
-complete -c darboux -n "__fish_darboux_using_subcommand check" -l method -d 'How --fix makes tangents again: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l method -d 'How --fix makes tangents again: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF)'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
-angle-edge\t'Weighted by angle and edge lengths, meshoptimizer\'s default'
-lengyel\t'The sum of dP/du, separate for each UV orientation'
+lengyel\t'The sum of dP/du, not normalised, separate for each UV orientation'
 lengyel-per-vertex\t'The sum of dP/du per vertex, as in three.js and many tutorials: wrong at mirrored seams'
-average\t'The mean of the triangles\' tangents'
-area\t'The mean of the triangles\' tangents, weighted by area'
-face\t'One tangent per face, not smoothed'
-from-normal\t'Any direction perpendicular to the normal, independent of UVs'"
+average\t'The mean of the triangles\' tangents, for engines that compute it on the GPU'
+area\t'The mean of the triangles\' tangents, weighted by area: large faces dominate'
+face\t'One tangent per face, not smoothed: for flat shading and measurements'
+from-normal\t'Any direction perpendicular to the normal, independent of UVs: for sampling, not for normal maps'
+angle-edge\t'Weighted by angle and edge lengths: the default of meshoptimizer, gltfpack -gt and Godot from 4.6 on'"
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l normals -d 'How --fix makes missing normals: flat, smooth or crease=DEG' -r
 complete -c darboux -n "__fish_darboux_using_subcommand check" -s o -l output -d 'Output file for a single input, in an existing folder; - is standard output, as GLB' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l out-dir -d 'Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure of input folders' -r -F
@@ -282,6 +282,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand check" -s v -l verbose -
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l no-maps -d 'Do not decode normal maps'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l fix -d 'Repair what is found, and write the result'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l dry-run -d 'Print the edits with which --fix would begin, and write no file'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l in-place -d 'Replace each input by its output'
@@ -315,15 +316,15 @@ complete -c darboux -n "__fish_darboux_using_subcommand bake" -l cage-offset -d 
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l cage -d 'Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as --cage-offset would' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l match -d 'Which high parts the rays of a low part can hit' -r -f -a "nearest\t'All of them: the first that a ray meets'
 name\t'Those of the same name: crate_low gets the detail of crate_high and crate_high_bolts. The names of nodes count, or else of meshes'"
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l method -d 'How tangents are computed; by default those of the low model\'s file are used, and mikktspace if it has none for the UV set' -r -f -a "mikktspace\t'The standard of bakers and engines'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l method -d 'How tangents are computed; by default those of the low model\'s file are used, and mikktspace if it has none for the UV set' -r -f -a "mikktspace\t'The standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF)'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
-angle-edge\t'Weighted by angle and edge lengths, meshoptimizer\'s default'
-lengyel\t'The sum of dP/du, separate for each UV orientation'
+lengyel\t'The sum of dP/du, not normalised, separate for each UV orientation'
 lengyel-per-vertex\t'The sum of dP/du per vertex, as in three.js and many tutorials: wrong at mirrored seams'
-average\t'The mean of the triangles\' tangents'
-area\t'The mean of the triangles\' tangents, weighted by area'
-face\t'One tangent per face, not smoothed'
-from-normal\t'Any direction perpendicular to the normal, independent of UVs'"
+average\t'The mean of the triangles\' tangents, for engines that compute it on the GPU'
+area\t'The mean of the triangles\' tangents, weighted by area: large faces dominate'
+face\t'One tangent per face, not smoothed: for flat shading and measurements'
+from-normal\t'Any direction perpendicular to the normal, independent of UVs: for sampling, not for normal maps'
+angle-edge\t'Weighted by angle and edge lengths: the default of meshoptimizer, gltfpack -gt and Godot from 4.6 on'"
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l bitangent -d 'How the renderer rebuilds the bitangent' -r -f -a "pixel\t'Per pixel from the interpolated normal and tangent, as glTF, MikkTSpace, Blender, Unreal and Unity'
 vertex\t'Per vertex, then interpolated'"
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l uv-set -d 'The UV set n of TEXCOORD_n; by default that of the material\'s normal map' -r
@@ -342,15 +343,15 @@ complete -c darboux -n "__fish_darboux_using_subcommand bake" -l allow-outside -
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c darboux -n "__fish_darboux_using_subcommand compare" -l method -d 'Compare A with the tangents that this method computes for A; `darboux methods` lists the methods' -r -f -a "mikktspace\t'The standard of bakers and engines'
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -l method -d 'Compare A with the tangents that this method computes for A; `darboux methods` lists the methods' -r -f -a "mikktspace\t'The standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF)'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
-angle-edge\t'Weighted by angle and edge lengths, meshoptimizer\'s default'
-lengyel\t'The sum of dP/du, separate for each UV orientation'
+lengyel\t'The sum of dP/du, not normalised, separate for each UV orientation'
 lengyel-per-vertex\t'The sum of dP/du per vertex, as in three.js and many tutorials: wrong at mirrored seams'
-average\t'The mean of the triangles\' tangents'
-area\t'The mean of the triangles\' tangents, weighted by area'
-face\t'One tangent per face, not smoothed'
-from-normal\t'Any direction perpendicular to the normal, independent of UVs'"
+average\t'The mean of the triangles\' tangents, for engines that compute it on the GPU'
+area\t'The mean of the triangles\' tangents, weighted by area: large faces dominate'
+face\t'One tangent per face, not smoothed: for flat shading and measurements'
+from-normal\t'Any direction perpendicular to the normal, independent of UVs: for sampling, not for normal maps'
+angle-edge\t'Weighted by angle and edge lengths: the default of meshoptimizer, gltfpack -gt and Godot from 4.6 on'"
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l worst -d 'How many of the worst corners are listed' -r
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l tolerance -d 'Exit with 3 if an angle is larger than this, a sign w is opposite, or one side lacks tangents' -r
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l heat-map -d 'Draw the angles over the UV layout, as a PNG' -r -F
