@@ -4,24 +4,12 @@ mod maps;
 mod normals;
 mod positions;
 mod recipes;
+mod rule;
 mod tangents;
 mod transforms;
 mod uvs;
 
-use darboux_io::gltf::Appearance;
-
-use crate::defect::Defect;
-use crate::facts::SurfaceFacts;
-use crate::measure::map::Map;
-
-/// A rule about surfaces.
-pub type SurfaceRule = fn(&SurfaceFacts<'_>) -> Vec<Defect>;
-
-/// A rule about normal maps.
-pub type MapRule = fn(&Map) -> Option<Defect>;
-
-/// A rule about the use of normal maps by a material.
-pub type MaterialRule = fn(&Appearance) -> Option<Defect>;
+use rule::{MapRule, MaterialRule, SurfaceRule};
 
 /// All rules about surfaces: causes before what follows from them.
 pub const SURFACE_RULES: &[&[SurfaceRule]] =

@@ -6,47 +6,14 @@ mod maps;
 mod materials;
 mod normals;
 mod obstacles;
+mod said;
 mod tangents;
 mod uvs;
 
-use std::borrow::Cow;
-
-use crate::defect::Cancelled;
-use crate::defect::Obstacle;
-use crate::defect::{Defect, Fault};
-use crate::finding::{Evidence, Finding};
-use crate::indices::{Indices, Part};
-
-/// What is said of a fault.
-struct Said {
-    text: String,
-    evidence: Vec<Evidence>,
-    /// Another cure than that of the code.
-    cure: Option<Cow<'static, str>>,
-}
-
-impl Said {
-    fn new(text: impl Into<String>) -> Self {
-        Self { text: text.into(), evidence: Vec::new(), cure: None }
-    }
-
-    fn with(mut self, what: &'static str, value: f64, unit: &'static str) -> Self {
-        self.evidence.push(Evidence { what, value, unit });
-        self
-    }
-
-    fn with_cure(self, cure: impl Into<Cow<'static, str>>) -> Self {
-        Self { cure: Some(cure.into()), ..self }
-    }
-
-    fn of_vertices(text: String, part: &Part) -> Self {
-        Self::new(text).with("part of all vertices", part.percent(), "%")
-    }
-
-    fn of_triangles(text: String, part: &Part) -> Self {
-        Self::new(text).with("part of all triangles", part.percent(), "%")
-    }
-}
+use crate::defect::{Cancelled, Defect, Fault, Obstacle};
+use crate::finding::Finding;
+use crate::indices::Indices;
+use said::Said;
 
 /// The most indices in [`Finding::first`].
 const FIRST: usize = 8;

@@ -12,7 +12,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux-io", &["darboux", "darboux-dice"]),
     ("darboux-gpu", &["darboux", "darboux-tests"]),
     ("darboux-render", &["darboux", "darboux-io", "darboux-gpu", "darboux-dice"]),
-    ("darboux-check", &["darboux", "darboux-io", "darboux-tests"]),
+    ("darboux-check", &["darboux", "darboux-io", "darboux-dice", "darboux-tests"]),
     ("darboux-bake", &["darboux", "darboux-io", "darboux-dice", "darboux-tests"]),
     (
         "darboux-cli",

@@ -2,7 +2,7 @@
 
 use darboux::{MapJudgement, MapVerdict, SrgbMistake, TangentDirection};
 
-use super::MapRule;
+use super::rule::MapRule;
 use crate::defect::Obstacle;
 use crate::defect::{
     Certainty, Defect, DirectionEvidence, FacesScore, Fault, LengthDoubt, MapFault, NoNormals, RedDoubt,

@@ -1,6 +1,6 @@
 //! Rules about normals.
 
-use super::SurfaceRule;
+use super::rule::SurfaceRule;
 use crate::defect::{Defect, Fault};
 use crate::facts::SurfaceFacts;
 use crate::indices::Part;

@@ -1,6 +1,6 @@
 //! Rules about positions.
 
-use super::SurfaceRule;
+use super::rule::SurfaceRule;
 use crate::defect::{Defect, Fault};
 use crate::facts::SurfaceFacts;
 use crate::measure::values::is_finite;

@@ -2,7 +2,7 @@
 
 use darboux::RecipeMatch;
 
-use super::SurfaceRule;
+use super::rule::SurfaceRule;
 use crate::defect::Obstacle;
 use crate::defect::{Defect, Fault};
 use crate::facts::SurfaceFacts;

@@ -1,6 +1,6 @@
 //! Rules about tangents: values, signs and directions.
 
-use super::SurfaceRule;
+use super::rule::SurfaceRule;
 use crate::defect::{Defect, Fault, TangentDifference};
 use crate::facts::SurfaceFacts;
 use crate::indices::Part;

@@ -2,7 +2,7 @@
 
 use darboux_io::gltf::{Appearance, TextureUse};
 
-use super::MaterialRule;
+use super::rule::MaterialRule;
 use crate::defect::{Defect, Fault};
 
 pub const RULES: &[MaterialRule] = &[mirrors, negative_scale];

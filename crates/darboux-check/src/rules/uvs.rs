@@ -1,6 +1,6 @@
 //! Rules about UVs: the set that the tangents follow.
 
-use super::SurfaceRule;
+use super::rule::SurfaceRule;
 use crate::defect::{Defect, Fault};
 use crate::facts::SurfaceFacts;
 use crate::measure::overlap::overlapping;

@@ -2,8 +2,8 @@
 
 use darboux::{BitangentDirection, SrgbMistake};
 
-use super::Said;
 use super::counts::counted;
+use super::said::Said;
 use crate::code::Code;
 use crate::defect::{
     Certainty, DirectionEvidence, FacesScore, LengthDoubt, MapFault, NoNormals, RedDoubt, Texels,

@@ -1,6 +1,6 @@
 //! The words of defects of materials.
 
-use super::Said;
+use super::said::Said;
 use crate::defect::Fault;
 
 pub fn said(fault: &Fault) -> Said {

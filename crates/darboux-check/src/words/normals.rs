@@ -1,7 +1,7 @@
 //! The words of defects of positions and normals.
 
-use super::Said;
 use super::counts::counted;
+use super::said::Said;
 use crate::defect::Fault;
 use crate::indices::Part;
 use crate::measure::other_axes::OtherAxes;

@@ -2,8 +2,8 @@
 
 use darboux::{Method, Recipe, RecipeMatch, RecipeRounding};
 
-use super::Said;
 use super::counts::counted;
+use super::said::Said;
 use crate::defect::{Fault, TangentDifference};
 use crate::indices::Part;
 use crate::measure::fit::Difference;

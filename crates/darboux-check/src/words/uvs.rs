@@ -1,7 +1,7 @@
 //! The words of defects of UVs.
 
-use super::Said;
 use super::counts::counted;
+use super::said::Said;
 use crate::defect::Fault;
 
 pub fn said(fault: &Fault) -> Said {
