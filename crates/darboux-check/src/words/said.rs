@@ -1,0 +1,37 @@
+//! [`Said`]: the words about one fault.
+
+use std::borrow::Cow;
+
+use crate::finding::Evidence;
+use crate::indices::Part;
+
+/// What is said of a fault.
+pub struct Said {
+    pub text: String,
+    pub evidence: Vec<Evidence>,
+    /// Another cure than that of the code.
+    pub cure: Option<Cow<'static, str>>,
+}
+
+impl Said {
+    pub fn new(text: impl Into<String>) -> Self {
+        Self { text: text.into(), evidence: Vec::new(), cure: None }
+    }
+
+    pub fn with(mut self, what: &'static str, value: f64, unit: &'static str) -> Self {
+        self.evidence.push(Evidence { what, value, unit });
+        self
+    }
+
+    pub fn with_cure(self, cure: impl Into<Cow<'static, str>>) -> Self {
+        Self { cure: Some(cure.into()), ..self }
+    }
+
+    pub fn of_vertices(text: String, part: &Part) -> Self {
+        Self::new(text).with("part of all vertices", part.percent(), "%")
+    }
+
+    pub fn of_triangles(text: String, part: &Part) -> Self {
+        Self::new(text).with("part of all triangles", part.percent(), "%")
+    }
+}
