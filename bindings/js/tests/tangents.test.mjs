@@ -73,7 +73,7 @@ const wrong = [
   [[positions, normals, uvs, indices, { faces: 5 }], RangeError, 'faces is 5; it must be 3, 4 or a Uint32Array of sizes'],
   [[positions, normals, uvs, indices, { faces: [3, 3] }], TypeError, 'faces must be a Uint32Array, not Array'],
   [[positions, normals, uvs, indices, { faces: Uint32Array.of(3, 4) }], RangeError, 'the face sizes add up to 7 but there are 6 corners'],
-  [[positions, normals, uvs, indices, { mode: 'best' }], RangeError, "mode is 'best'; it must be one of 'reference', 'repaired', 'corrected'"],
+  [[positions, normals, uvs, indices, { mode: 'best' }], RangeError, "mode is 'best'; it must be one of 'repaired', 'reference', 'corrected'"],
   [[positions, normals, uvs, indices, {}, [0, 0]], TypeError, 'out must be a Float32Array, not Array'],
   [[positions, normals, uvs, indices, {}, new Float32Array(16)], RangeError, 'out has room for 4 tangents but there are 6 corners'],
   [[positions, normals, uvs, indices, 'corrected'], TypeError, 'options must be an object, not "corrected"'],

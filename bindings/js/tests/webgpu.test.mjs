@@ -73,7 +73,7 @@ onGpu('a buffer receives the tangents', async () => {
 onGpu('what does not fit is said', async () => {
   assert.deepEqual(await page.evaluate(() => tested.refusals()), [
     'TypeError: device must be a GPUDevice, as openDevice returns it',
-    "RangeError: mode is 'best'; it must be one of 'reference', 'repaired', 'corrected'",
+    "RangeError: mode is 'best'; it must be one of 'repaired', 'reference', 'corrected'",
     "RangeError: the shaders compute the method 'mikktspace' only; leave the method out",
     'RangeError: index 6 at place 2 is out of range: there are 6 vertices',
     'RangeError: the tangents need 192 bytes but their buffer has 16',

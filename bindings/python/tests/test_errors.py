@@ -58,7 +58,7 @@ BAD = [
     ({"faces": [1 << 31, 1 << 31]}, ValueError, "the face sizes add up to 4294967296"),
     ({"method": "mikk"}, ValueError, "method is 'mikk'; it must be one of 'mikktspace', "),
     ({"method": 3}, TypeError, ""),
-    ({"mode": "exact"}, ValueError, "mode is 'exact'; it must be one of 'reference', 'repaired', 'corrected'"),
+    ({"mode": "exact"}, ValueError, "mode is 'exact'; it must be one of 'repaired', 'reference', 'corrected'"),
     ({"threshold": NAN}, ValueError, "threshold is NaN; it must be a number of degrees"),
     ({"threshold": "90"}, TypeError, ""),
     ({"threshold": 90, "method": "face"}, ValueError, "threshold belongs to method='mikktspace'"),

@@ -25,7 +25,7 @@ def test_normals_and_their_split() -> None:
 
 
 def test_bad_normals() -> None:
-    with pytest.raises(ValueError, match="shading is 'round'; it must be one of 'flat', 'smooth'"):
+    with pytest.raises(ValueError, match="shading is 'round'; it must be one of 'smooth', 'flat'"):
         darboux.generate_normals(FLAT, QUAD, shading="round")  # type: ignore[call-overload]
     with pytest.raises(ValueError, match="crease is inf"):
         darboux.generate_normals(FLAT, QUAD, crease=float("inf"))
