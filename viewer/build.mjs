@@ -1,4 +1,5 @@
-// `node build.mjs DARBOUX MODULE`: builds the page into `dist`, from the npm package in the folder DARBOUX and the compiled module of `wasm`.
+// `node build.mjs DARBOUX MODULE quick|release`: builds the page into `dist`, from the npm package in the folder DARBOUX and the compiled
+// module of `wasm`, which is shrunk for a release.
 
 import { spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
@@ -10,7 +11,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 /** The WebAssembly features that rustc enables by default. */
 const FEATURES = ['bulk-memory', 'bulk-memory-opt', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals', 'reference-types', 'multivalue', 'call-indirect-overlong'];
 
-const [darboux, module] = process.argv.slice(2);
+const [darboux, module, kind] = process.argv.slice(2);
 
 /** Runs an installed program. Errors: it fails. */
 function run(program, ...words) {
@@ -23,18 +24,27 @@ const link = join(here, 'node_modules/darboux');
 rmSync(link, { recursive: true, force: true });
 symlinkSync(darboux, link);
 
+/** The module that the page imports. */
+const shrunk = join(here, 'src/files/darboux_viewer.wasm');
+const keyPath = `${shrunk}.key`;
+
+/** Copies the module as it is. */
+function copy() {
+  rmSync(keyPath, { force: true });
+  copyFileSync(module, shrunk);
+}
+
 /** Shrinks the module, unless the same module was shrunk before: that takes most of the time. */
 function shrink() {
-  const shrunk = join(here, 'src/files/darboux_viewer.wasm');
   const passes = [...FEATURES.map((name) => `--enable-${name}`), '-O3', ...['debug', 'producers', 'target-features'].map((name) => `--strip-${name}`)];
   const key = createHash('sha256').update(readFileSync(module)).update(passes.join()).digest('hex');
-  const keyPath = `${shrunk}.key`;
   if (existsSync(shrunk) && existsSync(keyPath) && readFileSync(keyPath, 'utf8') === key) return;
   run('wasm-opt', ...passes, module, '-o', shrunk);
   writeFileSync(keyPath, key);
 }
 
-shrink();
+if (kind === 'release') shrink();
+else copy();
 mkdirSync(join(here, 'public'), { recursive: true });
 copyFileSync(join(here, '../assets/made/shield.glb'), join(here, 'public/shield.glb'));
 

@@ -1,6 +1,7 @@
-// `node build.mjs MODULES OUT VERSION ENTRY...`: makes the published folder OUT from the WebAssembly modules in MODULES.
+// `node build.mjs MODULES OUT VERSION quick|release ENTRY...`: makes the package's folder OUT from the WebAssembly modules in MODULES.
 //
-//   shrink each module: panics become traps, wasm-opt; deflate it
+//   release: shrink each module: panics become traps, wasm-opt; deflate it
+//   quick: deflate each module; the forms without SIMD are missing
 //   bundle each entry with its module, as ES module and CommonJS; bundle the adapters
 //   write type declarations, package.json, README and licences
 //
@@ -12,12 +13,14 @@ import { copyFileSync, cpSync, existsSync, mkdirSync, readdirSync, readFileSync,
 import { availableParallelism } from 'node:os';
 import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { deflateRawSync } from 'node:zlib';
 import zopfli from '@gfx/zopfli';
 import binaryen from 'binaryen';
 import { build } from 'esbuild';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const [modules, out, version, ...entries] = process.argv.slice(2);
+const [modules, out, version, kind, ...entries] = process.argv.slice(2);
+const isRelease = kind === 'release';
 
 /** The entries of the whole package, each with a WebAssembly module of its name. */
 const ALL_ENTRIES = ['darboux', 'tangents', 'check', 'bake'];
@@ -109,10 +112,23 @@ async function inParallel(tasks) {
   await Promise.all(Array.from({ length: availableParallelism() }, work));
 }
 
+/** What stands in the place of a form that a quick build lacks. */
+const MISSING = "throw new Error('this build of darboux needs SIMD; cargo xtask dist-js --release builds it without'); export default undefined;";
+
+/** The deflated module of an entry, for esbuild. */
+function embed(path) {
+  if (isRelease) return { contents: readFileSync(deflatedPath(path)), loader: 'binary' };
+  const compiled = join(modules, basename(path));
+  return existsSync(compiled) ? { contents: deflateRawSync(readFileSync(compiled)), loader: 'binary' } : { contents: MISSING };
+}
+
 /** Modules are embedded deflated. A server's compression then adds little, whereas plain base64 of a module grows by half. */
 const deflated = {
   name: 'deflated',
-  setup: (build) => build.onLoad({ filter: /\.wasm$/ }, ({ path }) => ({ contents: readFileSync(deflatedPath(path)), loader: 'binary' })),
+  setup: (build) => {
+    build.onResolve({ filter: /\.wasm$/ }, ({ path, resolveDir }) => ({ path: join(resolveDir, path) }));
+    build.onLoad({ filter: /\.wasm$/ }, ({ path }) => embed(path));
+  },
 };
 
 /** A WGSL file without its comment lines. */
@@ -209,7 +225,7 @@ function keepTypes() {
 
 rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
-await inParallel(entries.flatMap((entry) => ['simd', 'scalar'].map((form) => () => shrink(entry, form))));
+if (isRelease) await inParallel(entries.flatMap((entry) => ['simd', 'scalar'].map((form) => () => shrink(entry, form))));
 await step('bundle the package and write its types', async () => {
   const types = run('tsc', '-p', 'lib', '--outDir', out);
   for (const entry of entries) await bundleEntry(entry);

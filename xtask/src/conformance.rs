@@ -93,7 +93,7 @@ const BUILDS: [Build; 4] = [
     }),
     (&["darboux-c"], dist_c::make),
     (&["darboux-python"], || python::with_package().map(|_| ())),
-    (&["darboux-npm", "darboux-webgpu"], dist_js::make),
+    (&["darboux-npm", "darboux-webgpu"], || dist_js::make(dist_js::Build::Release)),
 ];
 
 /// The program that computes cases with mikktspace.c and with Darboux: `CASES RESULTS [MODE]`.

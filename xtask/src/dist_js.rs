@@ -1,10 +1,12 @@
-//! `cargo xtask dist-js`: the folder that is published as the npm package `darboux`.
+//! `cargo xtask dist-js [--release]`: the folder of the npm package `darboux`.
 //!
 //! ```text
-//! at the same time:  compile the WebAssembly modules, each in a target folder of its own
+//! at the same time:  compile the WebAssembly modules
 //!                    install the npm packages that bundling needs
-//! then (build.mjs):  shrink each module (wasm-opt), compress it, bundle it with the TypeScript side
+//! then (build.mjs):  shrink each module (wasm-opt; only for a release), compress it, bundle it with the TypeScript side
 //! ```
+//!
+//! A [`Build`] says which forms of the modules are made, and how much time goes into their size.
 //!
 //! Modules are compiled without function names in the end, but the names say which functions take the time: see [`SIZE_FLAG`].
 
@@ -24,11 +26,61 @@ use crate::validate::WithoutNpm;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
+/// The crate of the modules.
+const PACKAGE: &str = "darboux-js";
+
 /// WebAssembly without an operating system.
 pub const TRIPLE: &str = "wasm32-unknown-unknown";
 
-/// The two forms of every module, and their compiler flags.
-const FORMS: [(&str, &str); 2] = [("simd", "-Ctarget-feature=+simd128"), ("scalar", "")];
+/// How the modules of a package are compiled.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Build {
+    /// For a first look: with SIMD only, quick to compile, several times as large.
+    Quick,
+    /// What is published: with and without SIMD, optimised across crates, shrunk.
+    Release,
+}
+
+/// A form of a module: its name and its compiler flags.
+type Form = (&'static str, &'static str);
+
+const SIMD: Form = ("simd", "-Ctarget-feature=+simd128");
+const SCALAR: Form = ("scalar", "");
+
+impl Build {
+    /// The name that `build.mjs` knows the build by, and the folder of its files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Build::Quick => "quick",
+            Build::Release => "release",
+        }
+    }
+
+    fn forms(self) -> &'static [Form] {
+        match self {
+            Build::Quick => &[SIMD],
+            Build::Release => &[SIMD, SCALAR],
+        }
+    }
+
+    /// The number of modules that are compiled at the same time. Quick ones share a target folder, which Cargo locks.
+    fn threads(self) -> usize {
+        match self {
+            Build::Quick => 1,
+            Build::Release => thread::available_parallelism().map_or(1, usize::from),
+        }
+    }
+}
+
+/// Compiles a package quickly in the target folder that all quick modules share, with SIMD. Returns the folder of the module.
+pub fn compile_quickly(package: &str, features: &[&str]) -> Result<PathBuf, String> {
+    let target = target_folder()?.join("quick-modules");
+    let mut cargo = program("cargo build --quiet --profile quick --package");
+    cargo.args([package, "--target", TRIPLE]).args(features);
+    cargo.env("CARGO_TARGET_DIR", &target).env("RUSTFLAGS", SIMD.1);
+    run(to_stderr(&mut cargo))?;
+    Ok(target.join(TRIPLE).join("quick"))
+}
 
 /// Flags of most modules: functions with several callers are not inlined, and loops of unknown length are not unrolled. The modules are an
 /// eighth smaller for it and as fast. Optimisation levels for size would lose vectorisation.
@@ -72,15 +124,16 @@ pub fn test(without: WithoutNpm) -> Outcome {
         println!("skipped: the npm package needs node and npm");
         return Ok(());
     }
-    make_folder(&folder()?, &ALL)?;
+    make_folder(&folder()?, &ALL, Build::Release)?;
     run(program("npm test").current_dir(root().join("bindings/js")))
 }
 
-/// `cargo xtask dist-js`: makes the folder and prints its absolute path as the last line.
-pub fn make() -> Outcome {
-    eprintln!("dist-js makes the npm package: 8 WebAssembly modules, bundled with TypeScript");
+/// Makes the folder and prints its absolute path as the last line.
+pub fn make(build: Build) -> Outcome {
+    let count = ALL.len() * build.forms().len();
+    eprintln!("dist-js makes the npm package: {count} WebAssembly modules, bundled with TypeScript");
     let folder = folder()?;
-    make_folder(&folder, &ALL)?;
+    make_folder(&folder, &ALL, build)?;
     println!("{}", folder.display());
     Ok(())
 }
@@ -91,53 +144,69 @@ pub fn folder() -> Result<PathBuf, String> {
 }
 
 /// Makes the package with the entries of some modules.
-pub fn make_folder(folder: &Path, modules: &[Module]) -> Outcome {
+pub fn make_folder(folder: &Path, modules: &[Module], build: Build) -> Outcome {
     run(to_stderr(&mut program(&format!("rustup target add {TRIPLE}"))))?;
     let package = root().join("bindings/js");
-    let compiled = target_folder()?.join("dist-js/modules");
+    let compiled = target_folder()?.join("dist-js/modules").join(build.name());
     fs::create_dir_all(&compiled)
         .map_err(|error| format!("{} cannot be made: {error}", compiled.display()))?;
-    let forms = modules.iter().flat_map(|module| FORMS.map(|form| (*module, form)));
-    let queue = Mutex::new(forms.collect::<Vec<_>>().into_iter());
+    let jobs: Vec<_> =
+        modules.iter().flat_map(|module| build.forms().iter().map(|form| (*module, *form))).collect();
+    let threads = build.threads().min(jobs.len());
+    let queue = Mutex::new(jobs.into_iter());
     let next = || queue.lock().ok().and_then(|mut queue| queue.next());
     let compile_all = || {
         while let Some((module, form)) = next() {
-            compile(module, form, &compiled)?;
+            compile(module, form, build, &compiled)?;
         }
         Ok(())
     };
     thread::scope(|scope| {
         let mut others = vec![scope.spawn(|| npm::install("bindings/js", &package))];
-        let threads = thread::available_parallelism().map_or(1, usize::from);
-        others.extend((1..threads.min(2 * modules.len())).map(|_| scope.spawn(compile_all)));
+        others.extend((1..threads).map(|_| scope.spawn(compile_all)));
         let mine = compile_all();
         let others = others.into_iter().map(|thread| thread.join().expect("compiling does not panic"));
         others.fold(mine, Outcome::and)
     })?;
     let mut bundle = program("node build.mjs");
-    bundle.args([&compiled, folder]).arg(VERSION).args(modules.iter().map(|module| module.entry));
+    bundle
+        .args([&compiled, folder])
+        .args([VERSION, build.name()])
+        .args(modules.iter().map(|module| module.entry));
     run(to_stderr(bundle.current_dir(&package)))
 }
 
 /// Compiles one form of a module to `FOLDER/ENTRY.FORM.wasm`.
-fn compile(module: Module, (form, form_flags): (&str, &str), folder: &Path) -> Outcome {
+fn compile(module: Module, form: Form, build: Build, folder: &Path) -> Outcome {
+    let built = match build {
+        Build::Quick => step(&format!("compile the module of {}", module.entry), || {
+            compile_quickly(PACKAGE, &["--no-default-features", "--features", module.features])
+        })?,
+        Build::Release => compile_for_release(module, form)?,
+    };
+    let (built, out) =
+        (built.join("darboux_js.wasm"), folder.join(format!("{}.{}.wasm", module.entry, form.0)));
+    fs::copy(&built, &out)
+        .map(|_| ())
+        .map_err(|error| format!("{} cannot be copied to {}: {error}", built.display(), out.display()))
+}
+
+/// Compiles one form of a module as it is published. Returns the folder of the module.
+fn compile_for_release(module: Module, (form, form_flags): Form) -> Result<PathBuf, String> {
     let Module { entry, features, flags, is_small } = module;
     let target = target_folder()?.join("dist-js").join(format!("{entry}-{form}"));
     let hot = if is_small { hot_functions(&target)? } else { BTreeSet::new() };
     let size = if is_small { format!(" {SIZE_FLAG}{}", excluded(&hot)) } else { String::new() };
     step(&format!("compile the module of {entry} ({form})"), || {
-        let mut cargo = cargo_build("darboux-js", &target);
+        let mut cargo = cargo_build(PACKAGE, &target);
         cargo.args(["--no-default-features", "--features", features]);
         run(to_stderr(cargo.env("RUSTFLAGS", format!("{form_flags} {flags}{size}"))))
     })?;
-    let built = target.join(TRIPLE).join("dist/darboux_js.wasm");
+    let built = target.join(TRIPLE).join("dist");
     if is_small {
-        check_hot_functions(&built, &hot)?;
+        check_hot_functions(&built.join("darboux_js.wasm"), &hot)?;
     }
-    let out = folder.join(format!("{entry}.{form}.wasm"));
-    fs::copy(&built, &out)
-        .map(|_| ())
-        .map_err(|error| format!("{} cannot be copied to {}: {error}", built.display(), out.display()))
+    Ok(built)
 }
 
 fn cargo_build(package: &str, target: &Path) -> std::process::Command {

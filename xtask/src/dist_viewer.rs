@@ -1,16 +1,16 @@
-//! `cargo xtask dist-viewer`: the viewer's page as static files, which `darboux view` serves.
+//! `cargo xtask dist-viewer [--release]`: the viewer's page as static files, which `darboux view` serves.
 //!
 //! ```text
 //! at the same time:  make the npm package, with the entries that the page imports
 //!                    compile the page's own WebAssembly module (reading and writing glTF)
 //!                    install the npm packages of the page
-//! then (build.mjs):  shrink the module, check types, bundle the page
+//! then (build.mjs):  shrink the module (only for a release), check types, bundle the page
 //! ```
 
 use std::path::{Path, PathBuf};
 use std::thread;
 
-use crate::dist_js::{self, BAKE, CHECK, FULL, TRIPLE};
+use crate::dist_js::{self, BAKE, Build, CHECK, FULL, TRIPLE};
 use crate::npm;
 use crate::progress::step;
 use crate::run::{Outcome, program, root, run, target_folder, to_stderr, works};
@@ -19,22 +19,25 @@ use crate::validate::WithoutNpm;
 /// The browser of the tests, unless the environment variable CHROMIUM names another.
 const CHROMIUM: &str = "/usr/bin/chromium";
 
-/// `cargo xtask dist-viewer`: makes the page and prints its absolute folder as the last line.
-pub fn make() -> Outcome {
-    println!("{}", make_page()?.display());
+/// The crate of the page's module.
+const PACKAGE: &str = "darboux-viewer";
+
+/// Makes the page and prints its absolute folder as the last line.
+pub fn make(build: Build) -> Outcome {
+    println!("{}", make_page(build)?.display());
     Ok(())
 }
 
 /// Makes the page and returns its absolute folder.
-pub fn make_page() -> Result<PathBuf, String> {
-    eprintln!("the viewer's page: 7 WebAssembly modules, bundled with TypeScript and three.js");
+pub fn make_page(build: Build) -> Result<PathBuf, String> {
+    eprintln!("the viewer's page: WebAssembly modules, bundled with TypeScript and three.js");
     let package = package()?;
-    thread::scope(|scope| {
-        let page = scope.spawn(prepare);
-        dist_js::make_folder(&package, &[FULL, CHECK, BAKE])?;
-        page.join().expect("compiling does not panic")
+    let module = thread::scope(|scope| {
+        let module = scope.spawn(|| prepare(build));
+        dist_js::make_folder(&package, &[FULL, CHECK, BAKE], build)?;
+        module.join().expect("compiling does not panic")
     })?;
-    bundle(&package)
+    bundle(&package, &module, build)
 }
 
 /// The folder of the npm package with the entries that the page imports.
@@ -49,8 +52,8 @@ pub fn test(without: WithoutNpm) -> Outcome {
         println!("skipped: the viewer needs node and npm");
         return Ok(());
     }
-    prepare()?;
-    bundle(&dist_js::folder()?)?;
+    let module = prepare(Build::Release)?;
+    bundle(&dist_js::folder()?, &module, Build::Release)?;
     let browser = std::env::var_os("CHROMIUM").unwrap_or_else(|| CHROMIUM.into());
     if can_skip && !Path::new(&browser).exists() {
         println!(
@@ -67,26 +70,30 @@ fn viewer() -> PathBuf {
     root().join("viewer")
 }
 
-/// The target folder of the page's module: its own, so that it is compiled at the same time as the npm package.
-fn target() -> Result<PathBuf, String> {
-    Ok(target_folder()?.join("dist-viewer/module"))
-}
-
-/// Installs the npm packages and compiles the module of the page.
-fn prepare() -> Outcome {
+/// Installs the npm packages and compiles the module of the page. Returns the path of the module.
+fn prepare(build: Build) -> Result<PathBuf, String> {
     npm::install("viewer", &viewer())?;
-    let target = target()?;
-    step("compile the module of the page", || {
-        let mut cargo = program("cargo build --quiet --profile page --package darboux-viewer --target");
-        run(to_stderr(cargo.arg(TRIPLE).env("CARGO_TARGET_DIR", target)))
-    })
+    let folder = step("compile the module of the page", || match build {
+        // The feature that the npm package's modules need, so that darboux-io is compiled once for all.
+        Build::Quick => dist_js::compile_quickly(PACKAGE, &["--features", "darboux-io/textures"]),
+        Build::Release => compile_for_release(),
+    })?;
+    Ok(folder.join("darboux_viewer.wasm"))
 }
 
-/// Bundles the page with the npm package in a folder. Returns the page's own folder.
-fn bundle(package: &Path) -> Result<PathBuf, String> {
-    let module = target()?.join(TRIPLE).join("page/darboux_viewer.wasm");
-    step("shrink the module, check types, and bundle the page", || {
-        run(to_stderr(program("node build.mjs").args([package, &module]).current_dir(viewer())))
+/// Compiles the module in a target folder of its own, at the same time as those of the npm package. Returns the folder of the module.
+fn compile_for_release() -> Result<PathBuf, String> {
+    let target = target_folder()?.join("dist-viewer/module");
+    let mut cargo = program("cargo build --quiet --profile page --package");
+    run(to_stderr(cargo.args([PACKAGE, "--target", TRIPLE]).env("CARGO_TARGET_DIR", &target)))?;
+    Ok(target.join(TRIPLE).join("page"))
+}
+
+/// Bundles the page with the npm package in a folder and the page's module. Returns the page's own folder.
+fn bundle(package: &Path, module: &Path, build: Build) -> Result<PathBuf, String> {
+    step("check types and bundle the page", || {
+        let mut node = program("node build.mjs");
+        run(to_stderr(node.args([package, module]).arg(build.name()).current_dir(viewer())))
     })?;
     Ok(viewer().join("dist"))
 }

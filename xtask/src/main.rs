@@ -32,6 +32,8 @@ mod validate;
 
 use std::process::ExitCode;
 
+use crate::dist_js::Build;
+
 const USAGE: &str = "\
 usage: cargo xtask <task>
 
@@ -72,8 +74,11 @@ packages (the path is the last line of the output)
                    make the documentation's site (needs what dist-js needs); --check: only its pages and their links;
                    --test: and test it in Chromium
   dist-c           make the folder for users of C and C++ (Linux: needs ld, objcopy, nm and ar)
-  dist-js          make the folder of the npm package (needs node, npm and rustup)
-  dist-viewer      make the viewer's page, which darboux view serves (needs what dist-js needs)
+  dist-js [--release]
+                   make the folder of the npm package (needs node, npm and rustup)
+  dist-viewer [--release]
+                   make the viewer's page, which darboux view serves (needs what dist-js needs);
+                   without --release both have only modules with SIMD, which are large and quick to compile
   dist-python      build the Python wheel (needs python3 with venv, and the network)
   release --check [--since TAG] [metadata] [msrv] [crates] [c] [python] [npm]
                    make all packages, install each into an empty folder and run its example;
@@ -107,8 +112,10 @@ fn main() -> ExitCode {
         ["maps", "--real", ref folders @ ..] => bench::judge_real_maps(folders),
         ["maps", ref options @ ..] => bench::judge_maps(options),
         ["dist-c"] => dist_c::make(),
-        ["dist-js"] => dist_js::make(),
-        ["dist-viewer"] => dist_viewer::make(),
+        ["dist-js"] => dist_js::make(Build::Quick),
+        ["dist-js", "--release"] => dist_js::make(Build::Release),
+        ["dist-viewer"] => dist_viewer::make(Build::Quick),
+        ["dist-viewer", "--release"] => dist_viewer::make(Build::Release),
         ["dist-python"] => python::dist(),
         #[cfg(unix)]
         ["soak", ref words @ ..] => soak::run(words),

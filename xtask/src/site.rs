@@ -20,6 +20,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::dist_js::Build;
 use crate::dist_viewer;
 use crate::links;
 use crate::run::{Outcome, program, root, run, target_folder, to_stderr};
@@ -89,7 +90,7 @@ fn read_pages() -> Result<BTreeMap<PathBuf, Page>, String> {
 
 /// Adds the viewer's page, and the entry `darboux` of the npm package, on which the interactive figures compute.
 fn add_viewer(folder: &Path) -> Outcome {
-    let page = dist_viewer::make_page()?;
+    let page = dist_viewer::make_page(Build::Release)?;
     run(to_stderr(program("cp -r").arg(page).arg(folder.join("viewer"))))?;
     let package = dist_viewer::package()?;
     let mut copy = program("cp");

@@ -8,7 +8,7 @@ use crate::{dist_js, doc_blocks};
 
 /// Makes the npm package, packs and installs it, and runs the example.
 pub fn check() -> Outcome {
-    dist_js::make()?;
+    dist_js::make(dist_js::Build::Release)?;
     let made = dist_js::folder()?;
     let work = empty_folder("npm")?;
     run(program("npm pack --silent --pack-destination").arg(&work).current_dir(&made))?;
