@@ -16,6 +16,7 @@ mod functions;
 mod generated;
 mod gpu;
 mod layers;
+mod lines;
 mod links;
 mod npm;
 mod packages;
@@ -41,6 +42,7 @@ checks
   ci [--full]      run the checks that must pass before a change lands; --full adds those that take long
   layers           check which packages import which, and that the files of a package import each other without cycles
   links            check that links between the pages of the documentation lead to files and headings that exist
+  lines            print the lines of code of each part, without comments, blank lines and unit tests
   docs [PAGE ...]  run the code blocks of the documentation, twice
   validate         check the command's outputs for all models with independent tools (needs node and npm)
   soak [...]       run the command on damaged and hostile files (Unix); options: soak --help
@@ -100,6 +102,7 @@ fn main() -> ExitCode {
         ["site", "--check"] => site::check(),
         ["site", "--test"] => site::test(),
         ["layers"] => layers::check(),
+        ["lines"] => lines::print(),
         ["links"] => links::check(),
         ["release", "--check", ref words @ ..] => release::check(words),
         ["docs", ref pages @ ..] => doc_blocks::run(pages),
