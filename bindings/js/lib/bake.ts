@@ -226,7 +226,7 @@ export function bake(low: LowMesh, high: HighMesh, options?: BakeOptions | null)
  * gives the content. Normals are in the frames of the tangents that the low model has, or else of MikkTSpace's. The call does not return before all
  * is done: run it in a worker, which a page can end.
  *
- * @param low The bytes of a GLB, or of a glTF whose buffers and images are embedded. Draco is decompressed, meshopt is not.
+ * @param low The bytes of a GLB, or of a glTF whose buffers and images are embedded. Draco and meshopt compression is decoded.
  * @param high The same of one high model, or of several.
  * @throws TypeError for another type. RangeError for an unknown choice, for numbers that cannot be read, and where WebAssembly has not enough memory. Error for a file that
  * cannot be read, a model without normals, UVs or triangles, and numbers out of range.

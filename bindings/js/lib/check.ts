@@ -125,7 +125,7 @@ export const ready: Promise<void> = checkModule.ready;
  * Says what is wrong with the tangents, normals, UVs and normal maps of a model, or with a normal map.
  *
  * @param file The bytes of a GLB, of a glTF whose buffers and images are embedded, or of an image (PNG, JPEG, WebP), which is a normal map. Draco
- * is decompressed, meshopt is not: decompress such a file first, for example with glTF-Transform.
+ * and meshopt compression is decoded.
  * @returns The findings, grouped by place; empty for a healthy file.
  * @throws TypeError for another type. Error for a file that cannot be read; an image that cannot be decoded is a finding.
  */

@@ -84,7 +84,6 @@ fn overlapping_strips_are_refused() {
 
 /// Every view names the same stream, so that the file decodes to any size.
 #[test]
-#[cfg(feature = "meshopt")]
 fn views_over_one_stream_are_refused() {
     use base64::Engine;
 

@@ -17,7 +17,6 @@ pub enum BufferSource {
     /// A `data:` URI, decoded.
     Data(Vec<u8>),
     /// Decompressed bytes of a buffer that had none.
-    #[cfg_attr(not(feature = "meshopt"), expect(dead_code, reason = "only meshopt fills buffers"))]
     Decoded(Vec<u8>),
     /// Bytes of edits.
     New(NewBytes),

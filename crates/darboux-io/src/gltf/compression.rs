@@ -1,10 +1,7 @@
 //! Decompression: primitives compressed with Draco and buffer views compressed with meshoptimizer become plain data.
 
 mod draco;
-#[cfg(feature = "meshopt")]
 mod meshopt;
-#[cfg(not(feature = "meshopt"))]
-mod no_meshopt;
 
 use std::collections::BTreeSet;
 
