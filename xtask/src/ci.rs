@@ -33,6 +33,8 @@ const QUICK: &[Step] = &[
     ("npm package", || dist_js::test(without_npm())),
     ("code blocks of the documentation", || doc_blocks::run(&[])),
     ("viewer", || dist_viewer::test(without_npm())),
+    #[cfg(unix)]
+    ("soak", || crate::soak::run(&["--minutes", "2", "--seed", "1"])),
 ];
 
 const LONG: &[Step] = &[

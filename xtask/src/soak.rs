@@ -24,7 +24,9 @@ use std::path::PathBuf;
 
 use crate::run::{Outcome, target_folder};
 use case::{Action, Case};
+use command_lines::{Commands, Files};
 use directed::Directed;
+use inputs::model::Mesh;
 use inputs::mutate;
 use inputs::seeds::{self, Seed};
 use options::Options;
@@ -36,6 +38,7 @@ use report::Report;
 struct Soak {
     options: Options,
     program: Program,
+    commands: Commands,
     seeds: Vec<Seed>,
     directed: Vec<Directed>,
     renders: bool,
@@ -54,11 +57,12 @@ pub fn run(words: &[&str]) -> Outcome {
     let options = Options::parse(words)?;
     let base = target_folder()?.join("soak");
     let keep = options.keep.clone().unwrap_or_else(|| base.join("broken"));
-    let program = Program::find(options.program.as_deref())?;
+    let commands = Commands::read()?;
+    let program = Program::find(options.program.as_deref(), commands.names().chain(["view"]))?;
     let renders = program.can_render();
     let seeds = seeds::all(options.models.as_deref())?;
     let folder = base.join(std::process::id().to_string());
-    let soak = Soak { options, program, seeds, directed: directed::all(), renders, folder };
+    let soak = Soak { options, program, commands, seeds, directed: directed::all(), renders, folder };
     let mut report = Report::new(soak.options.duration, keep);
     println!(
         "{} on {} files and {} kinds of directed cases, seed {}; {}",
@@ -144,15 +148,11 @@ impl Soak {
         let seed = &self.seeds[random.below(self.seeds.len())];
         let extension = seed.extension();
         let (bytes, companions) = damage(random, seed);
-        let line = command_lines::any(
-            random,
-            &self.program,
-            &format!("in.{extension}"),
-            "other.glb",
-            &extension,
-            self.renders,
-        );
-        let mut case = Case::new(line.words);
+        let file = format!("in.{extension}");
+        let files = Files { file: &file, extension: &extension, other: "other.glb", renders: self.renders };
+        let line = self.commands.any(random, &self.program, &files);
+        // Random options may contradict each other.
+        let mut case = Case::new(line.words).expects(&[0, 1, 2], "");
         case.name = format!("damaged {extension}");
         if line.reads_stdin {
             case.stdin = bytes;
@@ -160,7 +160,8 @@ impl Soak {
             case = case.file(format!("in.{extension}"), bytes);
         }
         if case.has("other.glb") {
-            case = case.file("other.glb", seed.bytes.clone());
+            let other = if random.one_in(2) { Mesh::grid(8).glb() } else { seed.bytes.clone() };
+            case = case.file("other.glb", other);
         }
         companions.into_iter().fold(case, |case, (name, bytes)| case.file(name, bytes))
     }

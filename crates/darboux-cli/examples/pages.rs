@@ -1,5 +1,5 @@
 //! Writes the files that are generated from the definition of the command line and from the findings of `darboux check` into a folder:
-//! docs/cli.md, docs/check.md, man pages and completions.
+//! docs/cli.md, docs/check.md, man pages, completions, and the list of all options that `cargo xtask soak` chooses from.
 //!
 //! `cargo xtask gen` runs it on the repository's root.
 
@@ -7,10 +7,12 @@ use std::fs::{create_dir_all, write};
 use std::io;
 use std::path::Path;
 
-use clap::{Command, CommandFactory};
+use clap::builder::PossibleValue;
+use clap::{Arg, Command, CommandFactory};
 use clap_complete::{Shell, generate_to};
 use darboux_check::Code;
 use darboux_cli::Arguments;
+use serde_json::json;
 
 fn main() -> io::Result<()> {
     let Some(root) = std::env::args_os().nth(1) else {
@@ -22,6 +24,7 @@ fn main() -> io::Result<()> {
     let generated = root.join("crates/darboux-cli/generated");
     write_man_pages(&command, &generated.join("man"))?;
     write_completions(&mut command, &generated.join("completions"))?;
+    write(generated.join("options.json"), options(&command))?;
     create_dir_all(root.join("docs"))?;
     let pictures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/check");
     write(root.join("docs/check.md"), findings(&pictures))?;
@@ -39,6 +42,35 @@ fn write_completions(command: &mut Command, folder: &Path) -> io::Result<()> {
         generate_to(shell, command, "darboux", folder)?;
     }
     Ok(())
+}
+
+/// The arguments of every subcommand as JSON, one per line: its option (null: it stands alone), the kind of its values (null: a flag), the
+/// values if they are listed, and whether it is required.
+fn options(command: &Command) -> String {
+    let describe = |argument: &Arg| {
+        let values = argument.get_possible_values();
+        let values: Vec<&str> = values
+            .iter()
+            .filter(|_| argument.get_action().takes_values())
+            .map(PossibleValue::get_name)
+            .collect();
+        let kinds = argument.get_value_names().filter(|_| argument.get_action().takes_values());
+        json!({
+            "option": argument.get_long().map(|long| format!("--{long}")),
+            "kind": kinds.map(|kinds| kinds.join(" ")),
+            "values": values,
+            "required": argument.is_required_set(),
+        })
+    };
+    let of = |command: &Command| {
+        let arguments = command
+            .get_arguments()
+            .filter(|argument| !["help", "version"].contains(&argument.get_id().as_str()));
+        let lines: Vec<String> = arguments.map(|argument| format!("    {}", describe(argument))).collect();
+        format!("  \"{}\": [\n{}\n  ]", command.get_name(), lines.join(",\n"))
+    };
+    let commands: Vec<String> = command.get_subcommands().map(of).collect();
+    format!("{{\n{}\n}}\n", commands.join(",\n"))
 }
 
 /// The installation, the help texts as a terminal shows them, and the fields of the JSON reports.

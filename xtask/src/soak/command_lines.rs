@@ -1,7 +1,27 @@
-//! Random command lines: every subcommand that reads files, with most of its options.
+//! Random command lines, made from the command's own description of its options: a new subcommand or option is in the soak at once.
+
+use serde_json::Value;
 
 use super::program::Program;
 use super::random::Random;
+use crate::run::root;
+
+/// The arguments of all subcommands, which `cargo xtask gen` writes.
+const DESCRIPTION: &str = "crates/darboux-cli/generated/options.json";
+
+/// The subcommands that read files, as [`DESCRIPTION`] has them.
+pub struct Commands(Vec<(String, Vec<Argument>)>);
+
+/// An argument of a subcommand.
+struct Argument {
+    /// `--name`; `None` for one that stands alone.
+    option: Option<String>,
+    /// What its values are; `None` for a flag.
+    kind: Option<String>,
+    /// The values that it can have, if they are listed.
+    values: Vec<String>,
+    is_required: bool,
+}
 
 /// The words of a command line.
 pub struct Line {
@@ -10,115 +30,122 @@ pub struct Line {
     pub reads_stdin: bool,
 }
 
-/// An option, and its values; none for a flag.
-type Choice = (&'static str, &'static [&'static str]);
+/// What a command line reads.
+pub struct Files<'a> {
+    /// The file that may be damaged, and its extension.
+    pub file: &'a str,
+    pub extension: &'a str,
+    /// A good model.
+    pub other: &'a str,
+    pub renders: bool,
+}
 
-const METHODS: &[&str] =
-    &["mikktspace", "angle-area", "lengyel", "lengyel-per-vertex", "average", "area", "face", "from-normal"];
+/// Conventions with a part replaced, and shadings, which are not listed.
+const CONVENTIONS: &[&str] = &["gltf,green=down", "unity,axes=x/y/-z", "gltf,axes=1/2/3"];
+const SHADINGS: &[&str] = &["keep", "flat", "smooth", "crease=1", "crease=60", "crease=nan"];
+const SOURCES: &[&str] = &["file", "derivatives", "mikktspace", "lengyel", "none"];
+const NUMBERS: &[&str] = &["1", "2", "7", "16", "60"];
+/// Numbers that most options refuse.
+const WRONG_NUMBERS: &[&str] = &["0", "0.5", "-1", "1000", "nan", "1e39"];
 
-const CONVENTIONS: &[&str] = &[
-    "gltf",
-    "opengl",
-    "directx",
-    "blender",
-    "unity",
-    "unreal",
-    "godot",
-    "threejs",
-    "maya",
-    "3dsmax",
-    "gltf,green=down",
-];
+/// Options that go without an input, and those that [`Line::add_files`] adds.
+const LEFT_OUT: [&str; 6] = ["--explain", "--output", "--out-dir", "--in-place", "--resume", "--high"];
 
-const READING: &[Choice] = &[("--allow-outside", &[]), ("--memory-limit", &["0", "1", "16", "200"])];
-
-const TANGENTS: &[Choice] = &[
-    ("--method", METHODS),
-    ("--mode", &["reference", "repaired", "corrected"]),
-    ("--threshold", &["180", "90", "1", "0"]),
-    ("--normals", &["keep", "flat", "smooth", "crease=30"]),
-    ("--encoding", &["f32x4", "snorm16x4", "snorm8x4"]),
-    ("--overwrite", &[]),
-    ("--only-needed", &[]),
-    ("--apply-texture-transform", &[]),
-    ("--strict", &[]),
-    ("--jobs", &["1", "2", "7"]),
-];
-
-const NORMALS: &[Choice] = &[
-    ("--normals", &["flat", "smooth", "crease=1", "crease=60"]),
-    ("--weight", &["angle", "area", "angle-area"]),
-    ("--respect-seams", &[]),
-    ("--overwrite", &[]),
-];
-
-const CONVERT: &[Choice] = &[
-    ("--layout", &["rgb", "rg", "ag", "la", "gr"]),
-    ("--to-layout", &["rgb", "rg", "ag", "bgr"]),
-    ("--raw", &[]),
-];
-
-const COMPARE: &[Choice] =
-    &[("--worst", &["0", "3", "100000"]), ("--tolerance", &["0", "1"]), ("--heat-map", &["map.png"])];
-
-const RENDER: &[Choice] = &[
-    ("--view", &["shaded", "tangent", "bitangent", "normal", "sign"]),
-    ("--tangents", &["file", "derivatives", "mikktspace", "lengyel"]),
-    ("--lines", &["tangent", "normal,bitangent"]),
-    ("--seams", &[]),
-    ("--layout", &["corner", "alone"]),
-    ("--mistakes", &["green", "w", "v"]),
-    ("--mesh", &["0", "no such mesh"]),
-    ("--camera", &["0,0", "180,-90,0.01", "30,20,1000"]),
-    ("--no-legend", &[]),
-];
-
-const MESSAGES: &[Choice] = &[("--json", &[]), ("--quiet", &[])];
-
-/// A line that reads `file`, or `file` and `other` where two files are compared. `extension` is the extension of `file`.
-pub fn any(
-    random: &mut Random,
-    program: &Program,
-    file: &str,
-    other: &str,
-    extension: &str,
-    renders: bool,
-) -> Line {
-    let subcommand = match extension {
-        "png" => "convert",
-        "obj" if renders => "render",
-        "obj" => random.pick(&["tangents", "inspect"]),
-        _ if renders && random.one_in(25) => "render",
-        _ => random.pick(&["tangents", "tangents", "normals", "convert", "compare", "inspect"]),
-    };
-    let mut line = Line { words: vec![subcommand.to_owned()], reads_stdin: false };
-    let choices: &[&[Choice]] = match subcommand {
-        "tangents" => &[TANGENTS, READING, MESSAGES],
-        "normals" => &[NORMALS, READING, MESSAGES],
-        "convert" => &[CONVERT, READING, MESSAGES],
-        "compare" => &[COMPARE, READING, MESSAGES],
-        "render" => &[RENDER, READING],
-        _ => &[READING, MESSAGES],
-    };
-    for &choice in choices.iter().copied().flatten() {
-        line.add(random, program, subcommand, choice);
+impl Commands {
+    /// Reads [`DESCRIPTION`]. Errors: it is missing or has another form.
+    pub fn read() -> Result<Self, String> {
+        let text = std::fs::read_to_string(root().join(DESCRIPTION))
+            .map_err(|error| format!("{DESCRIPTION} cannot be read: {error}"))?;
+        Self::parse(&text).ok_or_else(|| format!("{DESCRIPTION} is not what `cargo xtask gen` writes"))
     }
-    line.remove_contradictions();
-    match subcommand {
-        "compare" if random.one_in(2) => {
-            line.words.retain(|word| word != "--method");
-            line.words.extend([file, "--method", random.pick(METHODS)].map(str::to_owned));
+
+    fn parse(text: &str) -> Option<Self> {
+        let described: Value = serde_json::from_str(text).ok()?;
+        let mut commands = Vec::new();
+        for (name, arguments) in described.as_object()? {
+            let arguments: Vec<Argument> =
+                arguments.as_array()?.iter().map(Argument::new).collect::<Option<_>>()?;
+            let reads_files =
+                arguments.iter().any(|argument| argument.option.is_none() && argument.values.is_empty());
+            // The server does not end by itself: it has cases of its own.
+            if reads_files && name != "view" {
+                commands.push((name.clone(), arguments));
+            }
         }
-        "compare" => line.words.extend([file, other].map(str::to_owned)),
-        "render" => line.words.extend([file, "--size", "64x48", "-o", "picture.png"].map(str::to_owned)),
-        "inspect" => line.words.push(file.to_owned()),
-        _ => line.write(random, file, extension),
+        (!commands.is_empty()).then_some(Self(commands))
     }
-    if subcommand == "convert" {
-        let to = if extension == "png" || line.has("--raw") { random.pick(CONVENTIONS) } else { "gltf" };
-        line.words.extend(["--from", random.pick(CONVENTIONS), "--to", to].map(str::to_owned));
+
+    /// The names of the subcommands.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|(name, _)| name.as_str())
     }
-    line
+
+    /// A line that reads the files.
+    pub fn any(&self, random: &mut Random, program: &Program, files: &Files) -> Line {
+        // The other subcommands test models more than pictures of them do.
+        let draws = files.renders && (files.extension == "obj" || random.one_in(4));
+        let can_run = |name: &str| program.has(name, "") && (name != "render" || draws);
+        let known: Vec<_> = self.0.iter().filter(|(name, _)| can_run(name)).collect();
+        let maps: Vec<_> =
+            known.iter().filter(|(name, _)| name == "convert" || name == "check").copied().collect();
+        let choices =
+            if files.extension == "png" && !maps.is_empty() && !random.one_in(10) { maps } else { known };
+        let (name, arguments) = random.pick(&choices);
+        let mut line = Line { words: vec![name.clone()], reads_stdin: false };
+        let mut rare = 5;
+        for argument in arguments {
+            let option = argument.option.as_deref().unwrap_or_default();
+            let is_wanted = argument.is_required || (!option.is_empty() && random.one_in(rare));
+            if is_wanted && !LEFT_OUT.contains(&option) && !option.is_empty() && program.has(name, option) {
+                line.words.push(option.to_owned());
+                line.words.extend(argument.value(random, files));
+                // Most options exclude few others, but every further one makes a contradiction more likely.
+                rare += 3;
+            }
+        }
+        line.add_files(random, arguments, files);
+        line
+    }
+}
+
+impl Argument {
+    fn new(described: &Value) -> Option<Self> {
+        let text = |name: &str| described[name].as_str().map(str::to_owned);
+        let values = described["values"].as_array()?.iter();
+        Some(Self {
+            option: text("option"),
+            kind: text("kind"),
+            values: values.map(|value| value.as_str().map(str::to_owned)).collect::<Option<_>>()?,
+            is_required: described["required"].as_bool()?,
+        })
+    }
+
+    /// A value; `None` for a flag.
+    fn value(&self, random: &mut Random, files: &Files) -> Option<String> {
+        let kind = self.kind.as_deref()?;
+        let is_listed = !self.values.is_empty() && (kind != "CONVENTION" || !random.one_in(5));
+        if is_listed {
+            return Some(self.values[random.below(self.values.len())].clone());
+        }
+        let value = match kind {
+            "LOW" | "HIGH" | "MODEL" | "CAGE" => random.pick(&[files.other, files.other, files.file]),
+            "PNG" => random.pick(&["map.png", "second.png"]),
+            "GLB" => "second.glb",
+            "CONVENTION" => random.pick(CONVENTIONS),
+            "SHADING" => random.pick(SHADINGS),
+            "SOURCE" => random.pick(SOURCES),
+            "LETTERS" => random.pick(&["rgb", "rg", "ag", "la", "gr", "bgr", "x"]),
+            "N|WxH" | "WxH" => random.pick(&["64x48", "1x1", "33x200"]),
+            "8|16" => random.pick(&["8", "16"]),
+            "OUT,IN" => random.pick(&["0.1,0.1", "0,0", "1e30,1e30"]),
+            "YAW,PITCH[,ZOOM]" => random.pick(&["0,0", "180,-90,0.01", "30,20,1000"]),
+            "RRGGBB" => random.pick(&["ff8000", "x"]),
+            "MESH" => random.pick(&["0", "no such mesh"]),
+            _ if random.one_in(8) => random.pick(WRONG_NUMBERS),
+            _ => random.pick(NUMBERS),
+        };
+        Some(value.to_owned())
+    }
 }
 
 impl Line {
@@ -126,48 +153,72 @@ impl Line {
         self.words.iter().any(|other| other == word)
     }
 
-    /// Adds an option one time in five, if the program has it.
-    fn add(&mut self, random: &mut Random, program: &Program, subcommand: &str, (option, values): Choice) {
-        if !random.one_in(5) || !program.has(subcommand, option) {
-            return;
-        }
-        self.words.push(option.to_owned());
-        if !values.is_empty() {
-            self.words.push(random.pick(values).to_owned());
-        }
+    fn extend(&mut self, words: &[&str]) {
+        self.words.extend(words.iter().map(|&word| word.to_owned()));
     }
 
-    /// Only MikkTSpace has a mode and a threshold.
-    fn remove_contradictions(&mut self) {
-        if self.has("--method") && !self.has("mikktspace") {
-            for option in ["--mode", "--threshold"] {
-                if let Some(at) = self.words.iter().position(|word| word == option) {
-                    self.words.drain(at..at + 2);
-                }
+    /// Adds the inputs, and one of the ways to name an output.
+    fn add_files(&mut self, random: &mut Random, arguments: &[Argument], files: &Files) {
+        let has = |option: &str| arguments.iter().any(|argument| argument.option.as_deref() == Some(option));
+        let lone = arguments.iter().filter(|argument| argument.option.is_none()).count();
+        // An image and a picture must not take long.
+        if has("--size") && !self.has("--size") {
+            self.extend(&["--size", "64x48"]);
+        }
+        if has("--high") {
+            let (high, low) = random.pick(&[(files.other, files.file), (files.file, files.other)]);
+            self.extend(&[low, "--high", high, "-o", "out.png"]);
+        } else if has("--in-place") {
+            // Most options of a check, and its outputs, need a repair.
+            if has("--fix") && !self.has("--fix") && self.words.len() > 1 {
+                self.extend(&["--fix"]);
             }
+            self.write(random, files);
+        } else if has("--output") {
+            self.extend(&[files.file, "-o", "out.png"]);
+        } else if lone > 1 && !self.has("--method") {
+            self.extend(&[files.file, files.other]);
+        } else {
+            self.extend(&[files.file]);
         }
     }
 
-    /// Adds the input and one of the ways to name an output.
-    fn write(&mut self, random: &mut Random, file: &str, extension: &str) {
-        let is_image = extension == "png";
+    fn write(&mut self, random: &mut Random, files: &Files) {
+        let is_image = files.extension == "png";
         let output = if is_image { "out.png" } else { random.pick(&["out.glb", "out.gltf", "out.vrm"]) };
         let words: &[&str] = match random.below(8) {
-            0 => &[file, "--in-place"],
-            1 => &[file, "--out-dir", "out"],
-            2 => &[file, "--out-dir", "out", "--resume"],
-            3 => &[file],
-            4 if !self.has("--json") => {
-                self.reads_stdin = true;
-                &["-"]
-            }
-            5 => {
-                self.reads_stdin = true;
-                &["-", "-o", output]
-            }
-            6 if !self.has("--json") => &[file, "-o", "-"],
-            _ => &[file, "-o", output],
+            _ if self.words == ["check"] => &[files.file],
+            0 => &[files.file, "--in-place"],
+            1 => &[files.file, "--out-dir", "out"],
+            2 => &[files.file, "--out-dir", "out", "--resume"],
+            3 => &[files.file],
+            4 => &["-"],
+            5 => &["-", "-o", output],
+            6 => &[files.file, "-o", "-"],
+            _ => &[files.file, "-o", output],
         };
-        self.words.extend(words.iter().map(|&word| word.to_owned()));
+        self.reads_stdin = words[0] == "-";
+        self.extend(words);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_subcommand_that_reads_files_is_described() {
+        let commands = Commands::read().expect("the description");
+        let names: Vec<&str> = commands.names().collect();
+        for name in ["tangents", "normals", "convert", "check", "bake", "compare", "inspect", "render"] {
+            assert!(names.contains(&name), "{name} in {names:?}");
+        }
+        assert!(!names.contains(&"view") && !names.contains(&"completions"));
+        let check = &commands.0.iter().find(|(name, _)| name == "check").expect("check").1;
+        assert!(
+            check
+                .iter()
+                .any(|argument| argument.option.as_deref() == Some("--fix") && argument.kind.is_none())
+        );
     }
 }

@@ -10,26 +10,13 @@ use crate::run::{program, root, run, target_folder};
 pub struct Program {
     pub path: PathBuf,
     /// The help of each subcommand that this build has.
-    help: HashMap<&'static str, String>,
+    help: HashMap<String, String>,
 }
 
-/// Every subcommand.
-pub const SUBCOMMANDS: [&str; 10] = [
-    "tangents",
-    "normals",
-    "convert",
-    "compare",
-    "inspect",
-    "render",
-    "view",
-    "methods",
-    "devices",
-    "completions",
-];
-
 impl Program {
-    /// The program at `path`, or a release build of this repository. Errors: it cannot be built or started.
-    pub fn find(path: Option<&Path>) -> Result<Self, String> {
+    /// The program at `path`, or a release build of this repository, and which of some subcommands it has. Errors: it cannot be built or
+    /// started.
+    pub fn find<'a>(path: Option<&Path>, subcommands: impl Iterator<Item = &'a str>) -> Result<Self, String> {
         let path = match path {
             Some(path) => path.canonicalize().map_err(|error| format!("{}: {error}", path.display()))?,
             None => {
@@ -38,7 +25,7 @@ impl Program {
             }
         };
         let mut help = HashMap::new();
-        for subcommand in SUBCOMMANDS {
+        for subcommand in subcommands {
             let output = Command::new(&path)
                 .args([subcommand, "--help"])
                 .current_dir(root())
@@ -46,7 +33,7 @@ impl Program {
                 .output()
                 .map_err(|error| format!("{} cannot start: {error}", path.display()))?;
             if output.status.success() {
-                help.insert(subcommand, String::from_utf8_lossy(&output.stdout).into_owned());
+                help.insert(subcommand.to_owned(), String::from_utf8_lossy(&output.stdout).into_owned());
             }
         }
         Ok(Self { path, help })

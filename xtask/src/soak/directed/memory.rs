@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::soak::case::{Case, Make};
-use crate::soak::inputs::images::{encoded, flat_png};
+use crate::soak::inputs::images::{BUMPS_JPEG, BUMPS_WEBP, flat_png};
 use crate::soak::inputs::model::{Builder, Mesh, glb};
 use crate::soak::random::Random;
 
@@ -185,10 +185,9 @@ fn many_nodes(random: &mut Random) -> Case {
 
 /// A square whose normal map has a head that claims a large image.
 fn large_texture(random: &mut Random) -> Result<Case, String> {
-    use image::ImageFormat::{Jpeg, WebP};
     let image = match random.below(3) {
         0 => {
-            let mut jpeg = encoded(Jpeg, 8)?;
+            let mut jpeg = BUMPS_JPEG.to_vec();
             // Marker, length, precision, then height and width.
             let frame =
                 jpeg.windows(2).position(|pair| pair == [0xFF, 0xC0]).ok_or("a JPEG without a frame")?;
@@ -196,7 +195,7 @@ fn large_texture(random: &mut Random) -> Result<Case, String> {
             jpeg
         }
         1 => {
-            let mut webp = encoded(WebP, 8)?;
+            let mut webp = BUMPS_WEBP.to_vec();
             // The head of lossless data begins with a signature byte; 14 bits of width and of height follow.
             let head = webp.windows(4).position(|four| four == b"VP8L").ok_or("a WebP of another kind")?;
             webp[head + 9..head + 12].fill(0xFF);

@@ -3,11 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use image::ImageFormat;
 use serde_json::json;
 
 use super::corpus;
-use super::images;
+use super::images::{self, BUMPS_JPEG, BUMPS_PNG, BUMPS_WEBP};
 use super::model::{Builder, Mesh};
 use crate::run::{files_below, root};
 use crate::soak::random::Random;
@@ -99,15 +98,12 @@ fn of_corpus() -> Result<Vec<Seed>, String> {
 
 fn made() -> Result<Vec<Seed>, String> {
     let mut random = Random::new(0, 0);
-    let mut seeds = vec![Seed::new("grid.glb", Mesh::grid(40).glb()), sparse(), obj()?];
+    let mut seeds = vec![Seed::new("grid.glb", Mesh::grid(40).glb()), sparse(), obj()];
     for number in 0..12 {
         seeds.push(Seed::new(&format!("map{number}.png"), images::any_png(&mut random)?));
     }
-    for (format, kind) in
-        [(ImageFormat::Png, "png"), (ImageFormat::Jpeg, "jpeg"), (ImageFormat::WebP, "webp")]
-    {
-        let image = images::encoded(format, 16)?;
-        seeds.push(Seed::new(&format!("embedded-{kind}.glb"), textured(kind, &image)));
+    for (kind, image) in [("png", BUMPS_PNG), ("jpeg", BUMPS_JPEG), ("webp", BUMPS_WEBP)] {
+        seeds.push(Seed::new(&format!("embedded-{kind}.glb"), textured(kind, image)));
     }
     Ok(seeds)
 }
@@ -150,14 +146,14 @@ fn sparse() -> Seed {
 }
 
 /// A square in OBJ, with a library and images of both kinds.
-fn obj() -> Result<Seed, String> {
+fn obj() -> Seed {
     let text = "mtllib square.mtl\no square\nv 0 0 0\nv 1 0 0 0.5 0.5 0.5\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n\
                 vn 0 0 1\nusemtl a\nf 1/1/1 2/2/1 3/3/1 4/4/1\nusemtl b\ng part\nf 1//1 2//1 3//1\nl 1 2\np 1\n";
     let library = "newmtl a\nKd 1 0.5 0.2\nmap_Kd color.jpg\nnorm normal.png\nnewmtl b\nmap_Bump -bm 0.5 normal.png\nd 0.5\nillum 2\n";
-    Ok(Seed::new("square.obj", text.into())
+    Seed::new("square.obj", text.into())
         .with("square.mtl", library)
-        .with("color.jpg", images::encoded(ImageFormat::Jpeg, 16)?)
-        .with("normal.png", images::encoded(ImageFormat::Png, 16)?))
+        .with("color.jpg", BUMPS_JPEG)
+        .with("normal.png", BUMPS_PNG)
 }
 
 #[cfg(test)]

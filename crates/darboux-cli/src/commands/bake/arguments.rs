@@ -105,7 +105,7 @@ pub struct BakeArguments {
     pub cage_offset: Option<f32>,
 
     /// Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as --cage-offset would
-    #[arg(long, value_name = "FILE", help_heading = "Rays")]
+    #[arg(long, value_name = "CAGE", help_heading = "Rays")]
     pub cage: Option<PathBuf>,
 
     /// Which high parts the rays of a low part can hit

@@ -56,7 +56,7 @@ pub struct CompareArguments {
     pub tolerance: Option<f64>,
 
     /// Draw the angles over the UV layout, as a PNG
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "PNG")]
     pub heat_map: Option<PathBuf>,
 
     /// Replace a heat map that exists
