@@ -36,7 +36,10 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux-tests", &["darboux", "darboux-io", "darboux-dice"]),
     ("darboux-shader-tests", &["darboux", "darboux-dice"]),
     ("darboux-benches", &["darboux", "darboux-check", "darboux-io", "darboux-tests"]),
-    ("darboux-fuzz", &["darboux", "darboux-c", "darboux-check", "darboux-io", "darboux-tests"]),
+    (
+        "darboux-fuzz",
+        &["darboux", "darboux-bake", "darboux-c", "darboux-check", "darboux-io", "darboux-tests"],
+    ),
     ("xtask", &[]),
 ];
 

@@ -6,13 +6,10 @@
 //! channel = four bytes of an element; its mode says how deltas become values
 //! ```
 
-use super::byte_groups::{self, Control};
+use super::byte_groups::{self, BLOCK, Control};
 
 const VERSION_0: u8 = 0xa0;
 const VERSION_1: u8 = 0xa1;
-
-/// The most elements of a block.
-pub(super) const BLOCK: usize = 256;
 
 /// The most channels of an element.
 const CHANNELS: usize = 64;

@@ -1,6 +1,7 @@
 //! The deltas of one byte of the elements of a block: groups of 16 with few bits each, and bytes where these are not enough.
 
-use super::attributes::BLOCK;
+/// The most elements of a block.
+pub const BLOCK: usize = 256;
 
 /// The number of deltas of a group.
 pub const GROUP: usize = 16;
