@@ -61,10 +61,7 @@ fn mesh(document: &Document, primitive: &Primitive) -> Option<OwnedMesh> {
 
 /// The primitives of a model that are triangle lists with positions, normals and UVs, and their numbers; empty if the file cannot be read.
 pub fn meshes(path: &Path) -> Vec<(usize, OwnedMesh)> {
-    let Ok(mut document) = Document::open(path, &LoadOptions::default()) else { return Vec::new() };
-    if document.decompress().is_err() {
-        return Vec::new();
-    }
+    let Ok(document) = Document::open(path, &LoadOptions::default()) else { return Vec::new() };
     let numbered = document.meshes().iter().flat_map(|mesh| &mesh.primitives).enumerate();
     numbered.filter_map(|(number, primitive)| Some((number, mesh(&document, primitive)?))).collect()
 }

@@ -254,9 +254,7 @@ fn warnings(low: &LowModel<'_>, highs: &[HighModel<'_>]) -> Vec<String> {
 
 fn open(name: &str, file: &[u8]) -> Result<Document, String> {
     let options = LoadOptions::default();
-    let mut document = Document::from_bytes(name, file.to_vec(), None, &options).map_err(sentence)?;
-    document.decompress().map_err(sentence)?;
-    Ok(document)
+    Document::from_bytes(name, file.to_vec(), None, &options).map_err(sentence)
 }
 
 fn sentence(error: darboux_io::Error) -> String {

@@ -98,16 +98,10 @@ fn check_model(
     repairs: bool,
     repaired: &mut Vec<u8>,
 ) -> Result<Vec<Reported>, darboux_io::Error> {
-    let read = || Document::from_bytes("the model", file.to_vec(), None, &LoadOptions::default());
-    let mut document = read()?;
-    let is_compressed = document.is_compressed();
-    let findings = check_document(&mut document, &options)?;
+    let mut document = Document::from_bytes("the model", file.to_vec(), None, &LoadOptions::default())?;
+    let findings = check_document(&document, &options)?;
     if !repairs {
         return Ok(findings.into_iter().map(|found| reported(found, None)).collect());
-    }
-    // The check decompresses a document, and the repair of a map should not.
-    if is_compressed {
-        document = read()?;
     }
     let fixed = fix_document(&mut document, findings, &FixOptions::default().with_check(options))?;
     if fixed.is_changed {

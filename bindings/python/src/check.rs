@@ -64,7 +64,7 @@ pub fn check<'py>(
         Ok(py.detach(|| check_map(&file, &options).findings))
     } else {
         let loading = load_options(memory_limit).with_allow_outside(allow_outside);
-        py.detach(|| check_document(&mut gltf::Document::open(&path, &loading)?, &options))
+        py.detach(|| check_document(&gltf::Document::open(&path, &loading)?, &options))
     };
     found.map_err(file_error)?.into_iter().map(|found| finding(py, found)).collect()
 }

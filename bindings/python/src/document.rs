@@ -213,15 +213,13 @@ impl Document {
 
     /// Report on every primitive, and compute the tangents that it could have without writing them.
     ///
-    /// Compressed documents are decompressed.
-    ///
     /// Returns
     /// -------
     /// list of dict
     ///     The same as the reports of `darboux inspect --json`.
     fn inspect<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.whole()?;
-        let document = &mut self.document;
+        let document = &self.document;
         let infos = run_interruptibly(py, 0, |_| gltf::inspect(document), |(): ()| Ok(()), || ())?;
         python_of(py, &infos.map_err(file_error)?)
     }

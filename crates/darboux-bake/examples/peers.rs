@@ -119,8 +119,7 @@ fn analytic(pair: Pair) -> Meshes {
 
 /// The first primitive of a model, and a tenth of its triangles. The cage lies at 2 % of the diagonal of its box.
 fn simplified(path: &Path) -> Result<Meshes> {
-    let mut document = Document::open(path, &LoadOptions::default())?;
-    document.decompress()?;
+    let document = Document::open(path, &LoadOptions::default())?;
     let all = document.corners()?;
     let corners = all.first().ok_or("the model has no primitives")?;
     let name = corners.name();

@@ -14,7 +14,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let [high, share, low] = &arguments[..] else { return Err("usage: simplify HIGH SHARE LOW.glb".into()) };
     let share: f64 = share.parse()?;
     let mut document = Document::open(Path::new(high), &LoadOptions::default())?;
-    document.decompress()?;
     let mut simplified = Vec::new();
     for corners in document.corners()?.iter().filter(|corners| !corners.is_empty()) {
         let name = corners.name().clone();

@@ -19,14 +19,14 @@ pub use surfaces::{defects_of_surfaces, for_each_surface};
 
 /// Checks a document: every primitive with triangles, every material, and every image that is a normal map.
 ///
-/// Primitives with the same data are checked once. A compressed document is decompressed. An image that cannot be read is a finding.
+/// Primitives with the same data are checked once. An image that cannot be read is a finding.
 /// Errors: invalid data of the document.
-pub fn check_document(document: &mut Document, options: &CheckOptions) -> Result<Vec<Finding>, Error> {
+pub fn check_document(document: &Document, options: &CheckOptions) -> Result<Vec<Finding>, Error> {
     Ok(words::findings(defects_of(document, options)?))
 }
 
 /// The defects of a document.
-pub fn defects_of(document: &mut Document, options: &CheckOptions) -> Result<Vec<Defect>, Error> {
+pub fn defects_of(document: &Document, options: &CheckOptions) -> Result<Vec<Defect>, Error> {
     let mut defects = defects_of_surfaces(document, &|_| true)?;
     let of_materials = maps::defects_of_materials(document, options, &mut defects)?;
     defects.extend(of_materials);

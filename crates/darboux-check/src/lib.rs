@@ -19,7 +19,7 @@
 //!
 //! let model = Path::new("../../assets/NormalTangentTest/NormalTangentTest.glb");
 //! let mut document = Document::open(model, &LoadOptions::default())?;
-//! for finding in check_document(&mut document, &CheckOptions::default())? {
+//! for finding in check_document(&document, &CheckOptions::default())? {
 //!     println!("{}: {}: {}", finding.place, finding.code, finding.text);
 //! }
 //! # Ok::<(), darboux_io::Error>(())

@@ -69,7 +69,7 @@ pub fn plan_repair(
 /// Repairs a document.
 ///
 /// `findings`: those of [`check_document`](crate::check_document) with the same options on the same document. Data that no finding names is
-/// kept, byte for byte; a compressed document is decompressed if its geometry is repaired. Errors: invalid data; more memory than the limit
+/// kept, byte for byte; a compressed document is written without compression if anything is repaired. Errors: invalid data; more memory than the limit
 /// permits. After an error the document is unspecified: drop it.
 pub fn fix_document(
     document: &mut Document,
@@ -80,27 +80,13 @@ pub fn fix_document(
     let promised: Vec<Defect> = before.iter().filter(|defect| defect.is_fixable()).cloned().collect();
     let (of_images, of_surfaces): (Vec<Defect>, Vec<Defect>) =
         before.into_iter().partition(|defect| defect.place.image.is_some());
-    let copy = if of_images.is_empty() { None } else { decompressed_copy(document)? };
-    let readable = copy.as_ref().unwrap_or(document);
-    let left = LeftPairs::new(readable, &of_images, &of_surfaces, options)?;
+    let left = LeftPairs::new(document, &of_images, &of_surfaces, options)?;
     let mut fixed = fix_surfaces(document, left.mark(of_surfaces), &left, options)?;
-    let copy = copy.filter(|_| document.is_compressed());
-    let of_images = maps::fix_images(document, copy.as_ref(), left.mark(of_images), options)?;
+    let of_images = maps::fix_images(document, left.mark(of_images), options)?;
     fixed.is_changed |= of_images.iter().any(|image| image.repaired);
     fixed.findings.extend(of_images);
     for fixed in &mut fixed.findings {
         fixed.was_fixable |= promised.iter().any(|promised| promised.is_same(&fixed.finding.defect));
     }
     Ok(fixed)
-}
-
-/// A decompressed copy of a compressed document, whose surfaces can be read: the repair of a map keeps the compression of the meshes.
-fn decompressed_copy(document: &Document) -> Result<Option<Document>, Error> {
-    if !document.is_compressed() {
-        return Ok(None);
-    }
-    let glb = document.to_glb()?;
-    let mut copy = Document::from_bytes(document.name(), glb, None, document.load_options())?;
-    copy.decompress()?;
-    Ok(Some(copy))
 }

@@ -14,7 +14,7 @@ use support::damaged::{corpus, damaged, sources};
 /// The findings on a model, what a repair said of them, and the model after it; none where the model cannot be read.
 fn repaired(glb: &[u8], options: &FixOptions) -> Option<(Vec<Finding>, FixedDocument, Vec<u8>)> {
     let mut document = Document::from_bytes("damaged", glb.to_vec(), None, &LoadOptions::default()).ok()?;
-    let findings = check_document(&mut document, &options.check).ok()?;
+    let findings = check_document(&document, &options.check).ok()?;
     let fixed = fix_document(&mut document, findings.clone(), options).ok()?;
     let after = if fixed.is_changed { document.to_glb().expect("a GLB") } else { glb.to_vec() };
     Some((findings, fixed, after))

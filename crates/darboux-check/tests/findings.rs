@@ -16,7 +16,7 @@ use support::models::{Model, healthy_models};
 use support::table::without_maps;
 
 fn check(model: &Model) -> Vec<Finding> {
-    check_document(&mut model.document(), &without_maps()).expect("a valid document")
+    check_document(&model.document(), &without_maps()).expect("a valid document")
 }
 
 fn find(findings: &[Finding], code: Code) -> Option<&Finding> {
@@ -283,7 +283,7 @@ fn colour_textures_are_no_normal_maps() {
 fn bare_maps_are_compared_with_the_faces_of_their_model() {
     let options = CheckOptions::default();
     for model in baked_models().iter().take(4) {
-        let on_model = check_model_of_maps(&mut model.document()).expect("a valid document");
+        let on_model = check_model_of_maps(&model.document()).expect("a valid document");
         let errors = |texel: fn(&[u8; 3]) -> [u8; 3]| -> Vec<Code> {
             let file = model.map.with_texels(model.map.texels.iter().map(texel).collect()).file;
             let findings = check_map_on_model(&file, &on_model, &options).findings;
@@ -305,7 +305,7 @@ fn bare_maps_are_repaired_by_the_faces_of_their_model() {
         ([true, true], TangentDirection::Left, BitangentDirection::Down),
     ];
     for model in baked_models().iter().take(4) {
-        let on_model = check_model_of_maps(&mut model.document()).expect("a valid document");
+        let on_model = check_model_of_maps(&model.document()).expect("a valid document");
         for ([inverts_red, inverts_green], red, green) in spoilt {
             let inverted = |code: u8, inverts: bool| if inverts { 255 - code } else { code };
             let texel = |&[r, g, b]: &[u8; 3]| [inverted(r, inverts_red), inverted(g, inverts_green), b];
@@ -341,7 +341,7 @@ fn maps_of_one_model_are_compared() {
             json["materials"].as_array_mut().expect("materials").push(material);
         });
         let document = Document::from_bytes("model", glb, None, &LoadOptions::default());
-        let findings = check_document(&mut document.expect("a document"), &CheckOptions::default());
+        let findings = check_document(&document.expect("a document"), &CheckOptions::default());
         let findings = findings.expect("a valid document");
         let green = find(&findings, Code::MapGreenFlipped).expect("the finding");
         assert_eq!((green.place.image, green.is_fixable()), (Some(1), !inverts_red), "{green:?}");
@@ -382,7 +382,7 @@ fn clear_coats_and_variants_are_checked() {
     let errors = |edit: fn(&mut Value)| -> Vec<(Code, Option<usize>)> {
         let glb = with_json(&model.glb(), edit);
         let document = Document::from_bytes("model", glb, None, &LoadOptions::default());
-        let findings = check_document(&mut document.expect("a document"), &CheckOptions::default());
+        let findings = check_document(&document.expect("a document"), &CheckOptions::default());
         let findings = findings.expect("a valid document").into_iter();
         let errors = findings.filter(|finding| finding.severity == Severity::Error);
         errors.map(|finding| (finding.code, finding.place.material)).collect()

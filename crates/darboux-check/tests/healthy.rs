@@ -99,8 +99,8 @@ const INCOMPLETE: &[&str] = &[
 
 /// The codes of severity error, each once; none for a file that does not open.
 fn errors(path: &Path) -> Option<Vec<Code>> {
-    let mut document = Document::open(path, &LoadOptions::default()).ok()?;
-    let findings = check_document(&mut document, &CheckOptions::default()).ok()?;
+    let document = Document::open(path, &LoadOptions::default()).ok()?;
+    let findings = check_document(&document, &CheckOptions::default()).ok()?;
     let is_error = |severity| severity == Severity::Error;
     let found = findings.iter().filter(|finding| is_error(finding.severity)).map(|finding| finding.code);
     let mut codes: Vec<Code> = found.collect();

@@ -197,7 +197,7 @@ fn the_cure_is_that_of_the_wanted_convention() {
 #[test]
 fn mistakes_that_cancel_are_repaired_together_or_not() {
     let check = |model: &support::models::Model| {
-        check_document(&mut model.document(), &CheckOptions::default()).expect("a valid document")
+        check_document(&model.document(), &CheckOptions::default()).expect("a valid document")
     };
     let says_so = |findings: &[Finding]| {
         let marked = findings.iter().filter(|finding| finding.text.contains("repair both or none"));

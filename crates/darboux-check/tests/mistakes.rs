@@ -18,7 +18,7 @@ use support::page::{PAIRS, page};
 use support::table::{Row, codes, table, without_maps};
 
 fn check(model: &Model) -> Vec<Finding> {
-    check_document(&mut model.document(), &CheckOptions::default()).expect("a valid document")
+    check_document(&model.document(), &CheckOptions::default()).expect("a valid document")
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn reversed_parts_are_named() {
     for healthy in healthy_models() {
         let mut model = healthy.clone();
         model.add_reversed_copy();
-        let findings = check_document(&mut model.document(), &without_maps()).expect("a valid document");
+        let findings = check_document(&model.document(), &without_maps()).expect("a valid document");
         let errors = codes(&findings, |severity| severity > Severity::Info);
         assert_eq!(errors, BTreeSet::from([Code::NormalAgainstWinding]), "{}: {findings:#?}", model.name);
         let found = findings.iter().find(|finding| finding.code == Code::NormalAgainstWinding);
@@ -119,7 +119,7 @@ fn reversed_normals_of_some_vertices_are_named() {
             }
             let of_vertices = normals.iter_mut().zip(&reversed).filter(|(_, reversed)| **reversed);
             of_vertices.for_each(|(normal, _)| *normal = normal.map(|x| -x));
-            let findings = check_document(&mut model.document(), &without_maps()).expect("a valid document");
+            let findings = check_document(&model.document(), &without_maps()).expect("a valid document");
             let bad = codes(&findings, |severity| severity > Severity::Info);
             assert_eq!(bad, BTreeSet::from([Code::NormalAgainstWinding]), "{}: {findings:#?}", model.name);
             let triangles = healthy.indices.as_chunks::<3>().0.iter();
@@ -158,7 +158,7 @@ fn primitives_without_positions_are_left_out() {
         "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"},
             {"componentType": 5125, "count": 3, "type": "SCALAR"}]}"#;
     let document = Document::from_bytes("normals", json.into(), None, &LoadOptions::default());
-    let findings = check_document(&mut document.expect("a valid document"), &CheckOptions::default());
+    let findings = check_document(&document.expect("a valid document"), &CheckOptions::default());
     assert_eq!(findings.expect("a valid document"), []);
 }
 

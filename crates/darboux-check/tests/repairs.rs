@@ -144,7 +144,7 @@ fn all_instances_are_repaired() {
     model.copies = 3;
     let mut document = model.document();
     fixed(&mut document, &mut model.document(), &FixOptions::default());
-    let left = check_document(&mut document, &CheckOptions::default()).expect("a valid document");
+    let left = check_document(&document, &CheckOptions::default()).expect("a valid document");
     assert!(left.iter().all(|finding| finding.code != Code::TangentSignFlipped), "{left:?}");
 }
 
@@ -188,7 +188,7 @@ fn image_files_get_new_files() {
     assert_eq!(image(&open(&glb)), written);
 
     document.save_in_place().expect("written");
-    let left = check_document(&mut open(&input), &CheckOptions::default()).expect("a valid document");
+    let left = check_document(&open(&input), &CheckOptions::default()).expect("a valid document");
     assert!(left.iter().all(|finding| finding.code != Code::MapGreenFlipped), "{left:?}");
     assert_eq!(fs::read(folder.path().join("maps/n m.png")).expect("the old map"), model.map.file);
     assert_eq!(image(&open(&input)), written);
@@ -207,7 +207,7 @@ fn maps_keep_their_bit_depth() {
     let words = |[r, g, b]: [u8; 3]| [r, r ^ 0x35, 255 - g, g ^ 0x35, b, b ^ 0x35];
     let bytes: Vec<u8> = map.texels.iter().flat_map(|texel| words(*texel)).collect();
     encoder.write_header().and_then(|mut writer| writer.write_image_data(&bytes)).expect("a PNG");
-    let on = check_model_of_maps(&mut model.document()).expect("a valid document");
+    let on = check_model_of_maps(&model.document()).expect("a valid document");
     let (loading, options) = (LoadOptions::default(), FixOptions::default());
     let fixed = fix_map_on_model("map.png", &file, &on, &loading, &options).expect("a map");
     let fixed = fixed.image.expect("a repaired map");
@@ -228,7 +228,7 @@ fn a_repair_goes_on_with_what_it_reveals() {
     let model = healthy_models().remove(0);
     let texels = model.map.texels.iter().map(|[r, g, _]| [*r, 255 - g, 0]).collect();
     let file = model.map.with_texels(texels).file;
-    let on = check_model_of_maps(&mut model.document()).expect("a valid document");
+    let on = check_model_of_maps(&model.document()).expect("a valid document");
     let (loading, options) = (LoadOptions::default(), FixOptions::default());
     let repaired = |fixed: FixedMap| -> BTreeSet<Code> {
         assert!(fixed.image.is_some());
@@ -252,7 +252,7 @@ fn unused_vertices_are_not_counted() {
     model.normals.iter_mut().for_each(|normals| normals.push([0.0; 3]));
     model.tangents.iter_mut().for_each(|tangents| tangents.push([f32::NAN, 0.0, 0.0, 0.5]));
     model.uvs.iter_mut().for_each(|uvs| uvs.push([0.0; 2]));
-    let findings = check_document(&mut model.document(), &CheckOptions::default()).expect("a valid document");
+    let findings = check_document(&model.document(), &CheckOptions::default()).expect("a valid document");
     assert!(findings.iter().all(|finding| finding.severity == Severity::Info), "{findings:?}");
 }
 
@@ -308,8 +308,8 @@ fn a_chain_of_repairs_keeps_the_evidence_of_the_mesh() {
             let model = Model { map, ..healthy.clone() };
             let mut document = model.document();
             fixed(&mut document, &mut model.document(), &FixOptions::default());
-            let mut repaired = read(document.to_glb().expect("a GLB"));
-            let left = check_document(&mut repaired, &CheckOptions::default()).expect("a valid document");
+            let repaired = read(document.to_glb().expect("a GLB"));
+            let left = check_document(&repaired, &CheckOptions::default()).expect("a valid document");
             let errors: Vec<_> = left.iter().filter(|found| found.severity == Severity::Error).collect();
             assert!(errors.is_empty(), "{}: {errors:?}", healthy.name);
             let texels = support::table::rgb(&image(&repaired));
@@ -490,7 +490,7 @@ fn the_volume_of_a_nearly_closed_surface_decides() {
 fn what_follows_from_a_mistake_is_no_further_mistake() {
     for healthy in healthy_models().iter().filter(|model| model.positions.len() > 100) {
         let named = |model: &Model| {
-            let findings = check_document(&mut model.document(), &support::table::without_maps());
+            let findings = check_document(&model.document(), &support::table::without_maps());
             let findings = findings.expect("a valid document");
             let named = findings.iter().filter(|finding| finding.severity > Severity::Info);
             named.map(|finding| (finding.code, finding.severity)).collect::<Vec<_>>()

@@ -66,7 +66,7 @@ pub fn load(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
     in_gltf_convention(input, load_any(input, reading)?)
 }
 
-/// As [`load`], decompressed, also from an OBJ file, which becomes a document. Warnings have the name of the file, which tells several models apart.
+/// As [`load`], also from an OBJ file, which becomes a document. Warnings have the name of the file, which tells several models apart.
 #[cfg(feature = "bake")]
 pub fn load_with_obj(
     path: &Path,
@@ -75,13 +75,12 @@ pub fn load_with_obj(
 ) -> Result<Document, String> {
     let sentence = |error: darboux_io::Error| error.to_string();
     let is_obj = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
-    let (mut document, of_obj) = if is_obj {
+    let (document, of_obj) = if is_obj {
         let model = darboux_io::obj::read(path, &reading.load_options()).map_err(sentence)?;
         (model.document, model.warnings)
     } else {
         (load(&Input::File(path.to_owned()), reading)?, Vec::new())
     };
-    document.decompress().map_err(sentence)?;
     let all = of_obj.iter().chain(document.warnings());
     warnings.extend(all.map(|warning| format!("{}: {warning}", document.name())));
     Ok(document)

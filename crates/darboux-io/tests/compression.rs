@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents};
-use darboux_io::{Error, LoadOptions};
+use darboux_io::{Error, LoadOptions, SaveOptions};
 use serde_json::{Value, json};
 
 fn asset(name: &str) -> PathBuf {
@@ -17,9 +17,9 @@ fn open(name: &str) -> Document {
 
 fn decompressed(name: &str) -> Document {
     let mut document = open(name);
-    assert!(document.is_compressed());
-    document.decompress().unwrap();
-    assert!(!document.is_compressed() && document.is_changed());
+    assert!(!document.is_changed());
+    document.discard_compression();
+    assert!(document.is_changed());
     document
 }
 
@@ -38,7 +38,7 @@ fn json_of(glb: &[u8]) -> Value {
 }
 
 #[test]
-fn without_decompression_a_compressed_file_is_kept_to_the_byte() {
+fn without_edits_a_compressed_file_is_kept_to_the_byte() {
     for name in ["draco.glb", "meshopt.glb"] {
         assert_eq!(open(name).to_glb().unwrap(), std::fs::read(asset(name)).unwrap());
     }
@@ -124,7 +124,7 @@ fn compressed(name: &str, views: &[(Vec<u8>, usize, usize, &str, &str)]) -> Valu
 fn decode(json: &Value) -> Result<Document, Error> {
     let mut document =
         Document::from_bytes("x.gltf", json.to_string().into(), None, &LoadOptions::default())?;
-    document.decompress()?;
+    document.discard_compression();
     Ok(document)
 }
 
@@ -229,8 +229,7 @@ fn damaged_streams_never_panic() {
         for at in start..good.len() {
             let mut bytes = good.clone();
             bytes[at] ^= [0x01, 0x80, 0xff][at % 3];
-            let mut document = Document::from_bytes("x", bytes, None, &LoadOptions::default()).unwrap();
-            if let Err(error) = document.decompress() {
+            if let Err(error) = Document::from_bytes("x", bytes, None, &LoadOptions::default()) {
                 assert!(!error.to_string().contains("the decoder failed"), "byte {at}: {error}");
             }
         }
@@ -379,4 +378,101 @@ fn tangents_of_compressed_models_are_written_plain() {
             assert_eq!(corners(&again, primitive), corners(&decoded, primitive), "{model}");
         }
     }
+}
+
+/// Nothing but positions, in a stream that has more: the accessors have no bytes of their own, and read as zeros before they are decoded.
+#[test]
+fn attributes_of_a_draco_stream_that_a_primitive_lacks_are_skipped() {
+    let mut json = draco_json(&[]);
+    let whole = decode(&json).unwrap();
+    for primitive in json["meshes"][0]["primitives"].as_array_mut().unwrap() {
+        let attributes = primitive["attributes"].as_object_mut().unwrap();
+        attributes.retain(|name, _| name == "POSITION");
+    }
+    let document = decode(&json).unwrap();
+    for accessor in [1, 6, 11, 16] {
+        assert_eq!(document.elements(accessor).unwrap(), whole.elements(accessor).unwrap());
+    }
+    assert_eq!(document.indices(0).unwrap().into_u32(), whole.indices(0).unwrap().into_u32());
+    assert!(!json_of(&document.to_glb().unwrap()).to_string().contains("draco"));
+}
+
+/// One stream for two primitives, through the same accessors and through accessors of their own.
+#[test]
+fn primitives_share_a_draco_stream() {
+    let mut json = draco_json(&[]);
+    let first = json["meshes"][0]["primitives"][0].clone();
+    let mut own = first.clone();
+    let accessors = json["accessors"].as_array_mut().unwrap();
+    for (place, accessor) in
+        [("indices", 0), ("POSITION", 1), ("NORMAL", 2), ("TEXCOORD_0", 3), ("TEXCOORD_1", 4)]
+    {
+        accessors.push(accessors[accessor].clone());
+        let place = if place == "indices" { &mut own["indices"] } else { &mut own["attributes"][place] };
+        *place = json!(accessors.len() - 1);
+    }
+    json["meshes"][0]["primitives"].as_array_mut().unwrap().extend([first, own]);
+    let document = decode(&json).unwrap();
+    let all = corners(&document, 0);
+    assert_eq!(corners(&document, 4), all);
+    assert_eq!(corners(&document, 5), all);
+    assert_eq!(document.meshes()[0].primitives[4].indices, Some(0), "accessors stay shared");
+    assert_eq!(document.elements(2).unwrap(), document.elements(22).unwrap());
+}
+
+/// Several primitives, one as a morph target, over views of one meshopt buffer; one view has a fallback, which is used.
+#[test]
+fn morph_targets_and_primitives_share_meshopt_views() {
+    let name = "KHR_meshopt_compression";
+    let mut json = compressed(name, &every_filter());
+    for accessor in [0, 1] {
+        json["accessors"][accessor]["type"] = json!("VEC3");
+        json["bufferViews"][accessor]["byteStride"] = json!(16);
+    }
+    let primitive = json!({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]});
+    json["meshes"] = json!([{"primitives": [primitive, {"attributes": {"POSITION": 1}}]}]);
+    let document = decode(&json).unwrap();
+    let xyz = VECTORS.map(|[x, y, z, _]| [x, y, z]);
+    assert_eq!(document.vectors::<3>(0).unwrap()[..], xyz);
+    for (found, expected) in document.vectors::<3>(1).unwrap().iter().zip(xyz) {
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.02), "{found:?}");
+    }
+
+    use base64::Engine;
+    let engine = base64::engine::general_purpose::STANDARD;
+    let fallback = vec![0x3f; json["buffers"][1]["byteLength"].as_u64().unwrap() as usize];
+    json["buffers"][1]["uri"] = json!(format!("data:;base64,{}", engine.encode(fallback)));
+    let document = decode(&json).unwrap();
+    assert_eq!(document.vectors::<3>(0).unwrap()[..], [[f32::from_bits(0x3f3f_3f3f); 3]; 3]);
+    assert!(!json_of(&document.to_glb().unwrap()).to_string().contains("meshopt"));
+}
+
+/// A document that is only read keeps its compression where its text is kept; written into another container, it has none, and no compressed bytes.
+#[test]
+fn documents_without_edits_keep_their_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let stream = every_filter().remove(0);
+    let length = stream.0.len();
+    let mut json = compressed("EXT_meshopt_compression", std::slice::from_ref(&stream));
+    json["buffers"][0] = json!({"byteLength": length, "uri": "model.bin"});
+    json["meshes"] = json!([{"primitives": [{"attributes": {"COLOR_0": 0}}]}]);
+    let [input, bin] = ["model.gltf", "model.bin"].map(|name| folder.path().join(name));
+    std::fs::write(&input, json.to_string()).unwrap();
+    std::fs::write(&bin, &stream.0).unwrap();
+    let document = Document::open(&input, &LoadOptions::default()).unwrap();
+    assert_eq!(document.vectors::<4>(0).unwrap()[..], VECTORS);
+    assert_eq!(document.save_in_place().unwrap(), Vec::<PathBuf>::new());
+
+    let output = folder.path().join("other/model.gltf");
+    document.save(&output, &SaveOptions::default()).unwrap();
+    assert_eq!(std::fs::read(&output).unwrap(), std::fs::read(&input).unwrap());
+    assert_eq!(std::fs::read(output.with_extension("bin")).unwrap(), stream.0);
+
+    let glb = document.to_glb().unwrap();
+    let written = json_of(&glb);
+    assert!(!written.to_string().contains("meshopt"), "{written}");
+    assert_eq!(written["bufferViews"].as_array().unwrap().len(), 1);
+    assert_eq!(written["buffers"], json!([{"byteLength": 48}]), "{written}");
+    let plain = Document::from_bytes("plain", glb, None, &LoadOptions::default()).unwrap();
+    assert_eq!(plain.vectors::<4>(0).unwrap()[..], VECTORS);
 }

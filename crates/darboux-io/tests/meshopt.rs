@@ -43,9 +43,8 @@ impl View {
             ],
         });
         let options = LoadOptions::default();
-        let mut document = Document::from_bytes("x.gltf", json.to_string().into(), None, &options)
+        let document = Document::from_bytes("x.gltf", json.to_string().into(), None, &options)
             .map_err(|error| error.to_string())?;
-        document.decompress().map_err(|error| error.to_string())?;
         Ok(document.elements(0).map_err(|error| error.to_string())?.bytes)
     }
 }

@@ -70,8 +70,8 @@ fn mutated_files_give_models_or_errors() {
         fs::write(&obj, text).unwrap();
         fs::write(&mtl, library).unwrap();
         match read(&obj, &LoadOptions::default()) {
-            Ok(mut model) => {
-                inspect(&mut model.document).unwrap();
+            Ok(model) => {
+                inspect(&model.document).unwrap();
                 models += 1;
             }
             Err(error) => {

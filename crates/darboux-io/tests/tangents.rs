@@ -160,7 +160,7 @@ fn the_uv_set_is_the_one_that_the_texture_names() {
         .collect();
     builder.indices(&SQUARE);
     builder.mesh(&primitives);
-    let infos = inspect(&mut builder.build()).unwrap();
+    let infos = inspect(&builder.build()).unwrap();
     for (info, (_, set, reason, needed)) in infos.iter().zip(&cases) {
         assert_eq!((info.uv_set, info.uv_reason.as_str(), info.needs_tangents), (*set, *reason, *needed));
     }
@@ -539,8 +539,8 @@ fn inspect_counts_without_changing_anything() {
         json!({"attributes": attributes, "indices": left}),
         json!({"attributes": attributes, "mode": 1}),
     ]);
-    let mut document = builder.build();
-    let infos = inspect(&mut document).unwrap();
+    let document = builder.build();
+    let infos = inspect(&document).unwrap();
     assert!(!document.is_changed());
     let [all, left, lines] = infos.as_slice() else { panic!("{infos:?}") };
     assert_eq!((all.vertices, all.counts.triangles, all.mode), (6, 4, "TRIANGLES"));

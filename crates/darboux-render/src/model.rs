@@ -40,12 +40,10 @@ struct PosedMesh<'a> {
 const MAX_POSED_CORNERS: usize = 3 << 24;
 
 impl<'a> Model<'a> {
-    /// Reads the meshes of the scene in their poses, with the tangents of the document. Decompresses the document first.
+    /// Reads the meshes of the scene in their poses, with the tangents of the document.
     ///
     /// Errors: invalid data; too many poses of large meshes.
-    pub fn read(document: &'a mut Document) -> Result<Self, Error> {
-        document.decompress()?;
-        let document: &'a Document = document;
+    pub fn read(document: &'a Document) -> Result<Self, Error> {
         let appearances = document.appearances()?;
         let placed = document.placed_meshes()?;
         let posed = posed_meshes(&placed, document.meshes().len());

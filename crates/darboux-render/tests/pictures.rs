@@ -234,8 +234,8 @@ fn instances_are_drawn_at_their_places() {
     // One instance at each corner of the quad.
     let node = r#""extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}"#;
     let quad = Quad { half_size: 0.25, node, ..Quad::default() };
-    let mut document = document(&quad);
-    assert_eq!(Model::read(&mut document).expect("a model").triangle_count(), 48);
+    let document = document(&quad);
+    assert_eq!(Model::read(&document).expect("a model").triangle_count(), 48);
     let pixels = picture(&quad, &quad, View::Normal);
     assert!(pixels[3 * SIZE + 3] != common::BACKGROUND && pixels[60 * SIZE + 60] != common::BACKGROUND);
 }
@@ -276,7 +276,7 @@ fn invalid_poses_are_errors() {
         ),
     ];
     for (quad, expected) in cases {
-        let read = common::load(&quad).and_then(|mut document| Model::read(&mut document).map(|_| ()));
+        let read = common::load(&quad).and_then(|document| Model::read(&document).map(|_| ()));
         let error = read.err().map(|error| error.to_string()).unwrap_or_default();
         assert!(
             error.contains(expected) && error.is_empty() == expected.is_empty(),
@@ -296,7 +296,7 @@ fn the_number_of_poses_of_a_mesh_is_limited() {
             "accessors":[{{"componentType":5126,"count":{vertices},"type":"VEC3"}},{{"componentType":5125,"count":3,"type":"SCALAR"}}]}}"#
         );
         let document = Document::from_bytes("file", file.into_bytes(), None, &LoadOptions::default());
-        let triangles = Model::read(&mut document.expect("a document")).map(|model| model.triangle_count());
+        let triangles = Model::read(&document.expect("a document")).map(|model| model.triangle_count());
         triangles.map_err(|error| error.to_string())
     };
     assert_eq!(read(3), Ok(3));
@@ -431,8 +431,8 @@ fn what_cannot_be_drawn_is_an_error() {
     let gpu = common::gpu().expect("an adapter");
     let options = common::options(View::Shaded);
     let error_of = |quad: &Quad, options: &RenderOptions| {
-        let mut document = document(quad);
-        let model = &Model::read(&mut document).expect("a model");
+        let document = document(quad);
+        let model = &Model::read(&document).expect("a model");
         let side = Side { model, mistakes: Mistakes::default() };
         darboux_render::render(gpu, side, None, options).expect_err("no picture").to_string()
     };

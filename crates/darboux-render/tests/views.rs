@@ -104,8 +104,8 @@ fn derivatives_are_along_the_uvs_of_every_triangle() {
         return;
     }
     let derived = |quad: &Quad, view| {
-        let mut document = document(quad);
-        let model = Model::read(&mut document).expect("a model").derived();
+        let document = document(quad);
+        let model = Model::read(&document).expect("a model").derived();
         halves(&common::shown(&model, Mistakes::default(), &common::options(view)).pixels)
     };
     // The file has wrong tangents, or none.
@@ -133,10 +133,9 @@ fn the_angle_to_derived_tangents_is_drawn() {
     if !has_adapter_or_says_so() {
         return;
     }
-    let [mut first, mut second] =
-        [(); 2].map(|()| document(&Quad { tangent: [0.0, 1.0, 0.0], ..Quad::default() }));
-    let derived = Model::read(&mut second).expect("a model").derived();
-    let model = Model::read(&mut first).expect("a model").compared_with(&derived);
+    let [first, second] = [(); 2].map(|()| document(&Quad { tangent: [0.0, 1.0, 0.0], ..Quad::default() }));
+    let derived = Model::read(&second).expect("a model").derived();
+    let model = Model::read(&first).expect("a model").compared_with(&derived);
     let [left, _] = halves(&common::shown(&model, Mistakes::default(), &common::options(View::Angle)).pixels);
     // 90 degrees are at 0.93 of the scale.
     let [below, last] = [7, 8].map(|step| common::heat().ramp[step]);

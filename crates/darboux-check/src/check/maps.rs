@@ -98,7 +98,7 @@ impl ModelOfMaps {
 
 /// Checks the tangents, normals and UVs of a model that normal maps are to be put on, whatever maps it has itself. Errors: invalid data of the
 /// document.
-pub fn check_model_of_maps(document: &mut Document) -> Result<ModelOfMaps, Error> {
+pub fn check_model_of_maps(document: &Document) -> Result<ModelOfMaps, Error> {
     let (mut surfaces, mut defects) = (Vec::new(), Vec::new());
     for_each_surface(document, &|_| true, |mut surface| {
         surface.needs_tangents = true;

@@ -14,7 +14,7 @@ use crate::surface::Surface;
 
 /// The defects of the primitives with triangles that are wanted.
 pub fn defects_of_surfaces(
-    document: &mut Document,
+    document: &Document,
     is_wanted: &dyn Fn(&PrimitiveName) -> bool,
 ) -> Result<Vec<Defect>, Error> {
     let mut defects = Vec::new();
@@ -24,7 +24,7 @@ pub fn defects_of_surfaces(
 
 /// Reads the wanted surfaces of a document one after the other; those with the same data once.
 pub fn for_each_surface(
-    document: &mut Document,
+    document: &Document,
     is_wanted: &dyn Fn(&PrimitiveName) -> bool,
     mut visit: impl FnMut(Surface),
 ) -> Result<(), Error> {

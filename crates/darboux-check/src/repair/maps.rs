@@ -192,10 +192,9 @@ fn unit(texel: [f64; 3]) -> [f64; 3] {
     if is_grey || length < 0.05 { texel } else { vector.map(|x| (x / length + 1.0) / 2.0) }
 }
 
-/// Repairs the images of a document that defects name. `copy`: where the document is compressed, a copy that is not.
+/// Repairs the images of a document that defects name.
 pub fn fix_images(
     document: &mut Document,
-    copy: Option<&Document>,
     defects: Vec<Defect>,
     options: &FixOptions,
 ) -> Result<Vec<FixedFinding>, Error> {
@@ -205,8 +204,7 @@ pub fn fix_images(
     if !defects.iter().any(|defect| options.repairs(defect)) {
         return Ok(defects.iter().map(|defect| outcome(defect.clone(), &defects, options)).collect());
     }
-    let readable = copy.unwrap_or(document);
-    let users = MapUsers::new(readable, &readable.appearances()?)?;
+    let users = MapUsers::new(document, &document.appearances()?)?;
     for (image, material) in places {
         let of_image = defects.iter().filter(|defect| defect.place.image == image);
         let has_work = of_image.clone().any(|defect| options.repairs(defect));

@@ -57,7 +57,7 @@ pub struct FixedFinding {
 pub struct FixedDocument {
     /// The findings of the document before the repair, and those that the repair of a map revealed.
     pub findings: Vec<FixedFinding>,
-    /// Whether a repair was kept. If none was, the document differs from its file at most by being decompressed.
+    /// Whether a repair was kept. If none was, the document is written as it was.
     pub is_changed: bool,
 }
 

@@ -30,7 +30,6 @@ pub fn fix_surfaces(
     let mut work = Work { groups: BTreeMap::new(), left, options };
     let mut repair = Repair { after: defects.clone(), ..Repair::default() };
     if defects.iter().any(|defect| options.repairs(defect)) {
-        document.decompress()?;
         work.name_groups(document, &defects);
     }
     for _ in 0..MAX_ROUNDS {

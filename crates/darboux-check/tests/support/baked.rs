@@ -81,8 +81,7 @@ fn row(mistake: &BakedMistake, models: &[Model]) -> Row {
         row.models += 1;
         let texels = healthy.map.texels.iter().copied().map(make).collect();
         let model = Model { map: healthy.map.with_texels(texels), ..healthy.clone() };
-        let findings =
-            check_document(&mut model.document(), &CheckOptions::default()).expect("a valid document");
+        let findings = check_document(&model.document(), &CheckOptions::default()).expect("a valid document");
         let errors = codes(&findings, |severity| severity == Severity::Error);
         row.require_evidence(&healthy.name, &findings);
         row.named += usize::from(errors.contains(&code));
@@ -101,13 +100,12 @@ fn row(mistake: &BakedMistake, models: &[Model]) -> Row {
 /// Repairs the map of a model, and compares its texels with the healthy ones.
 fn repaired(model: &Model, healthy: &Model) -> Result<(), String> {
     let mut document = model.document();
-    let findings =
-        check_document(&mut document, &CheckOptions::default()).map_err(|error| error.to_string())?;
+    let findings = check_document(&document, &CheckOptions::default()).map_err(|error| error.to_string())?;
     fix_document(&mut document, findings, &FixOptions::default()).map_err(|error| error.to_string())?;
     let glb = document.to_glb().map_err(|error| error.to_string())?;
-    let mut after = Document::from_bytes("repaired", glb, None, &LoadOptions::default())
+    let after = Document::from_bytes("repaired", glb, None, &LoadOptions::default())
         .map_err(|error| error.to_string())?;
-    let left = check_document(&mut after, &CheckOptions::default()).map_err(|error| error.to_string())?;
+    let left = check_document(&after, &CheckOptions::default()).map_err(|error| error.to_string())?;
     if let Some(finding) = left.iter().find(|finding| finding.severity == Severity::Error) {
         return Err(format!("{} is still there: {}", finding.code, finding.text));
     }

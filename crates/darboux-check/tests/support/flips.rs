@@ -69,6 +69,6 @@ pub const FLIPS: &[Flip] = &[
 pub fn named(flip: &Flip, healthy: &Model) -> BTreeSet<Code> {
     let mut model = healthy.clone();
     (flip.make)(&mut model);
-    let findings = check_document(&mut model.document(), &CheckOptions::default());
+    let findings = check_document(&model.document(), &CheckOptions::default());
     codes(&findings.expect("a valid document"), |severity| severity > Severity::Info)
 }

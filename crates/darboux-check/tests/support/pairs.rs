@@ -113,7 +113,7 @@ fn outcome(made: [Made; 2], model: &Model, alone: &[(Option<Made>, Vec<u8>)]) ->
     let glb = model.glb();
     let with_map = made.iter().any(|made| matches!(made, Made::InMap(_)));
     let options = CheckOptions::default().with_maps(with_map);
-    let findings = check_document(&mut model.document(), &options).expect("a valid document");
+    let findings = check_document(&model.document(), &options).expect("a valid document");
     let all = codes(&findings, |_| true);
     let pair = made.map(Made::code);
     let failure = repair(&glb, &options).err();
@@ -134,8 +134,8 @@ fn outcome(made: [Made; 2], model: &Model, alone: &[(Option<Made>, Vec<u8>)]) ->
 /// Repairs a file twice. What is left must have a reason, and the second repair must change nothing.
 fn repair(glb: &[u8], options: &CheckOptions) -> Result<(), String> {
     let once = repaired(glb, options)?;
-    let mut document = read(&once)?;
-    let left = check_document(&mut document, options).map_err(|error| error.to_string())?;
+    let document = read(&once)?;
+    let left = check_document(&document, options).map_err(|error| error.to_string())?;
     if let Some(finding) = left.iter().find(|finding| finding.is_fixable()) {
         return Err(format!("{} is still there, without a reason: {}", finding.code, finding.text));
     }
@@ -152,7 +152,7 @@ fn read(glb: &[u8]) -> Result<Document, String> {
 
 fn repaired(glb: &[u8], options: &CheckOptions) -> Result<Vec<u8>, String> {
     let mut document = read(glb)?;
-    let findings = check_document(&mut document, options).map_err(|error| error.to_string())?;
+    let findings = check_document(&document, options).map_err(|error| error.to_string())?;
     let fixing = FixOptions::default().with_check(*options);
     fix_document(&mut document, findings, &fixing).map_err(|error| error.to_string())?;
     document.to_glb().map_err(|error| error.to_string())

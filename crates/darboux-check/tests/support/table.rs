@@ -56,7 +56,7 @@ fn row(mistake: &Mistake, models: &[Model]) -> Row {
             continue;
         }
         row.models += 1;
-        let findings = check_document(&mut model.document(), &without_maps()).expect("a valid document");
+        let findings = check_document(&model.document(), &without_maps()).expect("a valid document");
         row.count(&healthy.name, &findings);
         if row.repaired.is_none() {
             continue;
@@ -80,7 +80,7 @@ fn repaired_model(model: &Model, findings: Vec<Finding>, healthy: &Model) -> Res
     let once = repair(model.glb(), findings).map_err(|error| error.to_string())?;
     let mut document =
         Document::from_bytes("repaired", once.clone(), None, &LoadOptions::default()).expect("a valid GLB");
-    let left = check_document(&mut document, &without_maps()).expect("a valid document");
+    let left = check_document(&document, &without_maps()).expect("a valid document");
     if let Some(finding) = left.iter().find(|finding| finding.is_fixable()) {
         return Err(format!("{} is still there: {}", finding.code, finding.text));
     }
@@ -136,7 +136,7 @@ fn map_row(mistake: &MapMistake, models: &[Model]) -> Row {
 
 /// Repairs a map on its model, and compares its texels with the healthy ones.
 fn repaired_map(map: &Map, healthy: &Model, tolerance: u8) -> Result<(), String> {
-    let model = check_model_of_maps(&mut healthy.document()).expect("a valid document");
+    let model = check_model_of_maps(&healthy.document()).expect("a valid document");
     let (loading, options) = (LoadOptions::default(), FixOptions::default());
     let fixed = fix_map_on_model("map.png", &map.file, &model, &loading, &options);
     let fixed = fixed.map_err(|error| error.to_string())?;

@@ -163,8 +163,8 @@ fn check_file(input: &Input, arguments: &CheckArguments, model: &Model) -> Check
                 Ok(reported(checked.findings, map))
             }
             None => {
-                let mut document = source.load(&arguments.files.reading)?;
-                let findings = check_document(&mut document, &options).map_err(|error| error.to_string())?;
+                let document = source.load(&arguments.files.reading)?;
+                let findings = check_document(&document, &options).map_err(|error| error.to_string())?;
                 Ok(reported(findings, None))
             }
         }

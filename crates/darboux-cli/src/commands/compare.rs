@@ -72,7 +72,7 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
     messages.start(inputs.iter().map(Input::byte_length).sum());
     let progress_of = |input: &Input| messages.file(&input.to_string(), input.byte_length());
     let progress = progress_of(&inputs[0]);
-    let mut first = load(&inputs[0], &arguments.reading)?;
+    let first = load(&inputs[0], &arguments.reading)?;
     drop(progress);
     let progress = progress_of(&inputs[1]);
     let mut second = load(&inputs[1], &arguments.reading)?;
@@ -90,7 +90,7 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
     warnings.extend(arguments.second.iter().flat_map(|_| warnings_of(&second)));
     let without_tangents = nothing_to_compare([&first, &second]);
     let [first_name, second_name] = [&first, &second].map(|document| document.name().to_owned());
-    let pairs = pair_tangents(&mut first, &mut second).map_err(|error| error.to_string())?;
+    let pairs = pair_tangents(&first, &second).map_err(|error| error.to_string())?;
     warnings.extend(moved(&pairs));
     let Comparison { totals, primitives, worst } =
         Comparison::new(&pairs, arguments.worst).map_err(|error| error.to_string())?;

@@ -58,8 +58,8 @@ fn print_problems(files: &[InspectedFile], messages: &Messages) -> u8 {
 
 fn inspect_file(input: &Input, reading: &ReadOptions) -> InspectedFile {
     let inspected = net::catch(input, || {
-        let mut document = load(input, reading)?;
-        let primitives = inspect(&mut document).map_err(|error| error.to_string())?;
+        let document = load(input, reading)?;
+        let primitives = inspect(&document).map_err(|error| error.to_string())?;
         Ok(InspectedFile {
             input: input.to_string(),
             error: None,

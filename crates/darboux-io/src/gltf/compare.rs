@@ -79,17 +79,13 @@ impl PairedCorners<'_> {
     }
 }
 
-/// Pairs the primitives of two documents by the indices of mesh and primitive. Compressed documents are decompressed.
+/// Pairs the primitives of two documents by the indices of mesh and primitive.
 ///
 /// Errors: different numbers of meshes, primitives or corners; invalid data of a primitive with tangents.
-pub fn pair_tangents<'a>(a: &'a mut Document, b: &'a mut Document) -> Result<Vec<Pair<'a>>, Error> {
-    for document in [&mut *a, &mut *b] {
-        if document.is_compressed() {
-            document.decompress()?;
-        }
+pub fn pair_tangents<'a>(a: &'a Document, b: &'a Document) -> Result<Vec<Pair<'a>>, Error> {
+    for document in [a, b] {
         limits::check_triangles(document, triangle_counts(document))?;
     }
-    let [a, b] = [&*a, &*b];
     let shape = |document: &Document| -> Vec<usize> {
         document.meshes().iter().map(|mesh| mesh.primitives.len()).collect()
     };

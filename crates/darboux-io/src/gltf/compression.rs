@@ -10,30 +10,31 @@ use serde_json::Value;
 use super::document::Document;
 use super::element_type::ComponentType;
 use super::schema::Accessor;
-use crate::Error;
 use crate::error::ContentError;
 use crate::memory_limit::Budget;
 
 impl Document {
-    /// Whether the document has compressed data, which [`Document::decompress`] decodes.
-    pub fn is_compressed(&self) -> bool {
-        let mut primitives = self.root.meshes.iter().flat_map(|mesh| &mesh.primitives);
-        primitives.any(|primitive| primitive.extensions.draco.is_some())
-            || self.root.buffer_views.iter().any(|view| view.extensions.meshopt.is_some())
-    }
-
-    /// Decodes all compressed meshes and buffer views and removes the extensions. Accessors can be read afterwards only.
+    /// Decodes all compressed meshes and buffer views and removes the extensions. Opening does this before anything else reads the document. It does
+    /// not count as an edit: without others, the file is written as it was.
     ///
     /// A file's uncompressed fallback data is used if there is any. Errors: a stream that is broken, or does not match its accessors or
     /// buffer views; more data than [`LoadOptions::memory_limit`](crate::LoadOptions::memory_limit) permits.
-    pub fn decompress(&mut self) -> Result<(), Error> {
-        if self.is_compressed() {
+    pub(super) fn decompress(&mut self) -> Result<(), ContentError> {
+        let mut primitives = self.root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+        let is_compressed = primitives.any(|primitive| primitive.extensions.draco.is_some())
+            || self.root.buffer_views.iter().any(|view| view.extensions.meshopt.is_some());
+        if is_compressed {
             let limit = self.memory_limit();
-            let mut budget = DecodeBudget { left: limit.bytes, limit };
-            self.decode_all(&mut budget).map_err(|error| error.in_file(self.name()))?;
-            self.backed_count.take();
+            self.decode_all(&mut DecodeBudget { left: limit.bytes, limit })?;
+            self.is_changed = false;
+            self.was_compressed = true;
         }
         Ok(())
+    }
+
+    /// Makes the decoding of compressed data an edit: the document is then written without compression even if there are no others.
+    pub fn discard_compression(&mut self) {
+        self.is_changed |= self.was_compressed;
     }
 
     fn decode_all(&mut self, budget: &mut DecodeBudget) -> Result<(), ContentError> {

@@ -41,9 +41,6 @@ pub fn convert_vertices(
     let mut summary = ConversionSummary::default();
     if from != to {
         summary.warnings = convention_note::warnings(document, from, to);
-        if document.is_compressed() {
-            document.decompress()?;
-        }
         let accessors = CanonicalAccessors::new(document);
         convert_primitives(document, &accessors, (from, to), &mut summary, progress)?;
         if from.axes != to.axes {

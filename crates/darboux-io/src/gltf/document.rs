@@ -22,7 +22,7 @@ use crate::{Error, LoadOptions};
 /// A glTF document: read from a file, edited, and written to another file or in place.
 ///
 /// Everything that is not edited is kept, unknown extensions, the order of keys and the spelling of numbers included. A document without edits
-/// is written byte for byte.
+/// is written byte for byte. Compressed meshes are decoded when the document is read, and written without compression if there are edits.
 #[derive(Debug)]
 pub struct Document {
     pub(super) name: String,
@@ -43,6 +43,8 @@ pub struct Document {
     /// The new content of images that are files, by the index of the image.
     pub(super) image_files: BTreeMap<usize, ImageFile>,
     pub(super) is_changed: bool,
+    /// Whether the input has compressed data; the JSON and the buffers no longer have.
+    pub(super) was_compressed: bool,
     /// What nothing in the input refers to, and is kept.
     pub(super) unreferenced: Unreferenced,
     /// The ranges of buffers that held compressed views, by the buffer.

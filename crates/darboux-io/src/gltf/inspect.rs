@@ -8,8 +8,8 @@ use super::primitives::limits;
 use super::primitives::triangles::{TriangleMode, mode_name};
 use super::tangents::compute::{self, Generate, Vertices};
 use super::tangents::groups;
-use super::tangents::select::{TangentCandidate, TangentVerdict};
-use super::tangents::{AddTangentsOptions, ReportCounts, select_readable};
+use super::tangents::select::{self, TangentCandidate, TangentVerdict};
+use super::tangents::{AddTangentsOptions, ReportCounts};
 use super::{Document, PrimitiveName};
 use crate::Error;
 
@@ -47,10 +47,10 @@ pub struct PrimitiveInfo {
 
 /// Describes every primitive of a document. The tangents that it could have are computed and not written.
 ///
-/// A compressed document is decompressed. Errors: invalid data of a primitive that can have tangents.
-pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
+/// Errors: invalid data of a primitive that can have tangents.
+pub fn inspect(document: &Document) -> Result<Vec<PrimitiveInfo>, Error> {
     let options = AddTangentsOptions::default().with_overwrite(true);
-    let selection = select_readable(document, &options, &|_| true)?;
+    let selection = select::select(document, &options, &|_| true)?;
     let groups = groups::group(&CanonicalAccessors::new(document), selection.chosen());
     limits::check_triangles(document, groups::triangle_counts(&groups))?;
     let mut context = Context::new();

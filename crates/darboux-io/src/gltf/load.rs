@@ -19,9 +19,10 @@ use crate::memory_limit::{self, Budget};
 use crate::{Error, LoadOptions, paths};
 
 impl Document {
-    /// Reads a `.glb` or `.gltf` file and the buffers that it refers to. The first bytes decide between the two formats.
+    /// Reads a `.glb` or `.gltf` file and the buffers that it refers to, and decodes what is compressed with Draco or meshopt. The first bytes decide between
+    /// the two formats.
     ///
-    /// Errors: a file that cannot be read, or is not valid glTF; a reference to an element that does not exist.
+    /// Errors: a file that cannot be read, or is not valid glTF; a reference to an element that does not exist; a compressed stream that is broken.
     pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Error> {
         Self::open_with(path, options, FileAccess::default())
     }
@@ -96,7 +97,7 @@ impl Document {
             .enumerate()
             .map(|(i, buffer)| load_buffer(i, buffer, chunk, &mut resources))
             .collect::<Result<_, _>>()?;
-        let document = Self {
+        let mut document = Self {
             name: name.to_owned(),
             input: None,
             warnings: image_warnings(&root, &resources),
@@ -110,12 +111,14 @@ impl Document {
             buffers,
             image_files: BTreeMap::new(),
             is_changed: false,
+            was_compressed: false,
             decoded_ranges: Vec::new(),
             decompressed_bytes: 0,
             options,
             backed_count: OnceLock::new(),
             is_unused_data_reported: false,
         };
+        document.decompress()?;
         document.check_sizes()?;
         Ok(document)
     }

@@ -26,7 +26,7 @@ use super::primitives::canonical::CanonicalAccessors;
 use super::primitives::limits;
 use crate::Error;
 use compute::ShadedPrimitive;
-use select::{NormalSelection, select};
+use select::select;
 
 /// Adds normals to every triangle primitive. The primitives of one mesh are shaded as one surface.
 ///
@@ -60,7 +60,7 @@ pub fn add_normals_to(
     context: &mut Context,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<NormalsSummary, Error> {
-    let selection = select_readable(document, options, is_wanted)?;
+    let selection = select(document, options, is_wanted)?;
     let accessors = CanonicalAccessors::new(document);
     limits::check_triangles(document, selection.chosen().map(|(_, chosen)| chosen.triangle_count()))?;
     let parts = compute::shade(document, &accessors, &selection, (&options.normals, context), progress)?;
@@ -79,18 +79,4 @@ pub fn add_normals_to(
             .push(candidate.name, candidate.verdict.outcome(|| written.remove(&place).unwrap_or_default()));
     });
     Ok(summary)
-}
-
-/// Selects the primitives. A compressed document is decompressed if any is selected.
-fn select_readable(
-    document: &mut Document,
-    options: &AddNormalsOptions,
-    is_wanted: &dyn Fn(&PrimitiveName) -> bool,
-) -> Result<NormalSelection, Error> {
-    let selection = select(document, options, is_wanted)?;
-    if selection.chosen().next().is_none() || !document.is_compressed() {
-        return Ok(selection);
-    }
-    document.decompress()?;
-    select(document, options, is_wanted)
 }

@@ -142,7 +142,11 @@ impl Document {
         let mut names = FileNames { folder, taken: HashSet::from([target.to_owned()]) };
         let in_file = |error: ContentError| error.in_file(self.name());
         let layout = OutputLayout::gltf(self).map_err(in_file)?;
-        let kept = |buffer| !layout.unused_data.has_buffer(buffer) && self.replaced_file(buffer).is_none();
+        // Without edits the text stays as it was, with everything that it refers to.
+        let kept = |buffer| {
+            !self.is_changed()
+                || !layout.unused_data.has_buffer(buffer) && self.replaced_file(buffer).is_none()
+        };
         let is_kept = |image| !self.image_files.contains_key(&image);
         let renamed = self.copy_files(&self.files_of(kept, is_kept), &mut names, staging)?;
         if !self.container.is_glb && !self.is_changed() && renamed.is_empty() {

@@ -129,8 +129,7 @@ fn no_scale() -> [f64; 3] {
 impl Document {
     /// The meshes of the default scene, without animation.
     ///
-    /// A document without scenes has all nodes in its scene, one without nodes all meshes. Compressed documents must be
-    /// [decompressed](Document::decompress) first. Errors: joints outside the scene, missing matrices, nodes with several parents, more
+    /// A document without scenes has all nodes in its scene, one without nodes all meshes. Errors: joints outside the scene, missing matrices, nodes with several parents, more
     /// than 2^20 instances.
     pub fn placed_meshes(&self) -> Result<PlacedMeshes, Error> {
         let scenes: Scenes = self.read().map_err(|error| error.in_file(self.name()))?;

@@ -80,7 +80,7 @@ pub fn add_tangents_to(
     generate: Generate<'_>,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<TangentsSummary, Error> {
-    let selection = select_readable(document, options, is_wanted)?;
+    let selection = select::select(document, options, is_wanted)?;
     let accessors = CanonicalAccessors::new(document);
     let groups = groups::group(&accessors, selection.chosen());
     limits::check_triangles(document, groups::triangle_counts(&groups))?;
@@ -105,20 +105,6 @@ pub fn add_tangents_to(
     }
     run.summary.warnings.extend(document.unused_data_warning());
     Ok(run.summarize(written))
-}
-
-/// Selects the primitives. A compressed document is decompressed if any is selected.
-pub(super) fn select_readable(
-    document: &mut Document,
-    options: &AddTangentsOptions,
-    is_wanted: &dyn Fn(&PrimitiveName) -> bool,
-) -> Result<TangentSelection, Error> {
-    let selection = select::select(document, options, is_wanted)?;
-    if selection.is_empty() || !document.is_compressed() {
-        return Ok(selection);
-    }
-    document.decompress()?;
-    select::select(document, options, is_wanted)
 }
 
 /// One run of [`add_tangents`].

@@ -38,9 +38,11 @@ struct BufferUse {
 const ALIGNMENT: usize = 16;
 
 impl UnusedData {
-    /// The unused data of a document; nothing without edits, or if an unknown extension might refer to it.
+    /// The unused data of a document, compressed data that was decoded included; nothing in a document that is as it was read, or if an unknown extension
+    /// might refer to it.
     pub fn of(document: &Document) -> Self {
-        match document.is_changed() && unknown_extension(&document.json).is_none() {
+        let differs = document.is_changed() || document.was_compressed;
+        match differs && unknown_extension(&document.json).is_none() {
             true => Self::find(document),
             false => Self::default(),
         }

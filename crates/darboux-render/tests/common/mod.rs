@@ -215,6 +215,6 @@ pub fn drawn(quad: &Quad, options: &RenderOptions) -> Picture {
 
 /// Draws a quad with mistakes. Panics without an adapter.
 pub fn drawn_wrong(quad: &Quad, mistakes: Mistakes, options: &RenderOptions) -> Picture {
-    let mut document = document(quad);
-    shown(&Model::read(&mut document).expect("a model"), mistakes, options)
+    let document = document(quad);
+    shown(&Model::read(&document).expect("a model"), mistakes, options)
 }

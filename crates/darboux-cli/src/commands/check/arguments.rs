@@ -94,7 +94,7 @@ pub struct CheckArguments {
     ///
     /// Wrong tangents are corrected in the way that the others were computed, all are made again where all are wrong, vertices split, normals made or flipped, and the texels of PNG maps rewritten at their bit depth; a palette
     /// becomes RGB, and a JPEG map a PNG. Only the findings that are reported are repaired (--only, --allow). Everything else in the file is kept, byte for
-    /// byte; a compressed model is decompressed if its geometry is repaired.
+    /// byte; a compressed model is written without compression if anything is repaired.
     #[arg(long, help_heading = "Repair")]
     pub fix: bool,
 

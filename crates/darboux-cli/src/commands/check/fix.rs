@@ -254,20 +254,12 @@ impl Repair<'_> {
         let CheckArguments { files, .. } = self.arguments;
         let reading = &files.reading;
         let mut document = source.load(reading)?;
-        let is_compressed = document.is_compressed();
-        let findings = check_document(&mut document, &self.arguments.check_options()).map_err(sentence)?;
-        // The check decompresses a document, and the repair of a map should not.
-        if is_compressed {
-            document = source.load(reading)?;
-        }
+        let findings = check_document(&document, &self.arguments.check_options()).map_err(sentence)?;
         let options = self.arguments.fix_options();
         if self.arguments.dry_run {
-            return self.planned(&mut document, findings, &options).map_err(sentence);
+            return self.planned(&document, findings, &options).map_err(sentence);
         }
         let fixed = fix_document(&mut document, findings, &options).map_err(sentence)?;
-        if is_compressed && !fixed.is_changed {
-            document = source.load(reading)?;
-        }
         let mut warnings = document.warnings().to_vec();
         warnings.extend(self.stale_output(job, fixed.is_changed));
         let is_written = |existing: &Path| {
@@ -284,7 +276,7 @@ impl Repair<'_> {
     /// What a repair of a document would begin with.
     fn planned(
         &self,
-        document: &mut Document,
+        document: &Document,
         findings: Vec<Finding>,
         options: &FixOptions,
     ) -> Result<ProcessedFile<FixSummary>, darboux_io::Error> {

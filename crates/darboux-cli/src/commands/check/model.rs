@@ -28,7 +28,7 @@ impl Model {
             )));
         }
         let document = load(&Input::File(model.clone()), &arguments.files.reading);
-        let check = |mut document| check_model_of_maps(&mut document).map_err(|error| error.to_string());
+        let check = |document| check_model_of_maps(&document).map_err(|error| error.to_string());
         Ok(Self(Some(document.and_then(check))))
     }
 

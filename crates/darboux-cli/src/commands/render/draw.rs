@@ -88,13 +88,13 @@ fn refuse_contradictions(arguments: &RenderArguments) -> Result<(), String> {
 fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
     let RenderArguments { model: path, output, view, size, .. } = arguments;
     check_output(output, arguments.force)?;
-    let LoadedModel { mut document, source, warnings } = open(arguments, arguments.tangents)?;
+    let LoadedModel { document, source, warnings } = open(arguments, arguments.tangents)?;
     let other = arguments.against.map(|source| open(arguments, Some(source))).transpose()?;
-    let mut other = other.map(|other| other.document);
+    let other = other.map(|other| other.document);
     refuse_used(output, [&document, other.as_ref().unwrap_or(&document)])?;
     let name = document.name().to_owned();
-    let model = model(arguments, &mut document, Some(source))?;
-    let other = other.as_mut().map(|document| self::model(arguments, document, arguments.against));
+    let model = model(arguments, &document, Some(source))?;
+    let other = other.as_ref().map(|document| self::model(arguments, document, arguments.against));
     let (model, other) = match other.transpose()? {
         Some(other) => {
             let model = model.compared_with(&other);
@@ -134,7 +134,7 @@ fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
 /// The chosen meshes of a document as a model to draw.
 fn model<'a>(
     arguments: &RenderArguments,
-    document: &'a mut Document,
+    document: &'a Document,
     source: Option<TangentSource>,
 ) -> Result<Model<'a>, String> {
     let meshes = chosen(document, &arguments.mesh)?;

@@ -42,10 +42,7 @@ impl ServedModel {
         };
         let model = Self { path: path.to_owned(), kind, options };
         if let ModelKind::Gltf = model.kind {
-            model
-                .open()
-                .and_then(|mut document| inspect(&mut document))
-                .map_err(|error| error.to_string())?;
+            model.open().and_then(|document| inspect(&document)).map_err(|error| error.to_string())?;
         }
         Ok(model)
     }

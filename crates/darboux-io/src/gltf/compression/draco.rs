@@ -134,13 +134,9 @@ fn wanted_accessors(
         primitive.indices.ok_or_else(|| unsupported("is compressed by Draco but has no indices"))?;
     let mut wanted = vec![(indices, None)];
     for (name, &id) in &draco.attributes {
-        let accessor = primitive.attributes.get(name).ok_or_else(|| {
-            ContentError::invalid(
-                at,
-                format!("{name} is compressed but is not an attribute; export the file again"),
-            )
-        })?;
-        wanted.push((*accessor, Some(id)));
+        // An attribute of the stream that the primitive does not have is not used by anything.
+        let accessor = primitive.attributes.get(name);
+        wanted.extend(accessor.map(|&accessor| (accessor, Some(id))));
     }
     Ok(wanted)
 }

@@ -120,7 +120,7 @@ impl<'a> PrimitiveCorners<'a> {
 }
 
 impl Document {
-    /// The corners of every primitive that has triangles. Compressed documents must be [decompressed](Document::decompress) first.
+    /// The corners of every primitive that has triangles.
     ///
     /// Errors: invalid indices; more corners than the memory limit permits.
     pub fn corners(&self) -> Result<Vec<PrimitiveCorners<'_>>, Error> {

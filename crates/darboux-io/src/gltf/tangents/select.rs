@@ -79,11 +79,6 @@ impl TangentSelection {
             TangentVerdict::Kept(_) | TangentVerdict::Skipped(_) => None,
         })
     }
-
-    /// Whether no primitive gets tangents.
-    pub fn is_empty(&self) -> bool {
-        self.chosen().next().is_none()
-    }
 }
 
 /// Selects primitives. Errors: materials or accessors that do not exist, unknown modes.
