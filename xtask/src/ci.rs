@@ -8,8 +8,8 @@ use crate::python::WithoutPython;
 use crate::run::{Outcome, program, root, run, shown, works};
 use crate::validate::WithoutNpm;
 use crate::{
-    bench, conformance, default_build, dist_js, dist_viewer, doc_blocks, generated, layers, links, packages,
-    python, site, validate,
+    bench, conformance, default_build, dist_js, dist_viewer, doc_blocks, generated, layers, packages, python,
+    site, validate,
 };
 
 type Step = (&'static str, fn() -> Outcome);
@@ -20,8 +20,7 @@ const QUICK: &[Step] = &[
     ("default build", default_build::check),
     ("docs", || run(program("cargo doc --quiet --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings"))),
     ("layers", layers::check),
-    ("links", links::check),
-    ("pages of the site", site::check),
+    ("links", site::check),
     ("generated files", generated::compare),
     ("models", || validate::all_models(without_npm())),
     ("packages", || packages::install(packages::FOR_TESTS)),

@@ -5,7 +5,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::api;
-use crate::figures;
 use crate::functions;
 use crate::run::{Outcome, files_below, program, root, run};
 use crate::shaders;
@@ -22,7 +21,6 @@ const GENERATED_PATHS: &[&str] = &[
     "shaders/hlsl",
     shaders::RENDER_COPIES,
     "docs/api",
-    figures::FOLDER,
     functions::PAGE,
 ];
 
@@ -58,7 +56,6 @@ pub fn compare() -> Outcome {
 fn generate(into: &Path) -> Outcome {
     shaders::write(into)?;
     api::write(into)?;
-    figures::write(into)?;
     WRITERS.iter().try_for_each(|(package, example)| {
         run(program("cargo run --quiet").args(["--package", package, "--example", example, "--"]).arg(into))
     })?;

@@ -11,13 +11,11 @@ mod dist_c;
 mod dist_js;
 mod dist_viewer;
 mod doc_blocks;
-mod figures;
 mod functions;
 mod generated;
 mod gpu;
 mod layers;
 mod lines;
-mod links;
 mod npm;
 mod packages;
 mod progress;
@@ -41,7 +39,7 @@ usage: cargo xtask <task>
 checks
   ci [--full]      run the checks that must pass before a change lands; --full adds those that take long
   layers           check which packages import which, and that the files of a package import each other without cycles
-  links            check that links between the pages of the documentation lead to files and headings that exist
+  links            check that pages of the documentation have titles, and that their links lead to files and headings that exist
   lines            print the lines of code of each part, without comments, blank lines and unit tests
   docs [PAGE ...]  run the code blocks of the documentation, twice
   validate         check the command's outputs for all models with independent tools (needs node and npm)
@@ -56,7 +54,6 @@ checks
 generated files
   gen              write them: command-line reference, man pages, completions, darboux.h, shaders, lists of the public API
   bake-pictures    draw the pictures of docs/bake.md (minutes; needs a Vulkan adapter)
-  figures          write only the figures of docs/learn
 
 measurements
   bench [...]      time every engine on every mesh; options: bench --help
@@ -72,9 +69,7 @@ measurements
                    [pack] [--out FOLDER] [devices] [tests] [command] [report] [times] [long] [options of bench --gpu]
 
 packages (the path is the last line of the output)
-  site [--check | --test]
-                   make the documentation's site (needs what dist-js needs); --check: only its pages and their links;
-                   --test: and test it in Chromium
+  site [--test]    make the documentation's site (needs what dist-js needs); --test: and test it in Chromium
   dist-c           make the folder for users of C and C++ (Linux: needs ld, objcopy, nm and ar)
   dist-js [--release]
                    make the folder of the npm package (needs node, npm and rustup)
@@ -97,13 +92,11 @@ fn main() -> ExitCode {
         ["ci", "--full"] => ci::full(),
         ["gen"] => generated::write(),
         ["bake-pictures"] => bake_pictures::draw(),
-        ["figures"] => figures::write(run::root()),
         ["site"] => site::make(),
-        ["site", "--check"] => site::check(),
         ["site", "--test"] => site::test(),
         ["layers"] => layers::check(),
         ["lines"] => lines::print(),
-        ["links"] => links::check(),
+        ["links"] => site::check(),
         ["release", "--check", ref words @ ..] => release::check(words),
         ["docs", ref pages @ ..] => doc_blocks::run(pages),
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),

@@ -22,8 +22,7 @@ use std::path::{Path, PathBuf};
 
 use crate::dist_js::Build;
 use crate::dist_viewer;
-use crate::links;
-use crate::run::{Outcome, program, root, run, target_folder, to_stderr};
+use crate::run::{Outcome, output_of, program, root, run, target_folder, to_stderr};
 use html::Page;
 use output::Output;
 
@@ -39,7 +38,7 @@ pub fn make() -> Outcome {
     Ok(())
 }
 
-/// Makes the pages alone, and checks their links.
+/// `cargo xtask links`: makes the pages alone, and checks their links and titles. Links to other sites are not followed.
 pub fn check() -> Outcome {
     write(&target_folder()?.join("site-check"))
 }
@@ -55,6 +54,7 @@ pub fn test() -> Outcome {
 fn write(folder: &Path) -> Outcome {
     let mut output = Output::new(folder)?;
     let pages = read_pages()?;
+    require_titles(&pages)?;
     let menu = navigation::Menu::new(&pages);
     for (path, page) in &pages {
         output.write(&html::target(path), menu.document(path, page).as_bytes())?;
@@ -85,7 +85,27 @@ fn read_pages() -> Result<BTreeMap<PathBuf, Page>, String> {
         let page = Page::new(&path, &text);
         Ok((path, page))
     };
-    links::page_paths()?.into_iter().map(read).collect()
+    page_paths()?.into_iter().map(read).collect()
+}
+
+/// The paths of all Markdown files that git knows or would add.
+fn page_paths() -> Result<Vec<PathBuf>, String> {
+    let listed = output_of(&mut program("git ls-files --cached --others --exclude-standard *.md"))?;
+    let listed = String::from_utf8_lossy(&listed);
+    Ok(listed.lines().filter(|name| root().join(name).is_file()).map(PathBuf::from).collect())
+}
+
+/// Errors: pages that do not begin with a title, which the menu shows.
+fn require_titles(pages: &BTreeMap<PathBuf, Page>) -> Outcome {
+    let untitled = pages.iter().filter(|(_, page)| !page.has_title);
+    let untitled: Vec<String> = untitled.map(|(path, _)| path.display().to_string()).collect();
+    if untitled.is_empty() {
+        return Ok(());
+    }
+    Err(format!(
+        "these pages do not begin with a heading of level 1 (a part of another page is a .txt file): {}",
+        untitled.join(", ")
+    ))
 }
 
 /// Adds the viewer's page, and the entry `darboux` of the npm package, on which the interactive figures compute.
@@ -96,4 +116,46 @@ fn add_viewer(folder: &Path) -> Outcome {
     let mut copy = program("cp");
     copy.arg(package.join("darboux.js")).arg(package.join("darboux.scalar.js")).arg(folder);
     run(to_stderr(&mut copy))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pages(files: &[(&str, &str)]) -> BTreeMap<PathBuf, Page> {
+        files.iter().map(|(path, text)| (PathBuf::from(path), Page::new(Path::new(path), text))).collect()
+    }
+
+    #[test]
+    fn pages_without_a_title_are_named() {
+        assert_eq!(require_titles(&pages(&[("a.md", "text\n# A\n## B\n")])), Ok(()));
+        for text in ["", "a fragment", "## Part\n# A\n", "# \n## B"] {
+            let error = require_titles(&pages(&[("part.md", text)])).expect_err(text);
+            assert!(error.ends_with("a .txt file): part.md"), "{error}");
+        }
+    }
+
+    #[test]
+    fn dead_links_are_named() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let output = Output::new(&folder.path().join("site")).expect("a folder");
+        let text = "# Command\n[a](../README.md#top) [b](#command) [c](../README.md#bottom) [d](missing.md) ![e](f.png)\n";
+        let pages = pages(&[("README.md", "# Top\n"), ("docs/cli.md", text)]);
+        for path in pages.keys() {
+            output.write(&html::target(path), b"a page").expect("a page");
+        }
+        let problems: Vec<_> = pages[Path::new("docs/cli.md")]
+            .links
+            .iter()
+            .filter_map(|link| output.problem(link, &pages))
+            .collect();
+        assert_eq!(
+            problems,
+            [
+                "docs/cli.md: README.md#bottom: there is no such heading",
+                "docs/cli.md: docs/missing.md: there is no such file",
+                "docs/cli.md: docs/f.png: there is no such file",
+            ]
+        );
+    }
 }

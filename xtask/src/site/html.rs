@@ -1,15 +1,15 @@
 //! One page: Markdown to HTML, its headings, links and searchable text.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
-use pulldown_cmark::{CowStr, Event, Options, Parser, Tag, TagEnd, html};
-
-use crate::links::{identifier, is_elsewhere, without_dots};
+use pulldown_cmark::{CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd, html};
 
 /// A page of the site.
 pub struct Page {
     pub title: String,
+    /// Whether its first heading is of level 1 and has a text.
+    pub has_title: bool,
     pub body: String,
     /// The identifiers of its headings.
     pub ids: BTreeSet<String>,
@@ -48,6 +48,7 @@ impl Page {
     pub fn new(path: &Path, text: &str) -> Self {
         let mut page = Self {
             title: String::new(),
+            has_title: false,
             body: String::new(),
             ids: BTreeSet::new(),
             links: Vec::new(),
@@ -73,6 +74,9 @@ impl Page {
         match &events[at] {
             Event::Start(Tag::Heading { level, classes, attrs, .. }) => {
                 let title = text_until(events, at, |end| matches!(end, TagEnd::Heading(_)));
+                if self.sections.len() == 1 {
+                    self.has_title = *level == HeadingLevel::H1 && !title.trim().is_empty();
+                }
                 let id = self.new_id(&identifier(&title));
                 self.sections.push(Section { id: id.clone(), title, text: String::new() });
                 let id = Some(CowStr::from(id));
@@ -220,4 +224,34 @@ pub fn search_index(pages: &BTreeMap<PathBuf, Page>) -> String {
     });
     let sections: Vec<serde_json::Value> = sections.collect();
     format!("globalThis.searchIndex = {};\n", serde_json::Value::from(sections))
+}
+
+/// The identifier that GitHub gives a heading: lower case, spaces as hyphens, no other punctuation.
+fn identifier(heading: &str) -> String {
+    let kept = |letter: &char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_');
+    heading
+        .to_lowercase()
+        .chars()
+        .filter(kept)
+        .map(|letter| if letter == ' ' { '-' } else { letter })
+        .collect()
+}
+
+fn is_elsewhere(link: &str) -> bool {
+    link.contains("://") || link.starts_with("mailto:")
+}
+
+/// The path with `..` resolved by its words alone.
+fn without_dots(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::ParentDir => {
+                plain.pop();
+            }
+            Component::CurDir => {}
+            other => plain.push(other),
+        }
+    }
+    plain
 }
