@@ -145,7 +145,11 @@ impl Soak {
 
     /// A damaged file, or a good one beside a damaged companion, under any subcommand that reads it.
     fn damaged(&self, random: &mut Random) -> Case {
-        let seed = &self.seeds[random.below(self.seeds.len())];
+        // Each format often, though most seeds are GLB files.
+        let kinds: &[&str] = random.pick(&[&["glb", "vrm"], &["glb", "vrm"], &["gltf"], &["obj"], &["png"]]);
+        let seeds: Vec<&Seed> =
+            self.seeds.iter().filter(|seed| kinds.contains(&seed.extension().as_str())).collect();
+        let seed = seeds[random.below(seeds.len())];
         let extension = seed.extension();
         let (bytes, companions) = damage(random, seed);
         let file = format!("in.{extension}");
