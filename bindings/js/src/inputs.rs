@@ -2,6 +2,7 @@
 //!
 //! Memory may move whenever an array grows, so JavaScript asks for all addresses of a call before it writes the first element.
 
+use crate::allocator::end_without_memory;
 use crate::arena::with_arena;
 
 /// Seeds the hash keys with 64 random bits, in two halves. JavaScript calls this once per instance, before anything else, because
@@ -84,7 +85,9 @@ pub extern "C" fn welded_vertices(vertices: usize) -> *mut u32 {
 
 /// Gives an array exactly this length without allocating more than that, and returns its address.
 pub(crate) fn resized<T: Clone + Default>(array: &mut Vec<T>, len: usize) -> *mut T {
-    array.reserve_exact(len.saturating_sub(array.len()));
+    if array.try_reserve_exact(len.saturating_sub(array.len())).is_err() {
+        end_without_memory();
+    }
     array.resize(len, T::default());
     array.as_mut_ptr()
 }

@@ -5,6 +5,7 @@
 
 #![allow(unsafe_code, reason = "functions are exported under the names that JavaScript calls")]
 
+mod allocator;
 mod arena;
 mod inputs;
 mod mesh_arrays;
@@ -47,8 +48,3 @@ mod report;
 mod split;
 #[cfg(feature = "full")]
 mod transform;
-
-/// Smaller than the standard library's allocator by 2.4 kB compressed. The larger modules, which allocate more often, keep that one.
-#[cfg(all(target_family = "wasm", not(any(feature = "full", feature = "bake", feature = "check"))))]
-#[global_allocator]
-static ALLOCATOR: talc::wasm::WasmDynamicTalc = talc::wasm::new_wasm_dynamic_allocator();

@@ -50,6 +50,15 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
     assert.equal(fix(fixed.file).file, null);
   });
 
+  test(`${name}: compressed models are decoded`, () => {
+    for (const model of ['draco.glb', 'meshopt.glb']) {
+      const file = asset(`made/${model}`);
+      assert.deepEqual(errors(check(file)), [], model);
+      const converted = convertFile(file, 'gltf', 'unity').file;
+      assert.doesNotMatch(Buffer.from(converted).toString('latin1'), /draco_mesh|meshopt_comp/, model);
+    }
+  });
+
   test(`${name}: maps are judged`, () => {
     for (const [up, verdict] of [[1, 'opengl'], [-1, 'directx']]) {
       const texels = bumps(128, up);

@@ -38,7 +38,7 @@ export interface Summary {
 
 let module: Promise<WebAssembly.Module> | undefined;
 
-/** Decompresses and checks the data that tangents depend on. Errors: one sentence that names the place and the fault. */
+/** Decodes compressed data, and checks the data that tangents depend on. Errors: one sentence that names the place and the fault. */
 export function check(name: string, bytes: Uint8Array): Promise<Outcome<Primitive[]>> {
   return run('check', name, bytes);
 }

@@ -1,8 +1,7 @@
-// Makes a glTF self-contained: embeds the files that it refers to, decompresses it and checks it. Runs in the worker.
+// Makes a glTF self-contained: embeds the files that it refers to and checks it, which decodes it. Runs in the worker.
 
 import { resolvePath, type FileBundle } from './file-bundle';
 import { check, type Outcome, type Primitive } from './gltf-wasm';
-import { isMeshopt, withoutMeshopt } from './meshopt';
 
 /** "glTF". */
 const MAGIC = 0x46546c67;
@@ -16,14 +15,13 @@ interface Container {
   chunks: Uint8Array<ArrayBuffer> | null;
 }
 
-/** Embeds, decompresses and checks. Errors: one sentence that names the place and the fault. */
+/** Embeds and checks. Errors: one sentence that names the place and the fault. */
 export async function makeSelfContained(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: FileBundle): Promise<Outcome<Primitive[]>> {
   const container = parseContainer(bytes);
   // The check has a better sentence for a file that is not glTF.
   const json = container && parseJson(container.text);
   if (!json) return check(name, bytes);
-  let text = await embedFiles(name, container.text, json, bundle);
-  if (isMeshopt(text)) text = await withoutMeshopt(name, JSON.parse(text), container.chunks?.subarray(8) ?? null);
+  const text = await embedFiles(name, container.text, json, bundle);
   return check(name, text === container.text ? bytes : writeContainer({ ...container, text }));
 }
 

@@ -72,7 +72,7 @@ pub extern "C" fn text_len() -> usize {
     BUFFERS.with_borrow(|buffers| buffers.text.len())
 }
 
-/// Checks the data that tangents depend on. Returns 1 where the text is JSON about its primitives and the resulting
+/// Decodes compressed data, and checks the data that tangents depend on. Returns 1 where the text is JSON about its primitives and the resulting
 /// file is the one to show, and 0 where the text is an error.
 #[unsafe(no_mangle)]
 pub extern "C" fn check() -> u32 {

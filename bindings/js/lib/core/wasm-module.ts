@@ -5,6 +5,8 @@ export interface Exports extends WebAssembly.Exports {
   memory: WebAssembly.Memory;
   /** Takes 64 random bits for hash keys, before any other call. */
   seed_random(low: number, high: number): void;
+  /** Whether an allocation has failed. */
+  lacks_memory(): number;
   begin(): void;
   positions(vertices: number): number;
   normals(vertices: number): number;
@@ -16,7 +18,10 @@ export interface Exports extends WebAssembly.Exports {
 /** An instance whose memory exceeds this many bytes after a call is replaced: memory of WebAssembly never shrinks. */
 const MAX_KEPT_MEMORY = 2 ** 28;
 
-/** Runs a function with the exports of an instance. @throws RangeError where WebAssembly has not enough memory. */
+/** A single array of 2 GiB ends in a trap without an allocation. A trap of an instance with a quarter of that is taken for such an array. */
+const LARGE_MEMORY = 2 ** 29;
+
+/** Runs a function with the exports of an instance. @throws RangeError where WebAssembly has not enough memory; Error where darboux has a fault. */
 export type Call<E extends Exports> = <R>(work: (exports: E) => R) => R;
 
 /** A module that is loading, or has loaded. */
@@ -79,7 +84,12 @@ export function load<E extends Exports>(
     exports = seeded(await WebAssembly.instantiate(module, imports));
   }
 
-  const outOfMemory = (cause: unknown) => new RangeError(tooLarge, { cause });
+  /** The error to throw for one that a call threw. */
+  const worded = (error: unknown, { lacks_memory, memory }: E) => {
+    if (!isTrap(error)) return error;
+    if (lacks_memory() || memory.buffer.byteLength > LARGE_MEMORY) return new RangeError(tooLarge, { cause: error });
+    return new Error(`darboux failed (${error.message}): this is a fault of darboux; please report it with the input`, { cause: error });
+  };
   const instantiate = () => seeded<E>(new WebAssembly.Instance(module, imports));
 
   function shared(): E {
@@ -97,7 +107,7 @@ export function load<E extends Exports>(
       return result;
     } catch (error) {
       isUsable = !isTrap(error) && !isInCallback;
-      throw isTrap(error) ? outOfMemory(error) : error;
+      throw worded(error, exported);
     } finally {
       // A trap, or an error of a callback, leaves the instance in an unspecified state.
       if (!isUsable || exported.memory.buffer.byteLength > MAX_KEPT_MEMORY) exports = instantiate();
@@ -107,13 +117,13 @@ export function load<E extends Exports>(
   function newInstance(): OwnInstance<E> {
     shared();
     const own = instantiate();
-    let failure: RangeError | undefined;
+    let failure: unknown;
     const call: Call<E> = (work) => {
       if (failure) throw failure;
       try {
         return work(own);
       } catch (error) {
-        if (isTrap(error)) failure = outOfMemory(error);
+        if (isTrap(error)) failure = worded(error, own);
         throw failure ?? error;
       }
     };
@@ -126,4 +136,4 @@ export function load<E extends Exports>(
   return { ready, call, newInstance };
 }
 
-const isTrap = (error: unknown) => error instanceof WebAssembly.RuntimeError;
+const isTrap = (error: unknown): error is WebAssembly.RuntimeError => error instanceof WebAssembly.RuntimeError;
