@@ -21,9 +21,8 @@ fuzz_target!(|bytes: &[u8]| {
 /// Errors: one sentence.
 fn bake_onto_itself(bytes: &[u8]) -> Result<(), String> {
     let sentence = |error: darboux_io::Error| error.to_string();
-    let mut document =
+    let document =
         Document::from_bytes("input", bytes.to_vec(), None, &LoadOptions::default()).map_err(sentence)?;
-    document.decompress().map_err(sentence)?;
     let corners = document.corners().map_err(sentence)?;
     let low = LowModel::read(&document, &corners, &LowModelOptions::default()).map_err(sentence)?;
     let (documents, all_corners) = (std::slice::from_ref(&document), std::slice::from_ref(&corners));

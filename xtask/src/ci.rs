@@ -17,6 +17,12 @@ type Step = (&'static str, fn() -> Outcome);
 const QUICK: &[Step] = &[
     ("format", || run(&mut program("cargo fmt --all --check"))),
     ("clippy", || run(&mut program("cargo clippy --quiet --workspace --all-targets -- -D warnings"))),
+    // A workspace of its own, which the steps above do not see.
+    ("fuzz targets compile", || {
+        run(&mut program(
+            "cargo check --quiet --manifest-path fuzz/Cargo.toml --target-dir target/fuzz-check",
+        ))
+    }),
     ("default build", default_build::check),
     ("docs", || run(program("cargo doc --quiet --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings"))),
     ("layers", layers::check),
