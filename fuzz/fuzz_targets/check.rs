@@ -9,7 +9,7 @@ use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     let read = Document::from_bytes("input", bytes.to_vec(), None, &LoadOptions::default());
-    let Ok(mut document) = read else { return };
-    let Ok(findings) = check_document(&mut document, &CheckOptions::default()) else { return };
+    let Ok(document) = read else { return };
+    let Ok(findings) = check_document(&document, &CheckOptions::default()) else { return };
     assert!(findings.iter().all(|finding| !finding.text.is_empty()), "{findings:?}");
 });

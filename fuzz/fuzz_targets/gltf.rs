@@ -8,7 +8,7 @@ use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     let read = |bytes: &[u8]| Document::from_bytes("input", bytes.to_vec(), None, &LoadOptions::default());
-    if let Ok(mut document) = read(bytes) {
+    if let Ok(document) = read(bytes) {
         let _may_be_refused = inspect(&document);
     }
     let Ok(mut document) = read(bytes) else { return };
