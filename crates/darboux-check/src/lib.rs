@@ -18,7 +18,7 @@
 //! use darboux_io::gltf::Document;
 //!
 //! let model = Path::new("../../assets/NormalTangentTest/NormalTangentTest.glb");
-//! let mut document = Document::open(model, &LoadOptions::default())?;
+//! let document = Document::open(model, &LoadOptions::default())?;
 //! for finding in check_document(&document, &CheckOptions::default())? {
 //!     println!("{}: {}: {}", finding.place, finding.code, finding.text);
 //! }

@@ -6,7 +6,7 @@
 //! # use darboux_gpu::Gpu;
 //! # use darboux_io::gltf::Document;
 //! # use darboux_render::{HeatScale, Mistakes, Model, RenderError, RenderOptions, Side, View, render};
-//! # fn picture(gpu: &Gpu, document: &mut Document, heat: HeatScale) -> Result<(), Box<dyn std::error::Error>> {
+//! # fn picture(gpu: &Gpu, document: &Document, heat: HeatScale) -> Result<(), Box<dyn std::error::Error>> {
 //! let model = Model::read(document)?;
 //! let options = RenderOptions::new(View::Tangent, [800, 600], heat);
 //! let picture = render(gpu, Side { model: &model, mistakes: Mistakes::default() }, None, &options)?;
