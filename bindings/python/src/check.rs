@@ -1,20 +1,22 @@
-//! Checks files, judges normal maps and recognises recipes.
+//! Checks and repairs files, judges normal maps and recognises recipes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use darboux::{
-    BitangentDirection, Context, MapJudgement, RecipeMatch, RecipeRounding, RecipeWriting, TexelLayout,
+    BitangentDirection, Choice, Context, MapJudgement, Mode, RecipeMatch, RecipeRounding, RecipeWriting, TexelLayout,
     recognise_recipe_with,
 };
-use darboux_check::{CheckOptions, Finding, check_document, check_map};
-use darboux_io::{FileKind, gltf};
+use darboux_check::{
+    CheckOptions, Code, Finding, FixOptions, FixedFinding, check_document, check_map, fix_document,
+};
+use darboux_io::{FileKind, LoadOptions, gltf};
 use numpy::prelude::*;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, array_of, packed, shape_text};
-use crate::choices::{choice, method_name};
-use crate::document::{file_error, load_options};
+use crate::choices::{choice, method_name, tangent_options};
+use crate::document::{Document, file_error, load_options};
 use crate::mesh::{MeshArrays, value_error};
 use crate::numbers::Natural;
 use crate::results::named;
@@ -27,14 +29,14 @@ const CONVENTIONS: &[(&str, BitangentDirection)] =
 ///
 /// Parameters
 /// ----------
-/// path : path-like
-///     A .glb or .gltf file, or an image (.png, .jpg, .webp), which is checked as a normal map.
+/// source : path-like or Document
+///     A .glb or .gltf file, or an image (.png, .jpg, .webp), which is checked as a normal map; or a document that load has read.
 /// convention : str
 ///     Where the green of normal maps should point: 'opengl' (up, as in glTF) or 'directx' (down).
 /// maps : bool
-///     Decode and judge the normal maps of a model.
+///     Decode and judge the normal maps of a model. Without it they are taken to be right.
 /// allow_outside, memory_limit
-///     As in load.
+///     As in load; for files.
 ///
 /// Returns
 /// -------
@@ -46,30 +48,127 @@ const CONVENTIONS: &[(&str, BitangentDirection)] =
 /// OSError, ValueError
 ///     As load. An image that cannot be decoded is a finding.
 #[pyfunction]
-#[pyo3(signature = (path, *, convention="opengl", maps=true, allow_outside=false, memory_limit=None))]
+#[pyo3(signature = (source, *, convention="opengl", maps=true, allow_outside=false, memory_limit=None))]
 pub fn check<'py>(
     py: Python<'py>,
-    path: PathBuf,
+    source: CheckSource<'py>,
     convention: &str,
     maps: bool,
     allow_outside: bool,
     memory_limit: Option<Natural>,
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-    let green = choice("convention", convention, CONVENTIONS)?;
-    let options = CheckOptions::default().with_green(green).with_maps(maps);
-    let found = if FileKind::of(&path).is_some_and(FileKind::is_decoded_image) {
-        let file = py.detach(|| std::fs::read(&path));
-        let unread = |source| file_error(darboux_io::Error::Read { file: path.clone(), source });
-        let file = file.map_err(unread)?;
-        Ok(py.detach(|| check_map(&file, &options).findings))
-    } else {
-        let loading = load_options(memory_limit).with_allow_outside(allow_outside);
-        py.detach(|| check_document(&gltf::Document::open(&path, &loading)?, &options))
+    let options = check_options(convention, maps)?;
+    let found = match source {
+        CheckSource::Document(document) => {
+            let document = document.whole()?;
+            py.detach(|| check_document(document, &options)).map_err(file_error)?
+        }
+        CheckSource::Path(path) => {
+            let loading = load_options(memory_limit).with_allow_outside(allow_outside);
+            py.detach(|| check_path(&path, &loading, &options)).map_err(file_error)?
+        }
     };
-    found.map_err(file_error)?.into_iter().map(|found| finding(py, found)).collect()
+    found.into_iter().map(|found| finding(py, Outcome::of(found))).collect()
 }
 
-fn finding(py: Python<'_>, finding: Finding) -> PyResult<Bound<'_, PyAny>> {
+/// What `check` checks.
+#[derive(FromPyObject)]
+pub enum CheckSource<'py> {
+    #[pyo3(transparent, annotation = "Document")]
+    Document(PyRef<'py, Document>),
+    #[pyo3(transparent, annotation = "path-like")]
+    Path(PathBuf),
+}
+
+fn check_path(
+    path: &Path,
+    loading: &LoadOptions,
+    options: &CheckOptions,
+) -> Result<Vec<Finding>, darboux_io::Error> {
+    if FileKind::of(path).is_some_and(FileKind::is_decoded_image) {
+        let unread = |source| darboux_io::Error::Read { file: path.to_owned(), source };
+        Ok(check_map(&std::fs::read(path).map_err(unread)?, options).findings)
+    } else {
+        check_document(&gltf::Document::open(path, loading)?, options)
+    }
+}
+
+fn check_options(convention: &str, maps: bool) -> PyResult<CheckOptions> {
+    let green = choice("convention", convention, CONVENTIONS)?;
+    Ok(CheckOptions::default().with_green(green).with_maps(maps))
+}
+
+/// Repair what can be repaired without guessing: tangents, normals, and the texels of PNG and JPEG normal maps, as `darboux check --fix` does.
+///
+/// Nothing is left to repair in the repaired document, and data that no finding names is kept. After an error the document is unusable: load it
+/// again.
+///
+/// Parameters
+/// ----------
+/// document : Document
+///     Changed in memory; save writes it. Its is_changed is False if nothing was repaired.
+/// convention, maps
+///     As in check.
+/// method : str
+///     How tangents are made again: as the normal map was baked, so nearly always 'mikktspace'.
+/// only : iterable of str, optional
+///     The codes that are repaired. By default all.
+///
+/// Returns
+/// -------
+/// list of Finding
+///     What check finds, each with `repaired`, and with `left_because` where it is still there.
+///
+/// Raises
+/// ------
+/// ValueError
+///     The data of the document is broken; an unknown code or choice.
+#[pyfunction]
+#[pyo3(signature = (document, *, convention="opengl", maps=true, method="mikktspace", only=None))]
+pub fn fix<'py>(
+    py: Python<'py>,
+    mut document: PyRefMut<'py, Document>,
+    convention: &str,
+    maps: bool,
+    method: &str,
+    only: Option<Vec<String>>,
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let tangents = tangent_options(method, Mode::default().name(), 180.0)?;
+    let options =
+        FixOptions::default().with_check(check_options(convention, maps)?).with_tangents(tangents);
+    let codes: Option<Result<Vec<Code>, String>> =
+        only.map(|names| names.iter().map(|name| name.parse()).collect());
+    let options = match codes.transpose().map_err(PyValueError::new_err)? {
+        Some(codes) => options.with_codes(codes),
+        None => options,
+    };
+    let fixed = document.change(py, |document| {
+        let findings = check_document(document, &options.check)?;
+        fix_document(document, findings, &options)
+    })?;
+    fixed.findings.into_iter().map(|fixed| finding(py, Outcome::of_fixed(fixed))).collect()
+}
+
+/// A finding, and what became of it.
+struct Outcome {
+    finding: Finding,
+    fixable: bool,
+    /// None without a repair.
+    repaired: Option<bool>,
+}
+
+impl Outcome {
+    fn of(finding: Finding) -> Self {
+        Self { fixable: finding.is_fixable(), finding, repaired: None }
+    }
+
+    fn of_fixed(fixed: FixedFinding) -> Self {
+        Self { fixable: fixed.was_fixable(), repaired: Some(fixed.repaired), finding: fixed.finding }
+    }
+}
+
+fn finding<'py>(py: Python<'py>, outcome: Outcome) -> PyResult<Bound<'py, PyAny>> {
+    let Outcome { finding, fixable, repaired } = outcome;
     let Finding { code, severity, place, count, first, evidence, text, cure, left_because, .. } = finding;
     let primitive = place.primitive.as_ref();
     let evidence = evidence.iter().map(|number| (number.what, number.value, number.unit));
@@ -91,7 +190,9 @@ fn finding(py: Python<'_>, finding: Finding) -> PyResult<Bound<'_, PyAny>> {
         text,
         code.looks_like(),
         cure,
-        left_because.is_none(),
+        fixable,
+        left_because,
+        repaired,
     );
     named(py, "Finding", fields)
 }

@@ -356,13 +356,27 @@ impl Document {
 
 impl Document {
     /// The document. Errors: an earlier edit was interrupted.
-    fn whole(&self) -> PyResult<&gltf::Document> {
+    pub fn whole(&self) -> PyResult<&gltf::Document> {
         if self.is_half_done {
             let sentence =
                 "the document is half done: a method that changes it was stopped or failed; load it again";
             return Err(PyRuntimeError::new_err(sentence));
         }
         Ok(&self.document)
+    }
+
+    /// Changes the document without the GIL. After an error it is half done.
+    pub fn change<T: Send>(
+        &mut self,
+        py: Python<'_>,
+        change: impl FnOnce(&mut gltf::Document) -> Result<T, darboux_io::Error> + Send,
+    ) -> PyResult<T> {
+        self.whole()?;
+        self.is_half_done = true;
+        let document = &mut self.document;
+        let changed = py.detach(|| change(document)).map_err(file_error)?;
+        self.is_half_done = false;
+        Ok(changed)
     }
 
     fn vectors<'py>(&self, py: Python<'py>, accessor: usize) -> PyResult<Bound<'py, PyAny>> {

@@ -33,7 +33,7 @@ mod _darboux {
     #[pymodule_export]
     use crate::bake::bake;
     #[pymodule_export]
-    use crate::check::{check, judge_normal_map, recognise_recipe};
+    use crate::check::{check, fix, judge_normal_map, recognise_recipe};
     #[pymodule_export]
     use crate::command::run;
     #[pymodule_export]

@@ -29,6 +29,36 @@ def test_models_are_checked() -> None:
     assert all(finding.severity != "error" for finding in healthy)
 
 
+def test_models_are_repaired(tmp_path: Path) -> None:
+    document = darboux.load(ASSETS / "made/shield.glb")
+    found = darboux.check(document)
+    assert all(finding.repaired is None for finding in found)
+    fixed = darboux.fix(document)
+    assert [finding.code for finding in fixed] == [finding.code for finding in found]
+    assert document.is_changed
+    for finding in fixed:
+        assert finding.repaired == (finding.code == "tangent-shared-across-mirror")
+        assert finding.fixable == finding.repaired == (finding.left_because is None)
+    path = tmp_path / "fixed.glb"
+    darboux.save(document, path)
+    left = darboux.check(path)
+    assert not any(finding.fixable or finding.severity == "error" for finding in left)
+    again = darboux.load(path)
+    assert not any(finding.repaired for finding in darboux.fix(again)) and not again.is_changed
+
+
+def test_repairs_can_be_chosen() -> None:
+    document = darboux.load(ASSETS / "made/shield.glb")
+    fixed = darboux.fix(document, only=["tangent-zero"])
+    assert not document.is_changed
+    left = next(finding for finding in fixed if finding.code == "tangent-shared-across-mirror")
+    assert left.fixable and not left.repaired and left.left_because is not None
+    with pytest.raises(ValueError, match="tangent-odd"):
+        darboux.fix(document, only=["tangent-odd"])
+    with pytest.raises(TypeError, match="Document"):
+        darboux.fix("model.glb")  # type: ignore[arg-type]
+
+
 def test_maps_are_checked_and_judged(tmp_path: Path) -> None:
     image = pytest.importorskip("PIL.Image")
     path = tmp_path / "down.png"

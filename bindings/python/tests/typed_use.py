@@ -19,6 +19,7 @@ moved: npt.NDArray[np.float32] = plan.evaluate(positions, positions)
 document: darboux.Document = darboux.load(Path("model.glb"))
 files: List[Path] = darboux.save(document, "out.glb", force=True)
 found: List[darboux.Finding] = darboux.check("model.glb", maps=False)
+repaired: List[darboux.Finding] = darboux.fix(darboux.load("model.glb"), only=["tangent-zero"])
 verdict: str = darboux.judge_normal_map(np.zeros((4, 4, 3), np.uint8)).verdict
 recipe: str = darboux.recognise_recipe(positions, positions, positions[:, :2], [0, 1, 2], tangents)[0].method
 maps: darboux.BakedMaps = darboux.bake(

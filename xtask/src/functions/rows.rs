@@ -135,7 +135,7 @@ pub const GROUPS: &[(&str, &[Row])] = &[
                 ["darboux_check::check_document", "darboux_check::check_map"]; []; []; ["check"]; ["check:check"];
                 ["darboux check"],
             "repair a file":
-                ["darboux_check::fix_document", "darboux_check::fix_map"]; []; []; []; ["check:fix"]; ["darboux check"],
+                ["darboux_check::fix_document", "darboux_check::fix_map"]; []; []; ["fix"]; ["check:fix"]; ["darboux check"],
         ],
     ),
     (

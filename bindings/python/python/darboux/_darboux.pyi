@@ -1,6 +1,6 @@
 import os
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Literal, Optional, Sequence, Tuple, Union, final, overload
+from typing import Any, Callable, Dict, Iterable, List, Literal, Optional, Sequence, Tuple, Union, final, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -38,6 +38,7 @@ __all__ = [
     "convert_texels",
     "dumps",
     "failed_task",
+    "fix",
     "frame_from_quaternion",
     "frame_to_quaternion",
     "generate_normals",
@@ -313,12 +314,20 @@ def bake(
     threads: Optional[int] = None,
 ) -> BakedMaps: ...
 def check(
-    path: _Path,
+    source: Union[_Path, Document],
     *,
     convention: Literal["opengl", "directx"] = "opengl",
     maps: bool = True,
     allow_outside: bool = False,
     memory_limit: Optional[int] = None,
+) -> List[Finding]: ...
+def fix(
+    document: Document,
+    *,
+    convention: Literal["opengl", "directx"] = "opengl",
+    maps: bool = True,
+    method: Method = "mikktspace",
+    only: Optional[Iterable[str]] = None,
 ) -> List[Finding]: ...
 def judge_normal_map(texels: npt.ArrayLike) -> MapJudgement: ...
 def recognise_recipe(

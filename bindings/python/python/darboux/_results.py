@@ -157,7 +157,11 @@ class Finding(NamedTuple):
     cure: str
     """The cure."""
     fixable: bool
-    """Whether `darboux check --fix` repairs it."""
+    """Whether fix and `darboux check --fix` repair it."""
+    left_because: Optional[str]
+    """Why they leave it, as a clause; None where they repair it."""
+    repaired: Optional[bool]
+    """Whether fix repaired it; None from check."""
 
 
 class MapJudgement(NamedTuple):
