@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use darboux::{
-    BitangentDirection, Choice, Context, MapJudgement, Mode, RecipeMatch, RecipeRounding, RecipeWriting, TexelLayout,
-    recognise_recipe_with,
+    BitangentDirection, Choice, Context, MapJudgement, Mode, RecipeMatch, RecipeRounding, RecipeWriting,
+    TexelLayout, recognise_recipe_with,
 };
 use darboux_check::{
     CheckOptions, Code, Finding, FixOptions, FixedFinding, check_document, check_map, fix_document,
@@ -134,8 +134,7 @@ pub fn fix<'py>(
     only: Option<Vec<String>>,
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let tangents = tangent_options(method, Mode::default().name(), 180.0)?;
-    let options =
-        FixOptions::default().with_check(check_options(convention, maps)?).with_tangents(tangents);
+    let options = FixOptions::default().with_check(check_options(convention, maps)?).with_tangents(tangents);
     let codes: Option<Result<Vec<Code>, String>> =
         only.map(|names| names.iter().map(|name| name.parse()).collect());
     let options = match codes.transpose().map_err(PyValueError::new_err)? {

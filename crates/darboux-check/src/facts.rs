@@ -7,7 +7,7 @@ use crate::measure::expected::{
 };
 use crate::measure::fit::{self, Fit, Winding};
 use crate::measure::other_axes::OtherAxes;
-use crate::measure::reversal::{Reversal, Sides};
+use crate::measure::reversal::{Reversal, Sides, Undecided};
 use crate::measure::reversed::{Reversed, reversed};
 use crate::surface::Surface;
 
@@ -63,6 +63,13 @@ impl<'a> SurfaceFacts<'a> {
             facts.expected = Some(expected);
         }
         facts
+    }
+
+    /// Whether a repair can compute tangents. Where it cannot, tangents that lean towards damaged normals stay when the normals are repaired.
+    pub fn has_repairable_tangents(&self) -> bool {
+        let is_about_all = |reason: Undecided| reason != Undecided::OnlyAPart;
+        let is_undecided = matches!(self.reversal, Some(Reversal::Unknown(reason)) if is_about_all(reason));
+        self.surface.ineligible.is_none() && !is_undecided
     }
 
     /// Whether the tangents of all corners of a triangle are those of MikkTSpace, up to rounding.

@@ -14,6 +14,9 @@ pub fn of_surface(defect: &Defect, facts: &SurfaceFacts<'_>) -> Option<Obstacle>
     let moves_normals = || surface.moves_normals.then_some(Obstacle::MorphTargetsMoveNormals);
     match &defect.fault {
         Fault::NormalMissing(_) if !surface.needs_tangents => Some(Obstacle::FlatShadingMayBeWanted),
+        Fault::NormalNotFinite(_) | Fault::NormalNotUnit { .. } if facts.other_axes.is_some() => {
+            Some(Obstacle::NormalsInOtherAxes)
+        }
         Fault::NormalNotFinite(_) | Fault::NormalNotUnit { .. } => moves_normals(),
         Fault::NormalsReversed { reversal, .. } => match reversal {
             Reversal::Faces => None,

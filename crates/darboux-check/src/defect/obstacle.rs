@@ -13,7 +13,7 @@ pub enum Obstacle {
     MorphTargetsMoveNormals,
     /// Nothing says whether faces or normals are reversed.
     UndecidedReversal(Undecided),
-    /// Tangents depend on normals that are in other axes.
+    /// All normals are in other axes, and new normals and tangents would not fit them.
     NormalsInOtherAxes,
     /// Why tangents cannot be computed.
     NoTangents(String),

@@ -29,7 +29,8 @@ pub fn leaning(facts: &SurfaceFacts<'_>) -> Vec<(usize, f64)> {
     };
     let leans = |&vertex: &usize| angle(vertex) > MAX_DEGREES_FROM_PLANE;
     let found = facts.surface.used((0..tangents.len()).filter(leans).collect());
-    let found = without_damaged_normals(facts, normals, found);
+    let found =
+        if facts.has_repairable_tangents() { without_damaged_normals(facts, normals, found) } else { found };
     let found = without_those_of_mikktspace(facts, tangents, found);
     found.into_iter().map(|vertex| (vertex, angle(vertex))).collect()
 }

@@ -9,6 +9,7 @@ use darboux::{Context, Convention, CornerDifference, Recipe, RecipeMatch};
 use crate::facts::SurfaceFacts;
 use crate::measure::expected::{is_measured, rounding};
 use crate::measure::fit::{Difference, Fit};
+use crate::measure::leaning::leaning;
 use crate::measure::values::{has_length, is_sign};
 use crate::surface::{Surface, length};
 
@@ -74,8 +75,12 @@ fn angles(facts: &SurfaceFacts<'_>, of_corners: &[[f32; 4]], made: &[[f32; 4]]) 
     let Surface { tangents, normals, uv_sets, uv_set, .. } = facts.surface;
     let (tangents, normals, uvs) = (tangents.as_ref()?, normals.as_ref()?, uv_sets.get(uv_set)?);
     let has_normal = |vertex: usize| length(normals[vertex]).is_finite() && length(normals[vertex]) > 0.0;
+    // Elsewhere leaning tangents are repaired before outliers matter.
+    let leaning = if facts.has_repairable_tangents() { Vec::new() } else { leaning(facts) };
+    let leans = |vertex: usize| leaning.binary_search_by_key(&vertex, |(leaning, _)| *leaning).is_ok();
     let is_named = |vertex: usize| {
         facts.is_on_mirrored_seam[vertex]
+            || leans(vertex)
             || facts.has_own_tangent[vertex]
             || facts.fits.iter().any(|fit| fit.is_rotated(vertex))
     };

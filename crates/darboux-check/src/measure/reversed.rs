@@ -47,11 +47,11 @@ pub fn reversed(surface: &Surface) -> Option<Reversed> {
     let is_reversed: Vec<bool> =
         (0..cosines.len()).map(|vertex| is_reversed(of_place[&key(vertex)])).collect();
     let points_to_front = |triangle: [usize; 3]| {
-        let front = front(surface, triangle);
+        let front = front(at(surface, triangle));
         front.is_some_and(|front| triangle.iter().any(|&vertex| dot(front, normals[vertex]) > 0.0))
     };
     let found = surface.triangles_where(|triangle| {
-        front(surface, triangle).is_some() && triangle.iter().any(|&vertex| is_reversed[vertex])
+        front(at(surface, triangle)).is_some() && triangle.iter().any(|&vertex| is_reversed[vertex])
     });
     let all: Vec<[usize; 3]> = surface.triangles().collect();
     let (mixed, triangles): (Vec<usize>, Vec<usize>) =
@@ -63,7 +63,7 @@ pub fn reversed(surface: &Surface) -> Option<Reversed> {
         parts.len()
     };
     let part = |triangle: [usize; 3]| part_of_vertex[triangle[0]];
-    let with_area = all.iter().filter(|triangle| front(surface, **triangle).is_some());
+    let with_area = all.iter().filter(|triangle| front(at(surface, **triangle)).is_some());
     let all_parts = count_parts(with_area.map(|triangle| part(*triangle)).collect());
     let parts = count_parts(found.iter().map(|&number| part(all[number])).collect());
     let vertices: Vec<usize> = (0..is_reversed.len()).filter(|&vertex| is_reversed[vertex]).collect();
@@ -85,7 +85,7 @@ fn is_reversed(largest_cosine: f64) -> bool {
 fn largest_cosines(surface: &Surface, normals: &[[f32; 3]]) -> Vec<f64> {
     let mut largest = vec![f64::NEG_INFINITY; normals.len()];
     for triangle in surface.triangles() {
-        let Some(front) = front(surface, triangle) else { continue };
+        let Some(front) = front(at(surface, triangle)) else { continue };
         for vertex in triangle {
             let cosine = dot(front, normals[vertex]) / (length(front) * length(normals[vertex]));
             // NaN, of normals without a direction, is not larger.
@@ -95,9 +95,13 @@ fn largest_cosines(surface: &Surface, normals: &[[f32; 3]]) -> Vec<f64> {
     largest
 }
 
+/// The positions of a triangle's corners.
+fn at(surface: &Surface, triangle: [usize; 3]) -> [[f32; 3]; 3] {
+    triangle.map(|vertex| surface.positions[vertex])
+}
+
 /// The direction of a triangle's front, as long as twice its area; none for thin triangles.
-fn front(surface: &Surface, triangle: [usize; 3]) -> Option<[f32; 3]> {
-    let [a, b, c] = triangle.map(|vertex| surface.positions[vertex]);
+pub fn front([a, b, c]: [[f32; 3]; 3]) -> Option<[f32; 3]> {
     let edges = [sub(b, a), sub(c, a), sub(c, b)];
     let longest = edges.map(length).into_iter().fold(0.0, f64::max);
     let front = cross(edges[0], edges[1]);

@@ -54,8 +54,12 @@ impl FixOptions {
             Fault::TangentOtherRecipe { recognised, .. } => self.is_other_method(recognised),
             _ => false,
         };
-        let is_chosen = self.codes.as_ref().is_none_or(|codes| codes.contains(&defect.code()));
-        is_chosen && defect.is_fixable() && !is_wanted_method()
+        self.chooses(defect.code()) && defect.is_fixable() && !is_wanted_method()
+    }
+
+    /// Whether a code is among those to repair.
+    pub(super) fn chooses(&self, code: Code) -> bool {
+        self.codes.as_ref().is_none_or(|codes| codes.contains(&code))
     }
 
     /// Whether the tangents were made by the wanted method, which is not MikkTSpace.

@@ -91,10 +91,9 @@ pub fn outcome(defect: Defect, remaining: &[Defect], options: &FixOptions) -> Fi
     let Some(same) = remaining.iter().find(|left| left.is_same(&defect)) else {
         return FixedFinding::gone(defect, None);
     };
-    let is_chosen = options.codes.as_ref().is_none_or(|codes| codes.contains(&defect.code()));
     let is_other_method = defect.code() == Code::TangentOtherRecipe && options.asks_for_other_method();
     let reason = match &same.obstacle {
-        _ if !is_chosen => Obstacle::NotChosen,
+        _ if !options.chooses(defect.code()) => Obstacle::NotChosen,
         _ if is_other_method => Obstacle::OtherMethodWanted,
         Some(obstacle) => obstacle.clone(),
         None => Obstacle::NotRemoved,

@@ -185,10 +185,10 @@ fn is_about_single_tangents(defect: &Defect) -> bool {
     }
 }
 
-/// Whether the tangents of a primitive were computed in another way than MikkTSpace, and are to stay so.
+/// Whether the tangents of a primitive were computed in another way than MikkTSpace, and the options want them to stay so.
 pub fn keeps_recipe(defects: &[&Defect], options: &FixOptions) -> bool {
-    let is_other = |defect: &&Defect| defect.code() == Code::TangentOtherRecipe && !options.repairs(defect);
-    defects.iter().any(is_other)
+    let is_recipe = |defect: &&Defect| defect.code() == Code::TangentOtherRecipe;
+    defects.iter().any(is_recipe) && !options.chooses(Code::TangentOtherRecipe)
 }
 
 /// What all defects of a primitive say about its tangents. `wanted`: those that are to be repaired.

@@ -33,7 +33,7 @@ pub fn reason(obstacle: &Obstacle) -> String {
         Obstacle::FlatShadingMayBeWanted => "flat shading may be wanted; `darboux normals` makes smooth ones",
         Obstacle::MorphTargetsMoveNormals => "morph targets move these normals",
         Obstacle::NormalsInOtherAxes => {
-            "tangents depend on the normals, which are in other axes and have to be repaired first"
+            "the normals of the primitive are in other axes, which has to be repaired first"
         }
         Obstacle::DifferenceIsInvisible => "the difference cannot be seen",
         Obstacle::BakedOnQuads => "the map was probably baked on the quads, for these tangents",

@@ -8,10 +8,11 @@ use darboux_io::gltf::{AddNormalsOptions, Document, NormalsOutcome, PrimitiveNam
 
 use super::attributes::{replace, users_of};
 use crate::instances::primitives_at;
+use crate::measure::reversed::front;
 use crate::measure::values::is_unit;
 use crate::repair::options::FixOptions;
 use crate::repair::plan::{Action, Edit, Flip};
-use crate::surface::length;
+use crate::surface::{dot, length};
 
 /// The attribute.
 const NORMAL: &str = "NORMAL";
@@ -81,26 +82,41 @@ fn make_unit(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Err
     Ok(())
 }
 
-/// A smooth normal of every vertex of primitives that share their vertices. Vertices without faces get (0, 0, 1).
+/// A smooth normal of every vertex of primitives that share their vertices; that of the vertex's own faces where other faces at the same place turn
+/// the smooth one to their back. Vertices without faces get (0, 0, 1).
 fn smooth_normals(
     document: &Document,
     users: &[&PrimitiveName],
     vertex_count: usize,
 ) -> Result<Vec<[f32; 3]>, Error> {
     let mut normals = vec![[0.0, 0.0, 1.0]; vertex_count];
+    let mut fronts = vec![[0.0; 3]; vertex_count];
     let mut is_known = vec![false; vertex_count];
     for corners in document.corners()?.iter().filter(|corners| users.contains(&corners.name())) {
         let Some(positions) = corners.vectors::<3>("POSITION")? else { continue };
         let numbers: Vec<u32> = (0..positions.len() as u32).collect();
         let made = generate_normals(&positions, &numbers, Faces::Triangles, &NormalOptions::default());
         let made = made.map(|made| made.corners.into_per_corner()).unwrap_or_default();
-        for (&vertex, normal) in corners.vertices().iter().zip(made) {
-            if let Some(known) = is_known.get_mut(vertex as usize).filter(|known| !**known) {
-                (*known, normals[vertex as usize]) = (true, normal);
+        for (corner, (&vertex, normal)) in corners.vertices().iter().zip(made).enumerate() {
+            let vertex = vertex as usize;
+            if vertex >= vertex_count {
+                continue;
+            }
+            if !std::mem::replace(&mut is_known[vertex], true) {
+                normals[vertex] = normal;
+            }
+            if let Some(front) = front([0, 1, 2].map(|i| positions[corner / 3 * 3 + i])) {
+                let length = length(front);
+                fronts[vertex] = [0, 1, 2].map(|i| fronts[vertex][i] + (f64::from(front[i]) / length) as f32);
             }
         }
     }
-    Ok(normals)
+    let on_front = |(smooth, front): ([f32; 3], [f32; 3])| {
+        let length = length(front);
+        let is_behind = length.is_finite() && dot(smooth, front) < 0.0;
+        if is_behind { front.map(|x| (f64::from(x) / length) as f32) } else { smooth }
+    };
+    Ok(normals.into_iter().zip(fronts).map(on_front).collect())
 }
 
 /// Flips the faces or the normals of primitives, each list with the same data.
