@@ -24,7 +24,7 @@ interface CheckExports extends Exports {
 export interface CheckOptions {
   /** Where the green of normal maps should point: 'up' (glTF, OpenGL) or 'down' (DirectX). Default: 'up'. */
   green?: 'up' | 'down' | null;
-  /** Whether the normal maps of a model are decoded and judged. Default: true. */
+  /** Whether the normal maps of a model are decoded and judged; otherwise they are taken to be right. Default: true. */
   maps?: boolean | null;
 }
 
@@ -39,7 +39,8 @@ export interface Evidence {
 /** One thing that is wrong. docs/check.md explains every code. Indices are those of the glTF document. */
 export interface Finding {
   code: string;
-  severity: 'error' | 'warning' | 'info';
+  /** 'not-checked': a map in a format that is not read. */
+  severity: 'error' | 'warning' | 'info' | 'not-checked';
   mesh: number | null;
   meshName: string | null;
   primitive: number | null;

@@ -63,10 +63,10 @@ pub struct MapSurfaces(Vec<(Surface, Vec<TextureUse>)>);
 impl MapSurfaces {
     /// What their facets say about the image.
     pub fn votes(&self, image: &RgbaImage) -> FacetVotes {
-        let mut votes = FacetVotes::default();
+        let mut uses = Vec::new();
         for (surface, textures) in &self.0 {
-            textures.iter().for_each(|texture| votes.add(surface, Some(texture), image));
+            uses.extend(textures.iter().map(|texture| (surface, Some(texture))));
         }
-        votes
+        FacetVotes::of(&uses, image)
     }
 }

@@ -6,9 +6,11 @@ use serde::{Deserialize, Serialize};
 
 /// How bad a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Severity {
+    /// Nothing is said, because the data is in a format that is not read.
+    NotChecked,
     /// Worth knowing.
     Info,
     /// A picture may be wrong.
@@ -20,6 +22,7 @@ pub enum Severity {
 impl fmt::Display for Severity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
+            Self::NotChecked => "not-checked",
             Self::Info => "info",
             Self::Warning => "warning",
             Self::Error => "error",

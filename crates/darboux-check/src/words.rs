@@ -25,6 +25,9 @@ pub fn finding(defect: Defect) -> Finding {
     if let Some(Obstacle::RedLikelier { image }) = defect.obstacle {
         text += &format!("; the red of images[{image}] is inverted, so that this may be likelier");
     }
+    if let Some(Obstacle::MapMayCancel { .. }) = defect.obstacle {
+        text += ", unless inverted green of the normal map cancels that";
+    }
     if let Some(cancelled) = &defect.cancelled {
         text += &format!("; {}, so that bumps look right now: repair both or none", cancels(cancelled));
     }

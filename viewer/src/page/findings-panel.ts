@@ -6,9 +6,9 @@ import { counted } from '../plural';
 import { element } from './elements';
 import { severityIcon } from './severity-icon';
 
-const SEVERITIES = ['error', 'warning', 'info'] as const;
+const SEVERITIES = ['error', 'warning', 'info', 'not-checked'] as const;
 
-const SEVERITY_NAMES = { error: 'Error', warning: 'Warning', info: 'Note' } as const;
+const SEVERITY_NAMES = { error: 'Error', warning: 'Warning', info: 'Note', 'not-checked': 'Not checked' } as const;
 
 /** Leads to the n-th place of a finding. Returns a sentence about it, and the number of places. */
 export type Visit = (finding: Finding, n: number) => Promise<{ text: string; count: number }>;
@@ -50,7 +50,7 @@ export function showCheckFailed(reason: string): void {
 }
 
 function summary(findings: Finding[]): string {
-  const names = { error: ['error', 'errors'], warning: ['warning', 'warnings'], info: ['note', 'notes'] } as const;
+  const names = { error: ['error', 'errors'], warning: ['warning', 'warnings'], info: ['note', 'notes'], 'not-checked': ['map not checked', 'maps not checked'] } as const;
   const parts = SEVERITIES.map((severity) => [findings.filter((finding) => finding.severity === severity).length, ...names[severity]] as const);
   const said = parts.filter(([count]) => count).map(([count, one, many]) => counted(count, one, many));
   const repaired = findings.filter((finding) => finding.repaired).length;

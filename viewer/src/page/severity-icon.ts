@@ -6,6 +6,7 @@ const SHAPES: Record<Finding['severity'], [string, string]> = {
   error: ['M5 1h6l4 4v6l-4 4H5l-4-4V5z', 'M5.5 5.5l5 5m0-5l-5 5'],
   warning: ['M8 1.5l7 13H1z', 'M8 6v4m0 1.6v1.4'],
   info: ['M8 1a7 7 0 1 1 0 14A7 7 0 0 1 8 1z', 'M8 7.2v4.6m0-7.4v1.4'],
+  'not-checked': ['M8 1a7 7 0 1 1 0 14A7 7 0 0 1 8 1z', 'M4.8 8h6.4'],
 };
 
 const SVG = 'http://www.w3.org/2000/svg';

@@ -141,7 +141,7 @@ class Finding(NamedTuple):
     code: str
     """The kind, such as 'tangent-sign-flipped'. Codes are stable."""
     severity: str
-    """'error': a picture is wrong; 'warning': it may be; 'info'."""
+    """'error': a picture is wrong; 'warning': it may be; 'info'; 'not-checked': a map in a format that is not read."""
     place: FindingPlace
     """Where it is."""
     count: int  # type: ignore[assignment]

@@ -15,8 +15,8 @@ use crate::defect::Obstacle;
 use crate::defect::{Defect, Fault, MapFault};
 use crate::finding::Finding;
 use crate::map_users::{MapSurfaces, MapUsers};
-use crate::measure::directions::directions_by_mesh;
-use crate::measure::facets::FacetVotes;
+use crate::measure::directions::{directions_by_mesh, is_convention_known};
+use crate::measure::facets::{FacetVotes, MapUse};
 use crate::measure::map::{Map, MapDirections, Vote};
 use crate::obstacles;
 use crate::place::Place;
@@ -42,6 +42,8 @@ pub struct MapDefects {
     /// The transfer function that was applied once too often.
     pub srgb_mistake: Option<SrgbMistake>,
     pub directions: Option<MapDirections>,
+    /// Whether the convention is known, so that a repair of the tangents cannot turn a right picture into a wrong one.
+    pub is_convention_known: bool,
     pub defects: Vec<Defect>,
 }
 
@@ -64,6 +66,7 @@ pub fn map_defects(file: &[u8], options: &CheckOptions, vote: Option<Vote<'_>>) 
     MapDefects {
         defects: defects.map(|defect| defect.with_obstacle(obstacle.clone())).collect(),
         directions: directions_by_mesh(&map),
+        is_convention_known: is_convention_known(&map),
         srgb_mistake: map.srgb_mistake,
         judgement: map.judgement.ok(),
     }
@@ -122,11 +125,8 @@ pub fn check_map_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptio
 
 /// The defects of the map alone, on a model.
 pub fn map_defects_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptions) -> MapDefects {
-    let vote = |image: &RgbaImage| {
-        let mut votes = FacetVotes::default();
-        model.surfaces.iter().for_each(|surface| votes.add(surface, None, image));
-        votes
-    };
+    let uses: Vec<MapUse<'_>> = model.surfaces.iter().map(|surface| (surface, None)).collect();
+    let vote = |image: &RgbaImage| FacetVotes::of(&uses, image);
     let mut checked = map_defects(file, options, Some(&vote));
     let cancelled = model.mark_cancelling(&mut checked.defects, &mut model.defects.clone());
     for defect in checked.defects.iter_mut().filter(|defect| cancelled.contains(&defect.code())) {
@@ -159,7 +159,7 @@ pub fn defects_of_materials(
     let mut of_images = Vec::new();
     for (image, material) in images {
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
-        let mut found = defects_of_image(document, &users, image, options)?;
+        let (mut found, is_convention_known) = defects_of_image(document, &users, image, options)?;
         if materials.iter().any(|material| inverts(material, image)) {
             found.iter_mut().filter(|defect| is_inverted(defect)).for_each(|defect| {
                 defect.obstacle.get_or_insert(Obstacle::NegativeScale);
@@ -169,7 +169,11 @@ pub fn defects_of_materials(
         let index_of = |defect: &Defect| {
             defect.place.primitive.as_ref().and_then(|own| names.iter().position(|name| *name == own))
         };
-        cancelling::mark(&mut found, &mut by_surface(on_surfaces, names.len(), index_of));
+        let mut surfaces = by_surface(on_surfaces, names.len(), index_of);
+        cancelling::mark(&mut found, &mut surfaces);
+        if !is_convention_known {
+            cancelling::leave_what_a_map_may_cancel(image, &mut surfaces);
+        }
         of_images.extend(found.into_iter().map(|defect| Defect { place: place.clone(), ..defect }));
     }
     compare_maps(&mut of_images);
@@ -216,21 +220,22 @@ fn by_surface(
     surfaces
 }
 
-/// The defects of an image of a document as a normal map. Errors: invalid data of the primitives that use it.
+/// The defects of an image of a document as a normal map, and whether its convention is known. Errors: invalid data of the primitives that use it.
 fn defects_of_image(
     document: &Document,
     users: &MapUsers<'_>,
     image: usize,
     options: &CheckOptions,
-) -> Result<Vec<Defect>, Error> {
+) -> Result<(Vec<Defect>, bool), Error> {
     let bytes = match document.image_bytes(image) {
         Ok(bytes) => bytes,
         Err(error) => {
             let map = Map::unreadable(format!("cannot be read ({error})"), options.green);
-            return Ok(MAP_RULES.iter().filter_map(|rule| rule(&map)).collect());
+            return Ok((MAP_RULES.iter().filter_map(|rule| rule(&map)).collect(), false));
         }
     };
     let checked = map_defects_on_surfaces(&bytes, &users.of(image)?, options);
     let obstacle = document.normal_map_obstacle(image).map(str::to_owned).map(Obstacle::NotRewritable);
-    Ok(checked.defects.into_iter().map(|defect| defect.with_obstacle(obstacle.clone())).collect())
+    let defects = checked.defects.into_iter().map(|defect| defect.with_obstacle(obstacle.clone()));
+    Ok((defects.collect(), checked.is_convention_known))
 }

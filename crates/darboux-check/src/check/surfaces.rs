@@ -56,5 +56,5 @@ pub fn defects_of_surface(surface: &Surface) -> Vec<Defect> {
 /// Tangents that nothing reads make no picture wrong.
 fn worst_severity(defect: &Defect, surface: &Surface) -> Severity {
     let is_unread = defect.family() == Family::Tangents && !surface.needs_tangents;
-    if is_unread { Severity::Warning } else { Severity::Error }
+    if is_unread { Severity::Info } else { Severity::Error }
 }

@@ -82,6 +82,8 @@ pub enum MapFault {
         /// The decoder's clause.
         problem: String,
         bytes: usize,
+        /// Whether it is in a format that is not read here, so that nothing says that it is wrong.
+        is_other_format: bool,
     },
     Height(Texels),
     ObjectSpace(Texels),

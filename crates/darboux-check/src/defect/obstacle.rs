@@ -39,6 +39,10 @@ pub enum Obstacle {
     RedLikelier {
         image: usize,
     },
+    /// The convention of a map is unknown, and inverted green in it would cancel the defect.
+    MapMayCancel {
+        image: usize,
+    },
     /// A mistake of the model cancels that of the map.
     OnTheModelToo,
     /// Why an image cannot be rewritten, as a clause of darboux-io.

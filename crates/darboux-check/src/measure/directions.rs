@@ -3,7 +3,7 @@
 use darboux::{BitangentDirection, MapJudgement, MapVerdict, TangentDirection};
 
 use crate::measure::facets::Arrangement;
-use crate::measure::map::{Map, MapDirections};
+use crate::measure::map::{Map, MapDirections, TwoChannels};
 use crate::measure::map_kind::{Kind, kind};
 
 /// The judgement on a map whose channels have directions, unless red and green are exchanged, or parts of the map contradict each other.
@@ -65,4 +65,20 @@ pub fn facets_show_exchange(judgement: &MapJudgement, map: &Map) -> bool {
     let [straight, exchanged] = candidates(judgement).map(|arrangement| map.facet_score(arrangement).abs());
     let decided = candidates(judgement).map(|arrangement| map.decide(arrangement).is_some());
     decided[1] && exchanged > 2.0 * straight
+}
+
+/// The confidence in percent from which on a direction is sure.
+pub const SURE_PERCENT: f64 = 90.0;
+
+/// Whether the texels surely show a convention, as they are or once another mistake is undone, or are flat, so that none matters.
+pub fn is_convention_known(map: &Map) -> bool {
+    let is_sure = |judgement: &MapJudgement| match judgement.verdict {
+        MapVerdict::OpenGl | MapVerdict::DirectX => 100.0 * f64::from(judgement.confidence) >= SURE_PERCENT,
+        verdict => verdict == MapVerdict::Flat,
+    };
+    let of_two_channels = map.two_channels.map(|channels| match channels {
+        TwoChannels::RedGreen(judgement) | TwoChannels::AlphaGreen(judgement) => judgement,
+    });
+    let judgements = [map.judged().copied(), map.before_srgb, map.scaled, of_two_channels];
+    map.contradiction.is_none() && judgements.iter().flatten().any(is_sure)
 }

@@ -5,6 +5,10 @@
 //! those of the face normals in tangent space, and never with their negation. A map that tiles, or that was made for another mesh, shows no correlation.
 //!
 //! Every triangle votes with the correlation over a few of its texels. The z score is the sum of the votes over the root of the sum of their squares.
+//! That is right for independent votes only. Faces that share their UVs, texels that repeat, and neighbours vote alike, and bumps that all have one shape
+//! agree a little with convex faces wherever they lie. So a map of any other mesh may get a large score. Therefore a decision is tested again: from the
+//! votes, those of the same triangles on the map at other offsets are subtracted, and the differences are summed in blocks of the map, which count once
+//! each, however many triangles show them (the standard error of clustered data).
 
 use darboux::TexelLayout;
 use darboux_io::gltf::{TextureUse, Wrap};
@@ -40,37 +44,32 @@ pub enum Arrangement {
     ExchangedAndInverted,
 }
 
+/// The number of arrangements.
+const ARRANGEMENTS: usize = 4;
+
 /// The votes of triangles on the arrangements, in the order of their declaration.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FacetVotes {
-    sums: [f64; 4],
-    squares: [f64; 4],
-    count: usize,
+    sums: Sums,
+    /// Where the votes alone decide an arrangement: the z scores of the blocks.
+    registered: Option<[f64; ARRANGEMENTS]>,
 }
 
+/// A surface on which an image is the normal map, and how its material uses the map; none for the UVs that its tangents follow, repeated.
+pub type MapUse<'a> = (&'a Surface, Option<&'a TextureUse>);
+
 impl FacetVotes {
-    /// Adds the votes of a surface on which the image is the normal map. `texture`: how its material uses the map; none for the UVs that
-    /// its tangents follow, repeated. A surface that is wound against its normals, or whose normals are in other axes, has no votes.
-    pub fn add(&mut self, surface: &Surface, texture: Option<&TextureUse>, image: &RgbaImage) {
-        if Sides::of(surface).are_mostly_against() || OtherAxes::of(surface).is_some() {
-            // Reversed normals lean the other way in both directions, as those of a map with red and green inverted.
-            return;
+    /// The votes of all surfaces that use a map. A surface that is wound against its normals, or whose normals are in other axes, has none.
+    pub fn of(uses: &[MapUse<'_>], image: &RgbaImage) -> Self {
+        let mut sums = Sums::default();
+        for facets in uses.iter().filter_map(|map_use| Facets::new(*map_use)) {
+            let products = facets
+                .iter(TRIANGLES)
+                .map(|facet| Products::of(&facet.samples(&facets, image), image, [0; 2]));
+            products.filter_map(|products| products.votes()).for_each(|votes| sums.add(votes));
         }
-        let uv_set = texture.map_or(surface.uv_set, |texture| texture.uv_set);
-        let (Some(normals), Some(uvs)) = (&surface.normals, surface.uv_sets.get(&uv_set)) else { return };
-        let wrap = texture.map_or([Wrap::Repeat; 2], |texture| texture.wrap);
-        let place = |uv| texture.map_or(uv, |texture| texture.transform_uv(uv));
-        let step = 1 + surface.vertex_of_corner.len() / 3 / TRIANGLES;
-        for triangle in surface.triangles().step_by(step) {
-            let corners = triangle.map(|vertex| Corner {
-                position: surface.positions[vertex],
-                normal: normals[vertex],
-                uv: place(uvs[vertex]),
-            });
-            if let Some(facet) = Facet::new(corners) {
-                self.vote(facet.products(wrap, image));
-            }
-        }
+        let is_decided = (0..ARRANGEMENTS).any(|index| sums.z_score(index).abs() >= DECIDED);
+        Self { sums, registered: is_decided.then(|| registered(uses, image)) }
     }
 
     /// True where the first of the two possibilities of an arrangement is decided, false for the second one; none without a decision.
@@ -79,37 +78,127 @@ impl FacetVotes {
         (z_score.abs() >= DECIDED).then_some(z_score > 0.0)
     }
 
-    /// The z score of an arrangement.
+    /// The z score of an arrangement: the smaller one of that of the votes and that of the blocks.
     pub fn z_score(&self, arrangement: Arrangement) -> f64 {
         let index = arrangement as usize;
-        if self.squares[index] > 0.0 { self.sums[index] / self.squares[index].sqrt() } else { 0.0 }
+        let independent = self.sums.z_score(index);
+        match self.registered {
+            Some(registered) if registered[index] * independent <= 0.0 => 0.0,
+            Some(registered) => independent.abs().min(registered[index].abs()).copysign(independent),
+            None => independent,
+        }
     }
 
     /// The number of triangles that voted.
     pub fn count(&self) -> usize {
-        self.count
+        self.sums.count
     }
 
     /// Votes with this z score of one arrangement, and none of the others.
     #[cfg(test)]
     pub fn only(arrangement: Arrangement, z_score: f64) -> Self {
-        let mut votes = Self::default();
-        (votes.sums[arrangement as usize], votes.squares[arrangement as usize]) = (z_score, 1.0);
-        votes
+        let mut sums = Sums::default();
+        (sums.sums[arrangement as usize], sums.squares[arrangement as usize]) = (z_score, 1.0);
+        Self { sums, registered: None }
+    }
+}
+
+/// The number of offsets.
+const OFFSETS: usize = 12;
+
+/// More triangles of a surface are not compared with the map at other offsets.
+const OFFSET_TRIANGLES: usize = 10_000;
+
+/// Blocks along each side of the map.
+const BLOCKS: usize = 16;
+
+/// The z scores of the blocks: how much better the triangles agree with the map at its place than at other offsets.
+fn registered(uses: &[MapUse<'_>], image: &RgbaImage) -> [f64; ARRANGEMENTS] {
+    let size = [image.width, image.height].map(|side| side as usize);
+    // The additive sequence of the plastic number spreads points evenly over a square (Roberts 2018).
+    let offset = |number: usize| {
+        let number = number as f64;
+        let place = [0.754_877_666_246_693 * number, 0.569_840_290_998_053_3 * number];
+        [0, 1].map(|i| (place[i].fract() * size[i] as f64) as usize)
+    };
+    let mut blocks = vec![[0.0; ARRANGEMENTS]; BLOCKS * BLOCKS];
+    for facets in uses.iter().filter_map(|map_use| Facets::new(*map_use)) {
+        for facet in facets.iter(OFFSET_TRIANGLES) {
+            let samples = facet.samples(&facets, image);
+            let Some(Sample { texel, .. }) = samples.get(samples.len() / 2) else { continue };
+            let [column, row] = [0, 1].map(|i| texel[i] * BLOCKS / size[i]);
+            let block = &mut blocks[row * BLOCKS + column];
+            for number in 0..=OFFSETS {
+                let weight = if number == 0 { 1.0 } else { -1.0 / OFFSETS as f64 };
+                let votes = Products::of(&samples, image, offset(number)).votes().unwrap_or_default();
+                block.iter_mut().zip(votes).for_each(|(sum, vote)| *sum += weight * vote);
+            }
+        }
+    }
+    std::array::from_fn(|index| {
+        let sums = || blocks.iter().map(|block| block[index]);
+        let squares = sums().map(|sum| sum * sum).sum::<f64>();
+        if squares > 0.0 { sums().sum::<f64>() / squares.sqrt() } else { 0.0 }
+    })
+}
+
+/// Sums of the votes on the arrangements, and of their squares.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    sums: [f64; ARRANGEMENTS],
+    squares: [f64; ARRANGEMENTS],
+    count: usize,
+}
+
+impl Sums {
+    fn z_score(&self, index: usize) -> f64 {
+        if self.squares[index] > 0.0 { self.sums[index] / self.squares[index].sqrt() } else { 0.0 }
     }
 
-    fn vote(&mut self, products: Products) {
-        let Products { facet, texel, products: [[xx, xy], [yx, yy]], count } = products;
-        let least = SMALLEST * SMALLEST * f64::from(count);
-        if facet < least || texel < least {
-            return;
-        }
+    /// Adds the votes of a triangle.
+    fn add(&mut self, votes: [f64; ARRANGEMENTS]) {
         self.count += 1;
-        let scale = 1.0 / (facet * texel).sqrt();
-        for (index, product) in [xx + yy, xx - yy, yx + xy, yx - xy].into_iter().enumerate() {
-            self.sums[index] += product * scale;
-            self.squares[index] += (product * scale).powi(2);
+        for (index, vote) in votes.into_iter().enumerate() {
+            self.sums[index] += vote;
+            self.squares[index] += vote * vote;
         }
+    }
+}
+
+/// The triangles of a surface.
+struct Facets<'a> {
+    surface: &'a Surface,
+    normals: &'a [[f32; 3]],
+    uvs: &'a [[f32; 2]],
+    texture: Option<&'a TextureUse>,
+}
+
+impl<'a> Facets<'a> {
+    /// None where the surface has no votes: reversed normals lean the other way in both directions, as those of a map with red and green inverted.
+    fn new((surface, texture): MapUse<'a>) -> Option<Self> {
+        if Sides::of(surface).are_mostly_against() || OtherAxes::of(surface).is_some() {
+            return None;
+        }
+        let uv_set = texture.map_or(surface.uv_set, |texture| texture.uv_set);
+        let (normals, uvs) = (surface.normals.as_ref()?, surface.uv_sets.get(&uv_set)?);
+        Some(Self { surface, normals, uvs, texture })
+    }
+
+    /// At most about `limit` of the facets.
+    fn iter(&self, limit: usize) -> impl Iterator<Item = Facet> {
+        let place = |uv| self.texture.map_or(uv, |texture| texture.transform_uv(uv));
+        let step = 1 + self.surface.vertex_of_corner.len() / 3 / limit;
+        self.surface.triangles().step_by(step).filter_map(move |triangle| {
+            Facet::new(triangle.map(|vertex| Corner {
+                position: self.surface.positions[vertex],
+                normal: self.normals[vertex],
+                uv: place(self.uvs[vertex]),
+            }))
+        })
+    }
+
+    fn wrap(&self) -> [Wrap; 2] {
+        self.texture.map_or([Wrap::Repeat; 2], |texture| texture.wrap)
     }
 }
 
@@ -127,6 +216,12 @@ struct Facet {
     along_v: [f32; 3],
 }
 
+/// A point of a triangle: x and y of the face normal in the tangent space of the smoothed one, and the place of its texel.
+struct Sample {
+    tilt: [f64; 2],
+    texel: [usize; 2],
+}
+
 /// Sums over the samples of a triangle.
 #[derive(Default)]
 struct Products {
@@ -137,6 +232,39 @@ struct Products {
     /// x and y of the face normal times x and y of the texels.
     products: [[f64; 2]; 2],
     count: u32,
+}
+
+impl Products {
+    /// `offset`: by how many texels the map is moved.
+    fn of(samples: &[Sample], image: &RgbaImage, offset: [usize; 2]) -> Self {
+        let mut products = Self::default();
+        let size = [image.width, image.height].map(|side| side as usize);
+        for Sample { tilt, texel } in samples {
+            let [column, row] = [0, 1].map(|i| (texel[i] + offset[i]) % size[i]);
+            let texel = image.texels[row * size[0] + column];
+            if !TexelLayout::RGBA.holds_normal(texel) {
+                continue;
+            }
+            let [x, y, _] = TexelLayout::RGBA.vector(texel).map(f64::from);
+            products.count += 1;
+            products.facet += tilt[0] * tilt[0] + tilt[1] * tilt[1];
+            products.texel += x * x + y * y;
+            products.products[0][0] += tilt[0] * x;
+            products.products[0][1] += tilt[0] * y;
+            products.products[1][0] += tilt[1] * x;
+            products.products[1][1] += tilt[1] * y;
+        }
+        products
+    }
+
+    /// The votes of the triangle; none where it or its texels do not lean.
+    fn votes(&self) -> Option<[f64; ARRANGEMENTS]> {
+        let least = SMALLEST * SMALLEST * f64::from(self.count);
+        let [[xx, xy], [yx, yy]] = self.products;
+        let scale = 1.0 / (self.facet * self.texel).sqrt();
+        let votes = [xx + yy, xx - yy, yx + xy, yx - xy].map(|product| product * scale);
+        (self.facet >= least && self.texel >= least && self.count > 0).then_some(votes)
+    }
 }
 
 impl Facet {
@@ -156,28 +284,17 @@ impl Facet {
         Some(Self { corners, normal, along_u, along_v })
     }
 
-    fn products(&self, wrap: [Wrap; 2], image: &RgbaImage) -> Products {
-        let mut products = Products::default();
+    /// Samples without a smoothed normal are left out.
+    fn samples(&self, facets: &Facets<'_>, image: &RgbaImage) -> Vec<Sample> {
         let weights = (0..SAMPLES).flat_map(|i| (0..SAMPLES - i).map(move |j| [i, j]));
-        for weights in weights {
+        let sample = |weights: [usize; 2]| {
             let [b, c] = weights.map(|i| (i as f32 + 1.0 / 3.0) / SAMPLES as f32);
             let weights = [1.0 - b - c, b, c];
-            let texel = texel_at(image, wrap, interpolated(weights, &self.corners, |corner| corner.uv));
-            let is_normal = TexelLayout::RGBA.holds_normal(texel);
-            let normal = unit(interpolated(weights, &self.corners, |corner| corner.normal));
-            let Some(facet) = normal.filter(|_| is_normal).and_then(|normal| self.tilt(normal)) else {
-                continue;
-            };
-            let [x, y, _] = TexelLayout::RGBA.vector(texel).map(f64::from);
-            products.count += 1;
-            products.facet += facet[0] * facet[0] + facet[1] * facet[1];
-            products.texel += x * x + y * y;
-            products.products[0][0] += facet[0] * x;
-            products.products[0][1] += facet[0] * y;
-            products.products[1][0] += facet[1] * x;
-            products.products[1][1] += facet[1] * y;
-        }
-        products
+            let normal = unit(interpolated(weights, &self.corners, |corner| corner.normal))?;
+            let uv = interpolated(weights, &self.corners, |corner| corner.uv);
+            Some(Sample { tilt: self.tilt(normal)?, texel: texel_at(image, facets.wrap(), uv) })
+        };
+        weights.filter_map(sample).collect()
     }
 
     /// x and y of the face normal in the tangent space of a smoothed normal.
@@ -204,16 +321,15 @@ fn unit(vector: [f32; 3]) -> Option<[f32; 3]> {
     (length.is_finite() && length > 0.0).then(|| vector.map(|x| (f64::from(x) / length) as f32))
 }
 
-/// The nearest texel. The first row is v = 0.
-fn texel_at(image: &RgbaImage, wrap: [Wrap; 2], uv: [f32; 2]) -> [u8; 4] {
+/// Column and row of the nearest texel. The first row is v = 0.
+fn texel_at(image: &RgbaImage, wrap: [Wrap; 2], uv: [f32; 2]) -> [usize; 2] {
     let size = [image.width, image.height];
-    let [x, y] = [0, 1].map(|i| {
+    [0, 1].map(|i| {
         let at = match wrap[i] {
             Wrap::Repeat => uv[i].rem_euclid(1.0),
             Wrap::Mirror => 1.0 - (uv[i].rem_euclid(2.0) - 1.0).abs(),
             Wrap::Clamp => uv[i].clamp(0.0, 1.0),
         };
         ((at * size[i] as f32) as usize).min(size[i] as usize - 1)
-    });
-    image.texels[y * image.width as usize + x]
+    })
 }

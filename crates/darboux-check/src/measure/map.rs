@@ -16,6 +16,8 @@ pub struct Map {
     pub judgement: Result<MapJudgement, String>,
     /// In bytes; 0 where the file itself could not be read.
     pub file_size: usize,
+    /// Whether the file is an image in a format that is not decoded here.
+    pub is_other_format: bool,
     /// The number of tiles that the judgement is from.
     pub tiles: usize,
     /// Where the texels look as if they had gone through the transfer function of sRGB once too often: which way, and the judgement on them as
@@ -106,6 +108,7 @@ impl Map {
                 Self {
                     judgement,
                     file_size: file.len(),
+                    is_other_format: false,
                     tiles,
                     srgb_mistake,
                     before_srgb,
@@ -118,7 +121,11 @@ impl Map {
                     facets,
                 }
             }
-            Err(error) => Self { file_size: file.len(), ..Self::unreadable(error.to_string(), wanted) },
+            Err(error) => Self {
+                file_size: file.len(),
+                is_other_format: is_other_format(file),
+                ..Self::unreadable(error.to_string(), wanted)
+            },
         }
     }
 
@@ -143,6 +150,7 @@ impl Map {
         Self {
             judgement: Err(problem),
             file_size: 0,
+            is_other_format: false,
             tiles: 0,
             srgb_mistake: None,
             before_srgb: None,
@@ -155,6 +163,14 @@ impl Map {
             facets: None,
         }
     }
+}
+
+/// Whether a file begins as those of KTX, Basis Universal, AVIF, JPEG XL or DDS do.
+fn is_other_format(file: &[u8]) -> bool {
+    let starts: [&[u8]; 6] =
+        [b"\xABKTX 11\xBB", b"\xABKTX 20\xBB", b"sB", b"\0\0\0\x0CJXL ", b"\xFF\x0A", b"DDS "];
+    let is_avif = file.get(4..12).is_some_and(|head| head == b"ftypavif" || head == b"ftypavis");
+    is_avif || starts.iter().any(|start| file.starts_with(start))
 }
 
 /// The smallest correlation between red and green of a picture. That of slopes in all directions is 0, and that of brightness is 1.

@@ -6,17 +6,19 @@ use darboux_io::Error;
 use darboux_io::gltf::{Appearance, Document};
 
 use super::options::FixOptions;
-use crate::cancelling::pair_of;
+use crate::cancelling::{has_flipped_signs, pair_of};
 use crate::defect::Defect;
 use crate::defect::Obstacle;
 use crate::defect::Pair;
 use crate::instances::{Key, key};
 
-/// The primitives and images that are left because a part of such a pair is left, each with the pair.
+/// The primitives and images that are left because a part of such a pair is left, each with the pair, or may be one.
 #[derive(Debug, Default)]
 pub struct LeftPairs {
     primitives: BTreeMap<Key, &'static Pair>,
     images: BTreeMap<usize, &'static Pair>,
+    /// The primitives whose flipped signs the map in an image may cancel.
+    may_cancel: BTreeMap<Key, usize>,
 }
 
 impl LeftPairs {
@@ -27,7 +29,12 @@ impl LeftPairs {
         on_surfaces: &[Defect],
         options: &FixOptions,
     ) -> Result<Self, Error> {
-        let mut left = Self::default();
+        let may_cancel = |defect: &Defect| match (&defect.place.primitive, &defect.obstacle) {
+            (Some(primitive), Some(Obstacle::MapMayCancel { image })) => Some((key(primitive), *image)),
+            _ => None,
+        };
+        let may_cancel = on_surfaces.iter().filter_map(may_cancel).collect();
+        let mut left = Self { may_cancel, ..Self::default() };
         let of_images = grouped(on_images, |defect| defect.place.image);
         if of_images.is_empty() {
             return Ok(left);
@@ -54,9 +61,14 @@ impl LeftPairs {
             (None, Some(image)) => self.images.get(&image).copied(),
             (None, None) => None,
         };
+        let map_of = |defect: &Defect| {
+            let primitive = defect.place.primitive.as_ref().filter(|_| has_flipped_signs(defect))?;
+            self.may_cancel.get(&key(primitive)).copied()
+        };
         let mark = |defect: Defect| {
-            let pair = pair_of(&defect);
-            defect.with_obstacle(pair.map(Obstacle::PairIsLeft))
+            let pair = pair_of(&defect).map(Obstacle::PairIsLeft);
+            let map = map_of(&defect).map(|image| Obstacle::MapMayCancel { image });
+            defect.with_obstacle(pair.or(map))
         };
         defects.into_iter().map(mark).collect()
     }

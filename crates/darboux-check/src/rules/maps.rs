@@ -9,7 +9,7 @@ use crate::defect::{
     Texels,
 };
 use crate::measure::directions::{
-    arrangement, candidates, directed, directions, directions_by_mesh, facets_show_exchange,
+    SURE_PERCENT, arrangement, candidates, directed, directions, directions_by_mesh, facets_show_exchange,
     with_directed_channels,
 };
 use crate::measure::facets::{Arrangement, FacetVotes};
@@ -38,9 +38,6 @@ pub const RULES: &[MapRule] = &[
 /// The share of texels, in percent, above which vectors are worth a warning.
 const MAX_PERCENT: f64 = 5.0;
 
-/// The confidence in percent from which on a direction is an error. Below it is a warning, and is not repaired.
-const SURE_PERCENT: f64 = 90.0;
-
 fn defect(fault: MapFault) -> Defect {
     Defect::new(Fault::Map(fault))
 }
@@ -56,7 +53,9 @@ fn of_kind(map: &Map, wanted: Kind) -> Option<&MapJudgement> {
 
 fn unreadable(map: &Map) -> Option<Defect> {
     let problem = map.judgement.as_ref().err()?.clone();
-    Some(defect(MapFault::Unreadable { problem, bytes: map.file_size }))
+    let is_other_format = map.is_other_format;
+    let found = defect(MapFault::Unreadable { problem, bytes: map.file_size, is_other_format });
+    Some(if is_other_format { found.with_severity(Severity::NotChecked) } else { found })
 }
 
 fn height(map: &Map) -> Option<Defect> {
@@ -148,7 +147,7 @@ fn direction_evidence(judgement: &MapJudgement, map: &Map) -> DirectionEvidence 
     }
 }
 
-/// The defect with the severity of its confidence. A direction that is not sure is left.
+/// The defect with the severity of its confidence: an error where it is sure. A direction that is not sure is a warning and left.
 fn with_confidence(found: Defect, judgement: &MapJudgement) -> Defect {
     let percent = 100.0 * f64::from(judgement.confidence);
     if percent >= SURE_PERCENT {
@@ -310,6 +309,7 @@ mod tests {
         Map {
             judgement,
             file_size: 0,
+            is_other_format: false,
             tiles: 0,
             srgb_mistake: None,
             before_srgb: None,

@@ -13,8 +13,13 @@ use crate::measure::reordered::Reordered;
 
 pub fn said(fault: &MapFault) -> Said {
     match fault {
-        MapFault::Unreadable { problem, bytes } => {
+        MapFault::Unreadable { problem, bytes, is_other_format: false } => {
             Said::new(format!("it {problem}")).with("file", *bytes as f64, "bytes")
+        }
+        MapFault::Unreadable { problem, bytes, is_other_format: true } => {
+            Said::new(format!("it was not checked, because it {problem}"))
+                .with_cure("None needed. To check the map, check the model before its images are compressed.")
+                .with("file", *bytes as f64, "bytes")
         }
         MapFault::Height(texels) => Said::new("it is grey").with("grey texels", texels.percent, "%"),
         MapFault::ObjectSpace(texels) => Said::new("its unit vectors point in all directions").with(

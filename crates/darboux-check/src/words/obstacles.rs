@@ -13,6 +13,11 @@ pub fn reason(obstacle: &Obstacle) -> String {
         Obstacle::RedLikelier { image } => {
             return format!("red may be inverted instead of green, as in images[{image}]");
         }
+        Obstacle::MapMayCancel { image } => {
+            return format!(
+                "the convention of the normal map in images[{image}] is not known, and inverted green there would cancel the flipped signs; if the map is right, repair without checking maps (`--no-maps`)"
+            );
+        }
         Obstacle::NotRewritable(clause) => return format!("the image {clause}"),
         Obstacle::PairIsLeft(pair) => {
             let [of_map, of_surface] = names(pair);

@@ -19,7 +19,7 @@ use crate::batch;
 use crate::documents::Source;
 use crate::exit;
 use crate::inputs::{FoundInputs, Input, SearchMode, UsageError, check_stdin, find_inputs};
-use crate::json::{VERSION, to_json};
+use crate::json::to_json;
 use crate::net;
 use crate::terminal::{Messages, write_stdout};
 use arguments::CheckArguments;
@@ -65,14 +65,17 @@ pub fn run(arguments: &CheckArguments) -> u8 {
     files.extend(check_all(&inputs, arguments, &model));
     files.iter().filter_map(|file| file.error.as_ref()).for_each(|error| messages.error(error));
     let code = exit_code(&files, arguments);
+    let report = CheckReport::new(files);
     let text = match (arguments.messages.json, arguments.messages.quiet) {
-        (true, _) => to_json(&CheckReport { command: "check", version: VERSION, files }),
+        (true, _) => to_json(&report),
         (false, is_quiet) => {
             let describe = |file| {
                 if is_quiet { text::failures(file, arguments.fail_on) } else { text::describe(file) }
             };
-            let good = files.iter().filter(|file| file.error.is_none());
-            Ok(good.map(describe).collect::<String>().into_bytes())
+            let good = report.files.iter().filter(|file| file.error.is_none());
+            let total =
+                if is_quiet || report.files.len() < 2 { String::new() } else { text::total(&report.totals) };
+            Ok((good.map(describe).collect::<String>() + &total).into_bytes())
         }
     };
     match text {

@@ -86,7 +86,7 @@ pub struct CheckArguments {
     #[arg(long, value_name = "MODEL", help_heading = "Findings")]
     pub model: Option<PathBuf>,
 
-    /// Do not decode normal maps
+    /// Do not decode normal maps: they are taken to be right
     #[arg(long, help_heading = "Findings")]
     pub no_maps: bool,
 

@@ -1,10 +1,14 @@
 //! The JSON report of `darboux check`. json.txt documents its fields.
 
+use std::collections::BTreeMap;
+
 use darboux::{BitangentDirection, MapJudgement, TangentDirection};
 use darboux_check::{
     Change, CheckedMap, Code, Evidence, Finding, FixedFinding, MapDirections, Place, PlannedEdit, Severity,
 };
 use serde::Serialize;
+
+use crate::json::VERSION;
 
 /// The report of a run.
 #[derive(Serialize)]
@@ -12,6 +16,59 @@ pub struct CheckReport {
     pub command: &'static str,
     pub version: &'static str,
     pub files: Vec<CheckedFile>,
+    pub totals: CheckTotals,
+}
+
+impl CheckReport {
+    /// The report of these files.
+    pub fn new(files: Vec<CheckedFile>) -> Self {
+        Self { command: "check", version: VERSION, totals: CheckTotals::of(&files), files }
+    }
+}
+
+/// The findings of all files.
+#[derive(Serialize)]
+pub struct CheckTotals {
+    pub files: usize,
+    /// The files that cannot be read.
+    pub failed: usize,
+    /// The files with errors, with warnings and no error, and with neither.
+    pub with_errors: usize,
+    pub with_warnings: usize,
+    pub healthy: usize,
+    /// The findings by severity and code.
+    pub errors: BTreeMap<Code, usize>,
+    pub warnings: BTreeMap<Code, usize>,
+    pub infos: BTreeMap<Code, usize>,
+    pub not_checked: BTreeMap<Code, usize>,
+}
+
+impl CheckTotals {
+    fn of(files: &[CheckedFile]) -> Self {
+        let by_code = |severity: Severity| {
+            let mut counts = BTreeMap::new();
+            let findings = files.iter().flat_map(|file| &file.findings);
+            for finding in findings.filter(|finding| finding.severity == severity) {
+                *counts.entry(finding.code).or_default() += 1;
+            }
+            counts
+        };
+        let worst = |file: &CheckedFile| file.findings.iter().map(|finding| finding.severity).max();
+        let read = || files.iter().filter(|file| file.error.is_none());
+        let count = |severity| read().filter(|file| worst(file) == Some(severity)).count();
+        let [with_errors, with_warnings] = [Severity::Error, Severity::Warning].map(count);
+        Self {
+            files: files.len(),
+            failed: files.len() - read().count(),
+            with_errors,
+            with_warnings,
+            healthy: read().count() - with_errors - with_warnings,
+            errors: by_code(Severity::Error),
+            warnings: by_code(Severity::Warning),
+            infos: by_code(Severity::Info),
+            not_checked: by_code(Severity::NotChecked),
+        }
+    }
 }
 
 /// The findings in one file, or the error that prevented reading it.

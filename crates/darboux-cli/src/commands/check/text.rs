@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use darboux_check::{Code, Evidence, Severity};
 
 use super::arguments::FailOn;
-use super::report::{CheckedFile, DirectionsByModel, ReportedFinding, ReportedMap};
+use super::report::{CheckTotals, CheckedFile, DirectionsByModel, ReportedFinding, ReportedMap};
 use crate::text::{counted, printable};
 
 /// The findings in a file.
@@ -29,7 +29,34 @@ pub fn describe(file: &CheckedFile) -> String {
     let [errors, warnings, infos] = [Severity::Error, Severity::Warning, Severity::Info].map(count);
     let errors = counted(errors, "error", "errors");
     let warnings = counted(warnings, "warning", "warnings");
-    text + &format!("  {errors}, {warnings}, {} worth knowing\n", counted(infos, "thing", "things"))
+    let not_checked = match count(Severity::NotChecked) {
+        0 => String::new(),
+        count => format!(", {} not checked", counted(count, "map", "maps")),
+    };
+    text + &format!(
+        "  {errors}, {warnings}, {} worth knowing{not_checked}\n",
+        counted(infos, "thing", "things")
+    )
+}
+
+/// What was found in all files, by code.
+pub fn total(totals: &CheckTotals) -> String {
+    let CheckTotals { files, failed, with_errors, with_warnings, healthy, .. } = totals;
+    let mut text = format!(
+        "{}: {with_errors} with errors, {with_warnings} with warnings only, {healthy} without",
+        counted(*files, "file", "files")
+    );
+    if *failed > 0 {
+        text += &format!(", {failed} that cannot be read");
+    }
+    let of_severities =
+        [("error", &totals.errors), ("warning", &totals.warnings), ("not-checked", &totals.not_checked)];
+    for (severity, codes) in of_severities {
+        let mut codes: Vec<_> = codes.iter().collect();
+        codes.sort_by_key(|(_, count)| Reverse(**count));
+        text.extend(codes.into_iter().map(|(code, count)| format!("\n  {severity:11} {code} {count}")));
+    }
+    text + "\n"
 }
 
 /// The errors in a file and what else makes the exit code 1, one line each.

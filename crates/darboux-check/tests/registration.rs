@@ -1,0 +1,66 @@
+//! Faces decide nothing about maps that were not baked for them: the real maps of one model are put on the other ones.
+
+use std::env;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use darboux::TangentDirection;
+use darboux_check::{CheckOptions, ModelOfMaps, check_map_on_model, check_model_of_maps};
+use darboux_io::LoadOptions;
+use darboux_io::gltf::Document;
+use walkdir::WalkDir;
+
+/// A model, and the files of its normal maps.
+struct Real {
+    name: String,
+    model: ModelOfMaps,
+    maps: Vec<Vec<u8>>,
+}
+
+fn read(path: &Path) -> Option<Real> {
+    let mut document = Document::open(path, &LoadOptions::default()).ok()?;
+    let materials = document.appearances().ok()?;
+    let textures = materials.iter().filter_map(|material| material.normal_texture.as_ref());
+    let mut images: Vec<usize> = textures.filter_map(|texture| texture.image).collect();
+    images.sort_unstable();
+    images.dedup();
+    let maps =
+        images.iter().filter_map(|&image| Some(document.image_bytes(image).ok()?.into_owned())).collect();
+    let model = check_model_of_maps(&mut document).ok()?;
+    Some(Real { name: path.file_name()?.to_string_lossy().into_owned(), model, maps })
+}
+
+fn models() -> Vec<Real> {
+    let Some(folder) = env::var_os("DARBOUX_MODELS").map(PathBuf::from) else { return Vec::new() };
+    let files = WalkDir::new(folder).sort_by_file_name().into_iter().filter_map(Result::ok);
+    let is_model = |path: &PathBuf| path.extension().is_some_and(|end| end == "glb" || end == "gltf");
+    let is_small = |path: &PathBuf| path.metadata().is_ok_and(|file| file.len() < 20_000_000);
+    let paths = files.map(walkdir::DirEntry::into_path).filter(is_model).filter(is_small);
+    let mut found: Vec<Real> = paths.filter_map(|path| read(&path)).collect();
+    found.dedup_by(|a, b| a.maps == b.maps && !a.maps.is_empty());
+    found
+}
+
+#[test]
+#[ignore = "puts every real map on every real model: cargo xtask ci --full runs it"]
+fn maps_of_other_models_are_not_decided_by_faces() {
+    let models = models();
+    if models.is_empty() {
+        writeln!(std::io::stdout(), "skipped: DARBOUX_MODELS names no folder of models").expect("output");
+        return;
+    }
+    let (mut pairs, mut decided, mut inverted) = (0, Vec::new(), 0);
+    for (number, of_map) in models.iter().enumerate() {
+        for on in models.iter().enumerate().filter(|(other, _)| *other != number).map(|(_, on)| on) {
+            for map in of_map.maps.iter().filter(|map| !on.maps.contains(map)) {
+                pairs += 1;
+                let checked = check_map_on_model(map, &on.model, &CheckOptions::default());
+                let Some(directions) = checked.directions else { continue };
+                inverted += usize::from(directions.red == TangentDirection::Left);
+                decided.push(format!("{} on {}: {directions:?}", of_map.name, on.name));
+            }
+        }
+    }
+    writeln!(std::io::stdout(), "{pairs} pairs").expect("output");
+    assert!(decided.is_empty(), "{} of {pairs} decided, {inverted} as inverted: {decided:#?}", decided.len());
+}
