@@ -136,7 +136,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('-v', '-v', [CompletionResultType]::ParameterName, 'Print every primitive and warning; without it, more than 10 files get one line each')
             [CompletionResult]::new('--verbose', '--verbose', [CompletionResultType]::ParameterName, 'Print every primitive and warning; without it, more than 10 files get one line each')
             [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow a glTF''s buffers and images outside its folder')
-            [CompletionResult]::new('--no-maps', '--no-maps', [CompletionResultType]::ParameterName, 'Do not decode normal maps')
+            [CompletionResult]::new('--no-maps', '--no-maps', [CompletionResultType]::ParameterName, 'Do not decode normal maps: they are taken to be right')
             [CompletionResult]::new('--fix', '--fix', [CompletionResultType]::ParameterName, 'Repair what is found, and write the result')
             [CompletionResult]::new('--dry-run', '--dry-run', [CompletionResultType]::ParameterName, 'Print the edits with which --fix would begin, and write no file')
             [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Write a report as JSON to standard output')

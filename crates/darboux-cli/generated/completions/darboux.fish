@@ -280,7 +280,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand check" -l out-dir -d 'Fo
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l resume -d 'Process only the inputs whose output in --out-dir is missing or out of date'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -s v -l verbose -d 'Print every primitive and warning; without it, more than 10 files get one line each'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
-complete -c darboux -n "__fish_darboux_using_subcommand check" -l no-maps -d 'Do not decode normal maps'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l no-maps -d 'Do not decode normal maps: they are taken to be right'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l fix -d 'Repair what is found, and write the result'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l dry-run -d 'Print the edits with which --fix would begin, and write no file'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l json -d 'Write a report as JSON to standard output'
