@@ -18,7 +18,7 @@ struct Real {
 }
 
 fn read(path: &Path) -> Option<Real> {
-    let mut document = Document::open(path, &LoadOptions::default()).ok()?;
+    let document = Document::open(path, &LoadOptions::default()).ok()?;
     let materials = document.appearances().ok()?;
     let textures = materials.iter().filter_map(|material| material.normal_texture.as_ref());
     let mut images: Vec<usize> = textures.filter_map(|texture| texture.image).collect();
@@ -26,7 +26,7 @@ fn read(path: &Path) -> Option<Real> {
     images.dedup();
     let maps =
         images.iter().filter_map(|&image| Some(document.image_bytes(image).ok()?.into_owned())).collect();
-    let model = check_model_of_maps(&mut document).ok()?;
+    let model = check_model_of_maps(&document).ok()?;
     Some(Real { name: path.file_name()?.to_string_lossy().into_owned(), model, maps })
 }
 

@@ -8,7 +8,7 @@ use support::models::{Model, healthy_models};
 const KTX2: &[u8] = b"\xABKTX 20\xBB\r\n\x1A\n and more";
 
 fn check(model: &Model) -> Vec<Finding> {
-    check_document(&mut model.document(), &CheckOptions::default()).expect("a valid document")
+    check_document(&model.document(), &CheckOptions::default()).expect("a valid document")
 }
 
 /// Flipped signs on a flat field of noise, an image in a format that is not read, and a broken one.
@@ -34,7 +34,7 @@ fn flipped_signs_under_a_map_of_unknown_convention_are_left() {
         assert!(!fixed.is_changed && !document.is_changed(), "{fixed:?}");
         // Without a check of maps they are taken to be right.
         let options = FixOptions::default().with_check(CheckOptions::default().with_maps(false));
-        let findings = check_document(&mut document, &options.check).expect("a valid document");
+        let findings = check_document(&document, &options.check).expect("a valid document");
         let fixed = fix_document(&mut document, findings, &options).expect("a repair");
         let flipped = fixed.findings.iter().find(|fixed| fixed.finding.code == Code::TangentSignFlipped);
         assert!(flipped.is_some_and(|flipped| flipped.repaired), "{fixed:?}");
