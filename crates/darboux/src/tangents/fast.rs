@@ -25,7 +25,7 @@
 //!     else if no triangle has UV area: tangent[v] = the default
 //!     else: v is undecided
 //! copy the tangents of vertices to corners, list the faces of undecided ones  exceptions.rs
-//! unless the mode corrects edges:                                             edge_tail.rs, vertex_names.rs
+//! unless the mode corrects edges:                                             edge_tail.rs, tail_names.rs, vertex_names.rs
 //!     make vertices of the reference's last edges undecided where the order of these edges matters
 //! if the angular threshold is below 180 degrees:                              angle_bounds.rs
 //!     make vertices undecided whose tangents or bitangents may differ by the threshold
@@ -119,6 +119,7 @@ mod schedule;
 mod second_pass;
 mod state;
 mod streamed;
+mod tail_names;
 mod triangle_list;
 mod undecided;
 mod vertex_hash;
@@ -268,11 +269,11 @@ impl FastPath {
     fn search_last_edges(&mut self, mesh: &Mesh<'_>, tail: TailCells, out: &mut [[f32; 4]]) {
         if self.bounds_are_of_used_vertices() {
             let bounds = self.weld.bounds;
-            self.undecide_last_edges(mesh, &bounds, tail, true, out);
+            self.undecide_last_edges(mesh, &bounds, &tail, true, out);
         } else {
             let bounds = bounds_of_used_vertices(mesh);
             let tail = TailCells::first(&self.list(mesh), &bounds, self.is_shuffled());
-            self.undecide_last_edges(mesh, &bounds, tail, false, out);
+            self.undecide_last_edges(mesh, &bounds, &tail, false, out);
         }
     }
 

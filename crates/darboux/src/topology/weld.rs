@@ -70,7 +70,7 @@ fn points_by_cell(mesh: &Mesh<'_>, corners: &[u32]) -> CellBuckets {
 pub(crate) struct Cells {
     pub axis: usize,
     low: f32,
-    pub extent: f32,
+    extent: f32,
 }
 
 impl Cells {
@@ -79,11 +79,40 @@ impl Cells {
         Self { axis, low: bounds.min[axis], extent: bounds.max[axis] - bounds.min[axis] }
     }
 
+    /// The length of a cell along the axis.
+    pub fn thickness(&self) -> f32 {
+        self.extent / CELL_COUNT as f32
+    }
+
     /// The cell of a position. Quotients that are NaN or exceed 32 bits go to cell 0, as the reference's cast does on x86-64.
     #[inline]
     pub fn at(&self, position: V3) -> usize {
         let place = CELL_COUNT as f32 * ((position[self.axis] - self.low) / self.extent);
-        if (0.0..2_147_483_648.0).contains(&place) { (place as usize).min(CELL_COUNT - 1) } else { 0 }
+        // The cast turns negative numbers and NaN into 0.
+        if place < 2_147_483_648.0 { (place as u32).min(CELL_COUNT as u32 - 1) as usize } else { 0 }
+    }
+}
+
+/// A set of cells.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CellSet([u64; CELL_COUNT / 64]);
+
+impl Default for CellSet {
+    fn default() -> Self {
+        Self([0; CELL_COUNT / 64])
+    }
+}
+
+impl CellSet {
+    /// Returns true if the set did not have the cell.
+    pub fn insert(&mut self, cell: usize) -> bool {
+        let is_new = !self.contains(cell);
+        self.0[cell / 64] |= 1 << (cell % 64);
+        is_new
+    }
+
+    pub fn contains(&self, cell: usize) -> bool {
+        self.0[cell / 64] >> (cell % 64) & 1 != 0
     }
 }
 
@@ -133,11 +162,6 @@ impl CellBuckets {
             *next += 1;
         }
         self.ends.truncate(CELL_COUNT);
-    }
-
-    /// The number of all points.
-    pub fn point_count(&self) -> usize {
-        self.points.len()
     }
 
     /// The points of each cell that has some, cell after cell.
@@ -193,23 +217,75 @@ pub(crate) fn for_each_final_range(
     if !wanted(points) {
         return;
     }
-    if points.len() < 2 {
-        return visit(points);
+    match cut(points) {
+        Cut::Final => visit(points),
+        Cut::NotFinite => {}
+        Cut::At(axis, middle) => {
+            let below = partition(points, axis, middle);
+            let (below, above) = points.split_at_mut(below);
+            for_each_final_range(below, wanted, visit);
+            for_each_final_range(above, wanted, visit);
+        }
     }
-    let bounds = Bounds::of(points[0].position, points[1..].iter().map(|point| point.position));
-    let axis = bounds.longest_axis();
-    let (low, high) = (bounds.min[axis], bounds.max[axis]);
+}
+
+/// Partitions the points of a cell as far as needed for the final range that holds a position, and returns this range; none of the points
+/// where the reference welds none.
+pub(crate) fn final_range_at(points: &mut [Point], position: V3) -> &[Point] {
+    match cut(points) {
+        Cut::Final => points,
+        Cut::NotFinite => &[],
+        Cut::At(axis, middle) => {
+            let below = partition(points, axis, middle);
+            let (below, above) = points.split_at_mut(below);
+            final_range_at(if position[axis] < middle { below } else { above }, position)
+        }
+    }
+}
+
+/// Where the reference divides some points of a cell.
+enum Cut {
+    /// It does not, and welds them.
+    Final,
+    /// It does not, and welds nothing.
+    NotFinite,
+    /// Along an axis, at a coordinate.
+    At(usize, f32),
+}
+
+/// The longest axis of the box of some points, and the least and largest coordinate along it.
+///
+/// As [`Bounds::of`]. Each point is read as a vector of four lanes, the last of which is not used.
+fn longest_axis(first: &Point, others: &[Point]) -> (usize, f32, f32) {
+    let lanes = |point: &Point| {
+        let [x, y, z] = point.position;
+        [x, y, z, f32::from_bits(point.entry)]
+    };
+    let (mut min, mut max) = (lanes(first), lanes(first));
+    for point in others {
+        let values = lanes(point);
+        min = std::array::from_fn(|lane| if values[lane] < min[lane] { values[lane] } else { min[lane] });
+        max = std::array::from_fn(|lane| if values[lane] > max[lane] { values[lane] } else { max[lane] });
+    }
+    let ([x, y, z, _], [a, b, c, _]) = (min, max);
+    let axis = Bounds { min: [x, y, z], max: [a, b, c] }.longest_axis();
+    (axis, min[axis], max[axis])
+}
+
+fn cut(points: &[Point]) -> Cut {
+    let [first, others @ ..] = points else { return Cut::Final };
+    if others.is_empty() {
+        return Cut::Final;
+    }
+    let (axis, low, high) = longest_axis(first, others);
     let middle = 0.5 * (high + low);
     if !middle.is_finite() {
-        return;
+        Cut::NotFinite
+    } else if middle >= high || middle <= low {
+        Cut::Final
+    } else {
+        Cut::At(axis, middle)
     }
-    if middle >= high || middle <= low {
-        return visit(points);
-    }
-    let below = partition(points, axis, middle);
-    let (below, above) = points.split_at_mut(below);
-    for_each_final_range(below, wanted, visit);
-    for_each_final_range(above, wanted, visit);
 }
 
 struct Welder<'a, 'm> {

@@ -6,85 +6,107 @@
 //!
 //! Which edges are the last ones depends on names, and a vertex is named after one of its corners (see `crate::topology::weld`). Large
 //! names belong to vertices that the last triangles of the list use, the *triangle tail*. The reference finds names cell by cell,
-//! where a cell is one of 2048 slabs of the bounding box; so only cells in which the triangle tail has vertices have to be examined:
+//! where a cell is one of 2048 slabs of the bounding box; so only cells in which the triangle tail has vertices have to be examined, and of
+//! these only the ones with a vertex whose first and last corner do not say enough (`tail_names.rs`):
 //!
 //! ```text
 //! tail = the last few triangles that have edges
 //! repeat
-//!     cells = the cells in which triangles of the tail have vertices
-//!     points = all entries of the triangle list whose vertex lies in one of the cells
-//!     name the vertices of the points, cell by cell, as the reference does
-//!     edges = for each triangle with two or three vertices named after corners of the tail:
-//!             the edge between the two with the largest names
-//!     if there are edges or the tail is the whole list: the last edges are those with the largest lower name
+//!     bounds = the first and the last corner of each vertex of the tail
+//!     best = the highest lower name that an edge certainly has, by the bounds; at least the first corner of the tail
+//!     for the triangles with an edge that can have a higher lower name, in the order of this possibility, while it exceeds best:
+//!         find the names of those of its vertices whose bounds do not decide
+//!         best = max(best, the lower name of the edge between its two vertices with the largest names)
+//!     if an edge was found or the tail is the whole list: the last edges are those with the lower name best
 //!     tail = a tail four times as long
 //! ```
 //!
-//! Proof: an edge whose lower name is a corner of the tail belongs to a triangle in which two vertices are named after corners of the
-//! tail, and the edge that is listed for this triangle has no smaller lower name.
+//! Proof: an edge whose lower name is a corner of the tail joins two vertices with corners in the tail, and the two largest names of its
+//! triangle are no smaller than its own.
 //!
-//! The first points are found in passing: the pass over the triangles sets the flag `IN_TAIL` (`accumulator.rs`) of vertices in the cells
-//! when it finishes them, and lists their corners when it writes these (`exceptions.rs`).
+//! Bounds and names need the entries of the vertices in the tail's cells only. Those of the first tail are found in passing, unless the list
+//! is short: the pass over the triangles sets the flag `IN_TAIL` (`accumulator.rs`) of vertices in the cells when it finishes them, and
+//! lists their corners when it writes these (`exceptions.rs`).
 
-use crate::exec::threads;
 use crate::topology::neighbours::tail_order_matters;
-use crate::topology::weld::{Bounds, CELL_COUNT, CellBuckets, Cells, Point, for_each_final_range};
-use crate::util::radix_sort::{first, pair, second, sort};
+use crate::topology::weld::{Bounds, CellSet, Cells, Point};
+use crate::util::radix_sort::{sort, sort_by_key};
 
+use crate::tangents::fast::tail_names::{TailEntries, TailNames};
 use crate::tangents::fast::triangle_list::{TriangleBuffer, TriangleList};
 
 /// The number of triangles of the first tail, where triangles that share vertices are near each other in the list.
 const FIRST_TAIL: usize = if cfg!(small_limits) { 1 } else { 4 };
 /// The number of triangles of the first tail of a shuffled list, in which fewer triangles have vertices that are named after the end.
 const FIRST_TAIL_SHUFFLED: usize = 4 * FIRST_TAIL;
-/// The same of a short list, in which any tail has vertices in most cells, so that a second one would cost as much as a run.
+/// The same of a short list, where a longer one costs nothing.
 const FIRST_TAIL_SHORT: usize = 8 * FIRST_TAIL;
 /// Lists of fewer triangles are short.
 const SHORT: usize = if cfg!(small_limits) { 4 } else { 1024 };
-/// Cells with fewer points are divided on one thread.
-const POINTS_FOR_THREADS: usize = if cfg!(small_limits) { 4 } else { 4096 };
 
-/// The cells in which a triangle tail has vertices.
+/// Some of the cells of a mesh.
 #[derive(Debug)]
-pub(crate) struct TailCells {
-    /// The first triangle of the tail. It begins a face, so the corners of the tail are those from its first corner on.
-    start: usize,
+struct SomeCells {
     cells: Cells,
-    /// True for each cell that contains a vertex of the tail.
-    is_wanted: [bool; CELL_COUNT],
+    wanted: CellSet,
     /// The lowest and highest coordinate along the cells' axis at which a wanted cell can lie.
     low: f32,
     high: f32,
 }
 
-impl TailCells {
-    /// The cells of the tail that begins with the face of `triangle`. `bounds`: of the positions of all used vertices.
-    fn new(list: &TriangleList<'_>, bounds: &Bounds, triangle: usize) -> Self {
-        let start = list.face_of(triangle as u32).start as usize;
-        let cells = Cells::of(bounds);
-        let mut tail = Self {
-            start,
-            cells,
-            is_wanted: [false; CELL_COUNT],
-            low: f32::INFINITY,
-            high: f32::NEG_INFINITY,
-        };
-        for vertex in (start..list.count()).flat_map(|triangle| list.triangle(triangle as u32)) {
-            let position = list.position(vertex);
-            tail.is_wanted[cells.at(position)] = true;
+impl SomeCells {
+    /// The cells of some positions. `bounds`: of the positions of all used vertices.
+    fn of(bounds: &Bounds, positions: impl Iterator<Item = [f32; 3]>) -> Self {
+        let (cells, wanted) = (Cells::of(bounds), CellSet::default());
+        let mut some = Self { cells, wanted, low: f32::INFINITY, high: f32::NEG_INFINITY };
+        for position in positions {
+            some.wanted.insert(cells.at(position));
             let along = position[cells.axis];
-            (tail.low, tail.high) = (tail.low.min(along), tail.high.max(along));
+            (some.low, some.high) = (some.low.min(along), some.high.max(along));
         }
         // One more cell on either side, and rounding.
-        let margin = 1.01 / CELL_COUNT as f32 * cells.extent + 1e-6 * (tail.low.abs() + tail.high.abs());
-        (tail.low, tail.high) = (tail.low - margin, tail.high + margin);
-        tail
+        let margin = 1.01 * cells.thickness() + 1e-6 * (some.low.abs() + some.high.abs());
+        (some.low, some.high) = (some.low - margin, some.high + margin);
+        some
     }
 
-    /// The cells of the first tail to examine: a few triangles that have edges, and the degenerate triangles between and after them.
+    /// The cell of a position, if it is one of these.
+    #[inline(always)]
+    fn at(&self, position: [f32; 3]) -> Option<u16> {
+        let [x, y, z] = position;
+        let along = match self.cells.axis {
+            0 => x,
+            1 => y,
+            _ => z,
+        };
+        let is_near = (along >= self.low) & (along <= self.high);
+        if is_near { self.wanted_cell(position) } else { None }
+    }
+
+    #[inline(never)]
+    fn wanted_cell(&self, position: [f32; 3]) -> Option<u16> {
+        let cell = self.cells.at(position);
+        self.wanted.contains(cell).then_some(cell as u16)
+    }
+}
+
+/// The first triangle tail, and the cells in which it has vertices.
+#[derive(Debug)]
+pub(crate) struct TailCells {
+    /// The first triangle of the tail. It begins a face, so the corners of the tail are those from its first corner on.
+    start: usize,
+    /// None where the list is short.
+    cells: Option<SomeCells>,
+}
+
+impl TailCells {
+    /// The first tail to examine: a few triangles that have edges, and the degenerate triangles between and after them.
+    ///
+    /// `bounds`: of the positions of all used vertices.
     pub fn first(list: &TriangleList<'_>, bounds: &Bounds, is_shuffled: bool) -> Self {
+        let is_short = is_shuffled && list.count() < SHORT;
         let tail = match is_shuffled {
-            true if list.count() < SHORT => FIRST_TAIL_SHORT,
+            true if is_short => FIRST_TAIL_SHORT,
             true => FIRST_TAIL_SHUFFLED,
             false => FIRST_TAIL,
         };
@@ -92,32 +114,22 @@ impl TailCells {
             let positions = list.triangle(triangle as u32).map(|vertex| list.position(vertex));
             !are_degenerate(positions)
         });
-        Self::new(list, bounds, with_edges.nth(tail - 1).unwrap_or(0))
+        let start = start_of_face(list, with_edges.nth(tail - 1).unwrap_or(0));
+        let vertices = (start..list.count()).flat_map(|triangle| list.triangle(triangle as u32));
+        let cells = || SomeCells::of(bounds, vertices.map(|vertex| list.position(vertex)));
+        Self { start, cells: (!is_short).then(cells) }
     }
 
-    /// True for positions in these cells.
+    /// True for positions in these cells, if the entries of the vertices in them are listed by the pass over the triangles.
     #[inline(always)]
     pub fn contain(&self, position: [f32; 3]) -> bool {
-        let [x, y, z] = position;
-        let along = match self.cells.axis {
-            0 => x,
-            1 => y,
-            _ => z,
-        };
-        (along >= self.low) & (along <= self.high) && self.is_in_wanted_cell(position)
-    }
-
-    #[inline(never)]
-    fn is_in_wanted_cell(&self, position: [f32; 3]) -> bool {
-        self.is_wanted[self.cells.at(position)]
+        self.cells.as_ref().is_some_and(|cells| cells.at(position).is_some())
     }
 }
 
-/// The names of an edge's vertices, the lower first, and the vertices themselves.
-#[derive(Clone, Copy, Debug)]
-struct Edge {
-    names: [u32; 2],
-    vertices: [u32; 2],
+/// The first triangle of the face that contains a triangle.
+fn start_of_face(list: &TriangleList<'_>, triangle: usize) -> usize {
+    list.face_of(triangle as u32).start as usize
 }
 
 /// The last edges.
@@ -130,55 +142,23 @@ pub(crate) struct LastEdges {
     pub vertices: Vec<u32>,
 }
 
-impl LastEdges {
-    /// The edges with the largest lower name among the listed ones. None where their order does not matter.
-    fn of(buffers: &mut TailBuffers) -> Option<Self> {
-        let TailBuffers { edges, upper_names, .. } = buffers;
-        let name = edges.iter().map(|edge| edge.names[0]).max()?;
-        edges.retain(|edge| edge.names[0] == name);
-        upper_names.clear();
-        upper_names.extend(edges.iter().map(|edge| edge.names[1]));
-        sort(upper_names);
-        if !tail_order_matters(upper_names.iter()) {
-            return None;
-        }
-        let mut vertices: Vec<u32> = edges.iter().flat_map(|edge| edge.vertices).collect();
-        sort(&mut vertices);
-        vertices.dedup();
-        Some(Self { name, count: edges.len(), vertices })
-    }
-}
-
-fn sorted<T: PartialOrd>(a: T, b: T) -> (T, T) {
-    if b < a { (b, a) } else { (a, b) }
+/// A triangle with an edge that can be one of the last ones.
+#[derive(Clone, Copy, Debug)]
+struct Contender {
+    vertices: [u32; 3],
+    /// The highest lower name that an edge of it can have.
+    highest: u32,
 }
 
 /// The lists of a search. The memory is reused from mesh to mesh.
 #[derive(Debug, Default)]
 pub(crate) struct TailBuffers {
     points: Vec<Point>,
-    buckets: CellBuckets,
-    /// Those of each thread.
-    naming: Vec<NamingBuffers>,
-    edges: Vec<Edge>,
-    /// The names of the last edges' upper vertices, ascending.
-    upper_names: Vec<u32>,
-}
-
-/// The lists of one thread that names vertices.
-#[derive(Debug, Default)]
-struct NamingBuffers {
-    /// Pairs of an entry and a name: the entries of vertices that are named after a corner of the tail.
-    named: Vec<u64>,
-    /// Pairs of a vertex and the index of its point in one range.
-    of_range: Vec<u64>,
-}
-
-impl TailBuffers {
-    /// Prepares a search on up to `threads` threads, at least one.
-    pub fn set_threads(&mut self, threads: usize) {
-        self.naming.resize_with(threads.max(1), NamingBuffers::default);
-    }
+    cell_of_point: Vec<u16>,
+    cell_of_vertex: Vec<u16>,
+    names: TailNames,
+    contenders: Vec<Contender>,
+    sort_buffer: Vec<Contender>,
 }
 
 /// The mesh in which the last edges are searched.
@@ -194,118 +174,196 @@ pub(crate) struct EdgeTail<'a> {
 impl EdgeTail<'_> {
     /// The last edges. None where their order does not matter.
     ///
-    /// `cells`: those of the first tail. `points`: the entries of all vertices in these cells, ascending; none if they have to be searched.
+    /// `points`: the entries of all vertices in the cells of the first tail, ascending; none if they were not listed.
     pub fn find(
         &self,
-        mut cells: TailCells,
+        first: &TailCells,
         points: Option<&[Point]>,
         buffers: &mut TailBuffers,
     ) -> Option<LastEdges> {
-        match points {
-            Some(points) => self.list_edges_among(&cells, points, buffers),
-            None => self.list_edges(&cells, buffers),
+        let mut start = first.start;
+        let mut name = match (points, &first.cells) {
+            (Some(points), Some(cells)) => self.find_name_among(points, &cells.cells, start, buffers),
+            _ => self.find_name(start, buffers),
+        };
+        while name.is_none() && start > 0 {
+            let tail = 4 * (self.list.count() - start);
+            start = start_of_face(&self.list, self.list.count().saturating_sub(tail));
+            name = self.find_name(start, buffers);
         }
-        while buffers.edges.is_empty() && cells.start > 0 {
-            let tail = 4 * (self.list.count() - cells.start);
-            cells = TailCells::new(&self.list, self.bounds, self.list.count().saturating_sub(tail));
-            self.list_edges(&cells, buffers);
-        }
-        LastEdges::of(buffers)
+        last_edges(name?, buffers)
     }
 
-    /// Lists one edge of every triangle that has two or three vertices named after corners of the tail.
-    fn list_edges(&self, cells: &TailCells, buffers: &mut TailBuffers) {
-        let mut points = std::mem::take(&mut buffers.points);
-        self.list_points(cells, &mut points);
-        self.list_edges_among(cells, &points, buffers);
-        buffers.points = points;
+    /// The largest lower name of an edge, if it is a corner of the tail that begins with the triangle `start`. The edges that have it are
+    /// then those of the contenders whose second largest name it is.
+    fn find_name(&self, start: usize, buffers: &mut TailBuffers) -> Option<u32> {
+        let TailBuffers { points, cell_of_point, cell_of_vertex, names, contenders, sort_buffer } = buffers;
+        names.start(self, start);
+        contenders.clear();
+        let mut buffer = TriangleBuffer::default();
+        for range in self.list.windows() {
+            let triangles = self.list.triangles(range.clone(), &mut buffer);
+            for (&vertices, triangle) in triangles.iter().zip(range.start as u32..) {
+                if names.has_bounded(vertices) {
+                    self.add_contender(vertices, self.list.corners(triangle), names, contenders);
+                }
+            }
+        }
+        let least = sort_contenders(self.list.corner(3 * start as u32), names, contenders, sort_buffer);
+        let cells = self.unclear_cells(least, names, contenders);
+        self.list_points(&cells, points, cell_of_point, cell_of_vertex);
+        let entries =
+            TailEntries { edges: self, cells: &cells.cells, points, cell_of_point: Some(cell_of_point) };
+        largest_lower_name(least, &entries, names, contenders)
     }
 
-    /// As [`Self::list_edges`]. `points`: the entries of all vertices in the cells, ascending.
-    fn list_edges_among(&self, cells: &TailCells, points: &[Point], buffers: &mut TailBuffers) {
-        let TailBuffers { buckets, naming, edges, .. } = buffers;
-        buckets.sort(&cells.cells, points);
-        self.list_named(cells, buckets, naming);
-        edges.clear();
-        let triangles = naming[0].named.chunk_by(|&a, &b| first(a) / 3 == first(b) / 3);
-        edges.extend(triangles.filter_map(|entries| self.highest_edge(entries)));
+    /// As [`Self::find_name`]. `points`: the entries of all vertices in the cells of the tail, ascending.
+    fn find_name_among(
+        &self,
+        points: &[Point],
+        cells: &Cells,
+        start: usize,
+        buffers: &mut TailBuffers,
+    ) -> Option<u32> {
+        let TailBuffers { names, contenders, sort_buffer, .. } = buffers;
+        names.start(self, start);
+        contenders.clear();
+        for entries in points.chunk_by(|a, b| a.entry / 3 == b.entry / 3) {
+            let triangle = entries[0].entry / 3;
+            self.add_contender(self.list.triangle(triangle), self.list.corners(triangle), names, contenders);
+        }
+        let least = sort_contenders(self.list.corner(3 * start as u32), names, contenders, sort_buffer);
+        let entries = TailEntries { edges: self, cells, points, cell_of_point: None };
+        largest_lower_name(least, &entries, names, contenders)
+    }
+
+    /// The cells of the vertices of contenders whose names are not known and may be `least` or more.
+    fn unclear_cells(&self, least: u32, names: &TailNames, contenders: &[Contender]) -> SomeCells {
+        let vertices = contenders.iter().flat_map(|contender| contender.vertices);
+        let unclear = vertices.filter(|&vertex| names.is_unclear(vertex, least));
+        SomeCells::of(self.bounds, unclear.map(|vertex| self.list.position(vertex)))
+    }
+
+    /// Adds the corners of a triangle to the bounds of its vertices, and lists it if two or more have bounds.
+    #[inline(never)]
+    fn add_contender(
+        &self,
+        vertices: [u32; 3],
+        corners: [u32; 3],
+        names: &mut TailNames,
+        contenders: &mut Vec<Contender>,
+    ) {
+        if names.add_to_bounded(vertices, corners) > 1 && !self.is_degenerate(vertices) {
+            contenders.push(Contender { vertices, highest: 0 });
+        }
+    }
+
+    /// Lists the entries of all vertices in some cells, ascending, and their cells. Positions are tested once per vertex: a test per corner
+    /// would wait for memory at each of them.
+    fn list_points(
+        &self,
+        cells: &SomeCells,
+        points: &mut Vec<Point>,
+        cell_of_point: &mut Vec<u16>,
+        cell_of_vertex: &mut Vec<u16>,
+    ) {
+        const NONE: u16 = u16::MAX;
+        let position = |vertex| self.list.position(vertex);
+        cell_of_vertex.clear();
+        cell_of_vertex
+            .extend((0..self.vertex_count as u32).map(|vertex| cells.at(position(vertex)).unwrap_or(NONE)));
+        points.clear();
+        cell_of_point.clear();
+        let mut buffer = TriangleBuffer::default();
+        for range in self.list.windows() {
+            let first = 3 * range.start as u32;
+            for (vertices, entry) in self.list.triangles(range, &mut buffer).iter().zip((first..).step_by(3))
+            {
+                let cells = vertices.map(|vertex| cell_of_vertex[vertex as usize]);
+                // All bits are set where there is none.
+                if cells[0] & cells[1] & cells[2] == NONE {
+                    continue;
+                }
+                for ((&vertex, cell), entry) in vertices.iter().zip(cells).zip(entry..) {
+                    if cell != NONE {
+                        points.push(Point { position: position(vertex), entry });
+                        cell_of_point.push(cell);
+                    }
+                }
+            }
+        }
     }
 
     /// The welded vertex at an entry.
-    fn vertex(&self, entry: u32) -> u32 {
+    pub fn vertex(&self, entry: u32) -> u32 {
         self.list.vertex(self.list.corner(entry))
-    }
-
-    /// Lists the entries of all vertices in the cells, ascending. Positions are tested once per vertex: a test per corner would wait for
-    /// memory at each of them.
-    fn list_points(&self, cells: &TailCells, points: &mut Vec<Point>) {
-        let position = |vertex| self.list.position(vertex);
-        let is_inside: Vec<bool> =
-            (0..self.vertex_count as u32).map(|vertex| cells.contain(position(vertex))).collect();
-        let mut triangle_buffer = TriangleBuffer::default();
-        points.clear();
-        for range in self.list.windows() {
-            let first = 3 * range.start as u32;
-            let triangles = self.list.triangles(range, &mut triangle_buffer);
-            let inside =
-                (first..).zip(triangles.as_flattened()).filter(|(_, vertex)| is_inside[**vertex as usize]);
-            points.extend(inside.map(|(entry, &vertex)| Point { position: position(vertex), entry }));
-        }
-    }
-
-    /// Lists the entries of all vertices that are named after a corner of the tail, ascending, in the first of `naming`.
-    fn list_named(&self, cells: &TailCells, buckets: &mut CellBuckets, naming: &mut [NamingBuffers]) {
-        naming.iter_mut().for_each(|buffers| buffers.named.clear());
-        let threads = if buckets.point_count() < POINTS_FOR_THREADS { 1 } else { naming.len() };
-        threads::for_each_with(&mut naming[..threads], buckets.iter_mut(), |buffers, points| {
-            self.list_named_of_cell(cells, points, buffers);
-        });
-        let (all, others) = naming.split_first_mut().expect("the buffers of a thread");
-        others.iter_mut().for_each(|other| all.named.append(&mut other.named));
-        sort(&mut all.named);
-    }
-
-    fn list_named_of_cell(&self, cells: &TailCells, points: &mut [Point], buffers: &mut NamingBuffers) {
-        let NamingBuffers { named, of_range } = buffers;
-        let in_tail = |entry: u32| entry as usize >= 3 * cells.start;
-        let is_wanted = |points: &[Point]| points.iter().any(|point| in_tail(point.entry));
-        for_each_final_range(points, &is_wanted, &mut |points| {
-            let place = |(at, point): (u32, &Point)| pair(self.vertex(point.entry), at);
-            of_range.clear();
-            of_range.extend((0..).zip(points).map(place));
-            // By vertex, in the order of the range: the corner at the first entry of each vertex is its name.
-            sort(of_range);
-            let entry = |place: u64| points[second(place) as usize].entry;
-            for same in of_range.chunk_by(|&a, &b| first(a) == first(b)) {
-                if in_tail(entry(same[0])) {
-                    let name = self.list.corner(entry(same[0]));
-                    named.extend(same.iter().map(|&place| pair(entry(place), name)));
-                }
-            }
-        });
-    }
-
-    /// The edge between the two vertices of a triangle with the largest names, if at least two are named. `entries`: those of the triangle.
-    fn highest_edge(&self, entries: &[u64]) -> Option<Edge> {
-        let named = |&entry: &u64| (second(entry), self.vertex(first(entry)));
-        let (lower, upper) = match entries {
-            [a, b] => sorted(named(a), named(b)),
-            [a, b, c] => {
-                let (low, high) = sorted(named(a), named(b));
-                let c = named(c);
-                if c < low { (low, high) } else { sorted(c, high) }
-            }
-            _ => return None,
-        };
-        let triangle = self.list.triangle(first(entries[0]) / 3);
-        let edge = Edge { names: [lower.0, upper.0], vertices: [lower.1, upper.1] };
-        (!self.is_degenerate(triangle)).then_some(edge)
     }
 
     /// True for triangles with two equal positions. The reference ignores their edges.
     pub fn is_degenerate(&self, triangle: [u32; 3]) -> bool {
         are_degenerate(triangle.map(|vertex| self.list.position(vertex)))
     }
+}
+
+/// Removes the contenders whose edges cannot have the largest lower name, and sorts the others, the highest first. Returns a lower bound of
+/// the largest lower name, `least` or more.
+fn sort_contenders(
+    mut least: u32,
+    names: &TailNames,
+    contenders: &mut Vec<Contender>,
+    sort_buffer: &mut Vec<Contender>,
+) -> u32 {
+    for contender in &mut *contenders {
+        contender.highest = names.largest(contender.vertices)[0].0;
+        least = least.max(names.least_lower(contender.vertices));
+    }
+    contenders.retain(|contender| contender.highest >= least);
+    sort_by_key(contenders, |contender| (!contender.highest).into(), sort_buffer);
+    least
+}
+
+/// The largest lower name of an edge of the contenders, if it is `best` or more.
+fn largest_lower_name(
+    mut best: u32,
+    entries: &TailEntries<'_>,
+    names: &mut TailNames,
+    contenders: &[Contender],
+) -> Option<u32> {
+    let mut found = None;
+    for &Contender { vertices, highest } in contenders {
+        if highest < best {
+            break;
+        }
+        names.resolve(entries, vertices, best);
+        let [(lower, _), _] = names.largest(vertices);
+        if lower >= best {
+            best = lower;
+            found = Some(lower);
+        }
+    }
+    found
+}
+
+/// The edges whose lower name is `name`, the largest of all. None where their order does not matter.
+fn last_edges(name: u32, TailBuffers { names, contenders, .. }: &TailBuffers) -> Option<LastEdges> {
+    let edges = contenders.iter().map(|contender| names.largest(contender.vertices));
+    let mut lower = None;
+    let mut uppers: Vec<u32> = Vec::new();
+    for [(of_lower, vertex), (_, upper)] in edges {
+        if of_lower == name {
+            lower = Some(vertex);
+            uppers.push(upper);
+        }
+    }
+    sort(&mut uppers);
+    if !tail_order_matters(uppers.iter()) {
+        return None;
+    }
+    let count = uppers.len();
+    uppers.dedup();
+    uppers.extend(lower);
+    sort(&mut uppers);
+    Some(LastEdges { name, count, vertices: uppers })
 }
 
 /// True where two positions of a triangle are equal.

@@ -67,6 +67,6 @@ impl FastPath {
         let mut used = (0..is_used.len()).filter(|&vertex| is_used[vertex]).map(position);
         let bounds = Bounds::of(used.next().unwrap_or_default(), used);
         let cells = TailCells::first(&self.list(mesh), &bounds, true);
-        self.undecide_last_edges(mesh, &bounds, cells, false, out);
+        self.undecide_last_edges(mesh, &bounds, &cells, false, out);
     }
 }

@@ -83,22 +83,21 @@ impl FastPath {
 
     /// Makes the vertices of the reference's last edges undecided, where the order of these edges changes the result.
     ///
-    /// `bounds`: of the positions of all used vertices. `cells`: the first to examine. `is_listed`: `exceptions.in_tail` has the entries
-    /// of all vertices in these cells.
+    /// `bounds`: of the positions of all used vertices. `first`: the first tail to examine. `is_listed`: `exceptions.in_tail` has the entries
+    /// of all vertices in its cells.
     pub fn undecide_last_edges(
         &mut self,
         mesh: &Mesh<'_>,
         bounds: &Bounds,
-        cells: TailCells,
+        first: &TailCells,
         is_listed: bool,
         out: &mut [[f32; 4]],
     ) {
-        self.tail_buffers.set_threads(self.workers.len());
         let Self { weld, split, exceptions, tail_buffers, names, tail_runs, .. } = self;
         let list = triangle_list(mesh, weld, split);
         let tail = EdgeTail { list, vertex_count: weld.count, bounds };
         let points = if is_listed { Some(&exceptions.in_tail[..]) } else { None };
-        if let Some(last) = tail.find(cells, points, tail_buffers) {
+        if let Some(last) = tail.find(first, points, tail_buffers) {
             *tail_runs = names.tail_runs(&tail, &last, weld.count, &exceptions.undecided);
             exceptions.undecide(&list, names.entries_of(&last.vertices), out);
         }

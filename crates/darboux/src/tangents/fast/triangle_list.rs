@@ -104,7 +104,7 @@ impl<'a> TriangleList<'a> {
 
     /// The corner at an entry.
     pub fn corner(&self, entry: u32) -> u32 {
-        self.corners(entry / 3)[entry as usize % 3]
+        if self.is_split() { self.corners(entry / 3)[entry as usize % 3] } else { entry }
     }
 
     /// The triangles of the face that has a corner.
