@@ -12,6 +12,7 @@ mod lengyel;
 mod memory;
 mod meshes;
 mod node;
+mod real;
 mod record;
 mod rounds;
 mod run;
@@ -53,6 +54,9 @@ struct Arguments {
     /// Time all threads against one on meshes of all sizes, instead.
     #[arg(long, conflicts_with_all = ["engines", "check", "instructions", "baseline"])]
     threads: bool,
+    /// Time the primitives of all models below these folders against mikktspace.c and meshoptimizer on one thread, the slowest first, instead.
+    #[arg(long, num_args = 1.., value_name = "FOLDER", conflicts_with_all = ["engines", "meshes", "check", "threads", "instructions", "baseline"])]
+    real: Vec<PathBuf>,
     /// Texels per side of the map of --check.
     #[arg(long, default_value_t = 4096, value_name = "N")]
     map_side: usize,
@@ -105,6 +109,9 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         println!("{}", threads::table(&threads::measure(&arguments.meshes, arguments.quick)?));
         return Ok(());
     }
+    if !arguments.real.is_empty() {
+        return time_real(arguments);
+    }
     let engines = rounds::select(&arguments.engines)?;
     if arguments.instructions {
         return count_instructions(arguments, &engines);
@@ -135,6 +142,17 @@ fn time_check(arguments: &Arguments) -> Result<(), String> {
     );
     if !arguments.quick {
         println!("recorded in {}", record::checks(&rows, arguments.machine.as_deref())?.display());
+    }
+    Ok(())
+}
+
+fn time_real(arguments: &Arguments) -> Result<(), String> {
+    let rows = real::measure(&arguments.real, arguments.quick)?;
+    println!("{}", real::table(&rows));
+    println!("{}", real::summary(&rows));
+    println!("ns/triangle: processor time; x: how many times faster with fresh memory, by medians");
+    if !arguments.quick {
+        println!("recorded in {}", record::real(&rows, arguments.machine.as_deref())?.display());
     }
     Ok(())
 }

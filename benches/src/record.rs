@@ -5,9 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::thread::available_parallelism;
 
+use darboux::internal::paths::PathCounts;
+
 use crate::engines::{MESHOPT, REFERENCE};
 use crate::instructions::{Counts, MESHES};
 use crate::judging;
+use crate::real;
 use crate::rounds::{Row, times_over};
 
 const HEADER: &str = "date,commit,mesh,triangles,engine,version,threads,rounds,cpu_ns_min,cpu_ns_median,wall_ns_min,\
@@ -51,6 +54,18 @@ pub fn checks(rows: &[judging::Row], machine: Option<&str>) -> Result<PathBuf, S
     });
     let header = "date,commit,subject,task,rounds,cpu_ms_min,cpu_ms_median,cpu_ms_max,ratio_min,ratio_median,ratio_max,memory";
     write(machine, &format!("{date}-check.csv"), header, lines)
+}
+
+/// Writes the times of real primitives and returns the file's path.
+pub fn real(rows: &[real::Row], machine: Option<&str>) -> Result<PathBuf, String> {
+    let (date, commit) = (date(), commit());
+    let lines = rows.iter().map(|row| {
+        let times = row.times.map(|time| format!("{time:.2}")).join(",");
+        let PathCounts { first_pass, groups, general } = row.paths;
+        format!("{date},{commit},\"{}\",{},{times},{first_pass},{groups},{general}", row.name, row.triangles)
+    });
+    let header = "date,commit,primitive,triangles,mikktspace_c_ns,meshopt_ns,darboux_ns,darboux_kept_ns,first_pass,groups,general";
+    write(machine, &format!("{date}-real.csv"), header, lines)
 }
 
 fn line(rows: &[Row], row: &Row) -> String {

@@ -4,6 +4,7 @@ pub mod cancel_checks;
 pub mod gpu_plan;
 pub mod gpu_resume;
 pub mod jobs;
+pub mod paths;
 pub mod stage_arrays;
 pub mod vertex_progress;
 pub mod width_limit;
