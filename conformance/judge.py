@@ -11,6 +11,7 @@ import ctypes
 import hashlib
 import json
 import math
+import stat
 import struct
 import sys
 from pathlib import Path
@@ -34,9 +35,11 @@ class Unusable(Exception):
 
 def read_json(path, limit=None):
     try:
-        size = path.stat().st_size
-        if limit is not None and size > limit:
-            raise Unusable(f"{path} has {size:,} bytes, more than the {limit:,} that its case can need.")
+        status = path.stat()
+        if not stat.S_ISREG(status.st_mode):
+            raise Unusable(f"{path} is not a regular file.")
+        if limit is not None and status.st_size > limit:
+            raise Unusable(f"{path} has {status.st_size:,} bytes, more than the {limit:,} that its case can need.")
         return json.loads(path.read_text(encoding="utf-8"), parse_constant=refuse_constant, parse_int=integer)
     except FileNotFoundError:
         raise Unusable(f'{path} is missing; write {{"skipped": "why"}} for a case that you cannot run.') from None

@@ -3,6 +3,7 @@
 import contextlib
 import io
 import json
+import os
 import math
 import subprocess
 import sys
@@ -73,6 +74,14 @@ class Refused(Judged):
         code, _, err = self.judge()
         self.assertEqual((code, err.count("\n")), (2, 1))
         self.assertIn("cube.json is missing", err)
+
+    @unittest.skipUnless(hasattr(os, "mkfifo"), "skipped: named pipes are Unix's")
+    def test_named_pipe(self):
+        self.path("cube").unlink()
+        os.mkfifo(self.path("cube"))
+        code, _, err = self.judge()
+        self.assertEqual((code, err.count("\n")), (2, 1))
+        self.assertIn("cube.json is not a regular file", err)
 
     def test_no_folder(self):
         err = io.StringIO()

@@ -28,7 +28,13 @@ pub struct Staging {
     run: Option<RunId>,
     staged: Vec<Staged>,
     made_folders: Vec<PathBuf>,
-    renamed: Vec<PathBuf>,
+    renamed: Vec<Renamed>,
+}
+
+/// A file that has its name, and what had it before, where that can still be needed.
+struct Renamed {
+    target: PathBuf,
+    replaced: Option<NamedTempFile>,
 }
 
 struct Staged {
@@ -144,7 +150,7 @@ impl Staging {
     ) -> Result<Option<NamedTempFile>, Error> {
         match temporary.persist_noclobber(target) {
             Ok(_) => {
-                self.renamed.push(target.to_owned());
+                self.renamed.push(Renamed { target: target.to_owned(), replaced: None });
                 Ok(None)
             }
             Err(failed) if failed.error.kind() == ErrorKind::AlreadyExists => Ok(Some(failed.file)),
@@ -168,16 +174,26 @@ impl Staging {
         Ok(())
     }
 
-    /// Renames every staged file to its target, in the order of staging. Returns all files written, published ones first.
+    /// Renames every staged file to its target, in the order of staging. Returns all files written, published ones first. Where one cannot
+    /// be renamed, files that were replaced before it come back.
     pub fn commit(mut self) -> Result<Vec<PathBuf>, Error> {
-        for Staged { temporary, target, replace } in std::mem::take(&mut self.staged) {
+        let staged = std::mem::take(&mut self.staged);
+        // Nothing can fail after the only file has its name.
+        let keeps_replaced = staged.len() > 1;
+        for Staged { temporary, target, replace } in staged {
+            let failed = |source| Error::Write { file: target.clone(), source };
+            let replaced = if keeps_replaced && replace {
+                second_name(&target, self.run).map_err(failed)?
+            } else {
+                None
+            };
             let renamed =
                 if replace { temporary.persist(&target) } else { temporary.persist_noclobber(&target) };
-            renamed.map_err(|failed| Error::Write { file: target.clone(), source: failed.error })?;
-            self.renamed.push(target);
+            renamed.map_err(|error| failed(error.error))?;
+            self.renamed.push(Renamed { target, replaced });
         }
         self.made_folders.clear();
-        Ok(std::mem::take(&mut self.renamed))
+        Ok(self.renamed.drain(..).map(|renamed| renamed.target).collect())
     }
 }
 
@@ -185,13 +201,32 @@ impl Drop for Staging {
     fn drop(&mut self) {
         // Folders can be removed once they are empty. Failures to clean up cannot be reported from here.
         self.staged.clear();
-        for file in &self.renamed {
-            let _ = fs::remove_file(file);
+        for Renamed { target, replaced } in self.renamed.drain(..).rev() {
+            let _ = match replaced {
+                Some(replaced) => replaced.persist(target).map(drop).map_err(|failed| failed.error),
+                None => fs::remove_file(target),
+            };
         }
         for folder in self.made_folders.iter().rev() {
             let _ = fs::remove_dir(folder);
         }
     }
+}
+
+/// A temporary file that is a file under a second name, or its copy where the file system has no links. `None` where there is no such file.
+fn second_name(file: &Path, run: Option<RunId>) -> io::Result<Option<NamedTempFile>> {
+    if file.symlink_metadata().is_err() {
+        return Ok(None);
+    }
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let second = temporary_in(folder, run, |path| {
+        match fs::hard_link(file, path) {
+            Err(error) if error.kind() != ErrorKind::AlreadyExists => fs::copy(file, path).map(drop)?,
+            linked => linked?,
+        }
+        File::open(path)
+    })?;
+    Ok(Some(second))
 }
 
 /// The random characters at the end of temporary file names.
@@ -229,12 +264,21 @@ impl FromStr for RunId {
 
 /// A locked temporary file with the permissions of an ordinary new file. Errors do not name it, since users do not know it.
 fn new_temporary(folder: &Path, run: Option<RunId>) -> io::Result<NamedTempFile> {
+    temporary_in(folder, run, |path| File::create_new(path))
+}
+
+/// A locked temporary file. `make` makes it, and fails where the name is taken.
+fn temporary_in(
+    folder: &Path,
+    run: Option<RunId>,
+    mut make: impl FnMut(&Path) -> io::Result<File>,
+) -> io::Result<NamedTempFile> {
     let prefix = run.map_or(PREFIX.into(), RunId::temporary_prefix);
     loop {
         let temporary = tempfile::Builder::new()
             .prefix(&prefix)
             .rand_bytes(RANDOM_CHARACTERS)
-            .make_in(folder, |path| File::create_new(path))?;
+            .make_in(folder, &mut make)?;
         // A file system without locks leaves abandoned files where they are.
         let is_locked = temporary.as_file().lock().is_ok();
         // Another process may have deleted the file as abandoned before it was locked.
@@ -281,6 +325,8 @@ fn remove_abandoned_files(folder: &Path) {
 
 #[cfg(test)]
 mod tests {
+    use std::io::Write;
+
     use super::*;
 
     #[test]
@@ -293,6 +339,36 @@ mod tests {
         let running = new_temporary(folder.path(), Some(RunId(7))).unwrap();
         remove_abandoned_files(folder.path());
         assert!(!abandoned.exists() && other.exists() && running.path().exists());
+    }
+
+    /// The second target is a folder, which no file can replace.
+    #[test]
+    fn replaced_files_come_back_where_a_later_one_cannot_be_renamed() {
+        let folder = tempfile::tempdir().unwrap();
+        let [first, new, last] = ["first.png", "new.png", "last.png"].map(|name| folder.path().join(name));
+        fs::write(&first, "before").unwrap();
+        let mut staging = Staging::new(None);
+        for target in [&first, &new, &last] {
+            staging.stage(target, true, |file| file.write_all(b"after")).unwrap();
+        }
+        fs::create_dir(&last).unwrap();
+        staging.commit().unwrap_err();
+        assert_eq!(fs::read(&first).unwrap(), b"before");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "nothing else is left");
+    }
+
+    #[test]
+    fn all_files_are_replaced_together() {
+        let folder = tempfile::tempdir().unwrap();
+        let targets = ["a.png", "b.png"].map(|name| folder.path().join(name));
+        let mut staging = Staging::new(None);
+        for target in &targets {
+            fs::write(target, "before").unwrap();
+            staging.stage(target, true, |file| file.write_all(b"after")).unwrap();
+        }
+        assert_eq!(staging.commit().unwrap(), targets);
+        assert!(targets.iter().all(|target| fs::read(target).unwrap() == b"after"));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no second name is left");
     }
 
     #[test]
