@@ -159,6 +159,8 @@ pub(crate) struct TailBuffers {
     names: TailNames,
     contenders: Vec<Contender>,
     sort_buffer: Vec<Contender>,
+    /// The upper vertices of the last edges.
+    uppers: Vec<u32>,
 }
 
 /// The mesh in which the last edges are searched.
@@ -197,7 +199,8 @@ impl EdgeTail<'_> {
     /// The largest lower name of an edge, if it is a corner of the tail that begins with the triangle `start`. The edges that have it are
     /// then those of the contenders whose second largest name it is.
     fn find_name(&self, start: usize, buffers: &mut TailBuffers) -> Option<u32> {
-        let TailBuffers { points, cell_of_point, cell_of_vertex, names, contenders, sort_buffer } = buffers;
+        let TailBuffers { points, cell_of_point, cell_of_vertex, names, contenders, sort_buffer, .. } =
+            buffers;
         names.start(self, start);
         contenders.clear();
         let mut buffer = TriangleBuffer::default();
@@ -345,25 +348,27 @@ fn largest_lower_name(
 }
 
 /// The edges whose lower name is `name`, the largest of all. None where their order does not matter.
-fn last_edges(name: u32, TailBuffers { names, contenders, .. }: &TailBuffers) -> Option<LastEdges> {
-    let edges = contenders.iter().map(|contender| names.largest(contender.vertices));
+fn last_edges(name: u32, buffers: &mut TailBuffers) -> Option<LastEdges> {
+    let TailBuffers { names, contenders, uppers, .. } = buffers;
     let mut lower = None;
-    let mut uppers: Vec<u32> = Vec::new();
-    for [(of_lower, vertex), (_, upper)] in edges {
+    uppers.clear();
+    for [(of_lower, vertex), (_, upper)] in
+        contenders.iter().map(|contender| names.largest(contender.vertices))
+    {
         if of_lower == name {
             lower = Some(vertex);
             uppers.push(upper);
         }
     }
-    sort(&mut uppers);
+    sort(uppers);
     if !tail_order_matters(uppers.iter()) {
         return None;
     }
     let count = uppers.len();
     uppers.dedup();
-    uppers.extend(lower);
-    sort(&mut uppers);
-    Some(LastEdges { name, count, vertices: uppers })
+    let mut vertices: Vec<u32> = uppers.iter().copied().chain(lower).collect();
+    sort(&mut vertices);
+    Some(LastEdges { name, count, vertices })
 }
 
 /// True where two positions of a triangle are equal.
