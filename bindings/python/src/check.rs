@@ -72,12 +72,22 @@ pub fn check<'py>(
 }
 
 /// What `check` checks.
-#[derive(FromPyObject)]
 pub enum CheckSource<'py> {
-    #[pyo3(transparent, annotation = "Document")]
     Document(PyRef<'py, Document>),
-    #[pyo3(transparent, annotation = "path-like")]
     Path(PathBuf),
+}
+
+impl<'py> FromPyObject<'_, 'py> for CheckSource<'py> {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(document) = value.cast::<Document>() {
+            return Ok(Self::Document(document.try_borrow()?));
+        }
+        let kind = value.get_type();
+        let refused = |_| PyTypeError::new_err(format!("source is {kind}; give a path or a Document"));
+        value.extract().map(Self::Path).map_err(refused)
+    }
 }
 
 fn check_path(
