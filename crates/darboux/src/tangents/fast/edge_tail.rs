@@ -115,9 +115,7 @@ impl TailCells {
             !are_degenerate(positions)
         });
         let start = start_of_face(list, with_edges.nth(tail - 1).unwrap_or(0));
-        let vertices = (start..list.count()).flat_map(|triangle| list.triangle(triangle as u32));
-        let cells = || SomeCells::of(bounds, vertices.map(|vertex| list.position(vertex)));
-        Self { start, cells: (!is_short).then(cells) }
+        Self { start, cells: (!is_short).then(|| cells_of_tail(list, bounds, start)) }
     }
 
     /// True for positions in these cells, if the entries of the vertices in them are listed by the pass over the triangles.
@@ -125,6 +123,12 @@ impl TailCells {
     pub fn contain(&self, position: [f32; 3]) -> bool {
         self.cells.as_ref().is_some_and(|cells| cells.at(position).is_some())
     }
+}
+
+/// The cells in which the triangles from `start` on have vertices.
+fn cells_of_tail(list: &TriangleList<'_>, bounds: &Bounds, start: usize) -> SomeCells {
+    let vertices = (start..list.count()).flat_map(|triangle| list.triangle(triangle as u32));
+    SomeCells::of(bounds, vertices.map(|vertex| list.position(vertex)))
 }
 
 /// The first triangle of the face that contains a triangle.
@@ -183,15 +187,21 @@ impl EdgeTail<'_> {
         points: Option<&[Point]>,
         buffers: &mut TailBuffers,
     ) -> Option<LastEdges> {
+        let is_short = first.cells.is_none();
         let mut start = first.start;
         let mut name = match (points, &first.cells) {
-            (Some(points), Some(cells)) => self.find_name_among(points, &cells.cells, start, buffers),
-            _ => self.find_name(start, buffers),
+            (Some(points), Some(cells)) => self.find_name_among(points, None, &cells.cells, start, buffers),
+            _ if is_short => self.find_name(start, buffers),
+            _ => self.find_name_in_cells(start, buffers),
         };
         while name.is_none() && start > 0 {
             let tail = 4 * (self.list.count() - start);
             start = start_of_face(&self.list, self.list.count().saturating_sub(tail));
-            name = self.find_name(start, buffers);
+            name = if is_short {
+                self.find_name(start, buffers)
+            } else {
+                self.find_name_in_cells(start, buffers)
+            };
         }
         last_edges(name?, buffers)
     }
@@ -220,10 +230,23 @@ impl EdgeTail<'_> {
         largest_lower_name(least, &entries, names, contenders)
     }
 
-    /// As [`Self::find_name`]. `points`: the entries of all vertices in the cells of the tail, ascending.
+    /// As [`Self::find_name`], for a long list: reads the triangles once, and only the entries in the cells of the tail again.
+    fn find_name_in_cells(&self, start: usize, buffers: &mut TailBuffers) -> Option<u32> {
+        let cells = cells_of_tail(&self.list, self.bounds, start);
+        let mut points = std::mem::take(&mut buffers.points);
+        let mut cell_of_point = std::mem::take(&mut buffers.cell_of_point);
+        self.list_points(&cells, &mut points, &mut cell_of_point, &mut buffers.cell_of_vertex);
+        let name = self.find_name_among(&points, Some(&cell_of_point), &cells.cells, start, buffers);
+        (buffers.points, buffers.cell_of_point) = (points, cell_of_point);
+        name
+    }
+
+    /// As [`Self::find_name`]. `points`: the entries of all vertices in the cells of the tail, ascending. `cell_of_point`: their cells, if
+    /// they are known.
     fn find_name_among(
         &self,
         points: &[Point],
+        cell_of_point: Option<&[u16]>,
         cells: &Cells,
         start: usize,
         buffers: &mut TailBuffers,
@@ -236,7 +259,7 @@ impl EdgeTail<'_> {
             self.add_contender(self.list.triangle(triangle), self.list.corners(triangle), names, contenders);
         }
         let least = sort_contenders(self.list.corner(3 * start as u32), names, contenders, sort_buffer);
-        let entries = TailEntries { edges: self, cells, points, cell_of_point: None };
+        let entries = TailEntries { edges: self, cells, points, cell_of_point };
         largest_lower_name(least, &entries, names, contenders)
     }
 
