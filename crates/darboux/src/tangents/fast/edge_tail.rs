@@ -211,7 +211,7 @@ impl EdgeTail<'_> {
     fn find_name(&self, start: usize, buffers: &mut TailBuffers) -> Option<u32> {
         let TailBuffers { points, cell_of_point, cell_of_vertex, names, contenders, sort_buffer, .. } =
             buffers;
-        names.start(self, start);
+        names.start(&self.list, self.vertex_count, start);
         contenders.clear();
         let mut buffer = TriangleBuffer::default();
         for range in self.list.windows() {
@@ -226,7 +226,7 @@ impl EdgeTail<'_> {
         let cells = self.unclear_cells(least, names, contenders);
         self.list_points(&cells, points, cell_of_point, cell_of_vertex);
         let entries =
-            TailEntries { edges: self, cells: &cells.cells, points, cell_of_point: Some(cell_of_point) };
+            TailEntries { list: self.list, cells: &cells.cells, points, cell_of_point: Some(cell_of_point) };
         largest_lower_name(least, &entries, names, contenders)
     }
 
@@ -252,14 +252,14 @@ impl EdgeTail<'_> {
         buffers: &mut TailBuffers,
     ) -> Option<u32> {
         let TailBuffers { names, contenders, sort_buffer, .. } = buffers;
-        names.start(self, start);
+        names.start(&self.list, self.vertex_count, start);
         contenders.clear();
         for entries in points.chunk_by(|a, b| a.entry / 3 == b.entry / 3) {
             let triangle = entries[0].entry / 3;
             self.add_contender(self.list.triangle(triangle), self.list.corners(triangle), names, contenders);
         }
         let least = sort_contenders(self.list.corner(3 * start as u32), names, contenders, sort_buffer);
-        let entries = TailEntries { edges: self, cells, points, cell_of_point };
+        let entries = TailEntries { list: self.list, cells, points, cell_of_point };
         largest_lower_name(least, &entries, names, contenders)
     }
 
@@ -318,11 +318,6 @@ impl EdgeTail<'_> {
                 }
             }
         }
-    }
-
-    /// The welded vertex at an entry.
-    pub fn vertex(&self, entry: u32) -> u32 {
-        self.list.vertex(self.list.corner(entry))
     }
 
     /// True for triangles with two equal positions. The reference ignores their edges.

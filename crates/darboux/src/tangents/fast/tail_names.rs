@@ -7,7 +7,7 @@
 
 use crate::topology::weld::{CELL_COUNT, Cells, Point, final_range_at, for_each_final_range};
 
-use crate::tangents::fast::edge_tail::EdgeTail;
+use crate::tangents::fast::triangle_list::TriangleList;
 
 /// After so many searches for single vertices, all vertices of a cell are named.
 const SINGLE_SEARCHES: u32 = if cfg!(small_limits) { 1 } else { 16 };
@@ -38,7 +38,7 @@ struct Searched {
 /// All entries of the vertices in some cells.
 #[derive(Clone, Copy)]
 pub(crate) struct TailEntries<'a> {
-    pub edges: &'a EdgeTail<'a>,
+    pub list: TriangleList<'a>,
     pub cells: &'a Cells,
     /// Ascending.
     pub points: &'a [Point],
@@ -75,16 +75,14 @@ impl NameBounds {
 
 impl TailNames {
     /// Forgets all names. Gives bounds to the vertices of the triangles from `start` on; their earlier corners are not yet counted.
-    pub fn start(&mut self, edges: &EdgeTail<'_>, start: usize) {
+    pub fn start(&mut self, list: &TriangleList<'_>, vertex_count: usize, start: usize) {
         self.points.clear();
         self.bounded.drain(..).for_each(|vertex| self.bounds[vertex as usize] = NameBounds::default());
-        if self.bounds.len() < edges.vertex_count {
-            self.bounds = vec![NameBounds::default(); edges.vertex_count];
+        if self.bounds.len() < vertex_count {
+            self.bounds = vec![NameBounds::default(); vertex_count];
         }
-        for corner in
-            (start as u32..edges.list.count() as u32).flat_map(|triangle| edges.list.corners(triangle))
-        {
-            let vertex = edges.list.vertex(corner);
+        for corner in (start as u32..list.count() as u32).flat_map(|triangle| list.corners(triangle)) {
+            let vertex = list.vertex(corner);
             let bounds = &mut self.bounds[vertex as usize];
             if bounds.after_high == 0 {
                 self.bounded.push(vertex);
@@ -150,7 +148,7 @@ impl TailNames {
 
     /// Finds the name of a vertex; after some searches in its cell, the names of all vertices of the cell.
     fn search_cell_of(&mut self, entries: &TailEntries<'_>, vertex: u32) {
-        let position = entries.edges.list.position(vertex);
+        let position = entries.list.position(vertex);
         let cell = entries.cells.at(position);
         if self.points.is_empty() {
             self.sort_into_cells(entries);
@@ -162,15 +160,17 @@ impl TailNames {
         if *count <= SINGLE_SEARCHES {
             let range = final_range_at(points, position);
             let mut entries_of_range = range.iter().map(|point| point.entry);
-            if let Some(first) = entries_of_range.find(|&entry| entries.edges.vertex(entry) == vertex) {
-                bounds[vertex as usize] = NameBounds::exactly(entries.edges.list.corner(first));
+            if let Some(first) =
+                entries_of_range.find(|&entry| entries.list.vertex(entries.list.corner(entry)) == vertex)
+            {
+                bounds[vertex as usize] = NameBounds::exactly(entries.list.corner(first));
             }
             return;
         }
         for_each_final_range(points, &|_| true, &mut |points| {
             // From the last point to the first, so that the corner at the first entry of each vertex remains its name.
-            for corner in points.iter().rev().map(|point| entries.edges.list.corner(point.entry)) {
-                let bounds = &mut bounds[entries.edges.list.vertex(corner) as usize];
+            for corner in points.iter().rev().map(|point| entries.list.corner(point.entry)) {
+                let bounds = &mut bounds[entries.list.vertex(corner) as usize];
                 if bounds.after_high != 0 {
                     *bounds = NameBounds::exactly(corner);
                 }
