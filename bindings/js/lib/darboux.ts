@@ -104,7 +104,7 @@ export function generateFrames(
 
 /**
  * Splits the vertices whose corners need different tangents: one new vertex per distinct pair of old vertex and tangent, all four floats
- * compared as bits. Old vertices keep their numbers, and further vertices follow them.
+ * compared as bits, NaN equal to NaN. Old vertices keep their numbers, and further vertices follow them.
  *
  * @param indices The vertex of each corner.
  * @param tangents 4 per corner, as {@link generateTangents} returns them.

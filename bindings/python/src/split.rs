@@ -13,7 +13,7 @@ use crate::results::named;
 
 /// Split the vertices whose corners need different tangents, into as few vertices as possible.
 ///
-/// One vertex per distinct pair of old vertex and tangent (all four floats compared as bits). Old vertices keep their number, new
+/// One vertex per distinct pair of old vertex and tangent (all four floats compared as bits; NaN equals NaN). Old vertices keep their number, new
 /// ones come after them. Copy all other attributes with the source table: new = old[split.source_of_vertex].
 ///
 /// Parameters

@@ -1,5 +1,5 @@
 // Splits vertices so that every vertex has one tangent. As in the core's split.rs: corners of one vertex whose tangents have the same bits
-// share a vertex.
+// share a vertex, and all NaNs are one value.
 //
 //     claim    inserts every corner into a hash table, as weld.wgsl does; a slot keeps the first corner of each vertex and tangent
 //     find     looks up that first corner, and marks corners that need a new vertex
@@ -30,6 +30,7 @@ struct Split {
 @group(0) @binding(10) var<storage, read_write> tangent_of_vertex: array<u32>;
 
 const ONE: u32 = 0x3f800000u;
+const NAN: u32 = 0x7fc00000u;
 const NO_CORNER: u32 = 0u;
 
 fn thread_index(thread: vec3u, groups: vec3u) -> u32 {
@@ -42,6 +43,12 @@ fn tangent(corner: u32) -> vec4u {
     return vec4u(xy, tangent_of_corner[word + 2u], tangent_of_corner[word + 3u]);
 }
 
+// The words by which tangents are told apart: all NaNs are equal.
+fn distinct_tangent(corner: u32) -> vec4u {
+    let words = tangent(corner);
+    return select(words, vec4u(NAN), (words & vec4u(0x7fffffffu)) > vec4u(0x7f800000u));
+}
+
 fn hash(vertex: u32, tangent: vec4u) -> u32 {
     let products = (tangent ^ (tangent >> vec4u(15u))) * vec4u(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du, 0x27d4eb2fu);
     let sum = vertex * 0x165667b1u + products.x + products.y + products.z + products.w;
@@ -50,7 +57,7 @@ fn hash(vertex: u32, tangent: vec4u) -> u32 {
 }
 
 fn is_same(a: u32, b: u32) -> bool {
-    return old_vertex_of_corner[a] == old_vertex_of_corner[b] && all(tangent(a) == tangent(b));
+    return old_vertex_of_corner[a] == old_vertex_of_corner[b] && all(distinct_tangent(a) == distinct_tangent(b));
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -62,7 +69,7 @@ fn claim(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) 
     let vertex = old_vertex_of_corner[corner];
     atomicMax(&first_of_vertex[vertex], ~corner);
     let mask = arrayLength(&hash_slots) - 1u;
-    var at = hash(vertex, tangent(corner)) & mask;
+    var at = hash(vertex, distinct_tangent(corner)) & mask;
     for (var probe = 0u; probe < MAX_ITERATIONS; probe++) {
         let held = atomicLoad(&hash_slots[at]);
         if held == NO_CORNER {
@@ -87,7 +94,7 @@ fn find(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) g
     }
     let vertex = old_vertex_of_corner[corner];
     let mask = arrayLength(&hash_slots) - 1u;
-    var at = hash(vertex, tangent(corner)) & mask;
+    var at = hash(vertex, distinct_tangent(corner)) & mask;
     for (var probe = 0u; probe < MAX_ITERATIONS; probe++) {
         let held = atomicLoad(&hash_slots[at]);
         if held == NO_CORNER {

@@ -56,7 +56,7 @@ fn meshes_are_split_as_by_the_core() {
 }
 
 #[test]
-fn tangents_are_compared_as_words() {
+fn tangents_are_compared_as_words_and_nans_are_equal() {
     let vertices = [[0.0; 3]; 4];
     let indices: Vec<u32> =
         (0..1200).map(|corner: u32| (corner.wrapping_mul(2_654_435_761) >> 30) % 3).collect();
@@ -69,7 +69,7 @@ fn tangents_are_compared_as_words() {
         other => [other as f32, 0.0, 0.0, 1.0],
     };
     let tangents = CornerTangents::from_per_corner((0..1200).map(tangent).collect());
-    assert_eq!(check(&splitters(), "words", &mesh, &tangents), 3 * 50 - 3);
+    assert_eq!(check(&splitters(), "words", &mesh, &tangents), 3 * 49 - 3);
 }
 
 #[test]

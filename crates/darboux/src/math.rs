@@ -35,6 +35,13 @@ pub(crate) fn length(v: V3) -> f32 {
     dot(v, v).sqrt()
 }
 
+/// The bits by which tangents are told apart. All NaNs have the same, since the sign and payload of a computed NaN depend on the processor
+/// and the compiler.
+#[inline(always)]
+pub(crate) fn distinct_bits<const N: usize>(v: [f32; N]) -> [u32; N] {
+    v.map(|x| if x.is_nan() { f32::NAN.to_bits() } else { x.to_bits() })
+}
+
 /// -1 for a value below zero, +1 for any other, -0 and NaN included.
 #[inline(always)]
 pub(crate) fn sign(x: f32) -> f32 {

@@ -9,6 +9,7 @@ use crate::Mesh;
 use crate::TangentOptions;
 use crate::Tangents;
 use crate::generate_tangents_with;
+use crate::math::distinct_bits;
 use crate::tangents::MethodPlan;
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved (morph targets, skinning).
@@ -137,6 +138,6 @@ impl Plan {
         let planned = self.evaluate_with(mesh, context)?;
         let fresh = generate_tangents_with(mesh, &self.options, context)?.corners;
         let pairs = planned.per_corner().iter().zip(fresh.per_corner());
-        Ok(pairs.filter(|(planned, fresh)| planned.map(f32::to_bits) != fresh.map(f32::to_bits)).count())
+        Ok(pairs.filter(|&(&planned, &fresh)| distinct_bits(planned) != distinct_bits(fresh)).count())
     }
 }

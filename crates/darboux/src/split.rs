@@ -12,6 +12,7 @@ use crate::Error;
 use crate::Indices;
 use crate::Mesh;
 use crate::cancel::Cancel;
+use crate::math::distinct_bits;
 
 /// The vertices of an indexed mesh after splitting. The old vertices come first and keep their numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,8 +37,8 @@ pub struct SplitBuffer {
 
 /// Splits the vertices whose corners have different tangents.
 ///
-/// Each distinct pair of old vertex and tangent (four floats, compared as bits) becomes one vertex. Old vertices keep their numbers; new
-/// ones are appended in the order of their first corners. The index list keeps its length and order. `corners`: one tangent per corner.
+/// Each distinct pair of old vertex and tangent (four floats, compared as bits; NaN equals NaN) becomes one vertex. Old vertices keep their
+/// numbers; new ones are appended in the order of their first corners. The index list keeps its length and order. `corners`: one tangent per corner.
 /// Errors: another number of tangents than corners.
 pub fn split_vertices<'a>(
     mesh: &Mesh<'_>,
@@ -201,7 +202,7 @@ impl Splitter {
                 next => last = next,
             }
         }
-        let key = (old, tangent.map(f32::to_bits));
+        let key = (old, distinct_bits(tangent));
         if let Some(&vertex) = self.overflow.get(&key) {
             return vertex;
         }
@@ -234,8 +235,9 @@ impl Splitter {
     }
 }
 
+/// Whether two tangents have the same bits. All NaNs count as the same.
 fn has_bits(held: &[f32; 4], wanted: &[f32; 4]) -> bool {
-    held.map(f32::to_bits) == wanted.map(f32::to_bits)
+    held.map(f32::to_bits) == wanted.map(f32::to_bits) || distinct_bits(*held) == distinct_bits(*wanted)
 }
 
 #[cfg(test)]
@@ -249,7 +251,7 @@ mod tests {
         let mut held: Vec<Option<[u32; 4]>> = vec![None; vertex_count];
         let mut indices = Vec::new();
         for (&old, tangent) in old.iter().zip(tangents) {
-            let bits = tangent.map(f32::to_bits);
+            let bits = distinct_bits(*tangent);
             let fits = |v: usize| sources[v] == old && held[v].is_none_or(|held| held == bits);
             let found = (0..sources.len()).find(|&v| fits(v)).unwrap_or(sources.len());
             if found == sources.len() {
@@ -266,7 +268,7 @@ mod tests {
     fn vertices_are_those_of_the_naive_search() {
         let vertices = [[0.0; 3]; 4];
         let mesh = |old| Mesh::triangles(&vertices, &vertices, &[[0.0; 2]; 4], Indices::U32(old)).unwrap();
-        // Zeros and NaNs of different bits are different tangents. One vertex has more tangents than the linear search covers.
+        // Zeros of different signs are different tangents, NaNs are not. One vertex has more tangents than the linear search covers.
         let palette = |i: u32| match i % 50 {
             0 => [0.0; 4],
             1 => [-0.0, 0.0, 0.0, 0.0],

@@ -15,6 +15,7 @@ use crate::TangentOptions;
 use crate::generate_tangents_with;
 
 use crate::internal::stage_arrays::{CopySource, CornerCopy, NONE, Stages, Triangles};
+use crate::math::distinct_bits;
 use crate::tangents::mikktspace::derivatives::doubled_area;
 
 /// Flags in the two highest bits of vertex numbers; see darboux-gpu/shaders/plan/triangle.wgsl.
@@ -135,7 +136,7 @@ impl PlanArrays {
     pub fn sum_of_vertex(&self, mesh: &Mesh<'_>) -> Result<Vec<u32>, usize> {
         let mut first = vec![NONE; mesh.vertex_count()];
         let mut has_several = vec![false; mesh.vertex_count()];
-        let bits = |corner: usize| self.base.per_corner()[corner].map(f32::to_bits);
+        let bits = |corner: usize| distinct_bits(self.base.per_corner()[corner]);
         for corner in 0..mesh.corner_count() {
             let vertex = mesh.vertex_of_corner(corner);
             match first[vertex] {

@@ -2,7 +2,7 @@
 
 use crate::Mesh;
 use crate::exec::limits::RunLimits;
-use crate::math::V3;
+use crate::math::{V3, distinct_bits};
 use crate::util::hash_map::InsertionMap;
 
 use crate::tangents::output::Output;
@@ -49,7 +49,7 @@ pub(crate) fn count_non_finite_corners(mesh: &Mesh<'_>) -> usize {
     (0..mesh.corner_count()).filter(|&corner| !finite(mesh.vertex_of_corner(corner))).count()
 }
 
-/// The number of vertices whose corners have different tangents, compared as bits. The time depends on the number of corners only. The
+/// The number of vertices whose corners have different tangents, compared as bits, all NaNs as one value. The time depends on the number of corners only. The
 /// result is unspecified after cancellation.
 pub(crate) fn count_split_vertices<O: Output>(
     mesh: &Mesh<'_>,
@@ -63,7 +63,7 @@ pub(crate) fn count_split_vertices<O: Output>(
             let vertex = mesh.vertex_of_corner(corner);
             let first = first.of(vertex, corner);
             let [ours, theirs] = [corner as u32, *first]
-                .map(|corner| corners[(corner & !SPLIT) as usize].tangent().map(f32::to_bits));
+                .map(|corner| distinct_bits(corners[(corner & !SPLIT) as usize].tangent()));
             if ours != theirs && *first & SPLIT == 0 {
                 *first |= SPLIT;
                 count += 1;

@@ -17,7 +17,7 @@ use std::ops::Range;
 
 use crate::Frame;
 use crate::Mesh;
-use crate::math::normalized_unless_zero;
+use crate::math::{distinct_bits, normalized_unless_zero};
 use crate::tangents::mikktspace::raw_frames::DEFAULT_FRAME;
 use crate::tangents::options::Mode;
 use crate::tangents::repair::is_usable;
@@ -261,7 +261,7 @@ impl Resolution {
 
     pub fn count_split(&self, mesh: &Mesh<'_>, out: &[[f32; 4]]) -> usize {
         let Self { triangles, fans, .. } = self;
-        let bits = |entry: u32| out[triangles.corner(entry) as usize].map(f32::to_bits);
+        let bits = |entry: u32| distinct_bits(out[triangles.corner(entry) as usize]);
         let mut count = 0;
         let mut by_vertex = Vec::new();
         for vertex in (0..triangles.is_undecided.len()).filter(|&vertex| triangles.is_undecided[vertex]) {

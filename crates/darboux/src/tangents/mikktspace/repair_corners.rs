@@ -5,7 +5,7 @@
 //! one vertex with equal raw tangents share one replacement, the first corner's, so that a repair never adds a split.
 
 use crate::Mesh;
-use crate::math::V3;
+use crate::math::distinct_bits;
 use crate::topology::corner_lookup::CornerLookup;
 use crate::topology::triangles::Triangulation;
 use crate::util::hash_map::InsertionMap;
@@ -42,18 +42,13 @@ pub(crate) fn repair_corners(
                 || origin.as_ref().and_then(|origin| in_plane(u_direction(mesh, origin.triangle), normal));
             mean.or_else(own).unwrap_or_else(|| perpendicular(normal)).map(|x| x as f32)
         };
-        let [x, y, z] = bits(frame.tangent);
+        let [x, y, z] = distinct_bits(frame.tangent);
         let key = [welded, x, y, z, (frame.sign > 0.0).into()];
         frame.tangent = *replacements.get_or_insert_with(&key, replacement);
         frame.bitangent = bitangent(normal, frame.tangent, frame.sign);
         frame.magnitude =
             frame.magnitude.map(|magnitude| if magnitude.is_finite() { magnitude } else { 1.0 });
     }
-}
-
-/// Bits for comparison. All NaNs have equal bits.
-fn bits(v: V3) -> [u32; 3] {
-    v.map(|x| if x.is_nan() { f32::NAN.to_bits() } else { x.to_bits() })
 }
 
 /// The direction of dP/du on a triangle, not normalised. Zero or NaN where UVs or positions give none.
