@@ -8,7 +8,7 @@ use darboux::{
     generate_tangents, split_vertices,
 };
 
-use crate::{Case, OwnedMesh, engine};
+use crate::{Case, OwnedMesh, engine, first_difference};
 
 /// Checks all modes on a case and returns the first violation.
 pub fn all_modes(case: &Case) -> Result<(), String> {
@@ -29,9 +29,14 @@ pub fn all_modes(case: &Case) -> Result<(), String> {
         if tangents.report != report {
             return Err(format!("{mode:?}: tangents report {:?}, frames {report:?}", tangents.report));
         }
-        let general = stage_arrays::frames(&mesh.view(), &mikkt).report;
-        if report != general {
-            return Err(format!("{mode:?}: report {report:?}, of all stages {general:?}"));
+        let general = stage_arrays::frames(&mesh.view(), &mikkt);
+        if report != general.report {
+            return Err(format!("{mode:?}: report {report:?}, of all stages {:?}", general.report));
+        }
+        let of_all_stages: Vec<_> = general.corners.into_per_corner().into_iter().map(Some).collect();
+        let of_fast_path: Vec<_> = corners.clone().into_per_corner().into_iter().map(Some).collect();
+        if let Some(difference) = first_difference(&of_all_stages, &of_fast_path) {
+            return Err(format!("{mode:?}, frames of all stages: {difference}"));
         }
         if !same_bits(&tangents.corners, &corners.tangents()) {
             return Err(format!("{mode:?}: tangents and frames differ"));

@@ -75,7 +75,10 @@
 //!
 //! A vertex whose tangent has to be repaired stays undecided, and so does one with too many triangles for pairs. The general path then groups
 //! these vertices anew. Their groups depend on those of other vertices through triangles without UV area and through degenerate triangles
-//! only, so all vertices of such triangles are left to it as well.
+//! only, so the vertices of such triangles that have groups are left to it as well.
+//!
+//! [`Mode::Corrected`] gives all corners of a face one sign. The default of a vertex around which no triangle has UV area has the sign -1, so in this
+//! mode the first pass decides such vertices only where no triangle of the mesh has UV area; otherwise it is run again without deciding them.
 //!
 //! # Where the fast path does not apply
 //!
@@ -165,8 +168,7 @@ impl FastPath {
         limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) -> bool {
-        let decides_flat = options.mode != Mode::Corrected;
-        self.run_stages::<()>(mesh, options, limits, decides_flat, &mut Vec::new(), out).is_some()
+        self.run_stages::<()>(mesh, options, limits, true, &mut Vec::new(), out).is_some()
     }
 
     /// As [`FastPath::run`] for a plan, which adds up the tangent of every decided vertex again: vertices whose triangles have no UV area stay
@@ -190,10 +192,11 @@ impl FastPath {
         out: &mut [[f32; 4]],
     ) -> bool {
         let mut full_frames = std::mem::take(&mut self.full_frames);
-        let applies = self.run_stages(mesh, options, limits, false, full_frames.quantities(), out).is_some();
+        let applies = self.run_stages(mesh, options, limits, true, full_frames.quantities(), out).is_some();
         if applies && self.schedule.is_scattered(&self.windows) && !limits.is_cancelled() {
             full_frames.compute(self.second_pass(mesh, limits));
         }
+        full_frames.set_defaults(&self.flat_vertices);
         self.full_frames = full_frames;
         applies
     }
@@ -226,6 +229,9 @@ impl FastPath {
         find_windows(&list, limits.width, &mut self.workers, &mut self.windows);
         let tail = TailCells::first(&list, &self.weld.bounds, self.is_shuffled());
         self.discover(mesh, (&tail, decides_flat), limits, quantities, out);
+        if options.mode == Mode::Corrected && self.flat_signs_may_change(mesh) && !limits.is_cancelled() {
+            self.discover(mesh, (&tail, false), limits, quantities, out);
+        }
         self.tail_runs.clear();
         // Where no triangle has UV area there are no groups, whatever the order of edges.
         let has_groups = self.flat_triangles < triangle_count(mesh);
@@ -236,6 +242,12 @@ impl FastPath {
             self.apply_threshold(mesh, threshold_cosine, limits, out);
         }
         Some(())
+    }
+
+    /// True where vertices were decided because their triangles have no UV area, and one of these may have a corner of the other sign, which
+    /// [`Mode::Corrected`] unifies: not all triangles are without UV area.
+    fn flat_signs_may_change(&self, mesh: &Mesh<'_>) -> bool {
+        self.flat_triangles < triangle_count(mesh) && !self.flat_vertices.is_empty()
     }
 
     /// True where triangles that share vertices are far apart in the list.
@@ -259,7 +271,11 @@ impl FastPath {
         quantities.clear();
         quantities.resize(self.weld.count, Q::default());
         self.schedule.run(&input, &mut self.workers, quantities, out);
-        self.workers.iter_mut().for_each(|worker| self.exceptions.append(&mut worker.exceptions));
+        self.flat_vertices.clear();
+        for worker in &mut self.workers {
+            self.exceptions.append(&mut worker.exceptions);
+            self.flat_vertices.extend(&worker.findings.flat_vertices);
+        }
         self.exceptions.sort(&list);
         self.flat_triangles = self.workers.iter().map(|worker| worker.block.flat_triangles).sum();
     }

@@ -11,6 +11,7 @@ use crate::tangents::fast::kernel::{BLOCK_SIZE, TriangleBlock};
 use crate::tangents::fast::second_pass::SecondPass;
 use crate::tangents::fast::triangle_list::TriangleList;
 use crate::tangents::fast::vertex_quantity::VertexQuantity;
+use crate::tangents::mikktspace::raw_frames::DEFAULT_FRAME;
 
 /// What the corners of a vertex add up to, and after [`VertexQuantity::finish`] the vertex's own values.
 #[derive(Clone, Copy, Debug, Default)]
@@ -34,6 +35,14 @@ impl FullFrames {
     /// Computes the bitangents and magnitudes of all vertices of a mesh.
     pub fn compute(&mut self, pass: SecondPass<'_>) {
         pass.run(&mut self.0);
+    }
+
+    /// Gives vertices the bitangent and the magnitudes of corners that nothing writes. `vertices`: those whose triangles all have no UV area.
+    pub fn set_defaults(&mut self, vertices: &[u32]) {
+        let Frame { bitangent: [x, y, z], magnitude, .. } = DEFAULT_FRAME;
+        for &vertex in vertices {
+            self.0[vertex as usize] = FrameAccumulator { bitangent: [x, y, z, 0.0], magnitude };
+        }
     }
 
     /// Writes the bitangents and magnitudes of corners, the first of which is corner number `first`. They are unspecified at corners

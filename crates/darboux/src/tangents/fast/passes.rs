@@ -150,6 +150,9 @@ impl<Q: VertexQuantity> Pass for Discover<'_, Q> {
                     findings.note_unused(vertex.position());
                 } else {
                     (tangent, sign) = self.flat_tangent(vertex);
+                    if sign != UNDECIDED {
+                        findings.flat_vertices.push(range.first + i as u32);
+                    }
                 }
             }
             let undecided = if sign == UNDECIDED { flags::IS_UNDECIDED } else { 0 };

@@ -141,20 +141,32 @@ impl Resolution {
         if mode == Mode::Corrected {
             self.leave_mixed_signs(out);
         }
-        let mut pending: Vec<usize> = (0..count).filter(|&vertex| self.is_left[vertex]).collect();
+        self.leave_dependent();
+    }
+
+    /// Leaves the vertices whose groups depend on those around others that are left. Around a vertex that no group has reached there is nothing to
+    /// depend on a triangle without UV area.
+    fn leave_dependent(&mut self) {
+        let has_groups: Vec<bool> = (0..self.is_left.len()).map(|vertex| self.has_groups(vertex)).collect();
+        let mut pending: Vec<usize> = (0..has_groups.len()).filter(|&vertex| self.is_left[vertex]).collect();
         while let Some(vertex) = pending.pop() {
             for &entry in self.fans.entries_of(vertex) {
-                if self.triangles.kind(entry) & (kinds::JOINS_ANY | kinds::DEGENERATE) == 0 {
-                    continue;
-                }
+                let kind = self.triangles.kind(entry);
                 for other in self.triangles.triangles[entry as usize / 3].map(|vertex| vertex as usize) {
-                    if self.triangles.is_undecided[other] && !self.is_left[other] {
+                    let depends = kind & kinds::DEGENERATE != 0
+                        || kind & kinds::JOINS_ANY != 0 && has_groups[vertex] && has_groups[other];
+                    if depends && self.triangles.is_undecided[other] && !self.is_left[other] {
                         self.is_left[other] = true;
                         pending.push(other);
                     }
                 }
             }
         }
+    }
+
+    /// True where a group has reached a corner at a vertex.
+    fn has_groups(&self, vertex: usize) -> bool {
+        self.fans.entries_of(vertex).iter().any(|&entry| self.fans.group_of_entry[entry as usize] != NONE)
     }
 
     /// Leaves the vertices of triangles whose corners have both signs.

@@ -34,6 +34,8 @@ pub(crate) struct FastPath {
     pub exceptions: Exceptions,
     /// The number of triangles without UV area.
     pub flat_triangles: usize,
+    /// The vertices that were decided because their triangles all have no UV area.
+    pub flat_vertices: Vec<u32>,
     pub tail_buffers: TailBuffers,
     pub names: VertexNames,
     /// Runs of the last edges whose order changes the result: the entries where the edges start.

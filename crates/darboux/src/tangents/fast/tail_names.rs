@@ -24,13 +24,16 @@ pub(crate) struct TailNames {
     /// The points in the order of their cells, by entry within a cell, once a cell was searched. Then divided as far as the searches needed;
     /// to divide points again changes nothing.
     points: Vec<Point>,
-    /// What was searched of each cell.
+    /// What was searched of each cell. All values are zero but those of cells with points.
     searched: Vec<Searched>,
+    /// The cells with points, in the order of their points.
+    cells_with_points: Vec<u16>,
 }
 
-/// A cell: the end of its points, and the number of searches.
+/// A cell: the range of its points, and the number of searches.
 #[derive(Clone, Copy, Debug, Default)]
 struct Searched {
+    start: u32,
     end: u32,
     count: u32,
 }
@@ -151,12 +154,11 @@ impl TailNames {
         let position = entries.list.position(vertex);
         let cell = entries.cells.at(position);
         if self.points.is_empty() {
-            self.sort_into_cells(entries);
+            self.group_by_cell(entries);
         }
-        let start = if cell == 0 { 0 } else { self.searched[cell - 1].end };
-        let Searched { end, count } = &mut self.searched[cell];
+        let Searched { start, end, count } = &mut self.searched[cell];
         *count += 1;
-        let (points, bounds) = (&mut self.points[start as usize..*end as usize], &mut self.bounds);
+        let (points, bounds) = (&mut self.points[*start as usize..*end as usize], &mut self.bounds);
         if *count <= SINGLE_SEARCHES {
             let range = final_range_at(points, position);
             let mut entries_of_range = range.iter().map(|point| point.entry);
@@ -178,24 +180,30 @@ impl TailNames {
         });
     }
 
-    /// Sorts the points by their cells, by counting.
-    fn sort_into_cells(&mut self, entries: &TailEntries<'_>) {
+    /// Groups the points by their cells, by counting. The time depends on the number of points alone, not on that of the cells.
+    fn group_by_cell(&mut self, entries: &TailEntries<'_>) {
         let cell_of_point = entries.cell_of_point.unwrap_or_else(|| {
             self.cell_of_point.clear();
             let cells = entries.points.iter().map(|point| entries.cells.at(point.position) as u16);
             self.cell_of_point.extend(cells);
             &self.cell_of_point
         });
-        self.searched.clear();
-        self.searched.resize(CELL_COUNT + 1, Searched::default());
-        // While filling, each end is the next free slot of its cell, and so grows from the cell's start to its end.
+        let used = self.cells_with_points.drain(..).map(usize::from);
+        used.for_each(|cell| self.searched[cell] = Searched::default());
+        self.searched.resize(CELL_COUNT, Searched::default());
         for &cell in cell_of_point {
-            self.searched[usize::from(cell) + 1].end += 1;
+            let end = &mut self.searched[usize::from(cell)].end;
+            if *end == 0 {
+                self.cells_with_points.push(cell);
+            }
+            *end += 1;
         }
-        let mut end = 0;
-        for cell in &mut self.searched {
-            end += cell.end;
-            cell.end = end;
+        // While filling, each end is the next free slot of its cell, and so grows from the cell's start to its end.
+        let mut start = 0;
+        for cell in self.cells_with_points.iter().map(|&cell| usize::from(cell)) {
+            let len = self.searched[cell].end;
+            self.searched[cell] = Searched { start, end: start, count: 0 };
+            start += len;
         }
         self.points.resize(entries.points.len(), Point::default());
         for (&cell, &point) in cell_of_point.iter().zip(entries.points) {

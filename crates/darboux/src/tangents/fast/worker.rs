@@ -50,7 +50,8 @@ impl Worker {
     /// Prepares a pass whose thread reads `vertices`, and finishes those from number `first_own` on.
     pub fn begin(&mut self, vertices: Range<usize>, first_own: usize) {
         (self.first, self.read, self.last_end) = (vertices.start, 0, vertices.end);
-        (self.first_kept, self.findings) = (first_own, Findings::default());
+        self.first_kept = first_own;
+        self.findings.clear();
         self.kept.clear();
         self.pending.clear();
         self.pending_end = 0;
@@ -103,7 +104,7 @@ impl Worker {
 const MIN_ROOM: usize = if cfg!(small_limits) { 4 } else { 4096 };
 
 /// What a thread finds when it finishes vertices.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub(crate) struct Findings {
     /// The number of vertices that no window uses, and which were never read.
     pub unread: usize,
@@ -113,15 +114,24 @@ pub(crate) struct Findings {
     unused_bounds: Option<Bounds>,
     /// True while all tangents with a planned sign need no repair.
     pub all_usable: bool,
+    /// The vertices that were decided because their triangles all have no UV area.
+    pub flat_vertices: Vec<u32>,
 }
 
 impl Default for Findings {
     fn default() -> Self {
-        Self { unread: 0, unused: 0, unused_bounds: None, all_usable: true }
+        Self { unread: 0, unused: 0, unused_bounds: None, all_usable: true, flat_vertices: Vec::new() }
     }
 }
 
 impl Findings {
+    /// Forgets all but the memory.
+    fn clear(&mut self) {
+        let mut flat_vertices = std::mem::take(&mut self.flat_vertices);
+        flat_vertices.clear();
+        *self = Self { flat_vertices, ..Self::default() };
+    }
+
     #[cold]
     pub fn note_unused(&mut self, position: [f32; 3]) {
         let bounds = self.unused_bounds.unwrap_or(Bounds { min: position, max: position });
