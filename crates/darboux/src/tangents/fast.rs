@@ -111,6 +111,7 @@ mod hash_table;
 mod kernel;
 mod pairs;
 mod passes;
+mod planned_groups;
 mod proof;
 mod quads;
 mod replay;
@@ -238,7 +239,7 @@ impl FastPath {
         if has_groups && options.mode != Mode::Corrected && !limits.is_cancelled() {
             self.search_last_edges(mesh, tail, out);
         }
-        if threshold_cosine > -1.0 && !limits.is_cancelled() {
+        if has_groups && threshold_cosine > -1.0 && !limits.is_cancelled() {
             self.apply_threshold(mesh, threshold_cosine, limits, out);
         }
         Some(())
@@ -313,9 +314,10 @@ impl FastPath {
     ) {
         let mut angle_bounds = std::mem::take(&mut self.angle_bounds);
         let mut exceptions = std::mem::take(&mut self.exceptions);
-        let pass = self.second_pass(mesh, limits);
+        let flat_vertices = std::mem::take(&mut self.flat_vertices);
+        let pass = (self.second_pass(mesh, limits), &flat_vertices[..]);
         angle_bounds.undecide_wide_vertices(pass, threshold_cosine, &mut exceptions, out);
-        (self.angle_bounds, self.exceptions) = (angle_bounds, exceptions);
+        (self.angle_bounds, self.exceptions, self.flat_vertices) = (angle_bounds, exceptions, flat_vertices);
     }
 
     /// Writes the bitangents and magnitudes of corners of the mesh of the last run, the first of which is corner number `first`. They are

@@ -10,13 +10,13 @@ use crate::exec::limits::RunLimits;
 use crate::tangents::Method;
 use crate::tangents::MikkTSpaceOptions;
 use crate::tangents::TangentOptions;
-use crate::tangents::fast::{FastPath, FastPlan, triangle_count};
+use crate::tangents::fast::{FastPath, FastPlan};
 use crate::tangents::generate::{Tangents, generate, run};
 use crate::tangents::memory::TangentMemory;
 use crate::tangents::methods::angle_area;
 use crate::tangents::methods::angle_area::group_sums::GroupWeight;
 use crate::tangents::mikktspace::{GroupedMesh, default_frames};
-use crate::tangents::submesh::UndecidedFaces;
+use crate::tangents::submesh::{UndecidedFaces, complete_for_plan};
 
 /// The part of a plan that does not depend on positions and normals.
 #[derive(Debug)]
@@ -31,13 +31,16 @@ pub(crate) enum MethodPlan {
     Nothing,
 }
 
-/// The vertices that the fast path decided, the submesh of the others, and a copy of the mesh's vertices, from which the general path groups the
+/// The vertices that the fast path decided, the groups and the submesh of the others, and a copy of the mesh's vertices, from which the general path groups the
 /// mesh when a moved mesh invalidates the decisions.
 #[derive(Debug)]
 pub(crate) struct FastMethodPlan {
     options: MikkTSpaceOptions,
     fast: FastPlan,
+    /// All faces with corners that the first pass leaves undecided.
     undecided: Option<UndecidedFaces>,
+    /// Those with corners that the groups of `fast` leave undecided.
+    left: Option<UndecidedFaces>,
     base: Vertices,
     stages: OnceLock<GroupedMesh>,
 }
@@ -66,17 +69,21 @@ impl MethodPlan {
             return (Self::Nothing, base);
         }
         let undecided = UndecidedFaces::new(mesh, options, &fast, limits, &base.corners.0);
-        let fast = FastPlan::new(mesh, fast, &base.corners.0);
-        if let Some(part) = &undecided {
-            base.report = part.decide(mesh, limits, &mut base.corners.0);
+        let signs = fast.signs(mesh, &base.corners.0);
+        let left;
+        (base.report, left) = complete_for_plan(mesh, options, &mut fast, limits, &mut base.corners.0);
+        if limits.is_cancelled() {
+            return (Self::Nothing, base);
         }
-        base.report.triangles = triangle_count(mesh);
+        let groups = undecided.is_some().then(|| fast.planned_groups(options.mode));
+        let fast = FastPlan::new(mesh, fast, signs, groups);
         let vertices = Vertices::new(mesh);
         (
             Self::Fast(Box::new(FastMethodPlan {
                 options: *options,
                 fast,
                 undecided,
+                left,
                 base: vertices,
                 stages: OnceLock::new(),
             })),
@@ -127,7 +134,8 @@ impl FastMethodPlan {
         out: &mut [[f32; 4]],
     ) {
         if memory.fast.run_planned(&self.fast, mesh, limits, out) {
-            if let Some(part) = &self.undecided {
+            let groups_suffice = memory.fast.run_planned_groups(&self.fast, mesh, base, limits, out);
+            if let Some(part) = if groups_suffice { &self.left } else { &self.undecided } {
                 part.decide_moved(mesh, base, limits, out);
             }
             return;

@@ -141,9 +141,23 @@ pub(crate) fn complete(
     limits: RunLimits<'_>,
     out: &mut [[f32; 4]],
 ) -> Report {
+    complete_for_plan(mesh, options, fast, limits, out).0
+}
+
+/// As [`complete`], and returns the faces that the groups around their vertices leave undecided. For meshes with undecided faces in which
+/// vertices without UV area are undecided, too.
+pub(crate) fn complete_for_plan(
+    mesh: &Mesh<'_>,
+    options: &MikkTSpaceOptions,
+    fast: &mut FastPath,
+    limits: RunLimits<'_>,
+    out: &mut [[f32; 4]],
+) -> (Report, Option<UndecidedFaces>) {
     let resolved = fast.resolve(mesh, options, limits, out, None);
-    let left = decide(mesh, options, fast, limits, out);
-    whole_report(mesh, fast, out, resolved, left)
+    let faces = UndecidedFaces::new(mesh, options, fast, limits, out);
+    let left = faces.as_ref().map(|faces| faces.decide(mesh, limits, out)).unwrap_or_default();
+    let left = Report { triangles: triangle_count(mesh), ..left };
+    (whole_report(mesh, fast, out, resolved, left), faces)
 }
 
 /// As [`complete`], but lists the undecided corners and their full frames in `out`, ascending, and leaves them undecided in `tangents`.

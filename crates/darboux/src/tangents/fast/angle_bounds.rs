@@ -71,10 +71,10 @@ pub(crate) struct AngleBounds {
 }
 
 impl AngleBounds {
-    /// Makes those vertices undecided whose tangents or bitangents may differ by the threshold.
+    /// Makes those vertices undecided whose tangents or bitangents may differ by the threshold. `flat_vertices`: those without groups, which have none.
     pub fn undecide_wide_vertices(
         &mut self,
-        pass: SecondPass<'_>,
+        (pass, flat_vertices): (SecondPass<'_>, &[u32]),
         threshold_cosine: f32,
         exceptions: &mut Exceptions,
         out: &mut [[f32; 4]],
@@ -83,6 +83,7 @@ impl AngleBounds {
         pass.run(&mut self.bounds);
         self.is_wide.clear();
         self.is_wide.extend(self.bounds.iter().map(|bounds| !bounds.is_within(threshold_cosine)));
+        flat_vertices.iter().for_each(|&vertex| self.is_wide[vertex as usize] = false);
         if self.is_wide.contains(&true) {
             let entries = (0..list.count() as u32)
                 .flat_map(|triangle| (3 * triangle..).zip(list.triangle(triangle)))

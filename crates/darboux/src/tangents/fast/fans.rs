@@ -61,6 +61,10 @@ pub(crate) struct Fans {
     /// The group of each entry, or [`NONE`].
     pub group_of_entry: Vec<u32>,
     pub groups: Vec<Group>,
+    /// The number of groups found around vertices. Those of members that do not all join come after them.
+    pub first_shared: usize,
+    /// The members of the latter: group and entry.
+    pub shared_members: Vec<[u32; 2]>,
     /// What the members of each group add to its frame besides the tangent. Empty where full frames are not wanted.
     pub frame_sums: Vec<FrameTerm>,
     /// The edges between triangles of opposite orientation, both with UV area.
@@ -188,6 +192,7 @@ impl Fans {
 
     fn find_groups(&mut self, mesh: &mut UndecidedTriangles) {
         self.groups.clear();
+        self.shared_members.clear();
         self.group_of_entry.clear();
         self.group_of_entry.resize(3 * mesh.triangles.len(), NONE);
         for seed in 0..3 * mesh.triangles.len() as u32 {
@@ -218,6 +223,7 @@ impl Fans {
                 }
             }
         }
+        self.first_shared = self.groups.len();
     }
 }
 

@@ -135,6 +135,24 @@ impl TriangleBlock {
         self.pack::<false>();
     }
 
+    /// As [`Self::evaluate_terms`], for halves of quads. NaN, too, where a bitangent may not be finite: the reference averages the frames of both halves
+    /// unless they are equal, and NaN is not equal to itself.
+    #[inline(always)]
+    pub fn evaluate_terms_of_quads(&mut self) {
+        self.unpack();
+        self.derivatives();
+        self.angles();
+        self.terms::<true>();
+        self.bitangent_marks();
+        for k in 0..3 {
+            for i in 0..BLOCK_SIZE {
+                let is_exact = self.marks[k][i] & marks::NEEDS_GENERAL_PATH == 0;
+                self.term[k][0][i] = if is_exact { self.term[k][0][i] } else { f32::NAN };
+            }
+        }
+        self.pack::<false>();
+    }
+
     /// Computes derivatives alone from records.
     #[inline(always)]
     pub fn evaluate_derivatives(&mut self) {

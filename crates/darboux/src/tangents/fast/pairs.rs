@@ -85,8 +85,11 @@ impl PairwiseTest {
                         }
                         fans.frame_sums.push(sum);
                     }
+                    let number = fans.groups.len() as u32;
+                    let joined = members.iter().enumerate().filter(|(at, _)| mask >> at & 1 == 1);
+                    fans.shared_members.extend(joined.map(|(_, other)| [number, other.entry]));
                     fans.groups.push(Group { sum, marks, vertex, preserves });
-                    fans.groups.len() as u32 - 1
+                    number
                 }
             };
         }

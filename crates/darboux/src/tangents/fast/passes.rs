@@ -177,6 +177,8 @@ impl<Q> Discover<'_, Q> {
 pub(crate) struct Replay<'a> {
     /// One sign per welded vertex.
     pub signs: &'a [f32],
+    /// True where the triangles are halves of quads.
+    pub has_quads: bool,
 }
 
 impl Pass for Replay<'_> {
@@ -184,7 +186,11 @@ impl Pass for Replay<'_> {
 
     #[inline(always)]
     fn evaluate(self, block: &mut TriangleBlock, _count: usize) {
-        block.evaluate_terms();
+        if self.has_quads {
+            block.evaluate_terms_of_quads();
+        } else {
+            block.evaluate_terms();
+        }
     }
 
     #[inline(always)]

@@ -7,12 +7,14 @@ use crate::exec::simd::{Task, Width};
 use crate::exec::threads::{self, split_range};
 use crate::exec::windows::{WINDOW, Window};
 use crate::tangents::fast::passes::{PassInput, Replay};
+use crate::tangents::fast::planned_groups::PlannedGroups;
 use crate::tangents::fast::proof::UNDECIDED;
 use crate::tangents::fast::quads::{FaceSplit, MIN_AREA, triangle_count};
 use crate::tangents::fast::state::{FastPath, triangle_list};
 use crate::tangents::fast::triangle_list::{TriangleList, WeldMap};
 use crate::tangents::fast::vertex_record::{VertexRecord, VertexSlices, position_of, record_of};
 use crate::tangents::fast::worker::Worker;
+use crate::tangents::options::Mode;
 
 /// What a plan keeps of a run.
 #[derive(Debug)]
@@ -24,6 +26,8 @@ pub(crate) struct FastPlan {
     windows: Vec<Window>,
     /// The sign of each welded vertex; [`UNDECIDED`] where other stages compute the tangent.
     signs: Vec<f32>,
+    /// The groups around undecided vertices; `None` where there are none.
+    pub groups: Option<PlannedGroups>,
 }
 
 /// A [`WeldMap`] without the vertices' values.
@@ -76,16 +80,18 @@ impl PlannedWeld {
 }
 
 impl FastPlan {
-    /// Keeps the results of the last run of `fast`, whose mesh and tangents are `mesh` and `tangents`.
-    pub fn new(mesh: &Mesh<'_>, fast: FastPath, tangents: &[[f32; 4]]) -> Self {
+    /// Keeps the results of the last run of `fast`, whose mesh is `mesh`. `signs`: those of that run, by [`FastPath::signs`]. `groups`: those that
+    /// were found after it.
+    pub fn new(mesh: &Mesh<'_>, fast: FastPath, signs: Vec<f32>, groups: Option<PlannedGroups>) -> Self {
         let FastPath { weld, windows, split, .. } = fast;
         let list = triangle_list(mesh, &weld, &split);
-        let mut signs = vec![UNDECIDED; weld.count];
-        for (corner, tangent) in (0..).zip(tangents) {
-            signs[list.vertex(corner) as usize] = tangent[3];
-        }
         let (weld, largest_coordinate) = (PlannedWeld::new(list.weld), largest_coordinate(&list));
-        Self { weld, split, largest_coordinate, windows, signs }
+        Self { weld, split, largest_coordinate, windows, signs, groups }
+    }
+
+    /// The triangles of a mesh whose vertices have moved. `records`: those of the welded vertices, where corners are welded.
+    pub fn list<'a>(&'a self, mesh: &'a Mesh<'a>, records: &'a [VertexRecord]) -> TriangleList<'a> {
+        TriangleList { mesh, weld: self.weld.map(records), split: &self.split }
     }
 }
 
@@ -104,6 +110,16 @@ fn largest_coordinate(list: &TriangleList<'_>) -> f32 {
 }
 
 impl FastPath {
+    /// The sign of each welded vertex of the last run, [`UNDECIDED`] where it decided none. `tangents`: those of that run.
+    pub fn signs(&self, mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Vec<f32> {
+        let list = self.list(mesh);
+        let mut signs = vec![UNDECIDED; self.weld.count];
+        for (corner, tangent) in (0..).zip(tangents) {
+            signs[list.vertex(corner) as usize] = tangent[3];
+        }
+        signs
+    }
+
     /// Writes the tangents of the vertices that a plan has decided, for a mesh whose vertices have moved. Returns false where the plan
     /// does not apply: welded vertices have moved apart, tangents need repair, coordinates are too large.
     pub fn run_planned(
@@ -117,12 +133,32 @@ impl FastPath {
         self.workers.resize_with(threads, Worker::default);
         let applies = self.applies(plan, mesh, limits);
         if applies {
-            let list = TriangleList { mesh, weld: plan.weld.map(&self.records), split: &plan.split };
-            let pass = Replay { signs: &plan.signs };
+            let list = plan.list(mesh, &self.records);
+            let pass = Replay { signs: &plan.signs, has_quads: list.is_split() };
             let input = PassInput { list, windows: &plan.windows, pass, limits };
             self.schedule.run(&input, &mut self.workers, &mut vec![(); plan.signs.len()], out);
         }
         applies && self.workers.iter().all(|worker| worker.findings.all_usable)
+    }
+
+    /// The groups of the last resolution, whose mode was `mode`, for a plan.
+    pub fn planned_groups(&self, mode: Mode) -> PlannedGroups {
+        PlannedGroups::new(&self.resolution, mode)
+    }
+
+    /// Writes the tangents of a plan's groups after [`FastPath::run_planned`], with the signs of `base`. Returns false where the groups do not
+    /// suffice: tangents need repair, derivatives are too small.
+    pub fn run_planned_groups(
+        &mut self,
+        plan: &FastPlan,
+        mesh: &Mesh<'_>,
+        base: &[[f32; 4]],
+        limits: RunLimits<'_>,
+        out: &mut [[f32; 4]],
+    ) -> bool {
+        let Some(groups) = &plan.groups else { return true };
+        let Self { planned_sums: sums, workers, records, .. } = self;
+        groups.write(&plan.list(mesh, records), (limits.width, &mut workers[0].block), base, sums, out)
     }
 
     /// True when welded vertices are still equal, and no coordinate is too large. Reads the records of vertices welded from corners.

@@ -113,6 +113,11 @@ impl Resolution {
         }
     }
 
+    /// The undecided vertices that are not left.
+    pub fn decided_vertices(&self) -> impl Iterator<Item = usize> {
+        (0..self.is_left.len()).filter(|&vertex| self.triangles.is_undecided[vertex] && !self.is_left[vertex])
+    }
+
     /// True for a face without a vertex that is left. `face`: its triangles.
     pub fn is_complete(&self, face: Range<usize>) -> bool {
         !self.triangles.triangles[face].as_flattened().iter().any(|&vertex| self.is_left[vertex as usize])
@@ -200,7 +205,7 @@ impl Resolution {
     ///
     /// A corner that no group has reached keeps the default; its group is a number above all. One of a degenerate triangle has what the first
     /// other corner at the vertex has.
-    fn groups_at(&self, vertex: usize) -> impl Iterator<Item = (u32, usize, bool)> {
+    pub fn groups_at(&self, vertex: usize) -> impl Iterator<Item = (u32, usize, bool)> {
         let Self { triangles, fans, is_usable, .. } = self;
         let entries = fans.entries_of(vertex);
         let is_degenerate = |entry: u32| triangles.kind(entry) & kinds::DEGENERATE != 0;
@@ -216,7 +221,7 @@ impl Resolution {
     /// Writes the tangents of all vertices that are not left. Returns the counts of all triangles, and those of corners of triangles without a
     /// vertex that is left.
     pub fn write(&self, out: &mut [[f32; 4]]) -> Report {
-        let Self { triangles, fans, is_left, .. } = self;
+        let Self { triangles, fans, .. } = self;
         let count = |kind: u8| triangles.kinds.iter().filter(|&&other| other & kind != 0).count();
         let mut report = Report {
             degenerate_triangles: count(kinds::DEGENERATE),
@@ -224,8 +229,7 @@ impl Resolution {
             mirrored_edges: fans.mirrored_edges,
             ..Report::default()
         };
-        for vertex in (0..is_left.len()).filter(|&vertex| triangles.is_undecided[vertex] && !is_left[vertex])
-        {
+        for vertex in self.decided_vertices() {
             for (entry, tangent, is_usable) in self.values_at(vertex) {
                 out[triangles.corner(entry) as usize] = tangent;
                 report.repaired_corners += usize::from(!is_usable && self.is_counted(entry));
@@ -256,9 +260,8 @@ impl Resolution {
 
     /// Lists the corners of all vertices that are not left, with their full frames.
     pub fn list_frames(&self, frames: &mut Vec<(u32, Frame)>) {
-        let Self { triangles, fans, is_left, tangents, .. } = self;
-        for vertex in (0..is_left.len()).filter(|&vertex| triangles.is_undecided[vertex] && !is_left[vertex])
-        {
+        let Self { triangles, fans, tangents, .. } = self;
+        for vertex in self.decided_vertices() {
             for (entry, group, _) in self.groups_at(vertex).filter(|(entry, ..)| !self.is_repeated(*entry)) {
                 let frame = match (tangents.get(group), fans.frame_sums.get(group)) {
                     (Some(&tangent), Some(&[x, y, z, weight, s, t])) => {
@@ -318,6 +321,6 @@ fn has_both_signs(mut signs: impl Iterator<Item = f32>) -> bool {
 }
 
 /// As [`is_usable`], which is asked only near its limits.
-fn needs_no_repair(tangent: [f32; 3], normal: [f32; 3]) -> bool {
+pub(crate) fn needs_no_repair(tangent: [f32; 3], normal: [f32; 3]) -> bool {
     is_clearly_usable(tangent, normal) || is_usable(tangent, normal)
 }

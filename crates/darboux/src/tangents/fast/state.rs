@@ -12,6 +12,7 @@ use crate::tangents::fast::angle_bounds::AngleBounds;
 use crate::tangents::fast::edge_tail::{EdgeTail, TailBuffers, TailCells};
 use crate::tangents::fast::exceptions::Exceptions;
 use crate::tangents::fast::full_frames::FullFrames;
+use crate::tangents::fast::planned_groups::PlannedSums;
 use crate::tangents::fast::quads::FaceSplit;
 use crate::tangents::fast::resolve::Resolution;
 use crate::tangents::fast::schedule::Schedule;
@@ -43,6 +44,7 @@ pub(crate) struct FastPath {
     pub full_frames: FullFrames,
     pub resolution: Resolution,
     pub angle_bounds: AngleBounds,
+    pub planned_sums: PlannedSums,
     /// The record of each welded vertex, where a plan welds corners.
     pub records: Vec<VertexRecord>,
 }

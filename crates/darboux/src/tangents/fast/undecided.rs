@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use crate::exec::limits::RunLimits;
-use crate::exec::simd::Task;
+use crate::exec::simd::{Task, Width};
 use crate::math::dot;
 use crate::tangents::mikktspace::derivatives::{derivative, doubled_area};
 use crate::topology::triangles::NONE;
@@ -63,7 +63,7 @@ pub(crate) struct UndecidedTriangles {
     /// is one that the general path handles.
     pub inexact: Vec<u32>,
     /// The welded vertex of each vertex.
-    welded: Vec<u32>,
+    pub welded: Vec<u32>,
     /// The number of each welded vertex here, or [`NONE`].
     number_of_welded: Vec<u32>,
 }
@@ -84,13 +84,8 @@ impl UndecidedTriangles {
         self.terms.resize(self.triangles.len(), [[0.0; 4]; 3]);
         self.frame_terms.clear();
         self.frame_terms.resize(if full_frames { self.triangles.len() } else { 0 }, [[0.0; 6]; 3]);
-        limits.width.run(EvaluateTriangles {
-            triangles: &self.triangles,
-            records: &self.records,
-            block,
-            terms: &mut self.terms,
-            frame_terms: &mut self.frame_terms,
-        });
+        let mesh = (&self.triangles[..], &self.records[..]);
+        evaluate(limits.width, mesh, block, &mut self.terms, &mut self.frame_terms);
         self.find_kinds();
         self.unify_quads();
     }
@@ -235,7 +230,7 @@ fn uv_of([.., u, v]: &VertexRecord) -> [f32; 2] {
 
 /// The kind of a triangle that the kernel does not vouch for, and whether its terms are exact all the same.
 #[cold]
-fn doubtful_kind(records: [VertexRecord; 3]) -> (u8, bool) {
+pub(crate) fn doubtful_kind(records: [VertexRecord; 3]) -> (u8, bool) {
     let positions = records.map(|[x, y, z, ..]| [x, y, z]);
     if are_degenerate(positions) {
         return (kinds::DEGENERATE, true);
@@ -250,7 +245,18 @@ fn doubtful_kind(records: [VertexRecord; 3]) -> (u8, bool) {
     (orientation, is_unit(derivative.s) && is_unit(derivative.t))
 }
 
-/// Computes what the corners of triangles add to their groups.
+/// Computes what the corners of triangles add to their groups. `frame_terms`: as many as triangles, or none.
+pub(crate) fn evaluate(
+    width: Width,
+    (triangles, records): (&[[u32; 3]], &[VertexRecord]),
+    block: &mut TriangleBlock,
+    terms: &mut [[MarkedTerm; 3]],
+    frame_terms: &mut [[FrameTerm; 3]],
+) {
+    width.run(EvaluateTriangles { triangles, records, block, terms, frame_terms });
+}
+
+/// See [`evaluate`].
 struct EvaluateTriangles<'a> {
     triangles: &'a [[u32; 3]],
     records: &'a [VertexRecord],
