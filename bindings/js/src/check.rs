@@ -1,7 +1,7 @@
 //! `darboux/check`: what is wrong with models and normal maps, and how tangents were computed.
 
 use darboux::{
-    BitangentDirection, Channel, Choice, MapJudgement, MapTiles, Method, Mode, NormalMapJudge, RecipeMatch,
+    BitangentDirection, Channel, Choice, MapJudgement, MapTiles, Method, NormalMapJudge, RecipeMatch,
     RecipeRounding, RecipeWriting, TexelLayout,
 };
 use darboux_check::{CheckOptions, Finding, FixOptions, check_document, check_map, fix_document};
@@ -163,7 +163,8 @@ fn judge<C: Channel>(texels: &[C], size: [usize; 2], channels: usize) -> Option<
     match channels {
         2 => judge_rows(texels.as_chunks().0, size, TexelLayout::RG),
         3 => judge_rows(texels.as_chunks().0, size, TexelLayout::RGB),
-        _ => judge_rows(texels.as_chunks().0, size, TexelLayout::RGBA),
+        4 => judge_rows(texels.as_chunks().0, size, TexelLayout::RGBA),
+        _ => panic!("{channels} is not a number of channels"),
     }
 }
 
@@ -236,11 +237,7 @@ pub extern "C" fn recognise_recipe() -> *const u8 {
 impl From<&RecipeMatch> for Recognised {
     fn from(found: &RecipeMatch) -> Self {
         let mode = match found.recipe.method {
-            Method::MikkTSpace(options) => Some(match options.mode {
-                Mode::Reference => "reference",
-                Mode::Corrected => "corrected",
-                _ => "repaired",
-            }),
+            Method::MikkTSpace(options) => Some(options.mode.name()),
             _ => None,
         };
         Self {

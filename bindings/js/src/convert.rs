@@ -83,7 +83,8 @@ fn convert_channels<C: Channel>(change: &Conversion, texels: &mut [C], channels:
     match channels {
         2 => change.texels(TexelLayout::RG, texels.as_chunks_mut().0),
         3 => change.texels(TexelLayout::RGB, texels.as_chunks_mut().0),
-        _ => change.texels(TexelLayout::RGBA, texels.as_chunks_mut().0),
+        4 => change.texels(TexelLayout::RGBA, texels.as_chunks_mut().0),
+        _ => panic!("{channels} is not a number of channels"),
     }
 }
 

@@ -16,11 +16,12 @@ pub extern "C" fn encode_tangents(encoding: u32) -> *const u8 {
             1 => tangents.flat_map(|t| encode::tangent_to_snorm10(t).to_le_bytes()).collect(),
             2 => tangents.flat_map(encode::tangent_to_snorm16).flat_map(i16::to_le_bytes).collect(),
             3 => tangents.flat_map(encode::tangent_to_octahedral).flat_map(i16::to_le_bytes).collect(),
-            _ => rows(&arena.vertices.normals)
+            4 => rows(&arena.vertices.normals)
                 .iter()
                 .zip(tangents)
                 .flat_map(|(&normal, t)| encode::tangent_to_diamond(normal, t).to_le_bytes())
                 .collect(),
+            unknown => unknown_encoding(unknown),
         };
         arena.extras.encoded_bytes.as_ptr()
     })
@@ -39,15 +40,21 @@ pub extern "C" fn decode_tangents(encoding: u32) -> *const f32 {
                 .collect(),
             2 => in_rows(words()).map(encode::tangent_from_snorm16).collect(),
             3 => in_rows(words()).map(encode::tangent_from_octahedral).collect(),
-            _ => rows(&arena.vertices.normals)
+            4 => rows(&arena.vertices.normals)
                 .iter()
                 .zip(words())
                 .map(|(&normal, code)| encode::tangent_from_diamond(normal, code as u16))
                 .collect(),
+            unknown => unknown_encoding(unknown),
         };
         arena.extras.floats = tangents.into_flattened();
         arena.extras.floats.as_ptr()
     })
+}
+
+/// Ends a call with a code beyond the list, which JavaScript never passes.
+fn unknown_encoding(code: u32) -> ! {
+    panic!("{code} is not the code of an encoding")
 }
 
 /// Groups numbers into rows of `N`.

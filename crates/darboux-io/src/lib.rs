@@ -24,6 +24,7 @@
 //! ```
 
 mod error;
+mod files;
 pub mod gltf;
 pub mod image;
 mod load_options;
@@ -33,6 +34,7 @@ mod paths;
 mod staging;
 
 pub use error::Error;
+pub use files::Files;
 pub use load_options::{LoadOptions, OptionNames};
 pub use memory_limit::MemoryLimit;
 pub use paths::{FileKind, resolve_input};

@@ -2,10 +2,12 @@
 
 use std::borrow::Cow;
 use std::fs;
+use std::io;
 use std::path::Path;
+use std::sync::Arc;
 
 use darboux_io::gltf::{ComponentType, Document, ElementType, Elements, IndexList, NewAccessor, Target};
-use darboux_io::{Error, LoadOptions, SaveOptions};
+use darboux_io::{Error, Files, LoadOptions, SaveOptions};
 use serde_json::{Value, json};
 
 /// Odd but valid spelling and layout, members that nothing here knows, and a buffer with one triangle: positions, then indices.
@@ -413,4 +415,57 @@ fn several_buffers_are_merged_and_keep_their_members() {
     let expected = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":7},{"byteLength":2,"uri":"https://example.org/x.bin"},{"byteLength":1,"uri":"data:application/octet-stream;base64,Yw==","extras":7}],"bufferViews":[{"buffer":0,"byteLength":1},{"buffer":1,"byteLength":2},{"buffer":2,"byteLength":1},{"buffer":0,"byteOffset":5,"byteLength":2,"extensions":{"X":{"buffer":0,"byteOffset":4},"Y":{"buffer":[3]}}}]}"#;
     assert_eq!(json_of(&written), expected);
     assert_eq!(&written[written.len() - 8..], b"a\0\0\0def\0");
+}
+
+/// Files in memory.
+#[derive(Debug)]
+struct Given(Vec<(&'static str, Vec<u8>)>);
+
+impl Files for Given {
+    fn has(&self, name: &str) -> bool {
+        self.0.iter().any(|(known, _)| *known == name)
+    }
+
+    fn read(&self, name: &str) -> io::Result<Vec<u8>> {
+        let file = self.0.iter().find(|(known, _)| *known == name);
+        file.map(|(_, bytes)| bytes.clone()).ok_or_else(|| io::ErrorKind::NotFound.into())
+    }
+}
+
+#[test]
+fn given_files_are_read_as_those_of_a_folder() {
+    let png = b"\x89PNG\r\n\x1a\n".to_vec();
+    let json = ODD.replace("URI", "../data/a%20b.bin").replacen('{', r#"{"images": [{"uri": "c.png"}],"#, 1);
+    let folder = tempfile::tempdir().unwrap();
+    for (name, bytes) in
+        [("models/m.gltf", json.as_bytes()), ("data/a b.bin", &triangle()), ("models/c.png", &png)]
+    {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
+    }
+    let outside = LoadOptions::default().with_allow_outside(true);
+    let stored = Document::open(&folder.path().join("models/m.gltf"), &outside).unwrap();
+    let open = |files| {
+        let name = "models/m.gltf";
+        Document::from_files(name, json.clone().into_bytes(), Arc::new(Given(files)), &LoadOptions::default())
+    };
+    let given = open(vec![("data/a b.bin", triangle()), ("models/c.png", png)]).unwrap();
+    assert_eq!(given.to_glb().unwrap(), stored.to_glb().unwrap());
+    assert_eq!((given.source_files(), given.warnings().len()), (Vec::new(), 0));
+
+    // Saving copies them; what is there already is used again, and other content is kept.
+    let output = tempfile::tempdir().unwrap();
+    let saved = |name: &str| given.save(&output.path().join(name), &SaveOptions::default()).unwrap().len();
+    assert_eq!((saved("m.gltf"), saved("n.gltf")), (3, 1));
+    let again = Document::open(&output.path().join("n.gltf"), &LoadOptions::default()).unwrap();
+    assert_eq!(again.image_bytes(0).unwrap(), given.image_bytes(0).unwrap());
+
+    // Without its image a model opens with a warning, and without its buffer it does not.
+    assert_eq!(open(vec![("data/a b.bin", triangle())]).unwrap().warnings().len(), 1);
+    let sentence = open(Vec::new()).unwrap_err().to_string();
+    assert!(
+        sentence.ends_with("the file \"../data/a%20b.bin\" is not among the files; give the whole folder"),
+        "{sentence}"
+    );
 }

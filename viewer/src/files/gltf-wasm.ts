@@ -1,6 +1,7 @@
 // Reads and writes glTF with the same code as the command, compiled to WebAssembly (viewer/wasm). Runs in the worker.
 
 import address from './darboux_viewer.wasm?url';
+import type { FileBundle } from './file-bundle';
 
 interface Exports extends WebAssembly.Exports {
   memory: WebAssembly.Memory;
@@ -38,9 +39,15 @@ export interface Summary {
 
 let module: Promise<WebAssembly.Module> | undefined;
 
-/** Decodes compressed data, and checks the data that tangents depend on. Errors: one sentence that names the place and the fault. */
-export function check(name: string, bytes: Uint8Array): Promise<Outcome<Primitive[]>> {
-  return run('check', name, bytes);
+/** An instance with at least this memory that traps is taken for one that lacks memory; a trap of a smaller one is a fault of the module. */
+const LARGE_MEMORY = 2 ** 29;
+
+/**
+ * Embeds the files of `bundle` that a glTF refers to, decodes compressed data, and checks the data that tangents depend on. Errors: one sentence that
+ * names the place and the fault.
+ */
+export function check(name: string, bytes: Uint8Array, bundle: FileBundle): Promise<Outcome<Primitive[]>> {
+  return run('check', name, bytes, bundle);
 }
 
 /** Writes MikkTSpace tangents to every eligible primitive and changes nothing else. Errors: those of {@link check}. */
@@ -54,23 +61,39 @@ export function makeNormals(name: string, bytes: Uint8Array): Promise<Outcome<un
 }
 
 /** Runs a function in a new instance, because the memory of an instance never shrinks. */
-async function run<T>(task: 'check' | 'repair' | 'make_normals', name: string, bytes: Uint8Array): Promise<Outcome<T>> {
+async function run<T>(task: 'check' | 'repair' | 'make_normals', name: string, bytes: Uint8Array, bundle: FileBundle = new Map()): Promise<Outcome<T>> {
   module ??= fetch(address).then(async (response) => WebAssembly.compile(await response.arrayBuffer()));
-  const exports = (await WebAssembly.instantiate(await module)).exports as Exports;
+  const read = (address: number, length: number) => new Uint8Array(exports.memory.buffer, address >>> 0, length >>> 0).slice();
+  const write = (from: Uint8Array, address: number) => new Uint8Array(exports.memory.buffer, address >>> 0, from.length).set(from);
+  const decoded = (address: number, length: number) => new TextDecoder().decode(read(address, length));
+  const page = {
+    file_size: (name: number, length: number) => bundle.get(decoded(name, length))?.size ?? -1,
+    read_file: (name: number, length: number, address: number) => {
+      try {
+        write(new Uint8Array(new FileReaderSync().readAsArrayBuffer(bundle.get(decoded(name, length))!)), address);
+        return 1;
+      } catch {
+        return 0;
+      }
+    },
+  };
+  const exports = (await WebAssembly.instantiate(await module, { page })).exports as Exports;
   const [low, high] = crypto.getRandomValues(new Uint32Array(2));
   exports.seed_random(low, high);
-  const write = (from: Uint8Array, address: number) => new Uint8Array(exports.memory.buffer, address >>> 0, from.length).set(from);
-  const read = (address: number, length: number) => new Uint8Array(exports.memory.buffer, address >>> 0, length >>> 0).slice();
   try {
     const encodedName = new TextEncoder().encode(name);
     write(encodedName, exports.name(encodedName.length));
     write(bytes, exports.file(bytes.length));
     const isDone = exports[task]();
-    const text = new TextDecoder().decode(read(exports.text(), exports.text_len()));
+    const text = decoded(exports.text(), exports.text_len());
     if (!isDone) throw new Error(`${text}.`);
     return { bytes: read(exports.made(), exports.made_len()), description: JSON.parse(text) };
   } catch (error) {
     if (!(error instanceof WebAssembly.RuntimeError)) throw error;
-    throw new Error(`${name} needs more memory than a page can use; use the command darboux.`, { cause: error });
+    const sentence =
+      exports.memory.buffer.byteLength >= LARGE_MEMORY
+        ? 'needs more memory than a page can use; use the command darboux.'
+        : `cannot be read (${error.message}): this is a fault of darboux; please report it with the file.`;
+    throw new Error(`${name} ${sentence}`, { cause: error });
   }
 }

@@ -58,7 +58,7 @@ async function storeIgnored({ scene, parser }: GLTF): Promise<void> {
 
 /** Opens a .gltf or .glb. Errors: one sentence to show. */
 export async function openGltf(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: FileBundle): Promise<Gltf> {
-  const file = (await call('makeSelfContained', name, bytes, bundle)).bytes;
+  const file = (await call('check', name, bytes, bundle)).bytes;
   // Nothing is fetched: missing files stay missing.
   const manager = new LoadingManager().setURLModifier((url) => (/^(data|blob):/.test(url) ? url : 'data:,'));
   let lost = 0;

@@ -42,11 +42,13 @@ async function pair(low: () => Promise<FileBundle>, high: '' | null | (() => Pro
 async function fromFolder(path: string): Promise<FileBundle> {
   if (new URL(path, location.href).origin !== location.origin) throw new Error(`${path} is on another machine; only files beside this page are opened.`);
   const model = await (await fetched(path, path)).blob();
-  const bundle: FileBundle = new Map([[path, model]]);
+  // Names of files begin in the topmost folder of all of them.
+  const name = path.replace(/^(\.*\/)+/, '');
+  const bundle: FileBundle = new Map([[name, model]]);
   const references: string[] = /\.gltf$/i.test(path) ? urisOf(await model.text()) : [];
   for (const uri of references) {
     const beside = resolvePath(uri, path);
-    if (beside !== null) bundle.set(beside, await (await fetched(beside, beside)).blob());
+    if (beside !== null) bundle.set(resolvePath(uri, name)!, await (await fetched(beside, beside)).blob());
   }
   return bundle;
 }

@@ -3,8 +3,7 @@
 import { ready } from 'darboux';
 
 import type { FileBundle } from '../files/file-bundle';
-import { makeNormals, repair, type Outcome, type Primitive, type Summary } from '../files/gltf-wasm';
-import { makeSelfContained } from '../files/self-contained';
+import { check, makeNormals, repair, type Outcome, type Primitive, type Summary } from '../files/gltf-wasm';
 import { compareSources, type Comparison } from '../surface/comparison';
 import type { OtherModel, Source } from '../surface/sources';
 import { placesOf, type Place } from '../surface/places';
@@ -21,8 +20,8 @@ const surfaces: Record<ModelName, Surface[]> = { given: [], repaired: [], high: 
 /** The functions that the page can call. */
 const functions = {
   /** Embeds the files that a glTF refers to, and checks it. */
-  makeSelfContained(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: FileBundle): Promise<Outcome<Primitive[]>> {
-    return makeSelfContained(name, bytes, bundle);
+  check(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: FileBundle): Promise<Outcome<Primitive[]>> {
+    return check(name, bytes, bundle);
   },
 
   /** Writes new tangents into a glTF and returns it as GLB. */

@@ -1,6 +1,7 @@
 //! Reading and writing of glTF for the viewer's page, with the same code as the command.
 //!
-//! JavaScript writes a file name and a file into memory that this side owns, calls `check`, `repair` or `make_normals`, and reads a text and a file:
+//! JavaScript writes a file name and a file into memory that this side owns, calls `check`, `repair` or `make_normals`, and reads a text and a file.
+//! The files that the model refers to are asked for meanwhile ([`page_files`]):
 //!
 //! ```text
 //! p = name(n); q = file(m); memory[p ..] = ...; memory[q ..] = ...
@@ -9,11 +10,16 @@
 
 #![allow(unsafe_code, reason = "functions are exported under the names that JavaScript calls")]
 
+mod page_files;
+
 use std::cell::RefCell;
 use std::mem::take;
+use std::sync::Arc;
 
 use darboux_io::gltf::{AddNormalsOptions, AddTangentsOptions, Document, add_normals, add_tangents, inspect};
 use darboux_io::{Error, LoadOptions};
+
+use page_files::PageFiles;
 
 /// The inputs and outputs of a call.
 #[derive(Default)]
@@ -72,7 +78,7 @@ pub extern "C" fn text_len() -> usize {
     BUFFERS.with_borrow(|buffers| buffers.text.len())
 }
 
-/// Decodes compressed data, and checks the data that tangents depend on. Returns 1 where the text is JSON about its primitives and the resulting
+/// Embeds the files that the model refers to, decodes compressed data, and checks the data that tangents depend on. Returns 1 where the text is JSON about its primitives and the resulting
 /// file is the one to show, and 0 where the text is an error.
 #[unsafe(no_mangle)]
 pub extern "C" fn check() -> u32 {
@@ -108,7 +114,8 @@ pub extern "C" fn make_normals() -> u32 {
 fn run(work: impl FnOnce(&mut Document) -> Result<(Vec<u8>, Vec<u8>), Error>) -> u32 {
     BUFFERS.with_borrow_mut(|buffers| {
         let name = String::from_utf8_lossy(&buffers.name).into_owned();
-        let opened = Document::from_bytes(&name, take(&mut buffers.file), None, &LoadOptions::default());
+        let file = take(&mut buffers.file);
+        let opened = Document::from_files(&name, file, Arc::new(PageFiles), &LoadOptions::default());
         match opened.and_then(|mut document| work(&mut document)) {
             Ok((text, file)) => {
                 (buffers.text, buffers.made) = (text, file);

@@ -1,11 +1,13 @@
 //! The content of a file: read into memory or, on request and if it is large, mapped, so that it is neither copied nor read twice.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read};
 use std::ops::Deref;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::paths;
+use crate::{Files, files};
 
 /// The bytes of a file.
 #[derive(Debug)]
@@ -21,10 +23,19 @@ pub enum FileBytes {
 #[cfg(unix)]
 const MAPPED_FROM: u64 = if cfg!(small_limits) { 1 } else { 256 << 20 };
 
-/// How files are brought into memory: read by default.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct FileAccess {
-    maps: bool,
+/// Where files are, and how they are brought into memory: on the disk and read by default.
+#[derive(Clone, Debug)]
+pub enum FileAccess {
+    /// On the disk. Large files are mapped, or not.
+    Disk { maps: bool },
+    /// Given by the program.
+    Given(Arc<dyn Files>),
+}
+
+impl Default for FileAccess {
+    fn default() -> Self {
+        Self::Disk { maps: false }
+    }
 }
 
 impl FileAccess {
@@ -34,13 +45,33 @@ impl FileAccess {
     /// While a mapped file is in use, no process may write into it or shorten it.
     #[expect(unsafe_code, reason = "the caller vouches for other processes")]
     pub unsafe fn mapped() -> Self {
-        Self { maps: true }
+        Self::Disk { maps: true }
+    }
+
+    /// A path of a file or folder with links resolved. The names of given files have no links. Errors: on the disk, there is nothing at the path.
+    pub fn resolved(&self, path: &Path) -> io::Result<PathBuf> {
+        match self {
+            Self::Disk { .. } => path.canonicalize(),
+            Self::Given(_) => files::normalised(path).ok_or_else(|| io::ErrorKind::NotFound.into()),
+        }
+    }
+
+    /// Whether a resolved path is that of a regular file.
+    pub fn is_file(&self, path: &Path) -> bool {
+        match self {
+            Self::Disk { .. } => fs::metadata(path).is_ok_and(|metadata| metadata.is_file()),
+            Self::Given(files) => files.has(&files::name(path)),
+        }
     }
 
     /// Opens a file at a path whose links were resolved before. A file that cannot be mapped is read.
-    pub fn open(self, path: &Path) -> io::Result<FileBytes> {
+    pub fn open(&self, path: &Path) -> io::Result<FileBytes> {
+        let maps = match self {
+            Self::Disk { maps } => *maps,
+            Self::Given(files) => return files.read(&files::name(path)).map(FileBytes::Read),
+        };
         let mut file = paths::open_resolved(path)?;
-        if let Some(mapped) = Some(&file).filter(|_| self.maps).and_then(map) {
+        if let Some(mapped) = Some(&file).filter(|_| maps).and_then(map) {
             return Ok(mapped);
         }
         let mut bytes = Vec::new();
@@ -66,6 +97,17 @@ fn map(file: &File) -> Option<FileBytes> {
 #[cfg(not(unix))]
 fn map(_file: &File) -> Option<FileBytes> {
     None
+}
+
+impl FileBytes {
+    /// The bytes in memory of their own.
+    pub fn into_vec(self) -> Vec<u8> {
+        match self {
+            #[cfg(unix)]
+            Self::Mapped(map) => map.to_vec(),
+            Self::Read(bytes) => bytes,
+        }
+    }
 }
 
 impl Deref for FileBytes {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use serde_json::Value;
 
@@ -16,7 +16,7 @@ use super::resources::Resources;
 use super::schema::Root;
 use crate::error::{ContentError, shortened};
 use crate::memory_limit::{self, Budget};
-use crate::{Error, LoadOptions, paths};
+use crate::{Error, Files, LoadOptions, paths};
 
 impl Document {
     /// Reads a `.glb` or `.gltf` file and the buffers that it refers to, and decodes what is compressed with Draco or meshopt. The first bytes decide between
@@ -61,6 +61,20 @@ impl Document {
         options: &LoadOptions,
     ) -> Result<Self, Error> {
         Self::from_file(name, FileBytes::Read(bytes), base, options, FileAccess::default())
+    }
+
+    /// Reads a document from memory, and the buffers and images that it refers to from `files`, in which its own name is `name`.
+    ///
+    /// References with `..` reach all of `files`. Errors: as [`Document::open`]; a buffer that is not among the files.
+    pub fn from_files(
+        name: &str,
+        bytes: Vec<u8>,
+        files: Arc<dyn Files>,
+        options: &LoadOptions,
+    ) -> Result<Self, Error> {
+        let folder = Path::new(name).parent().unwrap_or(Path::new(""));
+        let options = options.with_allow_outside(true);
+        Self::from_file(name, FileBytes::Read(bytes), Some(folder), &options, FileAccess::Given(files))
     }
 
     fn from_file(

@@ -9,8 +9,8 @@ use super::objects_only::read_from_objects;
 use super::resources::{UriTarget, decode_data_uri};
 use super::schema::{Image, TextureInfoExtensions};
 use super::tangents::uv::{UvChoice, UvTransform};
+use crate::Error;
 use crate::error::ContentError;
-use crate::{Error, paths};
 
 /// The appearance of a material: the parts that a simple renderer needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -316,8 +316,8 @@ impl Document {
             Ok(UriTarget::Remote) => {
                 Err(ContentError::resource(at, "is on another machine; download it and refer to the file"))
             }
-            Ok(UriTarget::File(located)) => paths::read_resolved(&located.path)
-                .map(Cow::Owned)
+            Ok(UriTarget::File(located)) => (self.resources.bytes(&located.path))
+                .map(|bytes| Cow::Owned(bytes.into_vec()))
                 .map_err(|error| ContentError::resource(at, format!("cannot be read: {error}"))),
             Err(problem) => Err(ContentError::resource(at, problem)),
         }

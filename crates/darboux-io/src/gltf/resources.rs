@@ -6,9 +6,9 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ffi::OsStr;
-use std::fs;
-use std::io;
-use std::path::{Component, Path, PathBuf};
+use std::fs::{self, File};
+use std::io::{self, Cursor, Read};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use base64::Engine;
@@ -17,7 +17,7 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
 
 use super::file_bytes::{FileAccess, FileBytes};
-use crate::LoadOptions;
+use crate::{LoadOptions, files, paths};
 
 /// The target of a URI.
 #[derive(Debug)]
@@ -60,7 +60,7 @@ pub struct Resources {
 impl Resources {
     /// `base` is the document's folder, if it has one.
     pub fn new(base: Option<&Path>, options: LoadOptions, access: FileAccess) -> io::Result<Self> {
-        let base = base.map(Path::canonicalize).transpose()?;
+        let base = base.map(|folder| access.resolved(folder)).transpose()?;
         Ok(Self { base, options, access, opened: HashMap::new() })
     }
 
@@ -92,15 +92,20 @@ impl Resources {
             return Err(self.outside(&shown));
         }
         let joined = base.join(Path::new(&*decoded));
-        let path = joined.canonicalize().map_err(|error| match error.kind() {
+        let path = self.access.resolved(&joined).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound => format!("the file {shown} does not exist; put it beside the document"),
             _ => format!("the file {shown} cannot be opened: {error}"),
         })?;
         if !path.starts_with(base) && !self.options.allow_outside {
             return Err(self.outside(&shown));
         }
-        if !fs::metadata(&path).is_ok_and(|metadata| metadata.is_file()) {
-            return Err(format!("{shown} is not a regular file; put a file there"));
+        if !self.access.is_file(&path) {
+            return Err(match &self.access {
+                FileAccess::Disk { .. } => format!("{shown} is not a regular file; put a file there"),
+                FileAccess::Given(_) => {
+                    format!("the file {shown} is not among the files; give the whole folder")
+                }
+            });
         }
         let name = || path.file_name().map(PathBuf::from).unwrap_or_default();
         let is_outside = inside.is_none();
@@ -127,9 +132,49 @@ impl Resources {
         Ok(file)
     }
 
+    /// Whether files are read from the disk.
+    pub fn are_on_disk(&self) -> bool {
+        matches!(self.access, FileAccess::Disk { .. })
+    }
+
+    /// The content of a file, which is not kept, in parts.
+    pub fn reader(&self, path: &Path) -> io::Result<Box<dyn Read>> {
+        match &self.access {
+            FileAccess::Disk { .. } => Ok(Box::new(paths::open_resolved(path)?)),
+            FileAccess::Given(_) => Ok(Box::new(Cursor::new(self.bytes(path)?.into_vec()))),
+        }
+    }
+
+    /// Whether a file on the disk has the content of one of these files.
+    pub fn is_same(&self, existing: &Path, path: &Path) -> io::Result<bool> {
+        match &self.access {
+            FileAccess::Disk { .. } => Ok(existing.canonicalize()? == path || same_files(existing, path)?),
+            FileAccess::Given(_) => {
+                Ok(*paths::read_resolved(&existing.canonicalize()?)? == *self.bytes(path)?)
+            }
+        }
+    }
+
     /// The content of a file, which is not kept.
     pub fn bytes(&self, path: &Path) -> io::Result<FileBytes> {
         self.access.open(path)
+    }
+}
+
+fn same_files(a: &Path, b: &Path) -> io::Result<bool> {
+    if fs::metadata(a)?.len() != fs::metadata(b)?.len() {
+        return Ok(false);
+    }
+    let (mut a, mut b) = (io::BufReader::new(File::open(a)?), io::BufReader::new(File::open(b)?));
+    let (mut left, mut right) = (vec![0; 1 << 16], vec![0; 1 << 16]);
+    loop {
+        let length = a.read(&mut left)?;
+        if length == 0 {
+            return Ok(true);
+        }
+        if b.read_exact(&mut right[..length]).is_err() || left[..length] != right[..length] {
+            return Ok(false);
+        }
     }
 }
 
@@ -153,18 +198,7 @@ fn normalised(path: &str) -> Option<PathBuf> {
     if drive || path.contains(['\\', '\0']) {
         return None;
     }
-    let mut parts: Vec<&OsStr> = Vec::new();
-    for component in Path::new(path).components() {
-        match component {
-            Component::Normal(part) => parts.push(part),
-            Component::CurDir => {}
-            Component::ParentDir => {
-                parts.pop()?;
-            }
-            Component::RootDir | Component::Prefix(_) => return None,
-        }
-    }
-    (!parts.is_empty()).then(|| parts.iter().collect())
+    files::normalised(Path::new(path)).filter(|path| !path.as_os_str().is_empty())
 }
 
 /// A relative path for a new file beside a document: `path` with `_` in place of whatever a URI cannot spell or a reader refuses.
@@ -216,9 +250,13 @@ pub fn image_type(bytes: &[u8]) -> Option<&'static str> {
         (b"\xABKTX 20", "image/ktx2"),
         (b"DDS ", "image/vnd-ms.dds"),
     ];
-    let webp = bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP");
-    let known = starts.iter().find(|(start, _)| bytes.starts_with(start));
-    if webp { Some("image/webp") } else { known.map(|&(_, kind)| kind) }
+    if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
+        return Some("image/webp");
+    }
+    if bytes.get(4..12) == Some(b"ftypavif") {
+        return Some("image/avif");
+    }
+    starts.iter().find(|(start, _)| bytes.starts_with(start)).map(|&(_, kind)| kind)
 }
 
 /// A URI in messages: quoted, and at most 100 characters.

@@ -178,10 +178,8 @@ impl Document {
         }
         for file in files {
             let failed = |source| Error::Read { file: file.path.clone(), source };
-            let is_same = |existing: &Path| {
-                Ok(existing.canonicalize()? == file.path || same_files(existing, &file.path)?)
-            };
-            let mut source = paths::open_resolved(&file.path).map_err(failed)?;
+            let is_same = |existing: &Path| self.resources.is_same(existing, &file.path);
+            let mut source = self.resources.reader(&file.path).map_err(failed)?;
             let copy = |copy: &mut File| io::copy(&mut source, copy).map(drop);
             let relative = names.place(&file.relative, staging, is_same, copy)?;
             if relative != file.relative || file.is_outside {
@@ -191,8 +189,11 @@ impl Document {
         Ok(renamed)
     }
 
-    /// The input file and the files that it refers to, links resolved. Missing files are left out.
+    /// The input file and the files on the disk that it refers to, links resolved. Missing files are left out.
     pub fn source_files(&self) -> Vec<PathBuf> {
+        if !self.resources.are_on_disk() {
+            return Vec::new();
+        }
         let own = self.input.iter().cloned();
         own.chain(self.files().into_iter().map(|file| file.path)).collect()
     }
@@ -297,23 +298,6 @@ impl FileNames<'_> {
         }
         let problem = "and its numbered variants exist; clear the folder".to_owned();
         Err(Error::Output { file: self.folder.join(wanted), problem })
-    }
-}
-
-fn same_files(a: &Path, b: &Path) -> io::Result<bool> {
-    if fs::metadata(a)?.len() != fs::metadata(b)?.len() {
-        return Ok(false);
-    }
-    let (mut a, mut b) = (io::BufReader::new(File::open(a)?), io::BufReader::new(File::open(b)?));
-    let (mut left, mut right) = (vec![0; 1 << 16], vec![0; 1 << 16]);
-    loop {
-        let length = a.read(&mut left)?;
-        if length == 0 {
-            return Ok(true);
-        }
-        if b.read_exact(&mut right[..length]).is_err() || left[..length] != right[..length] {
-            return Ok(false);
-        }
     }
 }
 
