@@ -73,22 +73,6 @@ impl Surface {
         Mesh::triangles(&self.positions, normals, uvs, &self.vertex_of_corner).ok()
     }
 
-    /// Whether a mesh has the corners of this one, and their positions, normals and the UVs that its tangents follow.
-    pub fn has_mesh(&self, mesh: &Mesh<'_>) -> bool {
-        let Some(own) = self.mesh(self.uv_set).filter(|own| own.corner_count() == mesh.corner_count()) else {
-            return false;
-        };
-        let is_same = |corner: usize| {
-            let [ours, theirs] = [own.vertex_of_corner(corner), mesh.vertex_of_corner(corner)];
-            ours == theirs
-                && own.positions().get(ours).map(f32::to_bits)
-                    == mesh.positions().get(theirs).map(f32::to_bits)
-                && own.normals().get(ours).map(f32::to_bits) == mesh.normals().get(theirs).map(f32::to_bits)
-                && own.uvs().get(ours).map(f32::to_bits) == mesh.uvs().get(theirs).map(f32::to_bits)
-        };
-        (0..own.corner_count()).all(is_same)
-    }
-
     /// MikkTSpace's tangents of all corners in glTF's convention.
     pub fn expected_tangents(&self, uv_set: usize) -> Option<Vec<[f32; 4]>> {
         let tangents = generate_tangents(&self.mesh(uv_set)?, &TangentOptions::default()).corners;

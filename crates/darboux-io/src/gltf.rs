@@ -60,7 +60,7 @@ pub use progress::Progress;
 pub use scene::{PlacedMesh, PlacedMeshes};
 pub use stored_elements::IndexList;
 pub use tangents::{
-    AddTangentsOptions, Generate, GenerateFn, PrimitiveTangents, ReportCounts, TangentEncoding,
-    TangentsOutcome, TangentsSummary, TangentsTotals, WrittenTangents, add_tangents, add_tangents_to,
-    add_tangents_with,
+    AddTangentsOptions, Generate, GenerateFn, GivenTangents, PrimitiveTangents, ReportCounts,
+    TangentEncoding, TangentsOutcome, TangentsSummary, TangentsTotals, WrittenTangents, add_tangents,
+    add_tangents_to, add_tangents_with,
 };

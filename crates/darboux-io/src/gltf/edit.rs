@@ -3,6 +3,7 @@
 //! ```text
 //! edit              elements of arrays, new data
 //! edit/primitives   attributes, triangles and other members of primitives
+//! edit/vertices     positions, normals and tangents of primitives
 //! edit/images       the content of images
 //! edit/materials    normal maps and colours of materials
 //! edit/checkpoint   takes edits back
@@ -12,6 +13,7 @@ mod checkpoint;
 mod images;
 mod materials;
 mod primitives;
+mod vertices;
 
 pub use checkpoint::Checkpoint;
 

@@ -51,7 +51,7 @@ pub struct PrimitiveInfo {
 pub fn inspect(document: &Document) -> Result<Vec<PrimitiveInfo>, Error> {
     let options = AddTangentsOptions::default().with_overwrite(true);
     let selection = select::select(document, &options, &|_| true)?;
-    let groups = groups::group(&CanonicalAccessors::new(document), selection.chosen());
+    let groups = groups::group(&CanonicalAccessors::new(document), selection.chosen(), |_| None);
     limits::check_triangles(document, groups::triangle_counts(&groups))?;
     let mut context = Context::new();
     let mut infos: Vec<_> =

@@ -12,11 +12,13 @@
 pub(super) mod compute;
 mod corner_memory;
 mod encoding;
+mod given;
 mod group_computation;
 pub(super) mod groups;
 mod morph;
 mod options;
 pub(super) mod select;
+mod set_corners;
 mod split;
 mod summary;
 pub(super) mod uv;
@@ -24,6 +26,7 @@ mod write;
 
 pub use compute::{Generate, GenerateFn};
 pub use encoding::TangentEncoding;
+pub use given::GivenTangents;
 pub use options::AddTangentsOptions;
 pub use summary::{
     PrimitiveTangents, ReportCounts, TangentsOutcome, TangentsSummary, TangentsTotals, WrittenTangents,
@@ -39,6 +42,7 @@ use super::primitives::canonical::CanonicalAccessors;
 use super::primitives::{foreign_extensions, limits};
 use super::{Document, ElementType, PrimitiveName, Progress};
 use crate::Error;
+use given::GivenPlaces;
 use group_computation::{GroupComputation, GroupTangents};
 use groups::Group;
 use morph::{Morph, Movement, StaleCorners};
@@ -80,9 +84,22 @@ pub fn add_tangents_to(
     generate: Generate<'_>,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<TangentsSummary, Error> {
+    run(document, options, is_wanted, &GivenPlaces::default(), (context, generate), progress)
+}
+
+/// As [`add_tangents_to`]. Primitives with `given` tangents get these.
+fn run(
+    document: &mut Document,
+    options: &AddTangentsOptions,
+    is_wanted: &dyn Fn(&PrimitiveName) -> bool,
+    given: &GivenPlaces<'_>,
+    (context, generate): (&mut Context, Generate<'_>),
+    progress: &mut dyn FnMut(Progress),
+) -> Result<TangentsSummary, Error> {
     let selection = select::select(document, options, is_wanted)?;
     let accessors = CanonicalAccessors::new(document);
-    let groups = groups::group(&accessors, selection.chosen());
+    let given_of = |candidate: usize| given.of(&selection.candidates[candidate].name);
+    let groups = groups::group(&accessors, selection.chosen(), given_of);
     limits::check_triangles(document, groups::triangle_counts(&groups))?;
     let total = groups::triangle_counts(&groups).sum();
     let at = Progress { done: 0, total };
@@ -92,7 +109,8 @@ pub fn add_tangents_to(
         Generate::With(_) => groups.chunks(1).collect(),
     };
     let contexts = Vec::new();
-    let mut run = Run { selection, accessors, options, generate, progress, at, context, contexts, summary };
+    let mut run =
+        Run { selection, accessors, options, given, generate, progress, at, context, contexts, summary };
     let mut written = HashMap::new();
     for batch in batches {
         let computed = run.compute(document, batch)?;
@@ -112,6 +130,7 @@ struct Run<'a, 'g> {
     selection: TangentSelection,
     accessors: CanonicalAccessors,
     options: &'a AddTangentsOptions,
+    given: &'a GivenPlaces<'a>,
     generate: Generate<'g>,
     progress: &'a mut dyn FnMut(Progress),
     at: Progress,
@@ -124,8 +143,8 @@ struct Run<'a, 'g> {
 impl Run<'_, '_> {
     /// Computes groups of one batch.
     fn compute(&mut self, document: &Document, batch: &[Group]) -> Result<Vec<GroupTangents>, Error> {
-        let Self { selection, accessors, options, generate, at, .. } = self;
-        let computation = GroupComputation { document, selection, accessors, options };
+        let Self { selection, accessors, options, given, generate, at, .. } = self;
+        let computation = GroupComputation { document, selection, accessors, options, given };
         if let [group] = batch {
             let mut on_job = |triangles| {
                 at.done += triangles;

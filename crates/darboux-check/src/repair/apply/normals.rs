@@ -6,7 +6,7 @@ use darboux::{Context, Faces, NormalOptions, generate_normals};
 use darboux_io::Error;
 use darboux_io::gltf::{AddNormalsOptions, Document, NormalsOutcome, PrimitiveName, add_normals_to};
 
-use super::attributes::{replace, users_of};
+use super::attributes::users_of;
 use crate::instances::primitives_at;
 use crate::measure::reversed::front;
 use crate::measure::values::is_unit;
@@ -77,7 +77,7 @@ fn make_unit(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Err
                 *normal = smooth;
             }
         }
-        replace(document, (NORMAL, accessor), &users, &normals)?;
+        document.set_normals(&users, &normals)?;
     }
     Ok(())
 }
@@ -86,13 +86,13 @@ fn make_unit(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Err
 /// the smooth one to their back. Vertices without faces get (0, 0, 1).
 fn smooth_normals(
     document: &Document,
-    users: &[&PrimitiveName],
+    users: &[PrimitiveName],
     vertex_count: usize,
 ) -> Result<Vec<[f32; 3]>, Error> {
     let mut normals = vec![[0.0, 0.0, 1.0]; vertex_count];
     let mut fronts = vec![[0.0; 3]; vertex_count];
     let mut is_known = vec![false; vertex_count];
-    for corners in document.corners()?.iter().filter(|corners| users.contains(&corners.name())) {
+    for corners in document.corners()?.iter().filter(|corners| users.contains(corners.name())) {
         let Some(positions) = corners.vectors::<3>("POSITION")? else { continue };
         let numbers: Vec<u32> = (0..positions.len() as u32).collect();
         let made = generate_normals(&positions, &numbers, Faces::Triangles, &NormalOptions::default());
@@ -137,7 +137,7 @@ fn flip(document: &mut Document, reversed: &[(Flip, Vec<PrimitiveName>)]) -> Res
     for (accessor, users) in users_of(document, NORMAL, &with_reversed_normals) {
         let normals = document.vectors::<3>(accessor)?;
         let reversed: Vec<[f32; 3]> = normals.iter().map(|normal| normal.map(|x| -x)).collect();
-        replace(document, (NORMAL, accessor), &users, &reversed)?;
+        document.set_normals(&users, &reversed)?;
     }
     Ok(())
 }

@@ -2,11 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use darboux::{Context, Convention, CornerTangents, Mesh, TangentOptions, Tangents};
+use darboux::Context;
 use darboux_io::Error;
-use darboux_io::gltf::{AddTangentsOptions, Document, Generate, PrimitiveName, add_tangents_to};
+use darboux_io::gltf::{
+    AddTangentsOptions, Document, Generate, GivenTangents, PrimitiveName, add_tangents_to,
+};
 
-use super::attributes::{replace, users_of};
+use super::attributes::users_of;
 use super::correction::{Correction, bits};
 use crate::check::for_each_surface;
 use crate::instances::{Key, key, primitives_at};
@@ -43,7 +45,7 @@ pub fn correct(
         match correction.of_vertices() {
             Some(of_vertices) => {
                 for (accessor, users) in users_of(document, TANGENT, &names) {
-                    let users = users.into_iter().cloned();
+                    let users = users.into_iter();
                     add(of_accessors.entry(accessor).or_default(), users, &of_vertices);
                 }
             }
@@ -60,10 +62,10 @@ pub fn correct(
         for Rewritten { users, of_vertices } in rewritten {
             let mut tangents = old.clone();
             of_vertices.into_iter().for_each(|(vertex, tangent)| tangents[vertex] = tangent);
-            replace(document, (TANGENT, accessor), &users.iter().collect::<Vec<_>>(), &tangents)?;
+            document.set_tangents(&users, &tangents)?;
         }
     }
-    split_vertices(document, split)?;
+    split_vertices(document, &split)?;
     make(document, &remade, options)?;
     Ok(changes)
 }
@@ -102,37 +104,13 @@ fn has_targets(document: &Document, names: &[PrimitiveName]) -> bool {
 /// Primitives with the same data, and the correction of their tangents.
 type Corrected = (Vec<PrimitiveName>, Correction);
 
-/// Writes corrections that need more vertices. Those of meshes that differ in nothing but their tangents are written one after the other.
-fn split_vertices(document: &mut Document, corrections: Vec<Corrected>) -> Result<(), Error> {
-    let mut turns: Vec<Vec<Corrected>> = Vec::new();
-    for (names, correction) in corrections {
-        let has_same_mesh = |(_, other): &Corrected| {
-            let surface = &correction.surface;
-            surface.mesh(surface.uv_set).is_some_and(|mesh| other.surface.has_mesh(&mesh))
-        };
-        match turns.iter().position(|turn| !turn.iter().any(has_same_mesh)) {
-            Some(turn) => turns[turn].push((names, correction)),
-            None => turns.push(vec![(names, correction)]),
-        }
-    }
-    turns.iter().try_for_each(|turn| split_vertices_at_once(document, turn))
-}
-
-/// As [`split_vertices`], of meshes that differ.
-fn split_vertices_at_once(document: &mut Document, corrections: &[Corrected]) -> Result<(), Error> {
-    let places: BTreeSet<(usize, usize)> =
-        corrections.iter().flat_map(|(names, _)| names).map(|name| (name.mesh, name.primitive)).collect();
-    let is_wanted = |name: &PrimitiveName| places.contains(&(name.mesh, name.primitive));
-    let mut generate = |mesh: &Mesh<'_>, _: &TangentOptions, _: &mut Context| {
-        let corrected = corrections.iter().find(|(_, correction)| correction.surface.has_mesh(mesh));
-        let (_, correction) = corrected.ok_or("its corners are other ones than those that were checked")?;
-        let corners = CornerTangents::from_per_corner(correction.tangent_of_corner.clone());
-        let corners = corners.converted(Convention::GLTF, Convention::GLTF.generated());
-        Ok(Tangents { corners, ..Tangents::default() })
-    };
-    let adding = AddTangentsOptions::default().with_overwrite(true);
-    let (context, generate) = (&mut Context::new(), Generate::With(&mut generate));
-    add_tangents_to(document, &adding, &is_wanted, context, generate, &mut |_| {}).map(drop)
+/// Writes corrections that need more vertices.
+fn split_vertices(document: &mut Document, corrections: &[Corrected]) -> Result<(), Error> {
+    let given = corrections.iter().map(|(primitives, correction)| GivenTangents {
+        primitives,
+        tangents: &correction.tangent_of_corner,
+    });
+    document.set_corner_tangents(&given.collect::<Vec<_>>())
 }
 
 /// Negates the signs w of primitives; the directions of the tangents, whatever method they come from, stay.
@@ -140,7 +118,7 @@ pub fn negate_signs(document: &mut Document, names: &[PrimitiveName]) -> Result<
     for (accessor, users) in users_of(document, TANGENT, names) {
         let tangents = document.vectors::<4>(accessor)?;
         let negated: Vec<[f32; 4]> = tangents.iter().map(|&[x, y, z, w]| [x, y, z, -w]).collect();
-        replace(document, (TANGENT, accessor), &users, &negated)?;
+        document.set_tangents(&users, &negated)?;
     }
     Ok(())
 }

@@ -60,7 +60,7 @@ impl Document {
         Ok(())
     }
 
-    fn primitive(&self, name: &PrimitiveName) -> Result<&Primitive, Error> {
+    pub(in crate::gltf) fn primitive(&self, name: &PrimitiveName) -> Result<&Primitive, Error> {
         let stored = self.root.meshes.get(name.mesh).and_then(|mesh| mesh.primitives.get(name.primitive));
         stored.ok_or_else(|| self.invalid(name.path(), "does not exist; name one of the document"))
     }

@@ -2,9 +2,10 @@
 
 use std::collections::HashSet;
 
-use darboux::{Context, Method, Mode, Report};
+use darboux::{Context, Mesh, Method, Mode, Report, TangentOptions};
 
 use super::compute::{self, Generate, JobResult, Vertices};
+use super::given::GivenPlaces;
 use super::groups::{Group, Job};
 use super::morph::{self, Morph, Offsets};
 use super::options::AddTangentsOptions;
@@ -32,6 +33,7 @@ pub struct GroupComputation<'a> {
     pub selection: &'a TangentSelection,
     pub accessors: &'a CanonicalAccessors,
     pub options: &'a AddTangentsOptions,
+    pub given: &'a GivenPlaces<'a>,
 }
 
 impl GroupComputation<'_> {
@@ -43,7 +45,7 @@ impl GroupComputation<'_> {
         context: &mut Context,
         on_job: &mut dyn FnMut(usize),
     ) -> Result<GroupTangents, Error> {
-        let Self { document, selection, accessors, options } = *self;
+        let Self { document, selection, accessors, options, .. } = *self;
         let mut vertices = Vertices::read(document, group)?;
         let morphs = morph::morphs(document, accessors, group, selection, options);
         let results = self.jobs(group, &mut vertices, &morphs, (generate, &mut *context), on_job)?;
@@ -74,8 +76,17 @@ impl GroupComputation<'_> {
         let mut results = Vec::with_capacity(group.jobs.len());
         for (index, job) in group.jobs.iter().enumerate() {
             let (at, moves) = (self.name(job).path(), moved.contains(&index));
-            let by = (&mut *generate, &mut *context);
-            results.push(compute::compute_job(self.document, &at, vertices, job, moves, self.options, by)?);
+            let result = if job.given.is_none() {
+                let by = (&mut *generate, &mut *context);
+                compute::compute_job(self.document, &at, vertices, job, moves, self.options, by)
+            } else {
+                let mut give = |mesh: &Mesh<'_>, _: &TangentOptions, _: &mut Context| {
+                    self.given.tangents(job.given, mesh.corner_count())
+                };
+                let by = (&mut Generate::With(&mut give), &mut *context);
+                compute::compute_job(self.document, &at, vertices, job, moves, self.options, by)
+            };
+            results.push(result?);
             on_job(job.triangle_count);
         }
         Ok(results)

@@ -22,13 +22,15 @@ pub struct Group {
     pub members: Vec<GroupMember>,
 }
 
-/// The computation for all primitives with the same indices, mode and texture transform.
+/// The computation for all primitives with the same indices, mode, texture transform and given tangents.
 #[derive(Debug)]
 pub struct Job {
     pub indices: Option<usize>,
     pub topology: TriangleMode,
     pub transform: Option<UvTransform>,
     pub triangle_count: usize,
+    /// The place of the tangents that the caller gave; none if they are computed.
+    pub given: Option<usize>,
     /// The index in the selection of the first primitive with this job.
     pub first: usize,
 }
@@ -42,10 +44,11 @@ pub struct GroupMember {
     pub job: usize,
 }
 
-/// Groups primitives. Groups are in the order of their first primitives.
+/// Groups primitives. Groups are in the order of their first primitives. `given`: the place of a candidate's given tangents.
 pub fn group<'a>(
     accessors: &CanonicalAccessors,
     chosen: impl Iterator<Item = (usize, &'a TangentInput)>,
+    given: impl Fn(usize) -> Option<usize>,
 ) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut group_of = HashMap::new();
@@ -60,10 +63,11 @@ pub fn group<'a>(
         let TangentInput { topology, transform, .. } = *chosen;
         let indices = chosen.indices.map(|accessor| accessors.of(accessor));
         let jobs = &mut groups[place].jobs;
-        let key = (place, indices, topology, transform.map(|transform| transform.bits()));
+        let given = given(candidate);
+        let key = (place, indices, topology, transform.map(|transform| transform.bits()), given);
         let job = *job_of.entry(key).or_insert_with(|| {
             let triangle_count = topology.triangle_count(chosen.index_count);
-            jobs.push(Job { indices, topology, transform, triangle_count, first: candidate });
+            jobs.push(Job { indices, topology, transform, triangle_count, given, first: candidate });
             jobs.len() - 1
         });
         groups[place].members.push(GroupMember { candidate, job });
