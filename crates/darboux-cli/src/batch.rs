@@ -19,12 +19,13 @@ use std::time::Instant;
 
 use crate::inputs::{SearchMode, UsageError, find_inputs};
 use crate::json::print_report;
+use crate::memory::JobMemory;
 use crate::paths::canonical;
 use crate::terminal::{Messages, stdout_is_terminal};
 use crate::text::{counted, nonzero_counts};
 use crate::{exit, interrupt};
 use command::FileCommand;
-use journal::Journal;
+use journal::{Earlier, Journal};
 use one_file::{FinishedFile, JournalEntry, process_file};
 use plan::{Job, Output, OutputRules, plan_jobs};
 use report::{BatchReport, FileReport, Status, SummarySource};
@@ -89,7 +90,7 @@ fn refuse_terminal(jobs: Vec<Job>) -> Result<Vec<Job>, UsageError> {
     Ok(jobs)
 }
 
-/// Processes the files on several threads. Journal records are written when a file is finished; messages and reports come in the order of
+/// Processes the files on several threads, then one by one those during which an earlier run was killed. Journal records are written when a file is finished; messages and reports come in the order of
 /// the jobs.
 fn process_all<W: FileCommand>(
     command: &W,
@@ -98,10 +99,13 @@ fn process_all<W: FileCommand>(
     messages: &Messages,
 ) -> Result<Vec<FileReport<W::Summary>>, String> {
     let next = AtomicUsize::new(0);
+    let memory = JobMemory::of_process();
+    let work = Work { command, journal, memory: &memory, messages };
+    let (together, alone): (Vec<usize>, Vec<usize>) =
+        (0..jobs.len()).partition(|&index| work.earlier(&jobs[index]) == Earlier::Harmless);
     let process_next = || {
-        let index = next.fetch_add(1, Ordering::Relaxed);
-        let job = jobs.get(index)?;
-        Some((index, process_file(command, job, journal_entry(journal, job), messages)))
+        let index = *together.get(next.fetch_add(1, Ordering::Relaxed))?;
+        Some((index, work.process(&jobs[index])))
     };
     let finished = jobs.iter().map(|_| None).collect();
     let mut results =
@@ -109,7 +113,7 @@ fn process_all<W: FileCommand>(
     thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
         let mut workers = 0;
-        while workers < worker_count(command, jobs.len()) {
+        while workers < worker_count(command, together.len()) {
             let (sender, process_next) = (sender.clone(), &process_next);
             // The receiver is dropped when the journal cannot be written.
             let work = move || while process_next().is_some_and(|finished| sender.send(finished).is_ok()) {};
@@ -120,17 +124,68 @@ fn process_all<W: FileCommand>(
         }
         drop(sender);
         for (index, finished) in receiver {
-            results.add(index, finished)?;
+            results.add(index, finished?)?;
         }
         Ok(())
     })
     .and_then(|()| {
         // Without any worker, as where no thread can be started, this thread processes the files.
         while let Some((index, finished)) = process_next() {
-            results.add(index, finished)?;
+            results.add(index, finished?)?;
+        }
+        // If one of these ends the process, the others are done, and the journal names this one alone.
+        for index in alone {
+            results.add(index, work.process(&jobs[index])?)?;
         }
         Ok(results.into_reports())
     })
+}
+
+/// What the work on every file needs.
+struct Work<'a, W> {
+    command: &'a W,
+    journal: Option<&'a Journal>,
+    memory: &'a JobMemory,
+    messages: &'a Messages,
+}
+
+impl<W: FileCommand> Work<'_, W> {
+    /// What earlier runs say about a job.
+    fn earlier(&self, job: &Job) -> Earlier {
+        self.journaled(job).map_or(Earlier::Harmless, |(journal, output)| journal.earlier(output))
+    }
+
+    /// The journal, and the output that it knows the job by.
+    fn journaled<'j>(&self, job: &'j Job) -> Option<(&Journal, &'j Path)> {
+        match &job.output {
+            Output::File(output) => Some((self.journal?, output)),
+            Output::Stdout => None,
+        }
+    }
+
+    /// Processes a file between two notes in the journal. Errors: the journal cannot be written.
+    fn process(&self, job: &Job) -> Result<FinishedFile<W::Summary>, String> {
+        if self.earlier(job) == Earlier::Deadly && !self.command.files().retry {
+            return Ok(deadly(job));
+        }
+        let _share = self.memory.take(job.input.byte_length());
+        let journaled = self.journaled(job);
+        journaled.map_or(Ok(()), |(journal, output)| journal.begin(output))?;
+        let finished = process_file(self.command, job, journal_entry(self.journal, job), self.messages);
+        match journaled.filter(|_| finished.record.is_none()) {
+            Some((journal, output)) => journal.end(output).map(|()| finished),
+            None => Ok(finished),
+        }
+    }
+}
+
+/// The report of a file that is skipped because runs were killed at work on it.
+fn deadly<S: Default>(job: &Job) -> FinishedFile<S> {
+    let sentence = format!(
+        "{}: is skipped, because two runs ended while they worked on it, as without memory; give the process more memory, and try it again with --retry",
+        job.input
+    );
+    FinishedFile { report: FileReport::failed(job.input.to_string(), sentence), record: None }
 }
 
 /// The number of threads: one per core unless `--jobs` says otherwise.

@@ -10,8 +10,12 @@ mod heat_scale;
 mod inputs;
 mod interrupt;
 mod json;
+mod memory;
 mod net;
 mod options;
+#[cfg(unix)]
+#[expect(unsafe_code, reason = "an allocator is unsafe to implement")]
+mod out_of_memory;
 mod paths;
 mod regular_file;
 mod terminal;
@@ -28,6 +32,8 @@ pub use batch::distributed::{DistributedBatch, failed_task, run_task};
 pub use command_line::Arguments;
 use command_line::Command;
 pub use net::silence_panics;
+#[cfg(unix)]
+pub use out_of_memory::ExitWithoutMemory;
 
 /// Runs the command on the process's standard streams and returns its exit code.
 ///
@@ -53,6 +59,8 @@ where
 }
 
 fn run_command(command: &Command) -> u8 {
+    // Before threads reserve addresses that are no memory.
+    memory::of_process();
     match command {
         Command::Tangents(arguments) => batch::run(arguments),
         Command::Normals(arguments) => batch::run(arguments),

@@ -11,7 +11,7 @@ use std::process::Stdio;
 use std::time::Duration;
 
 use common::{
-    darboux, darboux_with, darboux_with_addresses, folder_with, has_adapter, names_in, program, text,
+    asset, darboux, darboux_with, darboux_with_addresses, folder_with, has_adapter, names_in, program, text,
 };
 use serde_json::{Value, json};
 
@@ -125,6 +125,34 @@ fn broken_references_are_found_where_there_is_nothing_to_do() {
     }
 }
 
+/// Every command refuses at opening what another one would refuse, so that none writes a file that another one cannot read.
+#[test]
+fn every_command_refuses_modes_that_do_not_exist() {
+    for mode in [7, 65535] {
+        let (mut json, binary) = square();
+        json["nodes"] = json!([{ "mesh": 0 }]);
+        let primitives = json["meshes"][0]["primitives"].as_array_mut().expect("primitives");
+        let mut other = primitives[0].clone();
+        other["mode"] = mode.into();
+        primitives.push(other);
+        let file = glb(&json, &binary);
+        let high = asset("made/shield.glb");
+        for words in [
+            &["tangents"][..],
+            &["normals"],
+            &["convert", "--from", "unity", "--to", "gltf"],
+            &["check"],
+            &["check", "--fix"],
+            &["inspect"],
+            &["compare", text(&high)],
+            &["bake", "--high", text(&high), "--size", "16", "-o", "OUT"],
+        ] {
+            let part = format!("meshes[0].primitives[1].mode: {mode} is not a mode; use 0 to 6");
+            refused("model.glb", &file, words, &part);
+        }
+    }
+}
+
 /// Also where only attributes are converted, or faces reversed.
 #[test]
 fn models_with_indices_of_no_vertex_are_not_converted() {
@@ -189,8 +217,7 @@ fn images_much_larger_than_their_files_are_refused() {
 }
 
 /// Strips whose indices are parts of one list, each one index further.
-#[test]
-fn strips_over_the_same_bytes_are_refused() {
+fn strips() -> Vec<u8> {
     let (mut json, mut binary) = square();
     let (count, length) = (1200, 500_000);
     let bytes = 4 * (count + length);
@@ -211,10 +238,61 @@ fn strips_over_the_same_bytes_are_refused() {
         .collect();
     json["meshes"][0]["primitives"] = json!(strips);
     json["accessors"] = json!(accessors);
-    let file = glb(&json, &binary);
+    glb(&json, &binary)
+}
+
+#[test]
+fn strips_over_the_same_bytes_are_refused() {
+    let file = strips();
     for words in [&["normals", "--overwrite"][..], &["tangents"], &["inspect"]] {
         refused("strips.glb", &file, words, "raise the limit (--memory-limit)");
     }
+}
+
+/// Missing memory is one sentence where the limit was raised beyond the memory, and where the process has less than a file needs.
+#[test]
+#[cfg(target_os = "linux")]
+fn missing_memory_is_one_sentence() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("a.glb");
+    fs::write(&path, strips()).expect("a file");
+    for words in [&["normals", "--overwrite"][..], &["tangents"], &["inspect"]] {
+        let arguments = [&[words[0], text(&path), "--memory-limit", "1000000"], &words[1..]].concat();
+        let run = darboux_with_addresses(256 << 20, &arguments).exits(1);
+        assert!(run.stderr.starts_with("error: there is not enough memory; "), "{}", run.stderr);
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+        assert_eq!(names_in(folder.path()), ["a.glb"]);
+    }
+}
+
+/// The batch goes on after a file that was refused; one that ended two runs is named, and the others are done.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_batch_goes_on_beside_a_file_that_needs_too_much_memory() {
+    let folder = folder_with(&["made/shield.glb", "made/quantised-sparse.glb"]);
+    fs::write(folder.path().join("deadly.glb"), strips()).expect("a file");
+    let out = tempfile::tempdir().expect("a temporary folder");
+    let run = |options: &[&str]| {
+        let fixed = ["tangents", text(folder.path()), "--jobs", "1", "--out-dir"];
+        let arguments = [&fixed[..], &[text(out.path())], options].concat();
+        darboux_with_addresses(256 << 20, &arguments).exits(1).stderr
+    };
+    let said = run(&["--force"]);
+    assert!(said.contains("deadly.glb: ") && said.contains("in 2 files, 1 file failed"), "{said}");
+    let raised = ["--resume", "--memory-limit", "1000000"];
+    for _ in 0..2 {
+        let said = run(&raised);
+        assert!(said.contains("error: there is not enough memory; "), "{said}");
+    }
+    for _ in 0..2 {
+        let said = run(&raised);
+        assert!(
+            said.contains("deadly.glb: is skipped") && said.contains("in 2 files, 1 file failed"),
+            "{said}"
+        );
+    }
+    let said = run(&["--resume", "--retry"]);
+    assert!(said.contains("more than the memory limit of"), "{said}");
 }
 
 /// Every view names the same stream of half a megabyte, which is all zero after its first byte and decodes to 32 MiB.

@@ -3,6 +3,7 @@
 mod common;
 
 use std::fs::{self, File};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -184,8 +185,8 @@ fn a_killed_run_goes_on() {
     loop {
         // Before the journal: a machine that pauses here must not make it seem that nothing was journalled.
         let has_ended = killed.try_wait().expect("a status").is_some();
-        // One line is the run, the next an output.
-        if fs::read_to_string(out.join(JOURNAL)).is_ok_and(|journal| journal.lines().count() > 1) {
+        // Lines say that the run and its files began; the first with a hash is an output.
+        if fs::read_to_string(out.join(JOURNAL)).is_ok_and(|journal| journal.contains("\"content\"")) {
             break;
         }
         assert!(!has_ended, "nothing was journalled");
@@ -213,6 +214,33 @@ fn a_killed_run_goes_on() {
         files.map(|(path, bytes)| (path.strip_prefix(folder).expect("below").to_owned(), bytes)).collect()
     };
     assert!(relative(&out) == relative(&whole), "{:?}", names_in(&out));
+}
+
+/// A file that was at work when a run was killed is tried again; at the second time it is skipped and named, until it is asked for.
+#[test]
+fn a_file_that_kills_runs_is_named() {
+    let (_folder, models, out) = library();
+    fs::create_dir(&out).expect("a folder");
+    let killed_at = |output: &str| {
+        let journal = fs::OpenOptions::new().append(true).create(true).open(out.join(JOURNAL));
+        writeln!(journal.expect("the journal"), "{}", serde_json::json!({ "begun": output }))
+            .expect("a line");
+    };
+    killed_at("a.glb");
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["written", "copied", "copied"]);
+    fs::remove_file(out.join("a.glb")).expect("the output");
+    killed_at("a.glb");
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["written", "up_to_date", "up_to_date"]);
+    killed_at("a.glb");
+    killed_at("a.glb");
+    for _ in 0..4 {
+        let report = resume(&models, &out, &[], 1);
+        assert_eq!(statuses(&report), ["failed", "up_to_date", "up_to_date"]);
+        let error = report["files"][0]["error"].as_str().expect("a sentence");
+        assert!(error.contains("a.glb: is skipped") && error.contains("--retry"), "{error}");
+    }
+    assert_eq!(statuses(&resume(&models, &out, &["--retry"], 0)), ["up_to_date"; 3]);
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["up_to_date"; 3]);
 }
 
 #[test]

@@ -78,7 +78,6 @@ impl LoadOptions {
 
     /// The memory for a file of `size` bytes of which `decompressed` bytes were made.
     pub(crate) fn budget(&self, size: usize, decompressed: usize) -> Budget {
-        let bytes = self.memory_limit.for_sizes(size, decompressed);
-        Budget { bytes, option: self.option_names.memory_limit }
+        self.memory_limit.budget(size, decompressed, self.option_names.memory_limit)
     }
 }

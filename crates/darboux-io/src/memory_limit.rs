@@ -5,7 +5,12 @@
 
 /// The most bytes that a file's content may take in memory. The default is 256 MiB and 64 times the size of the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct MemoryLimit(Option<u64>);
+pub struct MemoryLimit {
+    /// The limit for files of any size; without it, the default.
+    fixed: Option<u64>,
+    /// What the whole process may use, which bounds the default.
+    process: Option<u64>,
+}
 
 /// The default limit of an empty file.
 const BASE: usize = 256 << 20;
@@ -25,18 +30,35 @@ pub const BYTES_PER_PRIMITIVE: usize = 4096;
 impl MemoryLimit {
     /// A limit of `bytes` for files of any size.
     pub const fn bytes(bytes: u64) -> Self {
-        Self(Some(bytes))
+        Self { fixed: Some(bytes), process: None }
+    }
+
+    /// The default limit, and at most the `bytes` that the process may use, file included; none for a process without a limit.
+    pub const fn of_process(bytes: Option<u64>) -> Self {
+        Self { fixed: None, process: bytes }
+    }
+
+    /// What the process may use, where it bounds the limit.
+    pub(crate) const fn process(self) -> Option<u64> {
+        self.process
     }
 
     /// The limit for a file of `size` bytes of which `decompressed` bytes were made.
-    pub(crate) fn for_sizes(self, size: usize, decompressed: usize) -> usize {
-        match self.0 {
-            Some(bytes) => usize::try_from(bytes).unwrap_or(usize::MAX),
-            None => size
-                .saturating_mul(PER_BYTE)
-                .saturating_add(decompressed.saturating_mul(PER_DECOMPRESSED_BYTE))
-                .saturating_add(BASE),
+    pub(crate) fn budget(self, size: usize, decompressed: usize, option: &'static str) -> Budget {
+        if let Some(bytes) = self.fixed {
+            return Budget {
+                bytes: usize::try_from(bytes).unwrap_or(usize::MAX),
+                is_of_process: false,
+                option,
+            };
         }
+        let by_size = size
+            .saturating_mul(PER_BYTE)
+            .saturating_add(decompressed.saturating_mul(PER_DECOMPRESSED_BYTE))
+            .saturating_add(BASE);
+        let process = self.process.map_or(usize::MAX, |bytes| usize::try_from(bytes).unwrap_or(usize::MAX));
+        let left = process.saturating_sub(size).saturating_sub(decompressed);
+        Budget { bytes: by_size.min(left), is_of_process: left < by_size, option }
     }
 }
 
@@ -45,6 +67,8 @@ impl MemoryLimit {
 pub struct Budget {
     /// The most bytes.
     pub bytes: usize,
+    /// Whether it is what the process may use.
+    pub is_of_process: bool,
     /// The name of the option that changes the limit.
     pub option: &'static str,
 }
@@ -54,8 +78,13 @@ impl Budget {
     pub fn exceeded(&self, what: &str) -> String {
         let limit = self.bytes.div_ceil(1 << 20);
         let option = self.option;
+        let (reason, advice) = if self.is_of_process {
+            (", all that this process may use beside the file", "give the process more memory, or ")
+        } else {
+            ("", "")
+        };
         format!(
-            "{what} more than the memory limit of {limit} MiB; if you trust the file, raise the limit ({option})"
+            "{what} more than the memory limit of {limit} MiB{reason}; {advice}if you trust the file, raise the limit ({option})"
         )
     }
 }

@@ -6,6 +6,9 @@
 //! are relative to the folder, so that the folder can be moved. An output outside the folder (behind a link) is not recorded and is
 //! processed again each time.
 //!
+//! A file is noted before it is begun. One that was at work when a run was killed is tried again alone, after all others; one that was at work
+//! when two runs were killed is skipped and named, until --retry asks for it.
+//!
 //! Lines are only appended while a run works. Opening the journal rewrites it without superseded lines once they are the majority.
 
 use std::collections::{HashMap, HashSet};
@@ -33,6 +36,22 @@ pub struct Journal {
     /// All runs that ever started in this folder, this one included.
     runs: HashSet<RunId>,
     records: HashMap<String, Record>,
+    /// How many killed runs were at work on an output when they ended.
+    attempts: HashMap<String, usize>,
+}
+
+/// After this many killed runs at work on an output, its file is skipped.
+const MOST_ATTEMPTS: usize = 2;
+
+/// What earlier runs say about a job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Earlier {
+    /// No run was killed while it worked on the file.
+    Harmless,
+    /// One was.
+    Suspect,
+    /// Each of several was.
+    Deadly,
 }
 
 /// The record of an output.
@@ -52,6 +71,18 @@ pub struct Record {
 #[derive(Serialize, Deserialize)]
 struct RunStart {
     run: String,
+}
+
+/// The line that marks the start of work on an output.
+#[derive(Serialize, Deserialize)]
+struct Begun {
+    begun: String,
+}
+
+/// The line that marks the end of work that leaves no record.
+#[derive(Serialize, Deserialize)]
+struct Ended {
+    ended: String,
 }
 
 /// Everything that an output depends on.
@@ -169,13 +200,19 @@ impl Journal {
         };
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(failed)?;
-        let mut journal =
-            Self { folder: folder.to_owned(), file, runs: HashSet::new(), records: HashMap::new() };
+        let mut journal = Self {
+            folder: folder.to_owned(),
+            file,
+            runs: HashSet::new(),
+            records: HashMap::new(),
+            attempts: HashMap::new(),
+        };
         let lines = || bytes.split(|&byte| byte == b'\n').filter(|line| !line.is_empty());
         lines().for_each(|line| journal.read(line));
         journal.remove_temporary_files()?;
         journal.runs.insert(run);
-        let superseded_lines = lines().count().saturating_sub(journal.runs.len() + journal.records.len());
+        let current = journal.runs.len() + journal.records.len() + journal.attempts.values().sum::<usize>();
+        let superseded_lines = lines().count().saturating_sub(current);
         if superseded_lines > journal.records.len() && journal.compact(&path, run).is_ok() {
             return Ok(journal);
         }
@@ -199,6 +236,13 @@ impl Journal {
         for record in records {
             append_line(&mut text, record)?;
         }
+        let mut attempts: Vec<_> = self.attempts.iter().collect();
+        attempts.sort();
+        for (output, &count) in attempts {
+            for _ in 0..count.min(MOST_ATTEMPTS) {
+                append_line(&mut text, &Begun { begun: output.clone() })?;
+            }
+        }
         let mut temporary = tempfile::Builder::new()
             .prefix(&run.temporary_prefix())
             .make_in(&self.folder, |path| File::create_new(path))?;
@@ -214,7 +258,12 @@ impl Journal {
     /// Parses a line; a broken line is ignored.
     fn read(&mut self, line: &[u8]) {
         if let Ok(record) = serde_json::from_slice::<Record>(line) {
+            self.attempts.remove(&record.output);
             self.records.insert(record.output.clone(), record);
+        } else if let Ok(Begun { begun }) = serde_json::from_slice(line) {
+            *self.attempts.entry(begun).or_default() += 1;
+        } else if let Ok(Ended { ended }) = serde_json::from_slice(line) {
+            self.attempts.remove(&ended);
         } else if let Some(run) =
             serde_json::from_slice(line).ok().and_then(|RunStart { run }| run.parse().ok())
         {
@@ -248,6 +297,26 @@ impl Journal {
     /// Finds the record of an output.
     pub fn find(&self, output: &Path) -> Option<&Record> {
         self.records.get(&relative_to(&self.folder, output)?)
+    }
+
+    /// What earlier runs say about the work on an output.
+    pub fn earlier(&self, output: &Path) -> Earlier {
+        let name = relative_to(&self.folder, output);
+        match name.and_then(|name| self.attempts.get(&name)) {
+            None => Earlier::Harmless,
+            Some(&count) if count < MOST_ATTEMPTS => Earlier::Suspect,
+            Some(_) => Earlier::Deadly,
+        }
+    }
+
+    /// Notes that work on an output begins, so that a run that is killed leaves its name.
+    pub fn begin(&self, output: &Path) -> Result<(), String> {
+        relative_to(&self.folder, output).map_or(Ok(()), |begun| self.append(&Begun { begun }))
+    }
+
+    /// Notes that the work ended without a record.
+    pub fn end(&self, output: &Path) -> Result<(), String> {
+        relative_to(&self.folder, output).map_or(Ok(()), |ended| self.append(&Ended { ended }))
     }
 
     /// Adds a record.

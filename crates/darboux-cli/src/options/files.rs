@@ -43,6 +43,10 @@ pub struct FileOptions {
     #[arg(long, requires = "out_dir", help_heading = "Output")]
     pub resume: bool,
 
+    /// With --resume, process also inputs that are skipped because two runs were killed while they worked on them
+    #[arg(long, requires = "resume", help_heading = "Output")]
+    pub retry: bool,
+
     /// How many files are processed at the same time; by default one per processor core
     ///
     /// The results, and the order of messages, are the same for every number. Each file needs memory of its own.

@@ -6,6 +6,8 @@ use clap::Args;
 use darboux_io::gltf::Document;
 use darboux_io::{Error, LoadOptions, MemoryLimit, OptionNames};
 
+use crate::memory;
+
 /// How a model is read.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub struct ReadOptions {
@@ -13,7 +15,7 @@ pub struct ReadOptions {
     #[arg(long)]
     pub allow_outside: bool,
 
-    /// The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file
+    /// The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use
     #[arg(long, value_name = "MIB")]
     pub memory_limit: Option<u32>,
 }
@@ -21,10 +23,11 @@ pub struct ReadOptions {
 impl ReadOptions {
     /// The options of the reader.
     pub fn load_options(&self) -> LoadOptions {
-        let limit = self.memory_limit.map(|mebibytes| MemoryLimit::bytes(u64::from(mebibytes) << 20));
+        let chosen = self.memory_limit.map(|mebibytes| MemoryLimit::bytes(u64::from(mebibytes) << 20));
+        let limit = chosen.unwrap_or_else(|| MemoryLimit::of_process(memory::of_process()));
         LoadOptions::default()
             .with_allow_outside(self.allow_outside)
-            .with_memory_limit(limit.unwrap_or_default())
+            .with_memory_limit(limit)
             .with_option_names(option_names())
     }
 

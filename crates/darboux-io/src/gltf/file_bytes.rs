@@ -64,13 +64,18 @@ impl FileAccess {
         }
     }
 
-    /// Opens a file at a path whose links were resolved before. A file that cannot be mapped is read.
-    pub fn open(&self, path: &Path) -> io::Result<FileBytes> {
+    /// Opens a file at a path whose links were resolved before. A file that cannot be mapped is read. `most`: the bytes that the process may use.
+    /// Errors: it cannot be opened or read; it is larger than that.
+    pub fn open(&self, path: &Path, most: Option<u64>) -> io::Result<FileBytes> {
         let maps = match self {
             Self::Disk { maps } => *maps,
             Self::Given(files) => return files.read(&files::name(path)).map(FileBytes::Read),
         };
         let mut file = paths::open_resolved(path)?;
+        let length = file.metadata()?.len();
+        if most.is_some_and(|most| length > most) {
+            return Err(too_large(length));
+        }
         if let Some(mapped) = Some(&file).filter(|_| maps).and_then(map) {
             return Ok(mapped);
         }
@@ -78,6 +83,14 @@ impl FileAccess {
         file.read_to_end(&mut bytes)?;
         Ok(FileBytes::Read(bytes))
     }
+}
+
+fn too_large(length: u64) -> io::Error {
+    let mebibytes = length.div_ceil(1 << 20);
+    let sentence = format!(
+        "its {mebibytes} MiB are more than the memory that this process may use; give the process more memory"
+    );
+    io::Error::new(io::ErrorKind::OutOfMemory, sentence)
 }
 
 /// The mapped file; none if it is small, or the system cannot map it.

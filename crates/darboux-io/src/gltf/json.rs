@@ -294,7 +294,7 @@ pub fn remove_extension(object: &mut Value, name: &str) -> bool {
 /// Parses JSON without a limit of memory.
 #[cfg(test)]
 pub fn parse_test(text: &str) -> Result<Value, ContentError> {
-    parse(text, Budget { bytes: usize::MAX, option: "" })
+    parse(text, Budget { bytes: usize::MAX, is_of_process: false, option: "" })
 }
 
 #[cfg(test)]
@@ -332,7 +332,7 @@ mod tests {
         assert!(problem("[1e400]").contains("the number 1e+400 is out of range"));
         assert!(problem("[1,]").starts_with("is not JSON: "));
         assert!(problem("{} {}").starts_with("is not JSON: "));
-        let limit = Budget { bytes: 1 << 20, option: "--memory-limit" };
+        let limit = Budget { bytes: 1 << 20, is_of_process: false, option: "--memory-limit" };
         let many = format!("[{}0]", "{\"\":0},".repeat(10_000));
         let refused = super::parse(&many, limit).expect_err("6 MB").into_clause();
         assert!(refused.contains("has JSON that needs more than the memory limit of 1 MiB"), "{refused}");

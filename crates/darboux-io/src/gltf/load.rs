@@ -11,6 +11,7 @@ use super::container::Container;
 use super::document::Document;
 use super::file_bytes::{FileAccess, FileBytes};
 use super::json::{self, TextLayout};
+use super::primitives::triangles::mode_name;
 use super::references::{self, Unreferenced};
 use super::resources::Resources;
 use super::schema::Root;
@@ -22,7 +23,7 @@ impl Document {
     /// Reads a `.glb` or `.gltf` file and the buffers that it refers to, and decodes what is compressed with Draco or meshopt. The first bytes decide between
     /// the two formats.
     ///
-    /// Errors: a file that cannot be read, or is not valid glTF; a reference to an element that does not exist; a compressed stream that is broken.
+    /// Errors: a file that cannot be read, or is not valid glTF; a mode of a primitive, or a reference to an element, that does not exist; a compressed stream that is broken.
     pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Error> {
         Self::open_with(path, options, FileAccess::default())
     }
@@ -42,7 +43,7 @@ impl Document {
     fn open_with(path: &Path, options: &LoadOptions, access: FileAccess) -> Result<Self, Error> {
         let failed = |source| Error::Read { file: path.to_owned(), source };
         let input = paths::resolve_input(path)?;
-        let bytes = access.open(&input).map_err(failed)?;
+        let bytes = access.open(&input, options.memory_limit.process()).map_err(failed)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let name = path.display().to_string();
         let mut document = Self::from_file(&name, bytes, Some(folder), options, access)?;
@@ -103,6 +104,7 @@ impl Document {
         let (json, layout) = (json::parse(text, limit)?, TextLayout::of(text));
         check_primitive_count(&json, limit)?;
         let root = read_root(&json)?;
+        check_modes(&root)?;
         let references = references::check(&json)?;
         let chunk = container.bin.clone().map(|range| &file[range]);
         let buffers = root
@@ -148,6 +150,19 @@ fn check_primitive_count(json: &Value, limit: Budget) -> Result<(), ContentError
     let (primitives, need) = if count == 1 { ("primitive", "needs") } else { ("primitives", "need") };
     let problem = limit.exceeded(&format!("has {count} {primitives}, which {need}"));
     Err(ContentError::unsupported("meshes", problem))
+}
+
+/// Checks that the mode of every primitive is one of glTF's.
+fn check_modes(root: &Root) -> Result<(), ContentError> {
+    for (i, mesh) in root.meshes.iter().enumerate() {
+        for (k, primitive) in mesh.primitives.iter().enumerate() {
+            if mode_name(primitive.mode).is_none() {
+                let problem = format!("{} is not a mode; use 0 to 6", primitive.mode);
+                return Err(ContentError::invalid(format!("meshes[{i}].primitives[{k}].mode"), problem));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The typed parts of a document. Errors: it is not glTF 2.0.

@@ -157,7 +157,7 @@ impl Resources {
 
     /// The content of a file, which is not kept.
     pub fn bytes(&self, path: &Path) -> io::Result<FileBytes> {
-        self.access.open(path)
+        self.access.open(path, self.options.memory_limit.process())
     }
 }
 

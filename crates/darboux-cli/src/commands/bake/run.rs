@@ -21,6 +21,7 @@ use super::verified::{PROGRESS_UNITS, Verified};
 use super::write::{all_outputs, commit, refuse_outputs, stage_maps};
 use crate::documents::load_with_obj;
 use crate::json::{VERSION, print_report};
+use crate::memory;
 use crate::terminal::Messages;
 use crate::{exit, interrupt};
 
@@ -222,7 +223,7 @@ fn options(arguments: &BakeArguments, rays: &Rays) -> BakeOptions {
         .with_map_convention(arguments.convention.convention)
         .with_padding(arguments.padding)
         .with_occlusion(arguments.ao_rays, arguments.ao_distance.unwrap_or(f32::INFINITY))
-        .with_memory_limit(available_memory())
+        .with_memory_limit(memory::available())
 }
 
 fn bake_surfaces(
@@ -240,12 +241,4 @@ fn bake_surfaces(
     let progress = messages.file(&arguments.output.display().to_string(), PROGRESS_UNITS);
     let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
     bake(low, high, options, &mut context, &mut tell).map_err(|error| error.to_string())
-}
-
-/// The bytes that the system can give without swapping; none where it does not say.
-fn available_memory() -> Option<u64> {
-    let info = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = info.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kibibytes: u64 = line.trim().strip_suffix(" kB")?.trim().parse().ok()?;
-    Some(kibibytes << 10)
 }

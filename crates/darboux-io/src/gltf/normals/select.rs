@@ -68,7 +68,7 @@ impl NormalSelection {
     }
 }
 
-/// Selects primitives. Errors: accessors that do not exist, unknown modes.
+/// Selects primitives. Errors: accessors that do not exist.
 pub fn select(
     document: &Document,
     options: &AddNormalsOptions,
@@ -79,7 +79,7 @@ pub fn select(
         for (place, primitive) in mesh.primitives.iter().enumerate() {
             let name = PrimitiveName { mesh: index, mesh_name: mesh.name.clone(), primitive: place };
             if is_wanted(&name) {
-                let verdict = judge(document, &name, primitive, options)?;
+                let verdict = judge(document, primitive, options)?;
                 candidates.push(NormalCandidate { name, verdict });
             }
         }
@@ -89,16 +89,12 @@ pub fn select(
 
 fn judge(
     document: &Document,
-    name: &PrimitiveName,
     primitive: &Primitive,
     options: &AddNormalsOptions,
 ) -> Result<NormalVerdict, Error> {
     let skipped = |reason: &str| Ok(NormalVerdict::Skipped(reason.to_owned()));
-    let Some(mode) = mode_name(primitive.mode) else {
-        let problem = format!("{} is not a mode; use 0 to 6", primitive.mode);
-        return Err(document.invalid(format!("{}.mode", name.path()), problem));
-    };
     let Some(topology) = TriangleMode::from_mode(primitive.mode) else {
+        let mode = mode_name(primitive.mode).unwrap_or("unknown");
         return Ok(NormalVerdict::Skipped(format!("its mode is {mode}; only triangles get normals")));
     };
     if primitive.attributes.contains_key("NORMAL") && !options.overwrite {

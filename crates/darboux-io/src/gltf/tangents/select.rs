@@ -81,7 +81,7 @@ impl TangentSelection {
     }
 }
 
-/// Selects primitives. Errors: materials or accessors that do not exist, unknown modes.
+/// Selects primitives. Errors: materials or accessors that do not exist.
 pub fn select(
     document: &Document,
     options: &AddTangentsOptions,
@@ -112,7 +112,7 @@ fn candidate(
         materials.iter().filter_map(|&(index, material)| UvChoice::of(material, index)).collect();
     let needs_tangents = materials.iter().any(|(_, material)| needs_tangents(material));
     let uv = choices.first().cloned().unwrap_or_default();
-    let verdict = judge(document, &name, primitive, &uv, needs_tangents, options)?;
+    let verdict = judge(document, primitive, &uv, needs_tangents, options)?;
     if let TangentVerdict::Chosen(chosen) = &verdict {
         warnings.variants(&name, &choices);
         warnings.transform(&uv, options, document.options.option_names);
@@ -140,7 +140,6 @@ fn materials_of<'a>(
 
 fn judge(
     document: &Document,
-    name: &PrimitiveName,
     primitive: &Primitive,
     uv: &UvChoice,
     needs_tangents: bool,
@@ -148,11 +147,8 @@ fn judge(
 ) -> Result<TangentVerdict, Error> {
     let attribute = |semantic: &str| primitive.attributes.get(semantic).copied();
     let skipped = |reason: &str| Ok(TangentVerdict::Skipped(reason.to_owned()));
-    let Some(mode) = mode_name(primitive.mode) else {
-        let problem = format!("{} is not a mode; use 0 to 6", primitive.mode);
-        return Err(document.invalid(format!("{}.mode", name.path()), problem));
-    };
     let Some(topology) = TriangleMode::from_mode(primitive.mode) else {
+        let mode = mode_name(primitive.mode).unwrap_or("unknown");
         return Ok(TangentVerdict::Skipped(format!("its mode is {mode}; only triangles have tangents")));
     };
     let replaces = attribute("TANGENT").is_some();
