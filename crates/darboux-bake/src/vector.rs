@@ -52,6 +52,11 @@ pub fn weighted<const N: usize>(weights: [f64; 3], corners: [[f32; N]; 3]) -> [f
 
 /// The diagonal of the box around positions. Coordinates that are not finite do not count; without any, it is 0.
 pub fn box_diagonal(positions: impl Iterator<Item = [f32; 3]>) -> f64 {
+    length(box_extents(positions))
+}
+
+/// The extents of the box around positions along the axes. Coordinates that are not finite do not count; without any, they are 0.
+pub fn box_extents(positions: impl Iterator<Item = [f32; 3]>) -> Vector {
     let empty = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     let [low, high] = positions.fold(empty, |[mut low, mut high], position| {
         for (axis, x) in wide(position).into_iter().enumerate().filter(|(_, x)| x.is_finite()) {
@@ -60,7 +65,7 @@ pub fn box_diagonal(positions: impl Iterator<Item = [f32; 3]>) -> f64 {
         }
         [low, high]
     });
-    length([0, 1, 2].map(|axis| (high[axis] - low[axis]).max(0.0)))
+    [0, 1, 2].map(|axis| (high[axis] - low[axis]).max(0.0))
 }
 
 /// Two unit vectors that with the unit `normal` make a right-handed frame (T. Duff et al., "Building an Orthonormal Basis, Revisited",

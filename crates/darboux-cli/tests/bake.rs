@@ -236,6 +236,39 @@ fn a_picture_shows_where_rays_missed() {
     assert!(whole["warnings"].to_string().contains("map.misses.png: is of an earlier run"), "{whole}");
 }
 
+/// A grid of waves, stretched along x, as an OBJ.
+fn waves(stretch: f32) -> String {
+    let side = 17;
+    let points = || (0..side * side).map(|i| ((i % side) as f32, (i / side) as f32));
+    let mut text = String::new();
+    for (x, y) in points() {
+        let height = 0.3 * (x + y).sin();
+        text += &format!("v {:e} {height} {y}\nvt {} {}\n", stretch * x, x / 16.0, y / 16.0);
+    }
+    text += "vn 0 1 0\n";
+    for (x, y) in points().filter(|&(x, y)| x < 16.0 && y < 16.0) {
+        let first = y as usize * side + x as usize + 1;
+        let corner = |i: usize| format!("{i}/{i}/1");
+        let [a, b, c, d] = [first, first + side, first + side + 1, first + 1].map(corner);
+        text += &format!("f {a} {b} {c} {d}\n");
+    }
+    text
+}
+
+/// A larger cage is no advice where a model is longer than numbers can hold its directions.
+#[test]
+fn a_model_that_is_stretched_too_far_is_named() {
+    for stretch in [1e20, 1e30, 1e37] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [model, map] = ["long.obj", "map.png"].map(|name| folder.path().join(name));
+        fs::write(&model, waves(stretch)).expect("a file");
+        let line = ["bake", text(&model), "--high", text(&model), "-o", text(&map), "--size", "16"];
+        let said = darboux(&line).exits(1).stderr;
+        assert!(said.contains("a million times as long as wide"), "{stretch}: {said}");
+        assert!(!said.contains("cage") && said.lines().count() == 1, "{said}");
+    }
+}
+
 #[test]
 fn a_bake_that_hits_nothing_fails_and_writes_nothing() {
     let pair = Pair::new();

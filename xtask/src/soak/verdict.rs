@@ -122,7 +122,7 @@ fn messages(case: &Case, ended: &EndedRun, broken: &mut Vec<BrokenPromise>) {
     if !text.contains(case.expected.words) {
         add(broken, "message", format!("does not say {}: {}", case.expected.words, last_line(&ended.stderr)));
     }
-    sentences(case, ended.status.code(), &text, broken);
+    sentences(case, ended, &text, broken);
 }
 
 fn is_direction_mark(c: char) -> bool {
@@ -136,13 +136,13 @@ fn is_stdout_a_model(case: &Case) -> bool {
 /// Subcommands that print nothing to standard error but warnings, errors, and what they did with the output.
 const SILENT: [&str; 3] = ["compare", "inspect", "render"];
 
-fn sentences(case: &Case, code: Option<i32>, text: &str, broken: &mut Vec<BrokenPromise>) {
+fn sentences(case: &Case, ended: &EndedRun, text: &str, broken: &mut Vec<BrokenPromise>) {
     let errors = text.lines().filter(|line| line.starts_with("error: ")).count();
-    match code {
-        Some(0) if errors > 0 && !has_findings(case, text) => {
+    match ended.status.code() {
+        Some(0) if errors > 0 && !has_findings(case, ended) => {
             add(broken, "message", format!("exit code 0 with an error: {}", last_line(text.as_bytes())))
         }
-        Some(1 | 2) if errors == 0 && !has_findings(case, text) => {
+        Some(1 | 2) if errors == 0 && !has_findings(case, ended) => {
             add(broken, "message", format!("exit code without an error: {}", last_line(text.as_bytes())));
         }
         _ => {}
@@ -153,23 +153,26 @@ fn sentences(case: &Case, code: Option<i32>, text: &str, broken: &mut Vec<Broken
     let is_labelled =
         |line: &str| ["error: ", "warning: ", &output].iter().any(|start| line.starts_with(*start));
     if is_silent
-        && code != Some(2)
+        && ended.status.code() != Some(2)
         && let Some(line) = text.lines().find(|line| !is_labelled(line))
     {
         add(broken, "message", format!("a line that is neither a warning nor an error: {line}"));
     }
 }
 
-/// Whether the messages are those of a check that was done: findings, which may be errors, and their count.
-fn has_findings(case: &Case, messages: &str) -> bool {
-    let is_count = |line: &str| line.contains(" finding") && !line.starts_with("error: ");
-    case.has("check") && (case.has("--json") || messages.lines().any(is_count))
+/// Whether a check was done: it printed findings, which may be errors, and their count.
+fn has_findings(case: &Case, ended: &EndedRun) -> bool {
+    let is_count = |line: &str| {
+        (line.contains(" finding") || line.ends_with(" worth knowing")) && !line.starts_with("error: ")
+    };
+    let counts = |stream: &[u8]| String::from_utf8_lossy(stream).lines().any(is_count);
+    case.has("check") && (case.has("--json") || counts(&ended.stderr) || counts(&ended.stdout))
 }
 
 /// Inputs must be as they were, and a run that failed on its only input must leave nothing.
 fn files(case: &Case, ended: &EndedRun, before: &Tree, after: &Tree, broken: &mut Vec<BrokenPromise>) {
     let code = ended.status.code();
-    let is_done = matches!(code, Some(0 | 3)) || has_findings(case, &String::from_utf8_lossy(&ended.stderr));
+    let is_done = matches!(code, Some(0 | 3)) || has_findings(case, ended);
     let may_replace = case.has("--in-place") && is_done;
     for (path, content) in before {
         let is_outside = !path.starts_with(WORK);

@@ -11,7 +11,7 @@ use super::placed::{PlacedPrimitive, places, vertices};
 use super::stored::StoredPrimitive;
 use crate::LowSurface;
 use crate::text::listed;
-use crate::vector::box_diagonal;
+use crate::vector::{box_diagonal, box_extents};
 
 /// How the low model is read.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -163,7 +163,19 @@ impl<'a> LowModel<'a> {
 
     /// The diagonal of the box around the model, in units of its positions.
     pub fn diagonal(&self) -> f64 {
-        box_diagonal(self.parts.iter().flat_map(|part| part.primitive.positions.iter().copied()))
+        box_diagonal(self.positions())
+    }
+
+    /// The length of the box around the model over its width, the second largest of its extents; infinite for a line, 1 for a point.
+    pub fn elongation(&self) -> f64 {
+        let mut extents = box_extents(self.positions());
+        extents.sort_by(f64::total_cmp);
+        let [_, width, length] = extents;
+        if length > 0.0 { length / width } else { 1.0 }
+    }
+
+    fn positions(&self) -> impl Iterator<Item = [f32; 3]> {
+        self.parts.iter().flat_map(|part| part.primitive.positions.iter().copied())
     }
 }
 

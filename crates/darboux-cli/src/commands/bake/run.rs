@@ -76,7 +76,7 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
         check.map_err(|error| format!("--verify cannot follow the bake: {error}"))?;
     }
     let baked = bake_surfaces(arguments, messages, &surfaces, &high_surfaces, &options)?;
-    if let Some(reason) = advice::failure(&baked.report, arguments) {
+    if let Some(reason) = advice::failure(&baked.report, arguments, models.low.elongation()) {
         return Err(reason);
     }
     let mut outputs = Outputs::new(None);
@@ -96,7 +96,7 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
         _ => None,
     };
     commit(outputs)?;
-    warnings.extend(advice::of_report(&baked.report, arguments, misses.as_deref()));
+    warnings.extend(advice::of_report(&baked.report, arguments, models.low.elongation(), misses.as_deref()));
     Ok(BakeReport {
         command: "bake",
         version: VERSION,

@@ -8,6 +8,9 @@ use crate::text::counted;
 /// The share of charted texels without a hit, or with inverted normals, from which on there is a warning.
 const NOTABLE: f64 = 0.01;
 
+/// The length of a model over its width from which on single precision cannot hold its directions.
+const LONGEST: f64 = 1e6;
+
 /// Warnings about the models, before the bake.
 pub fn of_models(low: &LowModel<'_>, low_name: &str, high: &[HighModel<'_>]) -> Vec<String> {
     let flat: usize = high.iter().map(HighModel::flat_count).sum();
@@ -45,7 +48,8 @@ pub fn has_many_misses(report: &BakeReport) -> bool {
 }
 
 /// The reason why maps of this bake would show nothing of the high models; none where they do.
-pub fn failure(report: &BakeReport, arguments: &BakeArguments) -> Option<String> {
+/// `elongation`: that of the low model.
+pub fn failure(report: &BakeReport, arguments: &BakeArguments, elongation: f64) -> Option<String> {
     let is_all = |count: u64, of: u64| count > 0 && count == of;
     if is_all(report.non_finite_low_triangles, report.low_triangles) {
         return Some(
@@ -63,12 +67,15 @@ pub fn failure(report: &BakeReport, arguments: &BakeArguments) -> Option<String>
         return Some("no triangle of the low model covers a texel; check its UVs".to_owned());
     }
     (report.missed_texels == report.charted_texels).then(|| {
-        format!("all rays hit nothing, and nothing was written: {}", cause_of_misses(report, arguments))
+        let cause = cause_of_misses(report, arguments, elongation);
+        format!("all rays hit nothing, and nothing was written: {cause}")
     })
 }
 
-fn cause_of_misses(report: &BakeReport, arguments: &BakeArguments) -> &'static str {
-    if 2 * report.back_facing_texels > report.missed_texels {
+fn cause_of_misses(report: &BakeReport, arguments: &BakeArguments, elongation: f64) -> &'static str {
+    if elongation > LONGEST {
+        "the low model is more than a million times as long as wide, so that numbers cannot hold its directions; scale it evenly in its scene"
+    } else if 2 * report.back_facing_texels > report.missed_texels {
         "most of these rays meet the high models from behind, so their faces are turned inside out; turn them, or use --back-faces"
     } else if arguments.distance.is_some() {
         "begin rays farther outside or end them farther inside (--distance), or use a cage (--cage-offset), and check that the models lie on each other"
@@ -78,12 +85,18 @@ fn cause_of_misses(report: &BakeReport, arguments: &BakeArguments) -> &'static s
 }
 
 /// Warnings about the result.
-pub fn of_report(report: &BakeReport, arguments: &BakeArguments, misses: Option<&str>) -> Vec<String> {
+/// `elongation`: that of the low model.
+pub fn of_report(
+    report: &BakeReport,
+    arguments: &BakeArguments,
+    elongation: f64,
+    misses: Option<&str>,
+) -> Vec<String> {
     let share = |count: u64| count as f64 / report.charted_texels.max(1) as f64;
     let percent = |count: u64| format!("{:.1} %", 100.0 * share(count));
     let mut warnings = Vec::new();
     if has_many_misses(report) {
-        let (missed, why) = (percent(report.missed_texels), cause_of_misses(report, arguments));
+        let (missed, why) = (percent(report.missed_texels), cause_of_misses(report, arguments, elongation));
         let place = misses.map(|path| format!("; {path} shows where")).unwrap_or_default();
         warnings.push(format!("the rays of {missed} of the texels hit nothing: {why}{place}"));
     }
