@@ -833,7 +833,7 @@ darboux_status darboux_generate_frames(const struct darboux_mesh *mesh,
 
 /// Splits the vertices whose corners have different tangents.
 ///
-/// Each distinct pair of old vertex and tangent (four floats, compared as bits) becomes one vertex. `mesh`: the mesh of the tangents.
+/// Each distinct pair of old vertex and tangent (four floats, compared as bits; NaN equals NaN) becomes one vertex. `mesh`: the mesh of the tangents.
 /// `tangents`: C by 4 floats, as darboux_generate_tangents writes them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the
 /// next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `split`: receives the result;
 /// free it with darboux_vertex_split_free. Errors: those of the mesh; another number of tangents than corners.

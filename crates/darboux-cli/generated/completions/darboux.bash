@@ -187,7 +187,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__check)
-            opts="-v -q -o -h --resume --jobs --verbose --allow-outside --memory-limit --explain --only --allow --fail-on --convention --model --no-maps --fix --dry-run --method --normals --json --quiet --output --out-dir --in-place --force --help"
+            opts="-v -q -o -h --resume --retry --jobs --verbose --allow-outside --memory-limit --explain --only --allow --fail-on --convention --model --no-maps --fix --dry-run --method --normals --json --quiet --output --out-dir --in-place --force --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -301,7 +301,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__convert)
-            opts="-v -q -o -h --out-dir --in-place --force --resume --jobs --verbose --allow-outside --memory-limit --from --to --layout --to-layout --space --model --uv-set --raw --json --quiet --output --help"
+            opts="-v -q -o -h --out-dir --in-place --force --resume --retry --jobs --verbose --allow-outside --memory-limit --from --to --layout --to-layout --space --model --uv-set --raw --json --quiet --output --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -409,7 +409,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__normals)
-            opts="-o -v -q -h --output --out-dir --in-place --force --resume --jobs --verbose --allow-outside --memory-limit --normals --weight --respect-seams --overwrite --json --quiet --help"
+            opts="-o -v -q -h --output --out-dir --in-place --force --resume --retry --jobs --verbose --allow-outside --memory-limit --normals --weight --respect-seams --overwrite --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -525,7 +525,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__tangents)
-            opts="-o -v -q -h --output --out-dir --in-place --force --resume --jobs --verbose --allow-outside --memory-limit --method --mode --threshold --device --normals --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
+            opts="-o -v -q -h --output --out-dir --in-place --force --resume --retry --jobs --verbose --allow-outside --memory-limit --method --mode --threshold --device --normals --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0

@@ -41,7 +41,7 @@ complete -c darboux -n "__fish_darboux_needs_command" -f -a "completions" -d 'Pr
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output -d 'Output file for a single input, in an existing folder; - is standard output, as GLB' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l out-dir -d 'Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure of input folders' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l jobs -d 'How many files are processed at the same time; by default one per processor core' -r
-complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l method -d 'How tangents are computed: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF)'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
 lengyel\t'The sum of dP/du, not normalised, separate for each UV orientation'
@@ -65,6 +65,7 @@ snorm8x4\t''"
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l force -d 'Replace output files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l resume -d 'Process only the inputs whose output in --out-dir is missing or out of date'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l retry -d 'With --resume, process also inputs that are skipped because two runs were killed while they worked on them'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s v -l verbose -d 'Print every primitive and warning; without it, more than 10 files get one line each'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l overwrite -d 'Replace existing tangents, and with --normals existing normals; without it they are kept'
@@ -77,7 +78,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s h -l help -
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s o -l output -d 'Output file for a single input, in an existing folder; - is standard output, as GLB' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l out-dir -d 'Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure of input folders' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l jobs -d 'How many files are processed at the same time; by default one per processor core' -r
-complete -c darboux -n "__fish_darboux_using_subcommand normals" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l normals -d 'flat, smooth, or crease=DEG: smooth except at edges sharper than DEG degrees' -r
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l weight -d 'The weight of each face at a smooth vertex' -r -f -a "angle\t'The angle of its corner: independent of the triangulation of flat surfaces'
 area\t'Its area'
@@ -85,6 +86,7 @@ angle-area\t'Angle times area: wide faces stay flat beside bevels'"
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l force -d 'Replace output files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l resume -d 'Process only the inputs whose output in --out-dir is missing or out of date'
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l retry -d 'With --resume, process also inputs that are skipped because two runs were killed while they worked on them'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s v -l verbose -d 'Print every primitive and warning; without it, more than 10 files get one line each'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l respect-seams -d 'Do not smooth across vertices with different indices, even at equal positions'
@@ -94,7 +96,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand normals" -s q -l quiet -
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l out-dir -d 'Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure of input folders' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l jobs -d 'How many files are processed at the same time; by default one per processor core' -r
-complete -c darboux -n "__fish_darboux_using_subcommand convert" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l from -d 'The convention of the inputs' -r -f -a "gltf\t''
 opengl\t''
 directx\t''
@@ -125,6 +127,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand convert" -s o -l output 
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l force -d 'Replace output files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l resume -d 'Process only the inputs whose output in --out-dir is missing or out of date'
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l retry -d 'With --resume, process also inputs that are skipped because two runs were killed while they worked on them'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s v -l verbose -d 'Print every primitive and warning; without it, more than 10 files get one line each'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l raw -d 'Allow models in other conventions than glTF\'s, for programs that use the numbers as they are'
@@ -132,7 +135,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand convert" -l json -d 'Wri
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l jobs -d 'How many files are processed at the same time; by default one per processor core' -r
-complete -c darboux -n "__fish_darboux_using_subcommand check" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l explain -d 'Print the meaning of a code and exit' -r -f -a "tangent-not-finite\t''
 tangent-zero\t''
 tangent-not-unit\t''
@@ -278,6 +281,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand check" -l normals -d 'Ho
 complete -c darboux -n "__fish_darboux_using_subcommand check" -s o -l output -d 'Output file for a single input, in an existing folder; - is standard output, as GLB' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l out-dir -d 'Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure of input folders' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l resume -d 'Process only the inputs whose output in --out-dir is missing or out of date'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l retry -d 'With --resume, process also inputs that are skipped because two runs were killed while they worked on them'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -s v -l verbose -d 'Print every primitive and warning; without it, more than 10 files get one line each'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l no-maps -d 'Do not decode normal maps: they are taken to be right'
@@ -334,7 +338,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand bake" -l write-model -d 
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l heat-map -d 'Draw these errors over the UV layout, on a scale from 0.01 to 180 degrees' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l heat-model -d 'Write the low model painted with these errors, on the same scale; `darboux render` and every viewer show it' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l jobs -d 'How many threads work; by default one per processor core' -r
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l back-faces -d 'Let rays hit triangles from behind'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l no-high-maps -d 'Bake the geometry of the high models without the normal maps of their materials'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l verify -d 'Shade the low model with the map that was written, as a renderer does, and print how far its normals are from those of the high models'
@@ -355,13 +359,13 @@ angle-edge\t'Weighted by angle and edge lengths: the default of meshoptimizer, g
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l worst -d 'How many of the worst corners are listed' -r
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l tolerance -d 'Exit with 3 if an angle is larger than this, a sign w is opposite, or one side lacks tangents' -r
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l heat-map -d 'Draw the angles over the UV layout, as a PNG' -r -F
-complete -c darboux -n "__fish_darboux_using_subcommand compare" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l force -d 'Replace a heat map that exists'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
+complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
@@ -403,7 +407,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand render" -l mesh -d 'Draw
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l size -d 'Width and height in pixels, at least 1x1' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l camera -d 'Degrees around the model (0 is its front), degrees above the horizon, and the magnification (1 shows the whole model)' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l background -d 'The colour behind the model' -r
-complete -c darboux -n "__fish_darboux_using_subcommand render" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l seams -d 'Draw mirrored seams: the edges across which the sign w changes'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l no-legend -d 'Draw no legend and no names of the two sides'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l force -d 'Replace a picture that exists'
@@ -412,7 +416,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand render" -l json -d 'Writ
 complete -c darboux -n "__fish_darboux_using_subcommand render" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l high -d 'A high-poly model whose detail the page bakes into a normal map of MODEL' -r -F
-complete -c darboux -n "__fish_darboux_using_subcommand view" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
+complete -c darboux -n "__fish_darboux_using_subcommand view" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l page -d 'The folder with the page\'s files' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l no-open -d 'Print the address and open no browser'
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
