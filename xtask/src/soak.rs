@@ -62,6 +62,7 @@ pub fn run(words: &[&str]) -> Outcome {
     let renders = program.can_render();
     let seeds = seeds::all(options.models.as_deref())?;
     let folder = base.join(std::process::id().to_string());
+    child::end_with_signals(folder.clone()).map_err(|error| format!("signals cannot be handled: {error}"))?;
     let soak = Soak { options, program, commands, seeds, directed: directed::all(), renders, folder };
     let mut report = Report::new(soak.options.duration, keep);
     println!(

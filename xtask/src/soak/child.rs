@@ -2,12 +2,17 @@
 
 use std::fs::{self, File};
 use std::io;
-use std::path::Path;
+use std::ops::{Deref, DerefMut};
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use rustix::process::{Pid, Signal, kill_process};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
+use signal_hook::low_level::emulate_default_handler;
 
 /// What a run may take. Beyond it the run is killed.
 #[derive(Clone, Copy)]
@@ -38,6 +43,62 @@ pub struct ResourceUse {
     pub memory: u64,
 }
 
+/// The processes that run now. Each is a leader of nothing: the command starts no further ones.
+static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
+
+/// A process that is killed when this value is dropped, or when the soak itself is ended by Ctrl-C, SIGTERM or SIGHUP.
+pub struct OwnedChild(Child);
+
+impl OwnedChild {
+    /// Starts a process. Errors: it cannot be started.
+    pub fn spawn(command: &mut Command) -> io::Result<Self> {
+        let mut running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
+        let child = command.spawn()?;
+        running.push(child.id());
+        Ok(Self(child))
+    }
+}
+
+impl Deref for OwnedChild {
+    type Target = Child;
+
+    fn deref(&self) -> &Child {
+        &self.0
+    }
+}
+
+impl DerefMut for OwnedChild {
+    fn deref_mut(&mut self) -> &mut Child {
+        &mut self.0
+    }
+}
+
+impl Drop for OwnedChild {
+    fn drop(&mut self) {
+        let mut running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
+        let _may_have_ended = self.0.kill();
+        let _is_no_zombie = self.0.wait();
+        running.retain(|&id| id != self.0.id());
+    }
+}
+
+/// From now on Ctrl-C, SIGTERM and SIGHUP kill what runs and remove `folder` before they end the soak. Errors: the system refuses.
+pub fn end_with_signals(folder: PathBuf) -> io::Result<()> {
+    let mut signals = Signals::new([SIGHUP, SIGINT, SIGTERM])?;
+    thread::spawn(move || {
+        if let Some(signal) = signals.forever().next() {
+            // Held to the end of the process, so that nothing is started any more.
+            let running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
+            for pid in running.iter().filter_map(|&id| Pid::from_raw(i32::try_from(id).ok()?)) {
+                let _may_have_ended = kill_process(pid, Signal::KILL);
+            }
+            let _may_not_exist = fs::remove_dir_all(&folder);
+            let _the_process_has_ended = emulate_default_handler(signal);
+        }
+    });
+    Ok(())
+}
+
 /// The longest time between two measurements.
 const PAUSE: Duration = Duration::from_millis(4);
 
@@ -53,7 +114,7 @@ pub fn run(
     let [input, output, messages] = ["stdin", "stdout", "stderr"].map(|name| folder.join(name));
     fs::write(&input, stdin)?;
     command.stdin(File::open(&input)?).stdout(File::create(&output)?).stderr(File::create(&messages)?);
-    let mut child = command.spawn()?;
+    let mut child = OwnedChild::spawn(command)?;
     let (status, used, over) = watch(&mut child, limits, signal)?;
     Ok(EndedRun { status, stdout: fs::read(&output)?, stderr: fs::read(&messages)?, used, over })
 }
@@ -137,6 +198,14 @@ mod tests {
     fn shell(line: &str, limits: Limits) -> EndedRun {
         let folder = tempfile::tempdir().expect("a folder");
         run(Command::new("sh").args(["-c", line]), folder.path(), b"in", limits, None).expect("a shell")
+    }
+
+    #[test]
+    fn a_child_is_killed_where_it_is_dropped() {
+        let child = OwnedChild::spawn(Command::new("sleep").arg("600")).expect("a process");
+        let place = format!("/proc/{}", child.id());
+        drop(child);
+        assert!(!Path::new(&place).exists());
     }
 
     #[test]

@@ -160,10 +160,11 @@ fn sentences(case: &Case, ended: &EndedRun, text: &str, broken: &mut Vec<BrokenP
     }
 }
 
-/// Whether a check was done: it printed findings, which may be errors, and their count.
+/// Whether a check was done: it printed the count of its findings, which may be errors, or of the edits that it plans.
 fn has_findings(case: &Case, ended: &EndedRun) -> bool {
     let is_count = |line: &str| {
-        (line.contains(" finding") || line.ends_with(" worth knowing")) && !line.starts_with("error: ")
+        (line.contains(" finding") || line.contains(" planned in ") || line.ends_with(" worth knowing"))
+            && !line.starts_with("error: ")
     };
     let counts = |stream: &[u8]| String::from_utf8_lossy(stream).lines().any(is_count);
     case.has("check") && (case.has("--json") || counts(&ended.stderr) || counts(&ended.stdout))

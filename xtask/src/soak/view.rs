@@ -8,7 +8,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::child::{ResourceUse, measure};
+use super::child::{OwnedChild, ResourceUse, measure};
 use super::random::Random;
 use super::verdict::BrokenPromise;
 
@@ -32,7 +32,7 @@ pub fn run(
 ) -> io::Result<()> {
     let stdout = streams.join("stdout");
     command.stdin(Stdio::null()).stdout(File::create(&stdout)?).stderr(File::create(streams.join("stderr"))?);
-    let mut server = command.spawn()?;
+    let mut server = OwnedChild::spawn(command)?;
     let address = wait_for_address(&mut server, &stdout)?;
     if let Some((host, path)) = address.as_deref().and_then(parts) {
         attack(&mut server, host, path, random, used, broken)?;
