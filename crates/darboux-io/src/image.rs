@@ -3,6 +3,7 @@
 mod channels;
 mod chunks;
 mod normal_map;
+mod palette;
 mod png_image;
 #[cfg(feature = "textures")]
 mod rgba;

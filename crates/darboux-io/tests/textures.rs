@@ -1,7 +1,8 @@
 //! Texture files decode to the texels that were encoded.
 #![cfg(feature = "textures")]
 
-use darboux_io::image::{DecodeError, DecodeLimits, RgbaImage};
+use darboux_io::LoadOptions;
+use darboux_io::image::{DecodeError, DecodeLimits, PngImage, RgbaImage};
 
 /// A PNG of 8 or 16 bits per channel.
 fn png(color: png::ColorType, depth: png::BitDepth, [width, height]: [u32; 2], data: &[u8]) -> Vec<u8> {
@@ -71,4 +72,27 @@ fn grey_images_are_not_coloured() {
     };
     assert!(of([128, 128, 255], [4, 4]) && of([128, 128, 255], [70, 33]));
     assert!(!of([99, 99, 99], [4, 4]) && !of([90, 100, 110], [70, 33]));
+}
+
+/// Palettes that break the specification are refused by a sentence, for pictures and for normal maps that are converted.
+#[test]
+fn broken_palettes_are_refused() {
+    for (bytes, alphas, part) in [
+        (235, 0, "its palette has 235 bytes"),
+        (236, 0, "its palette has 236 bytes"),
+        (6, 3, "its palette has 2 colours but 3 alphas"),
+    ] {
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, 2, 1);
+        encoder.set_color(png::ColorType::Indexed);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_palette(vec![7; bytes]);
+        if alphas > 0 {
+            encoder.set_trns(vec![255; alphas]);
+        }
+        encoder.write_header().unwrap().write_image_data(&[0, 0]).unwrap();
+        let broken = RgbaImage::decode(&file, &DecodeLimits::default()).unwrap_err().to_string();
+        let map = PngImage::from_bytes("map.png", file, &LoadOptions::default()).unwrap_err().to_string();
+        assert!(broken.contains(part) && map.contains(part), "{broken} {map}");
+    }
 }

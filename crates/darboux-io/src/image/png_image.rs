@@ -7,6 +7,7 @@ use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 
 use super::channels;
 use super::chunks::{self, Chunk, Chunks};
+use super::palette::check_palette;
 use crate::LoadOptions;
 use crate::error::ContentError;
 use crate::staging::Outputs;
@@ -143,6 +144,8 @@ impl PngImage {
         decoder.set_ignore_iccp_chunk(true);
         let mut reader = decoder.read_info().map_err(broken)?;
         let info = reader.info();
+        check_palette(info)
+            .map_err(|problem| ContentError::invalid("", format!("{problem}; save it again")))?;
         let (width, height) = (info.width, info.height);
         refuse_unsupported(info.color_type, info.bit_depth, &chunks)?;
         let (stored, (color, depth)) = (info.raw_bytes(), reader.output_color_type());

@@ -10,6 +10,7 @@ use zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
 
 use super::chunks::SIGNATURE as PNG;
+use super::palette::check_palette;
 
 /// An image as 8-bit RGBA texels.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -154,6 +155,7 @@ fn decode_png(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeErr
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
     let mut reader = decoder.read_info().map_err(broken)?;
+    check_palette(reader.info()).map_err(broken)?;
     let (width, height) = (reader.info().width, reader.info().height);
     texel_count(width as usize, height as usize, limits)?;
     let (color, depth) = reader.output_color_type();
