@@ -79,6 +79,8 @@ class Refused(Judged):
     def test_named_pipe(self):
         self.path("cube").unlink()
         os.mkfifo(self.path("cube"))
+        # Writing the result again would wait for a reader.
+        self.addCleanup(self.path("cube").unlink)
         code, _, err = self.judge()
         self.assertEqual((code, err.count("\n")), (2, 1))
         self.assertIn("cube.json is not a regular file", err)
