@@ -59,10 +59,14 @@ export interface Finding {
   /** What it looks like on screen. */
   looksLike: string;
   cure: string;
+  /** Whether {@link fix} repairs it. */
+  fixable: boolean;
   /** Why {@link fix} leaves it; null where it repairs it. */
   leftBecause: string | null;
-  /** Whether {@link fix} repaired it. */
+  /** Whether {@link fix} repaired it; absent from {@link check}. */
   repaired?: boolean;
+  /** What {@link fix} did to the tangents of the primitive: some were corrected, `count` of them, or all computed again; absent for other findings. */
+  change?: { kind: 'corrected_tangents'; count: number } | { kind: 'recomputed_tangents' };
 }
 
 /** The verdict on a normal map. Counts leave out black, white and middle grey texels. */
@@ -200,26 +204,15 @@ function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, optio
   if (green != null && green !== 'up' && green !== 'down') throw new RangeError(`green is '${green}'; it must be 'up' or 'down'`);
   writeBytes(exports, file);
   const address = exports.check_file(Number(isMap), Number(green === 'down'), Number(maps ?? true), Number(repairs));
-  const checked = readJson<{ findings?: StoredFinding[]; error?: string }>(exports, address);
+  const checked = readJson<{ findings?: Record<string, unknown>[]; error?: string }>(exports, address);
   if (checked.error !== undefined) throw new Error(checked.error);
   return checked.findings!.map(finding);
 }
 
-/** A finding as the module writes it; members about a mesh are absent where it concerns none. */
-type StoredFinding = Omit<Finding, 'mesh' | 'meshName' | 'primitive' | 'sameAs' | 'looksLike' | 'leftBecause' | 'firstAre'> & {
-  mesh?: number;
-  mesh_name?: string | null;
-  primitive?: number;
-  same_as: number;
-  looks_like: string;
-  left_because: string | null;
-  first_are: 'triangles' | 'vertices';
-};
-
-function finding(stored: StoredFinding): Finding {
-  const { mesh = null, mesh_name: meshName = null, primitive = null, ...others } = stored;
-  const { same_as: sameAs, looks_like: looksLike, left_because: leftBecause, first_are: firstAre, ...rest } = others;
-  return { ...rest, mesh, meshName, primitive, sameAs, looksLike, leftBecause, firstAre };
+/** A finding as the module writes it, with the names of `darboux check --json`, in which words are separated by underscores. */
+function finding(stored: Record<string, unknown>): Finding {
+  const named = Object.entries(stored).map(([name, value]) => [name.replace(/_./g, (end) => end[1]!.toUpperCase()), value]);
+  return Object.fromEntries(named) as Finding;
 }
 
 /** Whether a file starts as a PNG, a JPEG or a WebP image does. */

@@ -4,7 +4,7 @@ use darboux::{
     BitangentDirection, Channel, Choice, MapJudgement, MapTiles, Method, NormalMapJudge, RecipeMatch,
     RecipeRounding, RecipeWriting, TexelLayout,
 };
-use darboux_check::{CheckOptions, Finding, FixOptions, check_document, check_map, fix_document};
+use darboux_check::{CheckOptions, FixOptions, ReportedFinding, check_document, check_map, fix_document};
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
 use serde::Serialize;
@@ -42,22 +42,11 @@ pub extern "C" fn repaired_length() -> usize {
     with_arena(|arena| arena.check.repaired.len())
 }
 
-/// A finding, and whether it was repaired.
-#[derive(Serialize)]
-struct Reported {
-    #[serde(flatten)]
-    finding: Finding,
-    looks_like: &'static str,
-    first_are: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    repaired: Option<bool>,
-}
-
 /// The result of a check: findings, or why the file cannot be read.
 #[derive(Serialize)]
 enum Checked {
     #[serde(rename = "findings")]
-    Findings(Vec<Reported>),
+    Findings(Vec<ReportedFinding>),
     #[serde(rename = "error")]
     Error(String),
 }
@@ -76,11 +65,7 @@ pub extern "C" fn check_file(
         let arrays = &mut arena.check;
         arrays.repaired.clear();
         let checked = if is_map {
-            Ok(check_map(&arrays.bytes, &options)
-                .findings
-                .into_iter()
-                .map(|found| reported(found, None))
-                .collect())
+            Ok(check_map(&arrays.bytes, &options).findings.into_iter().map(Into::into).collect())
         } else {
             check_model(&arrays.bytes, options, repairs, &mut arrays.repaired)
         };
@@ -97,23 +82,17 @@ fn check_model(
     options: CheckOptions,
     repairs: bool,
     repaired: &mut Vec<u8>,
-) -> Result<Vec<Reported>, darboux_io::Error> {
+) -> Result<Vec<ReportedFinding>, darboux_io::Error> {
     let mut document = Document::from_bytes("the model", file.to_vec(), None, &LoadOptions::default())?;
     let findings = check_document(&document, &options)?;
     if !repairs {
-        return Ok(findings.into_iter().map(|found| reported(found, None)).collect());
+        return Ok(findings.into_iter().map(Into::into).collect());
     }
     let fixed = fix_document(&mut document, findings, &FixOptions::default().with_check(options))?;
     if fixed.is_changed {
         *repaired = document.to_glb()?;
     }
-    Ok(fixed.findings.into_iter().map(|fixed| reported(fixed.finding, Some(fixed.repaired))).collect())
-}
-
-fn reported(finding: Finding, repaired: Option<bool>) -> Reported {
-    let looks_like = finding.code.looks_like();
-    let first_are = if finding.code.counts_triangles() { "triangles" } else { "vertices" };
-    Reported { finding, looks_like, first_are, repaired }
+    Ok(fixed.findings.into_iter().map(Into::into).collect())
 }
 
 /// The verdict on a normal map.

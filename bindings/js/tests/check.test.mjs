@@ -1,6 +1,7 @@
 // `darboux/check`: findings, repairs, verdicts on maps, recipes.
 
 import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
@@ -11,6 +12,7 @@ import { grid, square } from './meshes.mjs';
 
 const forms = await formsOf('darboux/check');
 await darboux.ready;
+const root = fileURLToPath(new URL('../../..', import.meta.url));
 const asset = (path) => new Uint8Array(readFileSync(fileURLToPath(new URL(`../../../assets/${path}`, import.meta.url))));
 const errors = (findings) => findings.filter(({ severity }) => severity === 'error').map(({ code }) => code);
 
@@ -48,6 +50,17 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
     assert.ok(fixed.findings.find(({ code }) => code === 'tangent-shared-across-mirror').repaired);
     assert.deepEqual(errors(check(fixed.file)), []);
     assert.equal(fix(fixed.file).file, null);
+  });
+
+  test(`${name}: findings are those of the command`, () => {
+    const words = ['run', '--quiet', '--package', 'darboux-cli', '--', 'check', 'assets/made/shield.glb', '--json'];
+    const { stdout } = spawnSync('cargo', words, { cwd: root, encoding: 'utf8' });
+    const underscored = (finding) => {
+      const named = Object.entries(finding).map(([word, value]) => [word.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`), value]);
+      return Object.fromEntries(named);
+    };
+    assert.deepEqual(check(asset('made/shield.glb')).map(underscored), JSON.parse(stdout).files[0].findings);
+    assert.ok(fix(asset('made/shield.glb')).findings.some(({ change }) => change));
   });
 
   test(`${name}: compressed models are decoded`, () => {

@@ -7,19 +7,20 @@ use darboux::{
     TexelLayout, recognise_recipe_with,
 };
 use darboux_check::{
-    CheckOptions, Code, Finding, FixOptions, FixedFinding, check_document, check_map, fix_document,
+    Change, CheckOptions, Code, FixOptions, ReportedFinding, check_document, check_map, fix_document,
 };
 use darboux_io::{FileKind, LoadOptions, gltf};
 use numpy::prelude::*;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::arrays::{Rows, array_of, packed, shape_text};
 use crate::choices::{choice, method_name, tangent_options};
 use crate::document::{Document, file_error, load_options};
 use crate::mesh::{MeshArrays, value_error};
 use crate::numbers::Natural;
-use crate::results::named;
+use crate::results::{named, results_class};
 use crate::threads::cancellable;
 
 const CONVENTIONS: &[(&str, BitangentDirection)] =
@@ -68,7 +69,7 @@ pub fn check<'py>(
             py.detach(|| check_path(&path, &loading, &options)).map_err(file_error)?
         }
     };
-    found.into_iter().map(|found| finding(py, Outcome::of(found))).collect()
+    found.into_iter().map(|found| finding(py, found.into())).collect()
 }
 
 /// What `check` checks.
@@ -94,7 +95,7 @@ fn check_path(
     path: &Path,
     loading: &LoadOptions,
     options: &CheckOptions,
-) -> Result<Vec<Finding>, darboux_io::Error> {
+) -> Result<Vec<darboux_check::Finding>, darboux_io::Error> {
     if FileKind::of(path).is_some_and(FileKind::is_decoded_image) {
         let unread = |source| darboux_io::Error::Read { file: path.to_owned(), source };
         Ok(check_map(&std::fs::read(path).map_err(unread)?, options).findings)
@@ -155,55 +156,38 @@ pub fn fix<'py>(
         let findings = check_document(document, &options.check)?;
         fix_document(document, findings, &options)
     })?;
-    fixed.findings.into_iter().map(|fixed| finding(py, Outcome::of_fixed(fixed))).collect()
+    fixed.findings.into_iter().map(|fixed| finding(py, fixed.into())).collect()
 }
 
-/// A finding, and what became of it.
-struct Outcome {
-    finding: Finding,
-    fixable: bool,
-    /// None without a repair.
-    repaired: Option<bool>,
-}
-
-impl Outcome {
-    fn of(finding: Finding) -> Self {
-        Self { fixable: finding.is_fixable(), finding, repaired: None }
-    }
-
-    fn of_fixed(fixed: FixedFinding) -> Self {
-        Self { fixable: fixed.was_fixable(), repaired: Some(fixed.repaired), finding: fixed.finding }
-    }
-}
-
-fn finding<'py>(py: Python<'py>, outcome: Outcome) -> PyResult<Bound<'py, PyAny>> {
-    let Outcome { finding, fixable, repaired } = outcome;
-    let Finding { code, severity, place, count, first, evidence, text, cure, left_because, .. } = finding;
-    let primitive = place.primitive.as_ref();
-    let evidence = evidence.iter().map(|number| (number.what, number.value, number.unit));
-    let position = (
-        primitive.map(|name| name.mesh),
-        primitive.map(|name| name.primitive),
-        place.material,
-        place.image,
-        place.same_as,
-    );
-    let place = named(py, "FindingPlace", position)?;
-    let fields = (
-        code.name(),
-        severity.to_string(),
-        place,
-        count,
-        first,
-        evidence.collect::<Vec<_>>(),
-        text,
-        code.looks_like(),
-        cure,
-        fixable,
-        left_because,
-        repaired,
-    );
-    named(py, "Finding", fields)
+fn finding<'py>(py: Python<'py>, finding: ReportedFinding) -> PyResult<Bound<'py, PyAny>> {
+    let evidence =
+        finding.evidence.iter().map(|number| named(py, "Evidence", (number.what, number.value, number.unit)));
+    let change = match finding.change {
+        Some(Change::CorrectedTangents { count }) => Some(("corrected_tangents", Some(count))),
+        Some(Change::RecomputedTangents) => Some(("recomputed_tangents", None)),
+        _ => None,
+    };
+    let fields = PyDict::new(py);
+    fields.set_item("code", finding.code.name())?;
+    fields.set_item("severity", finding.severity.to_string())?;
+    fields.set_item("mesh", finding.mesh)?;
+    fields.set_item("mesh_name", finding.mesh_name)?;
+    fields.set_item("primitive", finding.primitive)?;
+    fields.set_item("same_as", finding.same_as)?;
+    fields.set_item("material", finding.material)?;
+    fields.set_item("image", finding.image)?;
+    fields.set_item("count", finding.count)?;
+    fields.set_item("first", finding.first)?;
+    fields.set_item("first_are", finding.first_are)?;
+    fields.set_item("evidence", evidence.collect::<PyResult<Vec<_>>>()?)?;
+    fields.set_item("text", finding.text)?;
+    fields.set_item("looks_like", finding.looks_like)?;
+    fields.set_item("cure", finding.cure)?;
+    fields.set_item("fixable", finding.fixable)?;
+    fields.set_item("left_because", finding.left_because)?;
+    fields.set_item("repaired", finding.repaired)?;
+    fields.set_item("change", change.map(|change| named(py, "Change", change)).transpose()?)?;
+    results_class(py, "Finding")?.call((), Some(&fields))
 }
 
 /// Judge a normal map by its texels: whether green points up (OpenGL) or down (DirectX), and whether they are normals at all.

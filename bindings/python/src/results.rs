@@ -6,7 +6,12 @@ use pyo3::prelude::*;
 
 /// A named tuple of type `name` with these fields.
 pub fn named<'py>(py: Python<'py>, name: &str, fields: impl PyCallArgs<'py>) -> PyResult<Bound<'py, PyAny>> {
-    py.import("darboux._results")?.getattr(name)?.call1(fields)
+    results_class(py, name)?.call1(fields)
+}
+
+/// The class of a named tuple.
+pub fn results_class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    py.import("darboux._results")?.getattr(name)
 }
 
 /// The report as a named tuple.

@@ -1,6 +1,10 @@
 """What is wrong with files, maps and tangents."""
 
+import json
+import subprocess
+import sys
 from pathlib import Path
+from typing import Any, Dict, List
 
 import darboux
 import numpy as np
@@ -23,7 +27,7 @@ def test_models_are_checked() -> None:
     findings = darboux.check(ASSETS / "made/shield.glb")
     errors = [finding for finding in findings if finding.severity == "error"]
     assert [finding.code for finding in errors] == ["tangent-shared-across-mirror"]
-    assert errors[0].fixable and errors[0].place.mesh == 0 and errors[0].count > 0
+    assert errors[0].fixable and errors[0].mesh == 0 and errors[0].first_are == "vertices" and errors[0].count > 0
     assert all(isinstance(finding, darboux.Finding) for finding in findings)
     healthy = darboux.check(str(ASSETS / "NormalTangentTest/NormalTangentTest.glb"), maps=False)
     assert all(finding.severity != "error" for finding in healthy)
@@ -45,6 +49,30 @@ def test_models_are_repaired(tmp_path: Path) -> None:
     assert not any(finding.fixable or finding.severity == "error" for finding in left)
     again = darboux.load(path)
     assert not any(finding.repaired for finding in darboux.fix(again)) and not again.is_changed
+
+
+def test_findings_are_those_of_the_command(tmp_path: Path) -> None:
+    def reported(*words: object) -> List[Dict[str, Any]]:
+        command = [sys.executable, "-m", "darboux", "check", *map(str, words), "--json"]
+        done = subprocess.run(command, capture_output=True, check=False)
+        return json.loads(done.stdout)["files"][0]["findings"]
+
+    def rows(findings: List[darboux.Finding]) -> List[Dict[str, Any]]:
+        """As the report writes them, without what it leaves out."""
+        found = [finding._asdict() for finding in findings]
+        for row in found:
+            row["evidence"] = [number._asdict() for number in row["evidence"]]
+            row["change"] = row["change"] and {name: value for name, value in row["change"]._asdict().items() if value is not None}
+            for name in ("repaired", "change"):
+                if row[name] is None:
+                    del row[name]
+        return found
+
+    model = ASSETS / "made/shield.glb"
+    assert rows(darboux.check(model)) == reported(model)
+    fixed = rows(darboux.fix(darboux.load(model)))
+    assert any("change" in row for row in fixed)
+    assert fixed == reported(model, "--fix", "-o", tmp_path / "fixed.glb")
 
 
 def test_repairs_can_be_chosen() -> None:

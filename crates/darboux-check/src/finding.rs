@@ -22,7 +22,9 @@ pub struct Evidence {
 }
 
 /// One thing that is wrong.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+///
+/// [`ReportedFinding`](crate::ReportedFinding) has the same in one row, for JSON.
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Finding {
     /// The kind.
@@ -30,7 +32,6 @@ pub struct Finding {
     /// How bad it is here.
     pub severity: Severity,
     /// Where it is.
-    #[serde(flatten)]
     pub place: Place,
     /// The number of vertices, corners, faces or texels that show it, as the text says; 1 for a property of the whole.
     pub count: usize,
@@ -45,7 +46,6 @@ pub struct Finding {
     /// Why a repair leaves it, as a clause; none where [`fix_document`](crate::fix_document) or [`fix_map`](crate::fix_map) repairs it.
     pub left_because: Option<String>,
     /// What it says.
-    #[serde(skip)]
     pub(crate) defect: Defect,
 }
 

@@ -39,6 +39,7 @@ mod measure;
 mod obstacles;
 mod place;
 mod repair;
+mod report;
 mod rules;
 mod severity;
 mod surface;
@@ -56,4 +57,5 @@ pub use repair::{
     Change, FixOptions, FixedDocument, FixedFinding, FixedMap, PlannedEdit, fix_document, fix_map,
     fix_map_on_model, plan_repair,
 };
+pub use report::ReportedFinding;
 pub use severity::Severity;

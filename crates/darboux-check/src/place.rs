@@ -3,14 +3,12 @@
 use std::fmt;
 
 use darboux_io::gltf::PrimitiveName;
-use serde::Serialize;
 
 /// Where a finding is. Everything is absent for a map that was checked alone.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Place {
     /// The primitive.
-    #[serde(flatten)]
     pub primitive: Option<PrimitiveName>,
     /// The number of further primitives with the same data.
     pub same_as: usize,

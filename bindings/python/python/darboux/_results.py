@@ -120,36 +120,53 @@ class UvFidelity(NamedTuple):
     """Triangles that were not: without area, or without a dP/du."""
 
 
-class FindingPlace(NamedTuple):
-    """Where a finding is, by indices of the document; None for what does not apply. A map that is checked alone has no place."""
+class Evidence(NamedTuple):
+    """A number that supports a finding."""
 
-    mesh: Optional[int]
-    """The mesh."""
-    primitive: Optional[int]
-    """The primitive of the mesh."""
-    material: Optional[int]
-    """The material."""
-    image: Optional[int]
-    """The image."""
-    same_as: int
-    """The number of further primitives with the same data."""
+    what: str
+    """What was measured."""
+    value: float
+    """The value."""
+    unit: str
+    """The unit: 'degrees', 'corners', 'texels', '%' and so on; empty for ratios."""
+
+
+class Change(NamedTuple):
+    """What a repair did to the tangents of a primitive."""
+
+    kind: str
+    """'corrected_tangents': some were corrected, and the others kept; 'recomputed_tangents': all were computed again."""
+    count: Optional[int]  # type: ignore[assignment]
+    """The number of vertices whose tangents were corrected; None where all were computed again."""
 
 
 class Finding(NamedTuple):
-    """One thing that is wrong with a file. docs/check.md explains every code."""
+    """One thing that is wrong with a file, with the fields of `darboux check --json`. docs/check.md explains every code."""
 
     code: str
     """The kind, such as 'tangent-sign-flipped'. Codes are stable."""
     severity: str
     """'error': a picture is wrong; 'warning': it may be; 'info'; 'not-checked': a map in a format that is not read."""
-    place: FindingPlace
-    """Where it is."""
+    mesh: Optional[int]
+    """The index of the mesh; None where the finding concerns none, as do the other indices."""
+    mesh_name: Optional[str]
+    """The name of the mesh."""
+    primitive: Optional[int]
+    """The index of the primitive in the mesh."""
+    same_as: int
+    """The number of further primitives with the same data."""
+    material: Optional[int]
+    """The index of the material."""
+    image: Optional[int]
+    """The index of the image."""
     count: int  # type: ignore[assignment]
     """The number of vertices, corners, triangles or texels that show it, as the text says. (It hides the method of tuples.)"""
     first: List[int]
     """The indices of the first ones."""
-    evidence: List[Tuple[str, float, str]]
-    """Numbers: what was measured, the value and its unit."""
+    first_are: str
+    """What `first` numbers, where it has elements: 'triangles' or 'vertices'."""
+    evidence: List[Evidence]
+    """The numbers that support it."""
     text: str
     """What is wrong, in one sentence."""
     looks_like: str
@@ -162,6 +179,8 @@ class Finding(NamedTuple):
     """Why they leave it, as a clause; None where they repair it."""
     repaired: Optional[bool]
     """Whether fix repaired it; None from check."""
+    change: Optional[Change]
+    """What fix did to the tangents of the primitive; None for other findings, and where only signs were negated."""
 
 
 class MapJudgement(NamedTuple):

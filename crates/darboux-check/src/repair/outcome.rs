@@ -37,17 +37,15 @@ impl Change {
 }
 
 /// A finding and what became of it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FixedFinding {
     /// The finding before the repair; [`Finding::left_because`] says why it is still there.
-    #[serde(flatten)]
     pub finding: Finding,
     /// Whether it is gone: repaired, or together with what was.
     pub repaired: bool,
     /// What was done to the tangents of its primitive; none for findings about anything else, and where only the signs w were negated.
     pub change: Option<Change>,
-    #[serde(rename = "fixable")]
     pub(super) was_fixable: bool,
 }
 

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use darboux::TangentOptions;
 use darboux_check::{
-    Change, Code, Finding, FixOptions, FixedFinding, Severity, check_document, fix_document, plan_repair,
+    Change, Code, Finding, FixOptions, FixedFinding, ReportedFinding, Severity, check_document, fix_document,
+    plan_repair,
 };
 use darboux_io::gltf::Document;
 use darboux_io::image::PngImage;
@@ -15,7 +16,7 @@ use serde_json::{Map, Value};
 
 use super::arguments::CheckArguments;
 use super::model::Model;
-use super::report::{ReportedEdit, ReportedFinding};
+use super::report::ReportedEdit;
 use crate::batch::command::{FileCommand, ProcessedFile};
 use crate::batch::plan::{Job, Output};
 use crate::batch::report::{FileReport, Status, SummarySource};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use darboux::{BitangentDirection, MapJudgement, TangentDirection};
 use darboux_check::{
-    Change, CheckedMap, Code, Evidence, Finding, FixedFinding, MapDirections, Place, PlannedEdit, Severity,
+    CheckedMap, Code, Finding, MapDirections, Place, PlannedEdit, ReportedFinding, Severity,
 };
 use serde::Serialize;
 
@@ -97,36 +97,6 @@ pub struct DirectionsByModel {
     pub green: &'static str,
 }
 
-/// A finding.
-#[derive(Serialize)]
-pub struct ReportedFinding {
-    pub code: Code,
-    pub severity: Severity,
-    /// The place in words.
-    #[serde(skip)]
-    pub place: String,
-    pub mesh: Option<usize>,
-    pub mesh_name: Option<String>,
-    pub primitive: Option<usize>,
-    pub same_as: usize,
-    pub material: Option<usize>,
-    pub image: Option<usize>,
-    pub count: usize,
-    pub first: Vec<usize>,
-    pub evidence: Vec<Evidence>,
-    pub text: String,
-    pub fixable: bool,
-    pub left_because: Option<String>,
-    /// Whether `--fix` repaired it; none without `--fix`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub repaired: Option<bool>,
-    /// What `--fix` did to the tangents of the primitive.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub change: Option<Change>,
-    pub looks_like: &'static str,
-    pub cure: String,
-}
-
 /// An edit that a repair would make.
 #[derive(Serialize)]
 pub struct ReportedEdit {
@@ -161,44 +131,6 @@ impl ReportedEdit {
 impl From<PlannedEdit> for ReportedEdit {
     fn from(edit: PlannedEdit) -> Self {
         Self::at(&edit.place, edit.action)
-    }
-}
-
-impl From<Finding> for ReportedFinding {
-    fn from(finding: Finding) -> Self {
-        let name = finding.place.primitive.as_ref();
-        Self {
-            code: finding.code,
-            severity: finding.severity,
-            place: finding.place.to_string(),
-            mesh: name.map(|name| name.mesh),
-            mesh_name: name.and_then(|name| name.mesh_name.clone()),
-            primitive: name.map(|name| name.primitive),
-            same_as: finding.place.same_as,
-            material: finding.place.material,
-            image: finding.place.image,
-            count: finding.count,
-            first: finding.first,
-            evidence: finding.evidence,
-            fixable: finding.left_because.is_none(),
-            left_because: finding.left_because,
-            repaired: None,
-            change: None,
-            text: finding.text,
-            looks_like: finding.code.looks_like(),
-            cure: finding.cure.into_owned(),
-        }
-    }
-}
-
-impl From<FixedFinding> for ReportedFinding {
-    fn from(fixed: FixedFinding) -> Self {
-        Self {
-            repaired: Some(fixed.repaired),
-            fixable: fixed.was_fixable(),
-            change: fixed.change,
-            ..fixed.finding.into()
-        }
     }
 }
 

@@ -2,10 +2,10 @@
 
 use std::cmp::Reverse;
 
-use darboux_check::{Code, Evidence, Severity};
+use darboux_check::{Code, Evidence, ReportedFinding, Severity};
 
 use super::arguments::FailOn;
-use super::report::{CheckTotals, CheckedFile, DirectionsByModel, ReportedFinding, ReportedMap};
+use super::report::{CheckTotals, CheckedFile, DirectionsByModel, ReportedMap};
 use crate::text::{counted, printable};
 
 /// The findings in a file.

@@ -1,0 +1,100 @@
+//! [`ReportedFinding`]: a finding with the fields that the command's JSON, Python and npm give alike.
+
+use serde::Serialize;
+
+use crate::code::Code;
+use crate::finding::{Evidence, Finding};
+use crate::place::Place;
+use crate::repair::{Change, FixedFinding};
+use crate::severity::Severity;
+
+/// A finding in one row: the place as indices, the words of its code, and what a repair did.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ReportedFinding {
+    /// The kind.
+    pub code: Code,
+    /// How bad it is here.
+    pub severity: Severity,
+    /// The place in words.
+    #[serde(skip)]
+    pub place: String,
+    /// The index of the mesh.
+    pub mesh: Option<usize>,
+    /// The name of the mesh.
+    pub mesh_name: Option<String>,
+    /// The index of the primitive in the mesh.
+    pub primitive: Option<usize>,
+    /// The number of further primitives with the same data.
+    pub same_as: usize,
+    /// The index of the material.
+    pub material: Option<usize>,
+    /// The index of the image.
+    pub image: Option<usize>,
+    /// The number of vertices, corners, triangles or texels that show it, as the text says; 1 for a property of the whole.
+    pub count: usize,
+    /// The indices of the first ones, in the order of the file; empty for a property of the whole.
+    pub first: Vec<usize>,
+    /// What `first` numbers, where it has elements: `triangles` or `vertices`.
+    pub first_are: &'static str,
+    /// The numbers that support it.
+    pub evidence: Vec<Evidence>,
+    /// What is wrong here, in one sentence.
+    pub text: String,
+    /// What it looks like on screen.
+    pub looks_like: &'static str,
+    /// The cure here: what the reader can do.
+    pub cure: String,
+    /// Whether a repair could remove it before anything was repaired.
+    pub fixable: bool,
+    /// Why a repair leaves it, as a clause; none where it is repaired.
+    pub left_because: Option<String>,
+    /// Whether it was repaired; none without a repair.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repaired: Option<bool>,
+    /// What the repair did to the tangents of the primitive.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub change: Option<Change>,
+}
+
+impl From<Finding> for ReportedFinding {
+    fn from(finding: Finding) -> Self {
+        let place = finding.place.to_string();
+        let Place { primitive, same_as, material, image } = finding.place;
+        let (mesh, number) =
+            (primitive.as_ref().map(|name| name.mesh), primitive.as_ref().map(|name| name.primitive));
+        Self {
+            code: finding.code,
+            severity: finding.severity,
+            place,
+            mesh,
+            mesh_name: primitive.and_then(|name| name.mesh_name),
+            primitive: number,
+            same_as,
+            material,
+            image,
+            count: finding.count,
+            first: finding.first,
+            first_are: if finding.code.counts_triangles() { "triangles" } else { "vertices" },
+            evidence: finding.evidence,
+            text: finding.text,
+            looks_like: finding.code.looks_like(),
+            cure: finding.cure.into_owned(),
+            fixable: finding.left_because.is_none(),
+            left_because: finding.left_because,
+            repaired: None,
+            change: None,
+        }
+    }
+}
+
+impl From<FixedFinding> for ReportedFinding {
+    fn from(fixed: FixedFinding) -> Self {
+        Self {
+            repaired: Some(fixed.repaired),
+            fixable: fixed.was_fixable(),
+            change: fixed.change,
+            ..fixed.finding.into()
+        }
+    }
+}
