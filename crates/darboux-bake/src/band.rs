@@ -69,11 +69,11 @@ impl Bake<'_> {
         let mut report = BakeReport::default();
         for column in 0..self.layout.blocks_per_row() {
             scratch.sums.fill(TexelSums::default());
-            let mut skirt = None;
+            let mut gutter = None;
             for &sample in &self.samples {
                 self.cover([column, band.row / BLOCK], sample, &mut scratch.coverage);
                 self.sample([column * BLOCK, band.row], sample, &mut scratch);
-                self.sample_beyond([column, band.row / BLOCK], sample, &mut skirt, &mut scratch);
+                self.sample_gutter([column, band.row / BLOCK], sample, &mut gutter, &mut scratch);
             }
             self.store(column * BLOCK, &scratch.sums, band, &mut report);
         }

@@ -16,7 +16,6 @@
 
 mod bake;
 mod band;
-mod beyond;
 mod budget;
 mod bvh;
 mod common_box;
@@ -24,6 +23,8 @@ mod coverage;
 mod error;
 mod face;
 mod frame;
+mod gutter;
+mod gutter_samples;
 mod high;
 mod images;
 mod layout;
@@ -39,7 +40,6 @@ mod point;
 mod rays;
 mod report;
 mod samples;
-mod skirt;
 mod space;
 mod surface;
 mod texel;

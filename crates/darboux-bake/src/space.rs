@@ -8,12 +8,12 @@ use crate::budget::Budget;
 use crate::coverage::{Coverage, TEXELS};
 use crate::face::Face;
 use crate::frame::ShadingFrame;
+use crate::gutter::Gutter;
 use crate::images::TexelState;
 use crate::layout::{BLOCK, Layout};
 use crate::limits::MAX_SIDE;
 use crate::point::SurfacePoint;
 use crate::samples::{STEPS, pattern};
-use crate::skirt::Skirt;
 use crate::vector::{narrow, unit, wide};
 use crate::{BakeError, Bitangent, LowSurface, padding};
 
@@ -186,12 +186,12 @@ impl Converter<'_> {
                 coverage.add(*placed, self.layout.steps_in_block(low, placed, [column, row]), centre);
             }
             let is_full = coverage.owners.iter().all(Option::is_some);
-            let skirt = (!is_full).then(|| Skirt::of_block(self.layout, self.low, [column, row]));
+            let gutter = (!is_full).then(|| Gutter::of_block(self.layout, self.low, [column, row]));
             let mut last: Option<Face> = None;
             for texel in 0..TEXELS {
                 let [x, y] = [column * BLOCK + texel % BLOCK, texel / BLOCK];
                 let owner = coverage.owners[texel];
-                let nearest = || skirt.as_ref().and_then(|skirt| skirt.nearest(texel));
+                let nearest = || gutter.as_ref().and_then(|gutter| gutter.nearest(texel));
                 let Some(placed) = owner.or_else(nearest).filter(|_| x < width && y * width < out.len())
                 else {
                     continue;

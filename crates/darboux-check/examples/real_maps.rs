@@ -76,8 +76,8 @@ fn normal_maps(path: &Path) -> Vec<(String, Vec<u8>)> {
         return Vec::new();
     }
     let Ok(document) = Document::open(path, &LoadOptions::default()) else { return Vec::new() };
-    let appearances = document.appearances().unwrap_or_default();
-    let used = appearances.iter().filter_map(|appearance| appearance.normal_texture.as_ref()?.image);
+    let materials = document.materials().unwrap_or_default();
+    let used = materials.iter().filter_map(|material| material.normal_texture.as_ref()?.image);
     let images: BTreeSet<usize> = used.collect();
     let bytes =
         |image: usize| Some((format!(", image {image}"), document.image_bytes(image).ok()?.into_owned()));

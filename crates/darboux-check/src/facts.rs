@@ -20,7 +20,7 @@ pub struct SurfaceFacts<'a> {
     pub expected: Option<Vec<[f32; 4]>>,
     /// Per vertex whether MikkTSpace's tangents of its corners have both signs; empty without `expected`.
     pub is_on_mirrored_seam: Vec<bool>,
-    /// Per vertex whether its tangent is that of MikkTSpace for a corner without an area, which tells nothing.
+    /// Per vertex whether its tangent is that of MikkTSpace for a corner without an area, which is no evidence.
     pub has_own_tangent: Vec<bool>,
     /// Whether all tangents are those of MikkTSpace, bit for bit.
     pub is_mikktspace: bool,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use darboux_io::Error;
-use darboux_io::gltf::{Appearance, Document, PrimitiveCorners, PrimitiveName, TextureUse};
+use darboux_io::gltf::{Document, Material, PrimitiveCorners, PrimitiveName, TextureUse};
 use darboux_io::image::RgbaImage;
 
 use crate::instances::distinct;
@@ -19,15 +19,15 @@ pub struct MapUsers<'a> {
 }
 
 impl<'a> MapUsers<'a> {
-    /// Finds the users of all images; primitives with the same data once. `appearances`: of all materials. Errors: invalid data of primitives.
-    pub fn new(document: &'a Document, appearances: &[Appearance]) -> Result<Self, Error> {
+    /// Finds the users of all images; primitives with the same data once. `materials`: of the document. Errors: invalid data of primitives.
+    pub fn new(document: &'a Document, materials: &[Material]) -> Result<Self, Error> {
         let mut users: BTreeMap<usize, BTreeMap<usize, Vec<TextureUse>>> = BTreeMap::new();
         let mut primitives = Vec::new();
         for (corners, _) in distinct(document, document.corners()?) {
             let name = corners.name();
-            let materials = document.meshes()[name.mesh].primitives[name.primitive].materials();
-            let used = materials.iter().filter_map(|&material| appearances.get(material));
-            for texture in used.flat_map(Appearance::normal_maps) {
+            let of_primitive = document.meshes()[name.mesh].primitives[name.primitive].materials();
+            let used = of_primitive.iter().filter_map(|&material| materials.get(material));
+            for texture in used.flat_map(Material::normal_maps) {
                 let Some(image) = texture.image else { continue };
                 let textures = users.entry(image).or_default().entry(primitives.len()).or_default();
                 if !textures.contains(texture) {

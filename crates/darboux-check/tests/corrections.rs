@@ -9,10 +9,10 @@ use support::models::{Model, healthy_models};
 use support::table::without_maps;
 
 /// Spoils a tangent.
-type Spoil = fn(&mut [f32; 4]);
+type Damage = fn(&mut [f32; 4]);
 
 /// Mistakes in one tangent. The last two leave its direction.
-const SPOIL: [(Code, Spoil); 4] = [
+const DAMAGE: [(Code, Damage); 4] = [
     (Code::TangentNotFinite, |tangent| tangent[0] = f32::NAN),
     (Code::TangentZero, |tangent| tangent[..3].fill(0.0)),
     (Code::TangentSignNotOne, |tangent| tangent[3] = 0.0),
@@ -56,10 +56,10 @@ fn only_the_wrong_tangents_of_another_recipe_change() {
     for (recipe, tangents_of_recipe) in recipes {
         let of_recipe = Model { tangents: Some(tangents_of_recipe), ..healthy.clone() };
         let before = tangents(&of_recipe.document());
-        for (code, spoil) in SPOIL {
+        for (code, damage) in DAMAGE {
             let mut model = of_recipe.clone();
             let wrong: Vec<usize> = (0..5).map(|i| 7 + 11 * i).collect();
-            wrong.iter().for_each(|&vertex| spoil(&mut model.tangents()[vertex]));
+            wrong.iter().for_each(|&vertex| damage(&mut model.tangents()[vertex]));
             let mut document = model.document();
             let findings = fixed(&mut document, without_recipe());
             let repaired = findings.iter().any(|fixed| fixed.finding.code == code && fixed.repaired);

@@ -79,12 +79,12 @@ fn across([x, y, z, w]: [f32; 4], n: [f32; 3]) -> [f32; 4] {
 }
 
 /// Spoils the tangent of a vertex with a normal.
-type Spoil = fn([f32; 4], [f32; 3]) -> [f32; 4];
+type Damage = fn([f32; 4], [f32; 3]) -> [f32; 4];
 
-const NEGATED: Spoil = |[x, y, z, w], _| [-x, -y, -z, w];
+const NEGATED: Damage = |[x, y, z, w], _| [-x, -y, -z, w];
 
 /// Mistakes in a part of the tangents.
-const SPOIL: [(&str, Spoil); 5] = [
+const DAMAGE: [(&str, Damage); 5] = [
     ("bitangents", across),
     ("negated", NEGATED),
     ("signs", |[x, y, z, w], _| [x, y, z, -w]),
@@ -93,12 +93,12 @@ const SPOIL: [(&str, Spoil); 5] = [
 ];
 
 /// Spoils some vertices, and returns them.
-fn spoilt(model: &mut Model, spoil: Spoil, is_chosen: impl Fn(usize) -> bool) -> BTreeSet<u32> {
+fn damaged(model: &mut Model, damage: Damage, is_chosen: impl Fn(usize) -> bool) -> BTreeSet<u32> {
     let normals = model.normals.clone().expect("normals");
     let chosen: Vec<usize> = (0..normals.len()).filter(|vertex| is_chosen(*vertex)).collect();
     for &vertex in &chosen {
         let tangent = model.tangents()[vertex];
-        model.tangents()[vertex] = spoil(tangent, normals[vertex]);
+        model.tangents()[vertex] = damage(tangent, normals[vertex]);
     }
     chosen.into_iter().map(|vertex| vertex as u32).collect()
 }
@@ -117,10 +117,10 @@ fn quads_are_recognised_without_indices() {
 #[test]
 fn only_the_wrong_tangents_of_quads_change() {
     for (name, before) in [("shared vertices", of_quads()), ("own vertices", unindexed(&of_quads()))] {
-        for (mistake, spoil) in SPOIL {
+        for (mistake, damage) in DAMAGE {
             for every in [3, 20] {
                 let mut model = before.clone();
-                let wrong = spoilt(&mut model, spoil, |vertex| vertex % every == 1);
+                let wrong = damaged(&mut model, damage, |vertex| vertex % every == 1);
                 let mut document = model.document();
                 let findings = fixed(&mut document);
                 let change = Some(Change::CorrectedTangents { count: wrong.len() });
@@ -138,7 +138,7 @@ fn only_the_wrong_tangents_of_quads_change() {
 fn single_rotated_tangents_become_those_of_the_recipe() {
     for before in [named("wavy sphere"), named("wavy grid")] {
         let mut model = before.clone();
-        let wrong = spoilt(&mut model, across, |vertex| vertex % 40 == 21);
+        let wrong = damaged(&mut model, across, |vertex| vertex % 40 == 21);
         let mut document = model.document();
         let findings = fixed(&mut document);
         let change = Some(Change::CorrectedTangents { count: wrong.len() });
@@ -154,7 +154,7 @@ fn single_rotated_tangents_become_those_of_the_recipe() {
 fn only_negated_tangents_are_negated() {
     for before in [named("wavy grid"), of_quads()] {
         let mut model = before.clone();
-        let wrong = spoilt(&mut model, NEGATED, |vertex| vertex % 20 != 3);
+        let wrong = damaged(&mut model, NEGATED, |vertex| vertex % 20 != 3);
         let mut document = model.document();
         let findings = fixed(&mut document);
         assert!(findings.iter().any(|fixed| fixed.repaired && fixed.finding.code == Code::TangentNegated));
@@ -192,7 +192,7 @@ fn primitives_that_share_tangents_get_each_their_own() {
     model.tangents = Some(model.computed(darboux::Method::default(), 0));
     let healthy = model.clone();
     model.uvs.push(model.uvs[0].iter().map(|[u, v]| [*u, -v]).collect());
-    let wrong = spoilt(&mut model, |_, _| [f32::NAN; 4], |vertex| vertex % 20 == 1);
+    let wrong = damaged(&mut model, |_, _| [f32::NAN; 4], |vertex| vertex % 20 == 1);
     let glb = with_json(&model.glb(), |json| {
         let mut mirrored = json["meshes"][0]["primitives"][0].clone();
         mirrored["attributes"]["TEXCOORD_0"] = mirrored["attributes"]["TEXCOORD_1"].clone();

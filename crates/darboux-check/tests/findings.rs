@@ -156,14 +156,14 @@ fn one_lost_vertex_does_not_turn_the_axes() {
     }
 }
 
-/// The tangent of a normal that is spoilt is right, though it is not perpendicular to it.
+/// The tangent of a normal that is damaged is right, though it is not perpendicular to it.
 #[test]
-fn tangents_of_spoilt_normals_are_no_further_mistake() {
-    for (spoilt, code) in [(0.7f32, Code::NormalNotUnit), (-1.0, Code::NormalAgainstWinding)] {
+fn tangents_of_damaged_normals_are_no_further_mistake() {
+    for (damaged, code) in [(0.7f32, Code::NormalNotUnit), (-1.0, Code::NormalAgainstWinding)] {
         let mut model = model("large wavy grid");
         let tangent = model.tangents()[40];
         let normal = &mut model.normals.as_mut().expect("normals")[40];
-        *normal = [0, 1, 2].map(|i| spoilt * (0.8 * normal[i] + 0.6 * tangent[i]));
+        *normal = [0, 1, 2].map(|i| damaged * (0.8 * normal[i] + 0.6 * tangent[i]));
         let findings = check(&model);
         assert!(find(&findings, code).is_some(), "{findings:#?}");
         assert!(find(&findings, Code::TangentNotPerpendicular).is_none(), "{findings:#?}");
@@ -299,14 +299,14 @@ fn bare_maps_are_compared_with_the_faces_of_their_model() {
 /// What the texels and the faces say together is what is repaired, and what is said of the map as a whole.
 #[test]
 fn bare_maps_are_repaired_by_the_faces_of_their_model() {
-    let spoilt = [
+    let damaged = [
         ([true, false], TangentDirection::Left, BitangentDirection::Up),
         ([false, true], TangentDirection::Right, BitangentDirection::Down),
         ([true, true], TangentDirection::Left, BitangentDirection::Down),
     ];
     for model in baked_models().iter().take(4) {
         let on_model = check_model_of_maps(&model.document()).expect("a valid document");
-        for ([inverts_red, inverts_green], red, green) in spoilt {
+        for ([inverts_red, inverts_green], red, green) in damaged {
             let inverted = |code: u8, inverts: bool| if inverts { 255 - code } else { code };
             let texel = |&[r, g, b]: &[u8; 3]| [inverted(r, inverts_red), inverted(g, inverts_green), b];
             let file = model.map.with_texels(model.map.texels.iter().map(texel).collect()).file;

@@ -91,10 +91,10 @@ fn lengths_show_what_was_encoded_as_srgb() {
     let map = healthy_map(0).with_texels((0..256 * 256).map(texel).collect());
     assert_eq!(codes(&found(&map.file)), []);
     for power in [2.2f32, 1.0 / 2.2] {
-        let spoilt = map.through(|texel| texel.map(|x| x.powf(power)));
-        let findings = found(&spoilt.file);
+        let damaged = map.through(|texel| texel.map(|x| x.powf(power)));
+        let findings = found(&damaged.file);
         assert_eq!(codes(&findings), [(Code::MapSrgb, Severity::Error)], "{power}: {findings:#?}");
-        let fixed = fix_map("map", &spoilt.file, &LoadOptions::default(), &FixOptions::default());
+        let fixed = fix_map("map", &damaged.file, &LoadOptions::default(), &FixOptions::default());
         let fixed = fixed.expect("a map").image.expect("a repaired map").to_bytes().expect("a PNG");
         assert_eq!(codes(&found(&fixed)), []);
     }

@@ -190,7 +190,7 @@ fn names_are_distinct_and_parse_and_every_mistake_is_in_the_table() {
     assert!(without.iter().all(|code| rest.contains(code)), "{without:?}");
 }
 
-/// Rounding can turn over the u direction of a triangle that is thin in UV space. Its tangents are right, or as good as any.
+/// Rounding can flip the u direction of a triangle that is thin in UV space. Its tangents are right, or as good as any.
 #[test]
 fn slivers_do_not_make_tangents_wrong() {
     let mut model = healthy_models().remove(1);

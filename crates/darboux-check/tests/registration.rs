@@ -19,7 +19,7 @@ struct Real {
 
 fn read(path: &Path) -> Option<Real> {
     let document = Document::open(path, &LoadOptions::default()).ok()?;
-    let materials = document.appearances().ok()?;
+    let materials = document.materials().ok()?;
     let textures = materials.iter().filter_map(|material| material.normal_texture.as_ref());
     let mut images: Vec<usize> = textures.filter_map(|texture| texture.image).collect();
     images.sort_unstable();

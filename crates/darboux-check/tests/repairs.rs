@@ -34,9 +34,9 @@ fn image(document: &Document) -> Vec<u8> {
 }
 
 /// Makes a mistake.
-type Spoil = fn(&mut Model);
+type Damage = fn(&mut Model);
 
-fn spoilt() -> Model {
+fn damaged() -> Model {
     let mut model = healthy_models().remove(3);
     model.negate_signs();
     model
@@ -44,7 +44,7 @@ fn spoilt() -> Model {
 
 #[test]
 fn untouched_images_keep_their_bytes_and_geometry_its_accessors() {
-    let model = spoilt();
+    let model = damaged();
     let mut document = model.document();
     let findings = fixed(&mut document, &mut model.document(), &FixOptions::default());
     assert!(findings.iter().any(|fixed| fixed.repaired && fixed.finding.code == Code::TangentSignFlipped));
@@ -72,7 +72,7 @@ fn untouched_images_keep_their_bytes_and_geometry_its_accessors() {
 
 #[test]
 fn only_the_chosen_codes_are_repaired() {
-    let model = spoilt();
+    let model = damaged();
     let mut document = model.document();
     let options = FixOptions::default().with_codes([Code::TangentZero]);
     let findings = fixed(&mut document, &mut model.document(), &options);
@@ -83,7 +83,7 @@ fn only_the_chosen_codes_are_repaired() {
 /// Flipped signs and flipped green look right together. One of them alone would be wrong.
 #[test]
 fn half_of_a_pair_that_cancels_is_left() {
-    let mut model = spoilt();
+    let mut model = damaged();
     let inverted = model.map.texels.iter().map(|[r, g, b]| [*r, 255 - g, *b]).collect();
     model.map = model.map.with_texels(inverted);
     for code in [Code::TangentSignFlipped, Code::MapGreenFlipped] {
@@ -118,7 +118,7 @@ fn a_part_of_three_mistakes_that_cancel_is_left() {
     assert_eq!(findings.iter().filter(|fixed| fixed.repaired).count(), 3, "{findings:?}");
 }
 
-/// A map with both channels inverted under a scale of -1 gives the right picture, which a repair of the map alone would turn over.
+/// A map with both channels inverted under a scale of -1 gives the right picture, which a repair of the map alone would flip.
 #[test]
 fn channels_that_a_negative_scale_inverts_are_left() {
     let mut model = baked_models().remove(0);
@@ -140,7 +140,7 @@ fn channels_that_a_negative_scale_inverts_are_left() {
 
 #[test]
 fn all_instances_are_repaired() {
-    let mut model = spoilt();
+    let mut model = damaged();
     model.copies = 3;
     let mut document = model.document();
     fixed(&mut document, &mut model.document(), &FixOptions::default());
@@ -302,9 +302,9 @@ fn a_repair_that_makes_a_map_worse_is_not_kept() {
 #[test]
 fn a_chain_of_repairs_keeps_the_evidence_of_the_mesh() {
     for healthy in support::baked::baked_models().into_iter().take(4) {
-        let spoil: [fn([u8; 3]) -> [u8; 3]; 2] = [|[r, g, _]| [255 - r, g, 0], |[r, g, _]| [g, 255 - r, 0]];
-        for spoil in spoil {
-            let map = healthy.map.with_texels(healthy.map.texels.iter().copied().map(spoil).collect());
+        let damage: [fn([u8; 3]) -> [u8; 3]; 2] = [|[r, g, _]| [255 - r, g, 0], |[r, g, _]| [g, 255 - r, 0]];
+        for damage in damage {
+            let map = healthy.map.with_texels(healthy.map.texels.iter().copied().map(damage).collect());
             let model = Model { map, ..healthy.clone() };
             let mut document = model.document();
             fixed(&mut document, &mut model.document(), &FixOptions::default());
@@ -395,7 +395,7 @@ fn another_method_is_not_called_a_repair() {
 /// A repair that ends in an error that was not there is taken back; that of another primitive of the file is kept.
 #[test]
 fn repairs_add_no_errors() {
-    for spoil in [
+    for damage in [
         |model: &mut Model| model.positions[1][0] = f32::NAN,
         |model: &mut Model| {
             model.uvs[model.uv_set][1][0] = f32::NAN;
@@ -403,7 +403,7 @@ fn repairs_add_no_errors() {
     ] {
         for healthy in healthy_models() {
             let mut model = healthy.clone();
-            spoil(&mut model);
+            damage(&mut model);
             model.tangents = None;
             let errors = |document: &mut Document| {
                 let findings = check_document(document, &CheckOptions::default()).expect("a valid document");
@@ -423,13 +423,13 @@ fn repairs_add_no_errors() {
 fn reversed_faces_of_open_surfaces_are_left() {
     let healthy =
         healthy_models().into_iter().find(|model| model.name == "wavy grid").expect("an open model");
-    let spoil: [Spoil; 2] = [Model::turn_faces, |model| {
+    let damage: [Damage; 2] = [Model::turn_faces, |model| {
         model.negate_normals();
         model.negate_signs();
     }];
-    for spoil in spoil {
+    for damage in damage {
         let mut model = healthy.clone();
-        spoil(&mut model);
+        damage(&mut model);
         let mut document = model.document();
         let findings = fixed(&mut document, &mut model.document(), &FixOptions::default());
         let left = findings.iter().find(|fixed| fixed.finding.code == Code::NormalAgainstWinding);
@@ -445,7 +445,7 @@ fn reversed_faces_of_open_surfaces_are_left() {
     }
 }
 
-/// The volume decides, also where faces are missing, and the text says what is turned over and why.
+/// The volume decides, also where faces are missing, and the text says what is flipped and why.
 #[test]
 fn the_volume_of_a_nearly_closed_surface_decides() {
     let mut healthy =
@@ -455,14 +455,14 @@ fn the_volume_of_a_nearly_closed_surface_decides() {
         model.negate_normals();
         model.negate_signs();
     };
-    let mistakes: [(Spoil, &str); 3] = [
+    let mistakes: [(Damage, &str); 3] = [
         (Model::turn_faces, "its faces are reversed, because they enclose a negative volume"),
         (Model::negate_normals, "its normals are reversed, because its faces enclose a positive volume"),
         (normals_and_signs, "its normals are reversed, because its faces enclose a positive volume"),
     ];
-    for (spoil, clause) in mistakes {
+    for (damage, clause) in mistakes {
         let mut model = healthy.clone();
-        spoil(&mut model);
+        damage(&mut model);
         let mut document = model.document();
         let findings = fixed(&mut document, &mut model.document(), &FixOptions::default());
         let first = &findings[0];
@@ -508,7 +508,7 @@ fn what_follows_from_a_mistake_is_no_further_mistake() {
     }
 }
 
-/// Primitives that shared their indices share those of the faces that were turned over.
+/// Primitives that shared their indices share those of the faces that were flipped.
 #[test]
 fn turned_faces_stay_shared() {
     let mut model =

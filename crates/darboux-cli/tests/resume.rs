@@ -71,9 +71,9 @@ fn only_what_changed_is_done_again() {
     fs::write(out.join("a.glb"), b"cut").expect("the output");
     assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["written", "up_to_date", "up_to_date"]);
     let whole = fs::read(out.join("a.glb")).expect("the output");
-    let mut spoilt = whole.clone();
-    *spoilt.last_mut().expect("bytes") ^= 1;
-    fs::write(out.join("a.glb"), spoilt).expect("the output");
+    let mut damaged = whole.clone();
+    *damaged.last_mut().expect("bytes") ^= 1;
+    fs::write(out.join("a.glb"), damaged).expect("the output");
     assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["written", "up_to_date", "up_to_date"]);
     assert_eq!(fs::read(out.join("a.glb")).expect("the output"), whole);
 

@@ -49,7 +49,7 @@ pub use edit::Checkpoint;
 pub use element_type::{ComponentType, ElementType};
 pub use elements::{Elements, NewAccessor, Target};
 pub use inspect::{PrimitiveInfo, inspect};
-pub use materials::{Alpha, Appearance, TextureUse, Wrap};
+pub use materials::{Alpha, Material, TextureUse, Wrap};
 pub use normals::{
     AddNormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals, add_normals,
     add_normals_to, add_normals_with,
@@ -57,7 +57,7 @@ pub use normals::{
 pub use primitives::corners::PrimitiveCorners;
 pub use primitives::name::PrimitiveName;
 pub use progress::Progress;
-pub use scene::{PlacedMesh, PlacedMeshes};
+pub use scene::{MeshInstance, MeshInstances};
 pub use stored_elements::IndexList;
 pub use tangents::{
     AddTangentsOptions, Generate, GenerateFn, GivenTangents, PrimitiveTangents, ReportCounts,

@@ -178,7 +178,7 @@ fn repeated_libraries_are_loaded_once() {
     fs::write(folder.path().join("a.obj"), obj).unwrap();
     let model = read(&folder.path().join("a.obj"), &LoadOptions::default()).unwrap();
     assert_eq!(
-        (model.document.appearances().unwrap().len(), model.warnings.len()),
+        (model.document.materials().unwrap().len(), model.warnings.len()),
         (1, 1),
         "{:?}",
         model.warnings

@@ -551,14 +551,14 @@ fn inspect_counts_without_changing_anything() {
     assert_eq!(all.attributes, ["NORMAL", "POSITION", "TEXCOORD_0"]);
 }
 
-/// A document of small primitives, a large one, and one with a morph target. `spoilt`: primitives with a normal that is not finite.
-fn scene(spoilt: &[usize]) -> Document {
+/// A document of small primitives, a large one, and one with a morph target. `damaged`: primitives with a normal that is not finite.
+fn scene(damaged: &[usize]) -> Document {
     let mut builder = Builder::new();
     let large: Vec<u16> = BOTH.iter().copied().cycle().take(12 * 5_000).collect();
     for place in 0..40 {
         let mut vertices = butterfly();
         vertices.positions.iter_mut().for_each(|position| position[2] = position[0] * place as f32);
-        vertices.normals[0][0] = if spoilt.contains(&place) { f32::NAN } else { 0.0 };
+        vertices.normals[0][0] = if damaged.contains(&place) { f32::NAN } else { 0.0 };
         let attributes = vertices.attributes(&mut builder);
         let indices = builder.indices(if place == 17 { &large } else { &BOTH });
         let mut primitive = json!({"attributes": attributes, "indices": indices});

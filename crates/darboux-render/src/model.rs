@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use darboux_io::Error;
 use darboux_io::gltf::{
-    Appearance, Document, PlacedMesh, PlacedMeshes, PrimitiveCorners, PrimitiveName, TextureUse,
+    Document, Material, MeshInstance, MeshInstances, PrimitiveCorners, PrimitiveName, TextureUse,
 };
 
 use crate::algebra::Matrix;
@@ -21,7 +21,7 @@ use crate::vertex::SurfaceVertex;
 /// The meshes of a document, ready to be drawn.
 pub struct Model<'a> {
     pub(crate) document: &'a Document,
-    pub(crate) appearances: Vec<Appearance>,
+    pub(crate) materials: Vec<Material>,
     pub(crate) parts: Vec<Part>,
     /// Whether the tangents are derived from positions and UVs, as some shaders do.
     pub(crate) is_derived: bool,
@@ -44,8 +44,8 @@ impl<'a> Model<'a> {
     ///
     /// Errors: invalid data; too many poses of large meshes.
     pub fn read(document: &'a Document) -> Result<Self, Error> {
-        let appearances = document.appearances()?;
-        let placed = document.placed_meshes()?;
+        let materials = document.materials()?;
+        let placed = document.mesh_instances()?;
         let posed = posed_meshes(&placed, document.meshes().len());
         let mut parts = Vec::new();
         let mut kept: usize = 0;
@@ -60,11 +60,11 @@ impl<'a> Model<'a> {
             }
             check_influences(document, &corners, poses)?;
             for (at, pose) in poses.iter().enumerate() {
-                parts.push(read_part(document, &appearances, &corners, at, pose)?);
+                parts.push(read_part(document, &materials, &corners, at, pose)?);
             }
         }
         let skipped_primitives = skipped_primitives(document, &posed);
-        Ok(Self { document, appearances, parts, is_derived: false, skipped_primitives })
+        Ok(Self { document, materials, parts, is_derived: false, skipped_primitives })
     }
 
     /// The model with tangents that are derived from positions and UVs, as some shaders do, instead of its own.
@@ -92,7 +92,7 @@ impl<'a> Model<'a> {
             part.corners.iter_mut().zip(wrong).for_each(|(corner, tangent)| corner.tangent = tangent);
         }
         let Self { document, is_derived, skipped_primitives, .. } = *self;
-        Model { document, appearances: self.appearances.clone(), parts, is_derived, skipped_primitives }
+        Model { document, materials: self.materials.clone(), parts, is_derived, skipped_primitives }
     }
 
     /// The model with the angles to the tangents of another model of the same file, for [`View::Angle`](crate::View::Angle).
@@ -186,9 +186,9 @@ fn skipped_primitives(document: &Document, posed: &[Vec<PosedMesh<'_>>]) -> usiz
 }
 
 /// The poses of every mesh, each with the matrices of all its places.
-fn posed_meshes(placed: &PlacedMeshes, mesh_count: usize) -> Vec<Vec<PosedMesh<'_>>> {
+fn posed_meshes(placed: &MeshInstances, mesh_count: usize) -> Vec<Vec<PosedMesh<'_>>> {
     let mut at = HashMap::new();
-    let mut posed: Vec<Vec<(&PlacedMesh, Vec<Matrix>)>> = (0..mesh_count).map(|_| Vec::new()).collect();
+    let mut posed: Vec<Vec<(&MeshInstance, Vec<Matrix>)>> = (0..mesh_count).map(|_| Vec::new()).collect();
     for mesh in &placed.meshes {
         let Some(poses) = posed.get_mut(mesh.mesh) else { continue };
         let weights: Vec<u64> = mesh.weights.iter().map(|weight| weight.to_bits()).collect();
@@ -200,7 +200,7 @@ fn posed_meshes(placed: &PlacedMeshes, mesh_count: usize) -> Vec<Vec<PosedMesh<'
             None => poses.push((mesh, mesh.matrices.clone())),
         }
     }
-    let pose = |(mesh, matrices): (&PlacedMesh, Vec<Matrix>)| PosedMesh {
+    let pose = |(mesh, matrices): (&MeshInstance, Vec<Matrix>)| PosedMesh {
         weights: mesh.weights.clone(),
         joints: mesh.skin.and_then(|skin| placed.skins.get(skin)).map(Vec::as_slice),
         matrices: matrices.into(),
@@ -242,25 +242,25 @@ fn check_influences(
 /// Reads a primitive in a pose of its mesh, without triangles whose positions are not finite. `at`: the index of the pose.
 fn read_part(
     document: &Document,
-    appearances: &[Appearance],
+    materials: &[Material],
     corners: &PrimitiveCorners<'_>,
     at: usize,
     pose: &PosedMesh<'_>,
 ) -> Result<Part, Error> {
-    let none = Appearance::default();
-    let appearance = match corners.material() {
+    let none = Material::default();
+    let material = match corners.material() {
         None => &none,
-        Some(material) => appearances.get(material).ok_or_else(|| {
+        Some(material) => materials.get(material).ok_or_else(|| {
             let problem = format!("its material {material} does not exist; export the file again");
             invalid(document, corners.name(), problem)
         })?,
     };
-    let tangent_uvs = corners.vectors::<2>(&set_name(appearance.tangent_uv_set))?.unwrap_or_default();
+    let tangent_uvs = corners.vectors::<2>(&set_name(material.tangent_uv_set))?.unwrap_or_default();
     let uvs = |texture: &Option<TextureUse>| -> Result<Vec<[f32; 2]>, Error> {
         let Some(texture) = texture else { return Ok(tangent_uvs.clone()) };
         Ok(corners.vectors::<2>(&set_name(texture.uv_set))?.unwrap_or_default())
     };
-    let uvs = [uvs(&appearance.base_texture)?, uvs(&appearance.normal_texture)?];
+    let uvs = [uvs(&material.base_texture)?, uvs(&material.normal_texture)?];
     let (Vertices { positions, normals, tangents }, is_mirrored) = posed_vertices(corners, pose)?;
     let corner = |i: usize| SurfaceVertex {
         position: positions[i],

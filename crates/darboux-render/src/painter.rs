@@ -2,7 +2,7 @@
 
 use bytemuck::Pod;
 use darboux_gpu::{AdapterKind, Gpu};
-use darboux_io::gltf::Appearance;
+use darboux_io::gltf::Material;
 use darboux_io::image::srgb_to_linear;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{
@@ -165,16 +165,17 @@ impl Painter<'_> {
     fn side(&self, side: &Side<'_>, columns: [u32; 2], warnings: &mut Vec<String>) -> SideResources {
         let Side { model, .. } = side;
         let mut textures = Textures::new(self.gpu, model.document);
-        let is_used = |material| {
+        let is_used = |index| {
             let mut parts = model.parts.iter();
-            self.drawing.view() == View::Shaded && parts.any(|part| part.material == Some(material))
+            self.drawing.view() == View::Shaded && parts.any(|part| part.material == Some(index))
         };
-        let appearances = model.appearances.iter().enumerate();
-        let materials = appearances.map(|(material, appearance)| {
-            is_used(material).then(|| self.material(appearance, &mut textures))
-        });
+        let materials = model
+            .materials
+            .iter()
+            .enumerate()
+            .map(|(index, material)| is_used(index).then(|| self.material(material, &mut textures)));
         let materials = materials.collect();
-        let default_material = self.material(&Appearance::default(), &mut textures);
+        let default_material = self.material(&Material::default(), &mut textures);
         let (lines, line_warning) = self.line_resources(side);
         let side_warnings =
             model.warnings(self.drawing.subject).into_iter().chain(textures.warnings).chain(line_warning);
@@ -235,11 +236,11 @@ impl Painter<'_> {
         })
     }
 
-    fn material(&self, appearance: &Appearance, textures: &mut Textures<'_>) -> BindGroup {
+    fn material(&self, material: &Material, textures: &mut Textures<'_>) -> BindGroup {
         let [base, normal] =
-            [(&appearance.base_texture, Kind::Color), (&appearance.normal_texture, Kind::Normal)]
+            [(&material.base_texture, Kind::Color), (&material.normal_texture, Kind::Normal)]
                 .map(|(used, kind)| (textures.view(used.as_ref(), kind), sampler(self.gpu, used.as_ref())));
-        let uniforms = MaterialUniforms::of(appearance, normal.0.is_some());
+        let uniforms = MaterialUniforms::of(material, normal.0.is_some());
         let [base_view, normal_view] = [
             base.0.unwrap_or_else(|| textures.neutral(Kind::Color)),
             normal.0.unwrap_or_else(|| textures.neutral(Kind::Normal)),

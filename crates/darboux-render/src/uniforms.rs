@@ -1,7 +1,7 @@
 //! The uniforms and the per-instance data of both shaders, in their memory layout.
 
 use bytemuck::{Pod, Zeroable};
-use darboux_io::gltf::{Alpha, Appearance, TextureUse};
+use darboux_io::gltf::{Alpha, Material, TextureUse};
 
 use crate::algebra::{IDENTITY, Matrix, direction_columns};
 use crate::camera::ViewTransform;
@@ -110,16 +110,16 @@ impl LineUniforms {
 }
 
 impl MaterialUniforms {
-    pub fn of(appearance: &Appearance, has_normal_map: bool) -> Self {
-        let (base_axes, base_origin) = axes(appearance.base_texture.as_ref());
-        let (normal_axes, normal_origin) = axes(appearance.normal_texture.as_ref());
+    pub fn of(material: &Material, has_normal_map: bool) -> Self {
+        let (base_axes, base_origin) = axes(material.base_texture.as_ref());
+        let (normal_axes, normal_origin) = axes(material.normal_texture.as_ref());
         Self {
-            base_color: appearance.base_color,
+            base_color: material.base_color,
             base_axes,
             normal_axes,
             origins: [base_origin, normal_origin],
-            normal_scale: appearance.normal_scale,
-            alpha_cutoff: match appearance.alpha {
+            normal_scale: material.normal_scale,
+            alpha_cutoff: match material.alpha {
                 Alpha::Opaque => -1.0,
                 Alpha::Mask(cutoff) => cutoff.clamp(0.0, 1.0),
                 Alpha::Blend => 2.0,

@@ -81,7 +81,7 @@ impl<'a> LowModel<'a> {
         corners: &'a [PrimitiveCorners<'a>],
         options: &LowModelOptions,
     ) -> Result<Self, Error> {
-        let (places, appearances) = (places(document)?, document.appearances()?);
+        let (places, materials) = (places(document)?, document.materials()?);
         let mut model = Self {
             parts: Vec::new(),
             repeated_meshes: 0,
@@ -103,8 +103,8 @@ impl<'a> LowModel<'a> {
             let name = corners.name();
             let Some(place) = places.get(name.mesh).and_then(|places| places.first()) else { continue };
             let Some(primitive) = PlacedPrimitive::read(document, corners, place)? else { continue };
-            let appearance = corners.material().and_then(|material| appearances.get(material));
-            let of_map = appearance.map_or(0, |appearance| appearance.tangent_uv_set);
+            let material = corners.material().and_then(|material| materials.get(material));
+            let of_map = material.map_or(0, |material| material.tangent_uv_set);
             let uv_set = options.uv_set.unwrap_or(of_map);
             let Some(mut uvs) = vertices(document, name, &format!("TEXCOORD_{uv_set}"))? else {
                 model.without_uvs += 1;
@@ -123,7 +123,7 @@ impl<'a> LowModel<'a> {
             let stored = StoredPrimitive { document, corners, uvs: &uvs };
             let computed = options.tangents.unwrap_or_default();
             let tangents = stored.tangents((!is_own).then_some(&computed), primitive.transform.as_ref())?;
-            if let Some(texture) = appearance.and_then(|appearance| appearance.normal_texture.as_ref())
+            if let Some(texture) = material.and_then(|material| material.normal_texture.as_ref())
                 && texture.uv_set == uv_set
             {
                 uvs.to_mut().iter_mut().for_each(|uv| *uv = texture.transform_uv(*uv));

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use darboux::{Convention, TangentOptions};
 use darboux_io::Error;
-use darboux_io::gltf::{Appearance, Document, PrimitiveCorners, TextureUse};
+use darboux_io::gltf::{Document, Material, PrimitiveCorners, TextureUse};
 use darboux_io::image::{Channels, DecodeLimits, PngImage, RgbaImage, normal_vectors};
 
 use super::placed::{PlacedPrimitive, vertices};
@@ -28,7 +28,7 @@ pub struct MapOnPart<'a> {
 pub struct Textures {
     list: Vec<NormalTexture>,
     /// By the index of the material; none where the map cannot be used.
-    of_material: HashMap<usize, Option<(usize, Appearance)>>,
+    of_material: HashMap<usize, Option<(usize, Material)>>,
     pub warnings: Vec<String>,
 }
 
@@ -52,23 +52,23 @@ impl Textures {
         Ok(self.of_material[&material].as_ref().map(|_| material))
     }
 
-    fn read(&mut self, document: &Document, material: usize) -> Result<Option<(usize, Appearance)>, Error> {
-        let Some(appearance) = document.appearances()?.into_iter().nth(material) else { return Ok(None) };
-        let Some(used) = &appearance.normal_texture else { return Ok(None) };
+    fn read(&mut self, document: &Document, index: usize) -> Result<Option<(usize, Material)>, Error> {
+        let Some(material) = document.materials()?.into_iter().nth(index) else { return Ok(None) };
+        let Some(used) = &material.normal_texture else { return Ok(None) };
         let texture = decode(document, used).and_then(|(size, texels)| {
             NormalTexture::new(size, texels, Convention::GLTF, Convention::GLTF)
                 .map_err(|error| error.to_string())
         });
         match texture {
             Ok(texture) => {
-                let texture = texture.with_wrap(used.wrap).with_scale(appearance.normal_scale);
+                let texture = texture.with_wrap(used.wrap).with_scale(material.normal_scale);
                 self.list.push(texture);
-                Ok(Some((self.list.len() - 1, appearance)))
+                Ok(Some((self.list.len() - 1, material)))
             }
             Err(why) => {
                 let name = document.name();
                 self.warnings
-                    .push(format!("{name}: the normal map of materials[{material}] is not used: {why}"));
+                    .push(format!("{name}: the normal map of materials[{index}] is not used: {why}"));
                 Ok(None)
             }
         }
@@ -83,8 +83,8 @@ impl Textures {
         material: usize,
         primitive: &PlacedPrimitive<'a>,
     ) -> Result<Option<MapOnPart<'a>>, Error> {
-        let Some((texture, appearance)) = &self.of_material[&material] else { return Ok(None) };
-        let Some(used) = &appearance.normal_texture else { return Ok(None) };
+        let Some((texture, material)) = &self.of_material[&material] else { return Ok(None) };
+        let Some(used) = &material.normal_texture else { return Ok(None) };
         let (name, set) = (corners.name(), used.uv_set);
         let uvs = vertices(document, name, &format!("TEXCOORD_{set}"))?;
         let Some(mut uvs) = uvs.filter(|_| primitive.normals.is_some()) else {

@@ -20,7 +20,7 @@ pub struct Place {
 /// The places of every mesh, by the index of the mesh. A skinned mesh has the pose in which it is stored.
 pub fn places(document: &Document) -> Result<Vec<Vec<Place>>, Error> {
     let mut places = vec![Vec::new(); document.meshes().len()];
-    for mesh in document.placed_meshes()?.meshes {
+    for mesh in document.mesh_instances()?.meshes {
         if let Some(places) = places.get_mut(mesh.mesh) {
             let place = |matrix| Place { matrix, node_name: mesh.node_name.clone() };
             places.extend(mesh.matrices.iter().copied().map(place));

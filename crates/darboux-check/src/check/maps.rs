@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use darboux::{MapJudgement, SrgbMistake};
 use darboux_io::Error;
-use darboux_io::gltf::{Appearance, Document, PrimitiveName};
+use darboux_io::gltf::{Document, Material, PrimitiveName};
 use darboux_io::image::RgbaImage;
 
 use super::surfaces::{defects_of_surface, for_each_surface};
@@ -143,7 +143,7 @@ pub fn defects_of_materials(
     on_surfaces: &mut [Defect],
 ) -> Result<Vec<Defect>, Error> {
     let (mut defects, mut images) = (Vec::new(), BTreeMap::new());
-    let materials = document.appearances()?;
+    let materials = document.materials()?;
     for (index, material) in materials.iter().enumerate() {
         let place = Place { material: Some(index), ..Place::default() };
         let found = MATERIAL_RULES.iter().filter_map(|rule| rule(material));
@@ -182,7 +182,7 @@ pub fn defects_of_materials(
 }
 
 /// Whether a material inverts the red and green of an image, which is its normal map.
-fn inverts(material: &Appearance, image: usize) -> bool {
+fn inverts(material: &Material, image: usize) -> bool {
     let texture = material.normal_texture.as_ref();
     material.normal_scale < 0.0 && texture.is_some_and(|texture| texture.image == Some(image))
 }

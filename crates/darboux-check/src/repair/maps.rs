@@ -204,7 +204,7 @@ pub fn fix_images(
     if !defects.iter().any(|defect| options.repairs(defect)) {
         return Ok(defects.iter().map(|defect| outcome(defect.clone(), &defects, options)).collect());
     }
-    let users = MapUsers::new(document, &document.appearances()?)?;
+    let users = MapUsers::new(document, &document.materials()?)?;
     for (image, material) in places {
         let of_image = defects.iter().filter(|defect| defect.place.image == image);
         let has_work = of_image.clone().any(|defect| options.repairs(defect));

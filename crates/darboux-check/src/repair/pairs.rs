@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use darboux_io::Error;
-use darboux_io::gltf::{Appearance, Document};
+use darboux_io::gltf::{Document, Material};
 
 use super::options::FixOptions;
 use crate::cancelling::{has_flipped_signs, pair_of};
@@ -39,7 +39,7 @@ impl LeftPairs {
         if of_images.is_empty() {
             return Ok(left);
         }
-        let materials = document.appearances()?;
+        let materials = document.materials()?;
         for (primitive, on_surface) in grouped(on_surfaces, |defect| defect.place.primitive.as_ref().map(key))
         {
             for image in normal_maps_of(document, &materials, primitive) {
@@ -86,10 +86,10 @@ fn grouped<G: Ord>(defects: &[Defect], group: impl Fn(&Defect) -> Option<G>) -> 
 }
 
 /// The images of the normal maps of a primitive, those of its variants included.
-fn normal_maps_of(document: &Document, all: &[Appearance], (mesh, primitive): Key) -> BTreeSet<usize> {
+fn normal_maps_of(document: &Document, all: &[Material], (mesh, primitive): Key) -> BTreeSet<usize> {
     let materials = document.meshes()[mesh].primitives[primitive].materials();
     let used = materials.iter().filter_map(|&material| all.get(material));
-    used.flat_map(Appearance::normal_maps).filter_map(|texture| texture.image).collect()
+    used.flat_map(Material::normal_maps).filter_map(|texture| texture.image).collect()
 }
 
 /// Whether a mistake of a pair is left, so that none is repaired.

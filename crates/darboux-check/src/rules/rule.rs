@@ -1,6 +1,6 @@
 //! What a rule is.
 
-use darboux_io::gltf::Appearance;
+use darboux_io::gltf::Material;
 
 use crate::defect::Defect;
 use crate::facts::SurfaceFacts;
@@ -13,4 +13,4 @@ pub type SurfaceRule = fn(&SurfaceFacts<'_>) -> Vec<Defect>;
 pub type MapRule = fn(&Map) -> Option<Defect>;
 
 /// A rule about the use of normal maps by a material.
-pub type MaterialRule = fn(&Appearance) -> Option<Defect>;
+pub type MaterialRule = fn(&Material) -> Option<Defect>;

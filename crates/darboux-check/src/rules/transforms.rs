@@ -1,6 +1,6 @@
 //! Rules about how materials use normal textures.
 
-use darboux_io::gltf::{Appearance, TextureUse};
+use darboux_io::gltf::{Material, TextureUse};
 
 use super::rule::MaterialRule;
 use crate::defect::{Defect, Fault};
@@ -10,7 +10,7 @@ pub const RULES: &[MaterialRule] = &[mirrors, negative_scale];
 /// Degrees of rotation that are rounding.
 const ROUNDING: f64 = 0.01;
 
-fn mirrors(material: &Appearance) -> Option<Defect> {
+fn mirrors(material: &Material) -> Option<Defect> {
     material.normal_maps().find_map(mirrored_or_rotated).map(Defect::new)
 }
 
@@ -27,7 +27,7 @@ fn mirrored_or_rotated(texture: &TextureUse) -> Option<Fault> {
     is_unusual.then_some(Fault::TransformMirrors { axes: [u, v], determinant, rotation })
 }
 
-fn negative_scale(material: &Appearance) -> Option<Defect> {
+fn negative_scale(material: &Material) -> Option<Defect> {
     let scale = f64::from(material.normal_scale);
     let is_inverting = material.normal_texture.is_some() && scale < 0.0;
     is_inverting.then(|| Defect::new(Fault::MapScaleNegative(scale)))

@@ -1,6 +1,6 @@
 //! The words of defects of tangents.
 
-use darboux::{Method, Recipe, RecipeMatch, RecipeRounding};
+use darboux::{Choice, Method, Recipe, RecipeMatch, RecipeRounding};
 
 use super::counts::counted;
 use super::said::Said;
@@ -160,6 +160,6 @@ fn name(recipe: &Recipe) -> &'static str {
         Method::Average => "averages of the triangles' tangents (Maya)",
         Method::Area => "averages weighted by area",
         Method::Face => "one tangent per face",
-        _ => "another method",
+        other => other.name(),
     }
 }

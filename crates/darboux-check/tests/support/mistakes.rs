@@ -105,9 +105,9 @@ pub const MISTAKES: &[Mistake] = &[
         how: "w negated in the first 44 % of the triangles",
         make: |model| {
             let corners = model.indices.len() / 3 * 44 / 100 * 3;
-            let spoilt: BTreeSet<u32> = model.indices[..corners].iter().copied().collect();
+            let damaged: BTreeSet<u32> = model.indices[..corners].iter().copied().collect();
             let tangents = model.tangents();
-            spoilt.into_iter().for_each(|vertex| tangents[vertex as usize][3] *= -1.0);
+            damaged.into_iter().for_each(|vertex| tangents[vertex as usize][3] *= -1.0);
             // On a mirrored model the first triangles may be all that are mirrored.
             model.unsplit.is_none()
         },

@@ -1,4 +1,4 @@
-//! Healthy models as glTF documents, with one normal map each, that can be spoilt.
+//! Healthy models as glTF documents, with one normal map each, that can be damaged.
 
 use darboux::{
     Convention, Faces, Method, NormalOptions, TangentOptions, generate_normals, generate_tangents,
@@ -254,7 +254,7 @@ impl Model {
         self.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
     }
 
-    /// Adds a copy of the surface beside it whose faces are turned over, as when a mirrored part was joined.
+    /// Adds a copy of the surface beside it whose faces are flipped, as when a mirrored part was joined.
     pub fn add_reversed_copy(&mut self) {
         let count = self.positions.len();
         let width = self.positions.iter().fold(0.0f32, |width, position| width.max(position[0].abs()));

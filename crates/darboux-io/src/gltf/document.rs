@@ -104,7 +104,7 @@ impl Document {
     }
 
     /// The materials.
-    pub(super) fn materials(&self) -> &[schema::Material] {
+    pub(super) fn stored_materials(&self) -> &[schema::Material] {
         &self.root.materials
     }
 

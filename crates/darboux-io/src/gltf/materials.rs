@@ -1,4 +1,4 @@
-//! The appearance of materials and the bytes of images, for renderers.
+//! The materials and the bytes of images, for renderers.
 
 use std::borrow::Cow;
 
@@ -12,10 +12,10 @@ use super::tangents::uv::{UvChoice, UvTransform};
 use crate::Error;
 use crate::error::ContentError;
 
-/// The appearance of a material: the parts that a simple renderer needs.
+/// A material: the parts that a simple renderer needs.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Appearance {
+pub struct Material {
     /// The base colour: linear red, green and blue, and alpha.
     pub base_color: [f32; 4],
     /// The texture of the base colour, in sRGB.
@@ -32,7 +32,7 @@ pub struct Appearance {
     pub tangent_uv_set: usize,
 }
 
-impl Default for Appearance {
+impl Default for Material {
     fn default() -> Self {
         Self {
             base_color: [1.0; 4],
@@ -46,7 +46,7 @@ impl Default for Appearance {
     }
 }
 
-impl Appearance {
+impl Material {
     /// The textures that are normal maps.
     pub fn normal_maps(&self) -> impl Iterator<Item = &TextureUse> {
         self.normal_texture.iter().chain(&self.clearcoat_normal_texture)
@@ -217,44 +217,44 @@ fn one() -> f32 {
 }
 
 impl Document {
-    /// The appearance of every material. Errors: textures, samplers or images that do not exist.
-    pub fn appearances(&self) -> Result<Vec<Appearance>, Error> {
-        let appearances = || -> Result<Vec<Appearance>, ContentError> {
+    /// All materials. Errors: textures, samplers or images that do not exist.
+    pub fn materials(&self) -> Result<Vec<Material>, Error> {
+        let read = || -> Result<Vec<Material>, ContentError> {
             let all: StoredMaterials = self.read()?;
-            let appearance = |(index, material)| self.appearance(&all, index, material);
-            all.materials.iter().enumerate().map(appearance).collect()
+            let material = |(index, stored)| self.material(&all, index, stored);
+            all.materials.iter().enumerate().map(material).collect()
         };
-        appearances().map_err(|error| error.in_file(self.name()))
+        read().map_err(|error| error.in_file(self.name()))
     }
 
-    fn appearance(
+    fn material(
         &self,
         all: &StoredMaterials,
         index: usize,
-        material: &StoredMaterial,
-    ) -> Result<Appearance, ContentError> {
+        stored: &StoredMaterial,
+    ) -> Result<Material, ContentError> {
         let at = format!("materials[{index}]");
         let texture = |used: Option<&StoredTextureUse>, member: &str| {
             used.map(|used| self.texture_use(all, used, &format!("{at}.{member}"))).transpose()
         };
-        let metallic = &material.pbr_metallic_roughness;
+        let metallic = &stored.pbr_metallic_roughness;
         let coat =
-            material.extensions.clearcoat.as_ref().and_then(|coat| coat.clearcoat_normal_texture.as_ref());
-        let choice = self.materials().get(index).and_then(|material| UvChoice::of(material, index));
-        Ok(Appearance {
+            stored.extensions.clearcoat.as_ref().and_then(|coat| coat.clearcoat_normal_texture.as_ref());
+        let choice = self.stored_materials().get(index).and_then(|material| UvChoice::of(material, index));
+        Ok(Material {
             base_color: metallic.base_color_factor.unwrap_or([1.0; 4]),
             base_texture: texture(
                 metallic.base_color_texture.as_ref(),
                 "pbrMetallicRoughness.baseColorTexture",
             )?,
-            normal_texture: texture(material.normal_texture.as_ref(), "normalTexture")?,
+            normal_texture: texture(stored.normal_texture.as_ref(), "normalTexture")?,
             clearcoat_normal_texture: texture(
                 coat,
                 "extensions.KHR_materials_clearcoat.clearcoatNormalTexture",
             )?,
-            normal_scale: material.normal_texture.as_ref().map_or(1.0, |used| used.scale),
-            alpha: match material.alpha_mode.as_deref() {
-                Some("MASK") => Alpha::Mask(material.alpha_cutoff),
+            normal_scale: stored.normal_texture.as_ref().map_or(1.0, |used| used.scale),
+            alpha: match stored.alpha_mode.as_deref() {
+                Some("MASK") => Alpha::Mask(stored.alpha_cutoff),
                 Some("BLEND") => Alpha::Blend,
                 _ => Alpha::Opaque,
             },

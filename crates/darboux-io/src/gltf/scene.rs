@@ -17,20 +17,20 @@ const IDENTITY: Matrix =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 /// The most places of meshes. Nodes may share instances, so that a small file can ask for any number.
-const MAX_PLACED_MESHES: usize = 1 << 20;
+const MAX_MESH_INSTANCES: usize = 1 << 20;
 
 /// The meshes and skins of the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct PlacedMeshes {
+pub struct MeshInstances {
     /// The meshes of all nodes.
-    pub meshes: Vec<PlacedMesh>,
+    pub meshes: Vec<MeshInstance>,
     /// The joint matrices of every skin, from the bind pose of the mesh to the scene; empty for unused skins.
     pub skins: Vec<Vec<[[f64; 4]; 4]>>,
 }
 
 /// A mesh of a node.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PlacedMesh {
+pub struct MeshInstance {
     /// The index of the mesh.
     pub mesh: usize,
     /// The name of the node, if it has one.
@@ -131,10 +131,10 @@ impl Document {
     ///
     /// A document without scenes has all nodes in its scene, one without nodes all meshes. Errors: joints outside the scene, missing matrices, nodes with several parents, more
     /// than 2^20 instances.
-    pub fn placed_meshes(&self) -> Result<PlacedMeshes, Error> {
+    pub fn mesh_instances(&self) -> Result<MeshInstances, Error> {
         let scenes: Scenes = self.read().map_err(|error| error.in_file(self.name()))?;
         let nodes = placed_nodes(&scenes).map_err(|error| error.in_file(self.name()))?;
-        let mut placed = PlacedMeshes { meshes: Vec::new(), skins: vec![Vec::new(); scenes.skins.len()] };
+        let mut placed = MeshInstances { meshes: Vec::new(), skins: vec![Vec::new(); scenes.skins.len()] };
         if scenes.nodes.is_empty() {
             let all = scenes.meshes.iter().enumerate();
             placed
@@ -146,8 +146,9 @@ impl Document {
             let Some(mesh) = self.place_node(&scenes, index, matrix)? else { continue };
             places = places.saturating_add(mesh.matrices.len());
             placed.meshes.push(mesh);
-            if places > MAX_PLACED_MESHES {
-                let problem = format!("has meshes at more than {MAX_PLACED_MESHES} places; remove instances");
+            if places > MAX_MESH_INSTANCES {
+                let problem =
+                    format!("has meshes at more than {MAX_MESH_INSTANCES} places; remove instances");
                 return Err(self.invalid("scene", problem));
             }
         }
@@ -160,7 +161,12 @@ impl Document {
     }
 
     /// The mesh of a node, if it has one, with the node's transform, weights and skin.
-    fn place_node(&self, scenes: &Scenes, index: usize, matrix: Matrix) -> Result<Option<PlacedMesh>, Error> {
+    fn place_node(
+        &self,
+        scenes: &Scenes,
+        index: usize,
+        matrix: Matrix,
+    ) -> Result<Option<MeshInstance>, Error> {
         let node = &scenes.nodes[index];
         let Some(mesh) = node.mesh else { return Ok(None) };
         let at = format!("nodes[{index}]");
@@ -263,10 +269,10 @@ fn place(
     skin: Option<usize>,
     weights: &[f64],
     matrices: Vec<Matrix>,
-) -> PlacedMesh {
+) -> MeshInstance {
     let is_morphed = weights.iter().any(|&weight| weight != 0.0);
     let weights = if is_morphed { weights.to_vec() } else { Vec::new() };
-    PlacedMesh { mesh, node_name, matrices, weights, skin }
+    MeshInstance { mesh, node_name, matrices, weights, skin }
 }
 
 /// The nodes without a parent.

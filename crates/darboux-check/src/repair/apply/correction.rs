@@ -81,9 +81,9 @@ enum Direction {
 /// The sign that the corners of a vertex should have.
 #[derive(Clone, Copy, PartialEq)]
 enum VertexSign {
-    /// No corner tells.
+    /// No corner has a reliable sign.
     Unknown,
-    /// The sign of all corners that tell; true for -1.
+    /// The sign of all corners whose sign is reliable; true for -1.
     Same(bool),
     /// The vertex lies on a mirrored seam.
     Both,
@@ -94,7 +94,7 @@ struct Corrector<'a> {
     tangents: &'a [[f32; 4]],
     wrong: &'a WrongTangents,
     options: &'a FixOptions,
-    /// Per vertex whether its tangent is that of MikkTSpace for a corner without an area, which tells nothing.
+    /// Per vertex whether its tangent is that of MikkTSpace for a corner without an area, which is no evidence.
     has_own_tangent: Vec<bool>,
     /// MikkTSpace's tangents of the corners, with the signs that are right here.
     expected: Vec<[f32; 4]>,
@@ -103,7 +103,7 @@ struct Corrector<'a> {
     /// Per vertex whether the sign of its first corner should be -1.
     is_first_negative: Vec<bool>,
     /// Per triangle whether it has an area in UV space, and a side that is not in doubt.
-    tells: Vec<bool>,
+    has_reliable_sign: Vec<bool>,
     signs: Vec<VertexSign>,
     /// Per vertex whether a defect that is to be repaired is about its sign.
     has_named_sign: Vec<bool>,
@@ -128,10 +128,10 @@ impl<'a> Corrector<'a> {
         if flips {
             expected.iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
         }
-        let mut tells: Vec<bool> =
+        let mut has_reliable_sign: Vec<bool> =
             surface.triangles().map(|triangle| is_measured(surface, uvs, triangle)).collect();
         if is_at_most_a_part(wrong.reversal) {
-            Sides::of(surface).against.into_iter().for_each(|triangle| tells[triangle] = false);
+            Sides::of(surface).against.into_iter().for_each(|triangle| has_reliable_sign[triangle] = false);
         }
         let mut signs = vec![VertexSign::Unknown; tangents.len()];
         let mut is_first_negative = vec![false; tangents.len()];
@@ -139,7 +139,7 @@ impl<'a> Corrector<'a> {
             let sign = &mut signs[vertex as usize];
             is_first_negative[vertex as usize] = expected[corner][3] < 0.0;
             let own = VertexSign::Same(expected[corner][3] < 0.0);
-            if tells[corner / 3] {
+            if has_reliable_sign[corner / 3] {
                 *sign = if *sign == VertexSign::Unknown || *sign == own { own } else { VertexSign::Both };
             }
         }
@@ -153,7 +153,7 @@ impl<'a> Corrector<'a> {
             expected,
             flips,
             is_first_negative,
-            tells,
+            has_reliable_sign,
             signs,
         })
     }
@@ -185,7 +185,9 @@ impl<'a> Corrector<'a> {
         let is_new = |corner: usize, vertex: usize| {
             let is_wrong_side = (self.expected[corner][3] < 0.0) != (of_vertex[vertex][3] < 0.0);
             is_unknown(vertex)
-                || is_on_seam(vertex) && self.tells[corner / 3] && (is_wrong_side || reference.is_exact)
+                || is_on_seam(vertex)
+                    && self.has_reliable_sign[corner / 3]
+                    && (is_wrong_side || reference.is_exact)
         };
         let corrected = numbered().map(|(corner, vertex)| match is_new(corner, vertex) {
             true => self.made(&reference, &first, corner),
@@ -227,7 +229,7 @@ impl<'a> Corrector<'a> {
         self.repairs(Code::TangentNegated) && self.wrong.negated.contains(vertex)
     }
 
-    /// Whether the direction of a vertex tells which recipe made it: it is known, and not one that is wrong and stays.
+    /// Whether the direction of a vertex is evidence of the recipe that made it: it is known, and not one that is wrong and stays.
     fn is_judged(&self, vertex: usize, direction: Direction) -> bool {
         match direction {
             Direction::Unknown => false,
@@ -257,7 +259,7 @@ impl<'a> Corrector<'a> {
             let corners = 3 * number..3 * number + 3;
             let is_negative = |corner: usize| tangent_of_corner[corner][3] < 0.0;
             let is_mixed = corners.clone().any(|corner| is_negative(corner) != is_negative(3 * number));
-            if is_mixed && !self.tells[number] && !triangle.iter().all(is_own) {
+            if is_mixed && !self.has_reliable_sign[number] && !triangle.iter().all(is_own) {
                 tangent_of_corner[corners.clone()].copy_from_slice(&self.expected[corners]);
             }
         }
@@ -364,7 +366,7 @@ impl<'a> Corrector<'a> {
     fn first_corners(&self) -> Vec<[Option<usize>; 2]> {
         let mut first = vec![[None; 2]; self.tangents.len()];
         for (corner, &vertex) in self.surface.vertex_of_corner.iter().enumerate() {
-            if self.tells[corner / 3] {
+            if self.has_reliable_sign[corner / 3] {
                 let is_negative = self.expected[corner][3] < 0.0;
                 first[vertex as usize][usize::from(is_negative)].get_or_insert(corner);
             }
@@ -372,11 +374,11 @@ impl<'a> Corrector<'a> {
         first
     }
 
-    /// The tangent of a corner by the recipe. A corner that tells nothing takes that of another one of its vertex.
+    /// The tangent of a corner by the recipe. A corner without evidence takes that of another one of its vertex.
     fn made(&self, reference: &Reference, first: &[[Option<usize>; 2]], corner: usize) -> [f32; 4] {
         let [positive, negative] = first[self.surface.vertex_of_corner[corner] as usize];
         let is_negative = self.expected[corner][3] < 0.0;
-        let other = match (self.tells[corner / 3], reference.is_exact) {
+        let other = match (self.has_reliable_sign[corner / 3], reference.is_exact) {
             (true, true) => None,
             (true, false) => [positive, negative][usize::from(is_negative)],
             (false, _) => positive.or(negative),

@@ -136,7 +136,7 @@ pub fn warnings(document: &Document, from: Convention, to: Convention) -> Vec<St
                 || coat.is_some_and(|coat| coat.clearcoat_normal_texture.is_some())
         };
         let materials =
-            document.materials().iter().enumerate().filter(|(_, material)| has_normal_map(material));
+            document.stored_materials().iter().enumerate().filter(|(_, material)| has_normal_map(material));
         let names: Vec<String> = materials.map(|(index, _)| format!("materials[{index}]")).collect();
         if !names.is_empty() {
             let names = names.join(", ");

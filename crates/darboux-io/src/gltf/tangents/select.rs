@@ -130,7 +130,7 @@ fn materials_of<'a>(
     let materials = primitive.materials();
     materials
         .into_iter()
-        .map(|index| match document.materials().get(index) {
+        .map(|index| match document.stored_materials().get(index) {
             Some(material) => Ok((index, material)),
             None => Err(document
                 .invalid(name.path(), format!("its material {index} does not exist; export the file again"))),

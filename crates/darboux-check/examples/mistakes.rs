@@ -18,7 +18,7 @@ use support::shown::{shown_layout, shown_mistake};
 
 fn main() -> io::Result<()> {
     let Some(folder) = std::env::args_os().nth(1) else {
-        return Err(io::Error::other("usage: spoilt FOLDER"));
+        return Err(io::Error::other("usage: mistakes FOLDER"));
     };
     let folder = Path::new(&folder);
     fs::create_dir_all(folder)?;
@@ -26,7 +26,7 @@ fn main() -> io::Result<()> {
     let healthy_file = healthy.glb();
     fs::write(folder.join("healthy.glb"), &healthy_file)?;
     for code in Code::ALL {
-        let model = shown_mistake(&healthy, *code).unwrap_or_else(|| spoilt(&healthy, *code));
+        let model = shown_mistake(&healthy, *code).unwrap_or_else(|| damaged(&healthy, *code));
         let file = model.glb();
         if file != healthy_file {
             fs::write(folder.join(format!("{code}.glb")), file)?;
@@ -39,7 +39,7 @@ fn main() -> io::Result<()> {
 }
 
 /// The model with the first mistake of a code.
-fn spoilt(healthy: &Model, code: Code) -> Model {
+fn damaged(healthy: &Model, code: Code) -> Model {
     let mut model = healthy.clone();
     if let Some(mistake) = MISTAKES.iter().find(|mistake| mistake.code == code) {
         // Whether the mistake is good for the table of mistakes does not matter here.

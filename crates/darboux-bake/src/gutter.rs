@@ -11,11 +11,11 @@ const REACH: f64 = 1.5;
 
 /// For every texel of a block the triangle nearest to its centre, of those within [`REACH`]; the first of several.
 #[derive(Debug)]
-pub struct Skirt {
+pub struct Gutter {
     nearest: Vec<Option<(f64, Placed)>>,
 }
 
-impl Skirt {
+impl Gutter {
     /// Finds the triangles. `triangles`: of the block, in order, with their corners in texels from its upper left corner.
     pub fn of(triangles: impl Iterator<Item = (Placed, [Place; 3])>) -> Self {
         let mut nearest: Vec<Option<(f64, Placed)>> = vec![None; TEXELS];
@@ -42,7 +42,7 @@ impl Skirt {
         Self { nearest }
     }
 
-    /// The skirt of a block of a layout, given by its column and row.
+    /// The gutter of a block of a layout, given by its column and row.
     pub fn of_block(layout: &Layout, low: &[LowSurface<'_>], [column, row]: [usize; 2]) -> Self {
         let first = [column, row].map(|at| (at * BLOCK) as f64);
         Self::of(layout.block(column, row).map(|placed| {
@@ -94,9 +94,9 @@ mod tests {
     fn the_first_of_equally_near_triangles_counts_and_far_texels_have_none() {
         let placed = |triangle| Placed { surface: 0, triangle, tile: [0; 2] };
         let left = [[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]];
-        let skirt = Skirt::of([(placed(7), left), (placed(8), left)].into_iter());
-        assert_eq!([0, 9, 31].map(|texel| skirt.nearest(texel)), [Some(placed(7)), None, None]);
+        let gutter = Gutter::of([(placed(7), left), (placed(8), left)].into_iter());
+        assert_eq!([0, 9, 31].map(|texel| gutter.nearest(texel)), [Some(placed(7)), None, None]);
         // The centre of texel (8, 0) is 1.0 / sqrt(2) away from the slanted edge.
-        assert_eq!(skirt.nearest(8), Some(placed(7)));
+        assert_eq!(gutter.nearest(8), Some(placed(7)));
     }
 }
