@@ -38,8 +38,9 @@ const QUICK: &[Step] = &[
     ("npm package", || dist_js::test(without_npm())),
     ("code blocks of the documentation", || doc_blocks::run(&[])),
     ("viewer", || dist_viewer::test(without_npm())),
+    // A number of cases, and not a time, so that every machine runs the same.
     #[cfg(unix)]
-    ("soak", || crate::soak::run(&["--minutes", "2", "--seed", "1"])),
+    ("soak", || crate::soak::run(&["--cases", "1500", "--seed", "1"])),
 ];
 
 const LONG: &[Step] = &[

@@ -94,8 +94,11 @@ impl Soak {
                 .filter(|number| self.directed_of(*number).name.contains(word.as_str()));
             return numbers.try_for_each(|number| self.run_case(number, report));
         }
+        let is_over = |number: u64, report: &Report| {
+            self.options.cases.map_or_else(|| report.is_over(), |cases| number >= cases)
+        };
         let mut number = 0;
-        while !report.is_over() {
+        while !is_over(number, report) {
             self.run_case(number, report)?;
             report.progress();
             number += 1;

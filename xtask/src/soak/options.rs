@@ -4,8 +4,9 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 pub const USAGE: &str = "\
-usage: cargo xtask soak [--minutes N] [--seed S] [--program PATH] [--models FOLDER] [--keep FOLDER] [--only WORD] [--case I]
+usage: cargo xtask soak [--minutes N] [--cases N] [--seed S] [--program PATH] [--models FOLDER] [--keep FOLDER] [--only WORD] [--case I]
   --minutes N      how long to run; by default 10
+  --cases N        run the cases 0 to N - 1 instead, however long they take
   --seed S         where the random numbers start; the same seed gives the same cases; by default 1
   --program PATH   the darboux to run; by default a release build with all features
   --models FOLDER  models to damage, beside those of this repository
@@ -17,6 +18,8 @@ usage: cargo xtask soak [--minutes N] [--seed S] [--program PATH] [--models FOLD
 #[derive(Debug, PartialEq)]
 pub struct Options {
     pub duration: Duration,
+    /// How many cases to run instead.
+    pub cases: Option<u64>,
     pub seed: u64,
     /// `None`: build it.
     pub program: Option<PathBuf>,
@@ -31,6 +34,7 @@ impl Options {
     pub fn parse(words: &[&str]) -> Result<Self, String> {
         let mut options = Self {
             duration: Duration::from_secs(600),
+            cases: None,
             seed: 1,
             program: None,
             models: None,
@@ -47,6 +51,7 @@ impl Options {
             let number = || value.parse().map_err(|_| format!("{option}: {value} is not a number\n{USAGE}"));
             match option {
                 "--minutes" => options.duration = Duration::from_secs(60 * number()?),
+                "--cases" => options.cases = Some(number()?),
                 "--seed" => options.seed = number()?,
                 "--case" => options.case = Some(number()?),
                 "--program" => options.program = Some(value.into()),
@@ -66,6 +71,7 @@ mod tests {
 
     #[test]
     fn options_have_values() {
+        assert_eq!(Options::parse(&["--cases", "9"]).map(|options| options.cases), Ok(Some(9)));
         let options = Options::parse(&["--minutes", "2", "--seed", "7"]).expect("options");
         assert_eq!((options.duration, options.seed, options.case), (Duration::from_secs(120), 7, None));
         for words in [&["--seed"][..], &["--seed", "x"], &["--fast", "1"]] {

@@ -36,7 +36,8 @@ const PANIC: i32 = 101;
 
 /// What a run of this case may take.
 pub fn limits(case: &Case) -> Limits {
-    let draws = case.has("render");
+    // Where there is no GPU, an adapter on the processor compiles the shaders.
+    let draws = case.has("render") || case.has("gpu");
     let computes_texels = draws || case.has("bake") || case.has("--space");
     Limits {
         processor: Duration::from_secs(if computes_texels { 20 } else { 5 }),
