@@ -40,7 +40,7 @@ pub fn limits(case: &Case) -> Limits {
     let draws = case.has("render") || case.has("gpu");
     let computes_texels = draws || case.has("bake") || case.has("--space");
     Limits {
-        processor: Duration::from_secs(if computes_texels { 20 } else { 5 }),
+        processor: Duration::from_secs(if computes_texels { 40 } else { 15 }),
         wall: Duration::from_secs(120),
         memory: BASE_MEMORY + READ_INPUT * case.input_size() + PROGRAM + if draws { ADAPTER } else { 0 },
     }
