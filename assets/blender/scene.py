@@ -28,7 +28,7 @@ def rounded_normal(normal):
     """A unit normal near the given one that four decimals and normalisation in single precision do not change."""
     normal = np.round(np.asarray(normal, np.float32), 4) + 0  # -0 becomes 0, as in the exporter
     while True:
-        unit = normal / np.linalg.norm(normal)
+        unit = normal / np.linalg.norm(normal[None], axis=1)  # summed as the exporter does
         if (np.round(unit, 4) == normal).all():
             return unit
         normal = np.round(normal + np.float32([1e-4, 0, 0]), 4)
