@@ -25,13 +25,18 @@ def exact(value):
 
 
 def rounded_normal(normal):
-    """A unit normal near the given one that four decimals and normalisation in single precision do not change."""
-    normal = np.round(np.asarray(normal, np.float32), 4) + 0  # -0 becomes 0, as in the exporter
-    while True:
-        unit = normal / np.linalg.norm(normal[None], axis=1)  # summed as the exporter does
-        if (np.round(unit, 4) == normal).all():
-            return unit
-        normal = np.round(normal + np.float32([1e-4, 0, 0]), 4)
+    """A unit normal near the given one that the exporter's steps do not change: four decimals, then twice unit length, summed by numpy."""
+
+    def unit(vector):
+        return vector / np.linalg.norm(vector[None], axis=1)
+
+    normal = np.asarray(normal, np.float32)
+    for step in range(100):
+        rounded = np.round(unit(normal + np.float32([step * 1e-4, 0, 0])), 4) + 0  # -0 becomes 0
+        found = unit(rounded)
+        if (np.round(found, 4) == rounded).all() and (unit(found) == found).all():
+            return found
+    raise ValueError(f"no such normal near {normal}")
 
 
 def sheet_faces():
