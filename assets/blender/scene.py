@@ -5,6 +5,9 @@
 The scene has quads, triangles, hexagons and concave octagons, two UV sets, a texture that is mirrored in the middle, two shape keys, an
 armature, a material with a normal map, and two instances of one mesh, one of them mirrored by its scale.
 
+Quads are longer in UV space from their second to their fourth corner, so that MikkTSpace cuts them as Blender does for glTF, from the first
+to the third.
+
 Positions and UVs are multiples of 1/64, so that 1 - v and six decimals are exact. Normals are those that the rounding of Blender's glTF
 exporter (four decimals, then unit length) leaves as they are. Formats that keep floats therefore have the same bits: OBJ those of
 scene.glb, whose vertices are turned to y up, FBX and USD those of scene.z-up.glb, whose vertices stay as they are in Blender.
@@ -72,7 +75,7 @@ def sheet():
     mesh.from_pydata([(x, y, z) for (x, y), z in zip(points, heights)], [], sheet_faces())
     corners = [loop.vertex_index for loop in mesh.loops]
     for name, uv_of in [
-        ("UVMap", lambda x, y: (abs(x) * 0.75 + 0.125, y * 0.5 + 0.5)),
+        ("UVMap", lambda x, y: (abs(x) * 0.75 + 0.125, y * 0.5 - x * 0.25 + 0.5)),
         ("Detail", lambda x, y: (y * 0.5 + 0.25, x * 0.5 + 0.5)),
     ]:
         uvs = [tuple(map(exact, uv_of(*points[corner]))) for corner in corners]

@@ -89,19 +89,21 @@ pub fn with_blender() -> Result<PathBuf, String> {
     Ok(python)
 }
 
-/// Tests batches on Ray and Dask, and the adapter for Open3D, whose packages are large.
+/// Tests batches on Ray and Dask, and the adapters for Open3D and USD, whose packages are large.
 pub fn large_packages() -> Outcome {
     if !works(&mut program("python3 -m venv --help")) {
-        println!("skipped: Ray, Dask and Open3D need python3 with venv");
+        println!("skipped: Ray, Dask, Open3D and USD need python3 with venv");
         return Ok(());
     }
     let python = environment_of("python3", "large-packages")?;
     let package = format!("{PACKAGE}[ray,dask,progress]");
     run(pip(&python).args(["--config-settings", "build-args=--profile dev", "pytest", &package]))?;
-    if !works(pip(&python).arg("open3d")) {
-        println!("skipped: there is no Open3D for this Python");
+    for (package, name) in [("open3d", "Open3D"), ("usd-core", "USD")] {
+        if !works(pip(&python).arg(package)) {
+            println!("skipped: there is no {name} for this Python");
+        }
     }
-    let tests = ["clusters", "open3d"].map(|name| format!("{PACKAGE}/tests/test_{name}.py"));
+    let tests = ["clusters", "open3d", "usd"].map(|name| format!("{PACKAGE}/tests/test_{name}.py"));
     run(with(&python, "-m pytest --quiet").args(tests))
 }
 
