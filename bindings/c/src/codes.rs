@@ -1,5 +1,6 @@
 //! Enumerations of the C interface. Callers pass them as `uint32_t`, so that an invalid value is an error instead of undefined behaviour.
 
+use darboux::encode::Encoding;
 use darboux::{
     Axis, BitangentDirection, Choice, Convention, MapVerdict, Method, Mode, NormalWeight, RecipeWriting,
     Shading, SignRule, SmoothingSeams, TangentDirection, UvOrigin, Winding,
@@ -299,6 +300,10 @@ pub(crate) fn smoothing_seams(code: u32) -> Result<SmoothingSeams, Error> {
     choice("darboux_smoothing_seams", code)
 }
 
+pub(crate) fn tangent_encoding(code: u32) -> Result<Encoding, Error> {
+    choice("darboux_tangent_encoding", code)
+}
+
 /// The code of a verdict.
 pub(crate) fn map_verdict(verdict: MapVerdict) -> darboux_map_verdict {
     let code = match verdict {
@@ -325,13 +330,6 @@ from_code!(faces, "darboux_faces", FacesCode => FacesCode {
     Triangles => FacesCode::Triangles,
     Quads => FacesCode::Quads,
     Mixed => FacesCode::Mixed,
-});
-from_code!(tangent_encoding, "darboux_tangent_encoding", TangentEncodingCode => TangentEncodingCode {
-    Snorm8 => TangentEncodingCode::Snorm8,
-    Snorm10 => TangentEncodingCode::Snorm10,
-    Snorm16 => TangentEncodingCode::Snorm16,
-    Octahedral => TangentEncodingCode::Octahedral,
-    Diamond => TangentEncodingCode::Diamond,
 });
 from_code!(axis, "darboux_axis", AxisCode => Option<Axis> {
     Default => None,
@@ -400,5 +398,6 @@ mod tests {
         is_list_of::<Shading>(codes!(ShadingCode: Smooth Flat));
         is_list_of::<NormalWeight>(codes!(NormalWeightCode: Angle Area AngleArea));
         is_list_of::<SmoothingSeams>(codes!(SmoothingSeamsCode: Ignored Respected));
+        is_list_of::<Encoding>(codes!(TangentEncodingCode: Snorm8 Snorm10 Snorm16 Octahedral Diamond));
     }
 }

@@ -1,8 +1,8 @@
 //! Compressed formats of tangents, normals and frames in C: encoders and decoders over strided arrays.
 
-use darboux::encode;
+use darboux::encode::{self, Encoding};
 
-use crate::codes::{self, TangentEncodingCode, darboux_tangent_encoding};
+use crate::codes::{self, darboux_tangent_encoding};
 use crate::pointers::{Output, copied};
 use crate::status::{Error, call, darboux_status};
 
@@ -30,7 +30,7 @@ pub unsafe extern "C" fn darboux_encode_tangents(
     codes: *mut core::ffi::c_void,
     code_stride: usize,
 ) -> darboux_status {
-    use TangentEncodingCode::{Diamond, Octahedral, Snorm8, Snorm10, Snorm16};
+    use Encoding::{Diamond, Octahedral, Snorm8, Snorm10, Snorm16};
     let to = Place(codes.cast(), code_stride);
     // SAFETY: the pointers are as documented above.
     call(|| unsafe {
@@ -63,7 +63,7 @@ pub unsafe extern "C" fn darboux_decode_tangents(
     tangents: *mut f32,
     tangent_stride: usize,
 ) -> darboux_status {
-    use TangentEncodingCode::{Diamond, Octahedral, Snorm8, Snorm10, Snorm16};
+    use Encoding::{Diamond, Octahedral, Snorm8, Snorm10, Snorm16};
     let to = Place(tangents.cast(), tangent_stride);
     let from = Place(codes.cast_mut().cast(), code_stride);
     // SAFETY: the pointers are as documented above.

@@ -1,7 +1,7 @@
 // `darboux`: every function of the package that runs on the CPU.
 
 import { checkIndices, checkOut, checkType, choice, degrees, optionsOf, rowCount, wholeRows } from './core/checks.js';
-import { NORMAL_WEIGHTS, SHADINGS, SMOOTHING_SEAMS } from './core/choices.js';
+import { ENCODINGS, NORMAL_WEIGHTS, SHADINGS, SMOOTHING_SEAMS } from './core/choices.js';
 import { fullModule, readReport, tangentMesh, tangentOptions } from './core/full.js';
 import { checkedMesh, indexError, readFloats, writeArrays, writeMesh, type Copy } from './core/mesh.js';
 import type * as types from './types.js';
@@ -12,9 +12,6 @@ export { Plan } from './core/plan.js';
 export { planTopology } from './core/gpu-plan.js';
 export { skinFrames, transformFrames } from './core/transform.js';
 export type * from './types.js';
-
-// The position of a name in its list is the code that WebAssembly takes.
-const ENCODINGS = ['snorm8', 'snorm10', 'snorm16', 'octahedral', 'diamond'] as const;
 
 /** For each encoding, the type of its array and the number of elements per tangent. */
 const CODE_ARRAYS = [[Int8Array, 4], [Uint32Array, 1], [Int16Array, 4], [Int16Array, 2], [Uint16Array, 1]] as const;

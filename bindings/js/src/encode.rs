@@ -1,27 +1,27 @@
 //! `encodeTangents` and `decodeTangents`: tangents in 2 to 8 bytes.
 
-use darboux::encode;
+use darboux::Choice;
+use darboux::encode::{self, Encoding};
 
 use crate::arena::with_arena;
 use crate::mesh_arrays::rows;
 
-/// Encodes the given tangents and returns the address of the bytes. `encoding` is a position in `ENCODINGS` of `lib/darboux.ts`.
+/// Encodes the given tangents and returns the address of the bytes. `encoding` is a position in `ENCODINGS` of `lib/core/choices.ts`.
 /// 'diamond' also reads the arena's normals, one per tangent.
 #[unsafe(no_mangle)]
 pub extern "C" fn encode_tangents(encoding: u32) -> *const u8 {
     with_arena(|arena| {
         let tangents = rows::<4>(&arena.extras.given_tangents).iter().copied();
-        arena.extras.encoded_bytes = match encoding {
-            0 => tangents.flat_map(|t| encode::tangent_to_snorm8(t).map(|x| x as u8)).collect(),
-            1 => tangents.flat_map(|t| encode::tangent_to_snorm10(t).to_le_bytes()).collect(),
-            2 => tangents.flat_map(encode::tangent_to_snorm16).flat_map(i16::to_le_bytes).collect(),
-            3 => tangents.flat_map(encode::tangent_to_octahedral).flat_map(i16::to_le_bytes).collect(),
-            4 => rows(&arena.vertices.normals)
+        arena.extras.encoded_bytes = match of_code(encoding) {
+            Encoding::Snorm8 => tangents.flat_map(|t| encode::tangent_to_snorm8(t).map(|x| x as u8)).collect(),
+            Encoding::Snorm10 => tangents.flat_map(|t| encode::tangent_to_snorm10(t).to_le_bytes()).collect(),
+            Encoding::Snorm16 => tangents.flat_map(encode::tangent_to_snorm16).flat_map(i16::to_le_bytes).collect(),
+            Encoding::Octahedral => tangents.flat_map(encode::tangent_to_octahedral).flat_map(i16::to_le_bytes).collect(),
+            Encoding::Diamond => rows(&arena.vertices.normals)
                 .iter()
                 .zip(tangents)
                 .flat_map(|(&normal, t)| encode::tangent_to_diamond(normal, t).to_le_bytes())
                 .collect(),
-            unknown => unknown_encoding(unknown),
         };
         arena.extras.encoded_bytes.as_ptr()
     })
@@ -33,28 +33,27 @@ pub extern "C" fn decode_tangents(encoding: u32) -> *const f32 {
     with_arena(|arena| {
         let bytes = &arena.extras.encoded_bytes;
         let words = || bytes.as_chunks().0.iter().map(|&bytes| i16::from_le_bytes(bytes));
-        let tangents: Vec<[f32; 4]> = match encoding {
-            0 => in_rows::<4, _>(bytes.iter().map(|&x| x as i8)).map(encode::tangent_from_snorm8).collect(),
-            1 => (bytes.as_chunks().0.iter())
+        let tangents: Vec<[f32; 4]> = match of_code(encoding) {
+            Encoding::Snorm8 => in_rows::<4, _>(bytes.iter().map(|&x| x as i8)).map(encode::tangent_from_snorm8).collect(),
+            Encoding::Snorm10 => (bytes.as_chunks().0.iter())
                 .map(|&bytes| encode::tangent_from_snorm10(u32::from_le_bytes(bytes)))
                 .collect(),
-            2 => in_rows(words()).map(encode::tangent_from_snorm16).collect(),
-            3 => in_rows(words()).map(encode::tangent_from_octahedral).collect(),
-            4 => rows(&arena.vertices.normals)
+            Encoding::Snorm16 => in_rows(words()).map(encode::tangent_from_snorm16).collect(),
+            Encoding::Octahedral => in_rows(words()).map(encode::tangent_from_octahedral).collect(),
+            Encoding::Diamond => rows(&arena.vertices.normals)
                 .iter()
                 .zip(words())
                 .map(|(&normal, code)| encode::tangent_from_diamond(normal, code as u16))
                 .collect(),
-            unknown => unknown_encoding(unknown),
         };
         arena.extras.floats = tangents.into_flattened();
         arena.extras.floats.as_ptr()
     })
 }
 
-/// Ends a call with a code beyond the list, which JavaScript never passes.
-fn unknown_encoding(code: u32) -> ! {
-    panic!("{code} is not the code of an encoding")
+/// The encoding of a code. Panics for a code beyond the list, which JavaScript never passes.
+fn of_code(code: u32) -> Encoding {
+    Encoding::from_code(code).unwrap_or_else(|| panic!("{code} is not the code of an encoding"))
 }
 
 /// Groups numbers into rows of `N`.

@@ -13,17 +13,11 @@ use pyo3::types::{PyBytes, PyDict};
 use serde::Serialize;
 
 use crate::arrays::rows_array;
-use crate::choices::{choice, tangent_options};
+use crate::choices::{named_choice, tangent_options};
 use crate::convention::convention;
 use crate::normals::normal_options;
 use crate::numbers::{Natural, degrees, place};
 use crate::threads::run_interruptibly;
-
-const ENCODINGS: &[(&str, TangentEncoding)] = &[
-    ("f32x4", TangentEncoding::F32x4),
-    ("snorm16x4", TangentEncoding::Snorm16x4),
-    ("snorm8x4", TangentEncoding::Snorm8x4),
-];
 
 /// A glTF document in memory: read by load, edited by its methods, written by save. Everything that no method changes stays as it was.
 #[pyclass(module = "darboux")]
@@ -274,7 +268,7 @@ impl Document {
     ) -> PyResult<Bound<'py, PyAny>> {
         let options = AddTangentsOptions::default()
             .with_tangents(tangent_options(method, mode, threshold)?)
-            .with_encoding(choice("encoding", encoding, ENCODINGS)?)
+            .with_encoding(named_choice::<TangentEncoding>(encoding)?)
             .with_overwrite(overwrite)
             .with_only_needed(only_needed)
             .with_strict(strict)

@@ -7,6 +7,7 @@ use std::error::Error;
 use std::fs::{create_dir_all, write};
 use std::path::Path;
 
+use darboux::encode::Encoding;
 use darboux::{Choice, Method, Mode, NormalWeight, Shading, SmoothingSeams};
 
 /// A list: the name of its type, that of its constant, and the names of its values.
@@ -35,6 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         List::of::<Shading>("Shading", "SHADINGS"),
         List::of::<NormalWeight>("NormalWeight", "NORMAL_WEIGHTS"),
         List::of::<SmoothingSeams>("SmoothingSeams", "SMOOTHING_SEAMS"),
+        List::of::<Encoding>("Encoding", "ENCODINGS"),
     ];
     let write_below = |path: &str, text: String| -> Result<(), Box<dyn Error>> {
         let path = Path::new(&root).join(path);

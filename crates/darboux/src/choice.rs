@@ -97,6 +97,7 @@ pub(crate) use choice;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::encode::Encoding;
     use crate::{Method, Mode, NormalWeight, Shading, SmoothingSeams};
 
     fn check<T: Choice + PartialEq + fmt::Debug>() {
@@ -117,6 +118,7 @@ mod tests {
         check::<Shading>();
         check::<NormalWeight>();
         check::<SmoothingSeams>();
+        check::<Encoding>();
     }
 
     #[test]

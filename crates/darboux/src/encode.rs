@@ -29,3 +29,28 @@ pub use snorm::{
     tangent_from_snorm8, tangent_from_snorm10, tangent_from_snorm16, tangent_to_snorm8, tangent_to_snorm10,
     tangent_to_snorm16,
 };
+
+use crate::choice::choice;
+
+/// The encodings of tangents that have a name in the bindings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Encoding {
+    /// `[i8; 4]`: [`tangent_to_snorm8`].
+    Snorm8,
+    /// `u32`: [`tangent_to_snorm10`].
+    Snorm10,
+    /// `[i16; 4]`: [`tangent_to_snorm16`].
+    Snorm16,
+    /// `[i16; 2]`: [`tangent_to_octahedral`].
+    Octahedral,
+    /// `u16`: [`tangent_to_diamond`]. The decoder needs the same normal.
+    Diamond,
+}
+
+choice! { Encoding, "encoding",
+    Self::Snorm8 = Self::Snorm8 => "snorm8", "four bytes: components times 127";
+    Self::Snorm10 = Self::Snorm10 => "snorm10", "four bytes: ten bits for each component, two for the sign";
+    Self::Snorm16 = Self::Snorm16 => "snorm16", "eight bytes: components times 32767";
+    Self::Octahedral = Self::Octahedral => "octahedral", "four bytes: octahedral coordinates, the lowest bit is the sign";
+    Self::Diamond = Self::Diamond => "diamond", "two bytes: an angle around the normal, the lowest bit is the sign";
+}

@@ -5,3 +5,4 @@ export const MODES = ['repaired', 'reference', 'corrected'] as const;
 export const SHADINGS = ['smooth', 'flat'] as const;
 export const NORMAL_WEIGHTS = ['angle', 'area', 'angle-area'] as const;
 export const SMOOTHING_SEAMS = ['ignored', 'respected'] as const;
+export const ENCODINGS = ['snorm8', 'snorm10', 'snorm16', 'octahedral', 'diamond'] as const;

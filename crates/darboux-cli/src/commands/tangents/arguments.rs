@@ -149,12 +149,10 @@ pub enum Device {
 const NOT_GLTF: [&str; 4] = ["snorm10", "octahedral", "diamond", "quaternion"];
 
 fn encoding_parser() -> impl TypedValueParser<Value = TangentEncoding> {
-    let known = ["f32x4", "snorm16x4", "snorm8x4"].map(PossibleValue::new);
+    let known = TangentEncoding::ALL.iter().map(|encoding| PossibleValue::new(encoding.name()));
     let refused = NOT_GLTF.map(|name| PossibleValue::new(name).hide(true));
-    PossibleValuesParser::new(known.into_iter().chain(refused)).try_map(|name| match name.as_str() {
-        "f32x4" => Ok(TangentEncoding::F32x4),
-        "snorm16x4" => Ok(TangentEncoding::Snorm16x4),
-        "snorm8x4" => Ok(TangentEncoding::Snorm8x4),
-        _ => Err("glTF does not support this encoding; it can hold f32x4, snorm16x4 and snorm8x4"),
+    PossibleValuesParser::new(known.chain(refused)).try_map(|name| {
+        TangentEncoding::from_name(&name)
+            .map_err(|_| "glTF does not support this encoding; it can hold f32x4, snorm16x4 and snorm8x4")
     })
 }
