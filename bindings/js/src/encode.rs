@@ -13,10 +13,16 @@ pub extern "C" fn encode_tangents(encoding: u32) -> *const u8 {
     with_arena(|arena| {
         let tangents = rows::<4>(&arena.extras.given_tangents).iter().copied();
         arena.extras.encoded_bytes = match of_code(encoding) {
-            Encoding::Snorm8 => tangents.flat_map(|t| encode::tangent_to_snorm8(t).map(|x| x as u8)).collect(),
+            Encoding::Snorm8 => {
+                tangents.flat_map(|t| encode::tangent_to_snorm8(t).map(|x| x as u8)).collect()
+            }
             Encoding::Snorm10 => tangents.flat_map(|t| encode::tangent_to_snorm10(t).to_le_bytes()).collect(),
-            Encoding::Snorm16 => tangents.flat_map(encode::tangent_to_snorm16).flat_map(i16::to_le_bytes).collect(),
-            Encoding::Octahedral => tangents.flat_map(encode::tangent_to_octahedral).flat_map(i16::to_le_bytes).collect(),
+            Encoding::Snorm16 => {
+                tangents.flat_map(encode::tangent_to_snorm16).flat_map(i16::to_le_bytes).collect()
+            }
+            Encoding::Octahedral => {
+                tangents.flat_map(encode::tangent_to_octahedral).flat_map(i16::to_le_bytes).collect()
+            }
             Encoding::Diamond => rows(&arena.vertices.normals)
                 .iter()
                 .zip(tangents)
@@ -34,7 +40,9 @@ pub extern "C" fn decode_tangents(encoding: u32) -> *const f32 {
         let bytes = &arena.extras.encoded_bytes;
         let words = || bytes.as_chunks().0.iter().map(|&bytes| i16::from_le_bytes(bytes));
         let tangents: Vec<[f32; 4]> = match of_code(encoding) {
-            Encoding::Snorm8 => in_rows::<4, _>(bytes.iter().map(|&x| x as i8)).map(encode::tangent_from_snorm8).collect(),
+            Encoding::Snorm8 => {
+                in_rows::<4, _>(bytes.iter().map(|&x| x as i8)).map(encode::tangent_from_snorm8).collect()
+            }
             Encoding::Snorm10 => (bytes.as_chunks().0.iter())
                 .map(|&bytes| encode::tangent_from_snorm10(u32::from_le_bytes(bytes)))
                 .collect(),

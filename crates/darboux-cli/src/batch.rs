@@ -113,7 +113,9 @@ fn process_all<W: FileCommand>(
     thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
         let mut workers = 0;
-        while workers < worker_count(command, together.len()) {
+        // A single worker is this thread, below: glibc grows the memory of other threads page by page.
+        let wanted = Some(worker_count(command, together.len())).filter(|&wanted| wanted > 1);
+        while workers < wanted.unwrap_or_default() {
             let (sender, process_next) = (sender.clone(), &process_next);
             // The receiver is dropped when the journal cannot be written.
             let work = move || while process_next().is_some_and(|finished| sender.send(finished).is_ok()) {};
@@ -129,7 +131,7 @@ fn process_all<W: FileCommand>(
         Ok(())
     })
     .and_then(|()| {
-        // Without any worker, as where no thread can be started, this thread processes the files.
+        // Without any worker, for one file or where no thread can be started, this thread processes the files.
         while let Some((index, finished)) = process_next() {
             results.add(index, finished?)?;
         }

@@ -2,7 +2,7 @@
 
 mod support;
 
-use darboux::{Convention, Mesh, Method, TangentOptions, generate_tangents, measure_tangents};
+use darboux::{Choice, Convention, Mesh, Method, TangentOptions, generate_tangents, measure_tangents};
 use darboux_io::gltf::{AddTangentsOptions, TangentEncoding};
 use serde_json::json;
 use support::{BOTH, Builder, Vertices, butterfly, reason, reread, run_with, wide, written};
@@ -32,17 +32,7 @@ fn tangents(vertices: &Vertices, options: &TangentOptions) -> Vec<[f32; 4]> {
 #[test]
 fn every_method_is_the_cores() {
     let vertices = bent();
-    let methods = [
-        Method::AngleArea,
-        Method::AngleEdge,
-        Method::Lengyel,
-        Method::LengyelPerVertex,
-        Method::Average,
-        Method::Area,
-        Method::Face,
-        Method::FromNormal,
-    ];
-    for method in methods {
+    for &method in Method::ALL {
         let mut builder = Builder::new();
         let attributes = vertices.attributes(&mut builder);
         let indices = builder.indices(&BOTH);

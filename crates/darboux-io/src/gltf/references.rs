@@ -138,52 +138,43 @@ pub struct Reference {
 /// All references of a document.
 pub fn references(json: &Value) -> Vec<Reference> {
     let mut found = Vec::new();
-    for &(kind, path) in PATHS {
-        visit(json, path, &mut Vec::new(), &mut |value, _| {
-            found.extend(index(value).map(|index| Reference { kind, index }));
-        });
-    }
+    visit(json, &PathTree::new(), &mut Vec::new(), &mut |kind, value, _| {
+        found.extend(index(value).map(|index| Reference { kind, index }));
+    });
     found
 }
 
 /// Replaces the index of every reference.
 pub fn renumber(json: &mut Value, new: impl Fn(Reference) -> usize) {
-    for &(kind, path) in PATHS {
-        visit_mut(json, path, &mut |value| {
-            let old = index(value);
-            if let Some((old, new)) = old.map(|index| (index, new(Reference { kind, index })))
-                && old != new
-            {
-                *value = new.into();
-            }
-        });
-    }
+    visit_mut(json, &PathTree::new(), &mut |kind, value| {
+        let old = index(value);
+        if let Some((old, new)) = old.map(|index| (index, new(Reference { kind, index })))
+            && old != new
+        {
+            *value = new.into();
+        }
+    });
 }
 
 /// All references of a document as it was read. Errors: one of them does not refer to an element that exists.
 pub fn check(json: &Value) -> Result<Vec<Reference>, ContentError> {
-    let mut found = Vec::new();
-    for &(kind, path) in PATHS {
+    let (mut found, mut broken) = (Vec::new(), None);
+    visit(json, &PathTree::new(), &mut Vec::new(), &mut |kind, value, steps| {
         let (array, element) = kind.array();
-        let count = length(&json[array]);
-        let mut broken = None;
-        visit(json, path, &mut Vec::new(), &mut |value, steps| {
-            let index = index(value);
-            found.extend(index.map(|index| Reference { kind, index }));
-            // A default scene without scenes is harmless: everything is shown.
-            let exists =
-                index.is_some_and(|index| index < count || (kind, count) == (ReferenceKind::Scene, 0));
-            if !exists && broken.is_none() {
-                broken = Some((path_of(steps), index));
-            }
-        });
-        if let Some((at, index)) = broken {
+        let (count, index) = (length(&json[array]), index(value));
+        found.extend(index.map(|index| Reference { kind, index }));
+        // A default scene without scenes is harmless: everything is shown.
+        let exists = index.is_some_and(|index| index < count || (kind, count) == (ReferenceKind::Scene, 0));
+        if !exists && broken.is_none() {
             let problem = match index {
                 Some(index) => format!("{element} {index} does not exist: there are {count}"),
                 None => "is not an index".to_owned(),
             };
-            return Err(ContentError::invalid(at, format!("{problem}; export the file again")));
+            broken = Some((path_of(steps), format!("{problem}; export the file again")));
         }
+    });
+    if let Some((at, problem)) = broken {
+        return Err(ContentError::invalid(at, problem));
     }
     check_animations(json)?;
     Ok(found)
@@ -254,56 +245,89 @@ enum Step<'a> {
     Index(usize),
 }
 
-/// Calls a function for every value at a path, with the steps to it.
+/// [`PATHS`] as a tree, so that a document is walked once for all of them.
+#[derive(Default)]
+struct PathTree {
+    /// What a value at the end of a path refers to.
+    kind: Option<ReferenceKind>,
+    branches: Vec<(&'static str, PathTree)>,
+}
+
+impl PathTree {
+    fn new() -> Self {
+        let mut root = Self::default();
+        for &(kind, path) in PATHS {
+            path.split('.').fold(&mut root, Self::branch).kind = Some(kind);
+        }
+        root
+    }
+
+    /// The branch of a key, which is added if it does not exist.
+    fn branch(&mut self, key: &'static str) -> &mut Self {
+        let known = self.branches.iter().position(|(known, _)| *known == key);
+        let place = known.unwrap_or_else(|| {
+            self.branches.push((key, Self::default()));
+            self.branches.len() - 1
+        });
+        &mut self.branches[place].1
+    }
+
+    /// The branch for a member of an object.
+    fn member(&self, key: &str) -> Option<&Self> {
+        self.branches.iter().find(|(name, _)| *name == "*" || *name == key).map(|(_, branch)| branch)
+    }
+
+    /// The branch for the elements of an array.
+    fn element(&self) -> Option<&Self> {
+        self.branches.iter().find(|(name, _)| *name == "*").map(|(_, branch)| branch)
+    }
+}
+
+/// Calls a function for every value at the end of a path, in the order of the document, with the steps to it.
 fn visit<'a>(
     value: &'a Value,
-    path: &str,
+    paths: &PathTree,
     steps: &mut Vec<Step<'a>>,
-    call: &mut dyn FnMut(&'a Value, &[Step<'a>]),
+    call: &mut dyn FnMut(ReferenceKind, &'a Value, &[Step<'a>]),
 ) {
-    if path.is_empty() {
-        return call(value, steps);
+    if let Some(kind) = paths.kind {
+        call(kind, value, steps);
     }
-    let (first, rest) = path.split_once('.').unwrap_or((path, ""));
-    let mut step = |step: Step<'a>, value: &'a Value| {
+    let mut step = |step: Step<'a>, value: &'a Value, branch: &PathTree| {
         steps.push(step);
-        visit(value, rest, steps, call);
+        visit(value, branch, steps, call);
         steps.pop();
     };
-    match value {
-        Value::Object(members) if first == "*" => {
-            members.iter().for_each(|(key, value)| step(Step::Key(key), value));
-        }
-        Value::Array(elements) if first == "*" => {
-            elements.iter().enumerate().for_each(|(i, value)| step(Step::Index(i), value));
-        }
-        // Most objects have few members, which are compared faster than one key is hashed.
-        Value::Object(members) => {
-            if let Some((key, value)) = members.iter().find(|(key, _)| *key == first) {
-                step(Step::Key(key), value);
+    match (value, paths.element()) {
+        (Value::Object(members), _) => {
+            for (key, value) in members {
+                if let Some(branch) = paths.member(key) {
+                    step(Step::Key(key), value, branch);
+                }
             }
+        }
+        (Value::Array(elements), Some(branch)) => {
+            elements.iter().enumerate().for_each(|(i, value)| step(Step::Index(i), value, branch));
         }
         _ => {}
     }
 }
 
-/// Calls a function for every value at a path.
-fn visit_mut(value: &mut Value, path: &str, call: &mut dyn FnMut(&mut Value)) {
-    if path.is_empty() {
-        return call(value);
+/// Calls a function for every value at the end of a path.
+fn visit_mut(value: &mut Value, paths: &PathTree, call: &mut dyn FnMut(ReferenceKind, &mut Value)) {
+    if let Some(kind) = paths.kind {
+        call(kind, value);
     }
-    let (first, rest) = path.split_once('.').unwrap_or((path, ""));
-    match value {
-        Value::Object(members) if first == "*" => {
-            members.values_mut().for_each(|value| visit_mut(value, rest, call));
-        }
-        Value::Array(elements) if first == "*" => {
-            elements.iter_mut().for_each(|value| visit_mut(value, rest, call));
-        }
-        Value::Object(members) => {
-            if let Some(value) = members.get_mut(first) {
-                visit_mut(value, rest, call);
+    match (value, paths.element()) {
+        (Value::Object(members), _) => {
+            for (key, value) in members {
+                if let Some(branch) = paths.member(key) {
+                    visit_mut(value, branch, call);
+                }
             }
+        }
+        (Value::Array(elements), Some(branch)) => {
+            elements.iter_mut().for_each(|value| visit_mut(value, branch, call));
         }
         _ => {}
     }
@@ -364,7 +388,7 @@ mod tests {
             let of_kind = found.iter().filter(|reference| reference.kind == kind);
             of_kind.map(|reference| reference.index).collect::<Vec<_>>()
         };
-        assert_eq!(of(ReferenceKind::Accessor), [0, 7, 2, 12]);
+        assert_eq!(of(ReferenceKind::Accessor), [12, 0, 7, 2]);
         assert_eq!((of(ReferenceKind::ViewOfAccessor), of(ReferenceKind::View)), (vec![3], vec![4]));
         renumber(&mut json, |reference| reference.index + 1);
         assert_eq!(json["skins"][0]["inverseBindMatrices"], 13);
