@@ -6,6 +6,7 @@
 //!
 //! Two comments steer this, each on its own line before a block:
 //! `<!-- not run: REASON -->` leaves the next block out. `<!-- hidden LANGUAGE`, code, `-->` is a block that readers do not see.
+//! A command that is to fail says so in its comment: `darboux check broken.glb  # exit status 1: there are errors`.
 
 mod blocks;
 mod sandbox;

@@ -77,6 +77,7 @@ packages (the path is the last line of the output)
                    make the viewer's page, which darboux view serves (needs what dist-js needs);
                    without --release both have only modules with SIMD, which are large and quick to compile
   dist-python      build the Python wheel (needs python3 with venv, and the network)
+  release          make the archive with the command and the viewer for this machine (needs what dist-viewer needs, and tar)
   release --check [--since TAG] [metadata] [msrv] [crates] [c] [python] [npm]
                    make all packages, install each into an empty folder and run its example;
                    TAG: compare the public API with that of an earlier release";
@@ -97,6 +98,7 @@ fn main() -> ExitCode {
         ["layers"] => layers::check(),
         ["lines"] => lines::print(),
         ["links"] => site::check(),
+        ["release"] => release::archive::make(),
         ["release", "--check", ref words @ ..] => release::check(words),
         ["docs", ref pages @ ..] => doc_blocks::run(pages),
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),

@@ -2,7 +2,10 @@
 //!
 //! Everything that is published is packaged, installed into an empty folder from its package alone, and its example run. Nothing is
 //! uploaded. `--since TAG` compares the public API with that of an earlier release.
+//!
+//! `cargo xtask release` makes the archive with the command (`archive.rs`).
 
+pub mod archive;
 mod c;
 mod crates;
 mod metadata;

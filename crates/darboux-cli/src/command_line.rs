@@ -20,7 +20,7 @@ use crate::commands::tangents::arguments::{self as tangents, TangentsArguments};
 #[cfg(feature = "view")]
 use crate::commands::view::arguments::{self as view, ViewArguments};
 
-/// Computes tangents for normal-mapped glTF models
+/// Finds and repairs what is wrong with the normal maps and tangents of 3D models; computes, bakes and converts them
 #[derive(Debug, Parser)]
 #[command(name = "darboux", version, about, long_about = LONG_ABOUT, arg_required_else_help = true, max_term_width = 100)]
 pub struct Arguments {
@@ -30,10 +30,13 @@ pub struct Arguments {
 }
 
 const LONG_ABOUT: &str = "\
-Computes tangents for normal-mapped glTF models, exactly as MikkTSpace defines them, and splits vertices at mirrored UV seams.
+Finds and repairs what is wrong with the normal maps and tangents of 3D models; computes, bakes and converts them.
 
-A normal map looks right only if the renderer uses the tangents of the program that baked it, and most bakers use MikkTSpace. Darboux writes \
-these tangents into .gltf and .glb files and changes nothing else.
+A normal map looks right only if the renderer uses the tangents of the program that baked it, and most bakers use MikkTSpace. Darboux computes \
+these tangents bit for bit, splits vertices at mirrored UV seams, and bakes maps for them. Where a file is wrong, `darboux check` names what is \
+wrong, what it looks like and the cure; with --fix it writes the repaired file.
+
+The commands that write models change what they name and leave everything else in the file as it is.
 
 Messages go to standard error, results to standard output. Exit codes: 0 done (also if there was nothing to do), 1 an input is bad or a file \
 failed, 2 wrong usage, 3 compared files differ by more than the tolerance. After Ctrl-C, SIGTERM or SIGHUP the file that is being written \

@@ -82,9 +82,33 @@ pub fn at_their_lines(blocks: &[&Block]) -> String {
     text
 }
 
+/// Shell commands in which a line whose comment names an exit status, as in `darboux check broken.glb  # exit status 1: errors`, must end with it.
+pub fn with_exit_statuses(script: &str) -> String {
+    let line = |line: &str| match documented_status(line) {
+        Some((command, status)) => format!("status=0; {command} || status=$?; test $status = {status}\n"),
+        None => format!("{line}\n"),
+    };
+    script.lines().map(line).collect()
+}
+
+/// The command of a line and the exit status in its comment.
+fn documented_status(line: &str) -> Option<(&str, u8)> {
+    let (command, comment) = line.split_once(" # ")?;
+    let (_, words) = comment.split_once("exit status ")?;
+    let digits = words.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(words.len());
+    Some((command.trim_end(), words[..digits].parse().ok()?))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_documented_exit_status_is_asked_for() {
+        let script = "darboux check a.glb  # exit status 1: there are errors\necho b # done\n";
+        let asked = "status=0; darboux check a.glb || status=$?; test $status = 1\necho b # done\n";
+        assert_eq!(with_exit_statuses(script), asked);
+    }
 
     #[test]
     fn blocks_have_languages_and_lines() {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use super::blocks::{Block, Page, at_their_lines};
+use super::blocks::{Block, Page, at_their_lines, with_exit_statuses};
 use crate::python;
 use crate::run::{Outcome, files_below, program, root, run, shown, target_folder, works};
 
@@ -124,7 +124,7 @@ impl Sandbox {
         let start =
             format!("set -euo pipefail; trap 'echo \"{}:$LINENO: this command failed\"' ERR", page.name);
         // The first line of a page is never code.
-        write(&path, &(start + &at_their_lines(blocks)))?;
+        write(&path, &(start + &with_exit_statuses(&at_their_lines(blocks))))?;
         let own = self.folder.join("programs");
         let search = match std::env::var_os("PATH") {
             Some(others) => format!("{}:{}", own.display(), others.to_string_lossy()),
