@@ -140,7 +140,7 @@ fn the_heat_map_is_a_picture_and_replaces_nothing_unasked() {
     let said = String::from_utf8(run.stdout).expect("UTF-8");
     assert!(said.contains("map.png: colours from violet"), "{said}");
     let image = darboux_io::image::PngImage::open(&map, &darboux_io::LoadOptions::default()).expect("a PNG");
-    assert_eq!((image.size(), image.channels()), ([1024, 1056], "rgb"));
+    assert_eq!((image.size(), image.channels()), ([1024, 1062], "rgb"));
     let before = fs::read(&map).expect("the map");
     let run = darboux(&arguments).exits(1);
     assert!(run.stderr.contains("--force"), "{}", run.stderr);

@@ -22,6 +22,28 @@ pub struct Camera {
     pub zoom: f64,
 }
 
+/// A camera at a point of the scene, as links of the viewer have it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// The position of the camera.
+    pub eye: [f64; 3],
+    /// The point in the middle of the picture, at another place than the eye.
+    pub target: [f64; 3],
+}
+
+impl Look {
+    /// The transform of this camera. `aspect`: width divided by height.
+    pub fn transform(&self, bounds: Bounds, aspect: f64) -> ViewTransform {
+        let (_, scale) = center_and_scale(bounds);
+        let rotation = rotation_towards(minus(self.eye, self.target));
+        let up = (0.5 * FIELD_OF_VIEW).to_radians().tan();
+        let distance = length(minus(self.eye, self.target)) * scale;
+        let projection =
+            projection([self.target, bounds[0], bounds[1]], scale, rotation, distance, [up, aspect]);
+        ViewTransform { center: self.target, scale, rotation, distance, projection }
+    }
+}
+
 impl Default for Camera {
     fn default() -> Self {
         Self { yaw: 30.0, pitch: 20.0, zoom: 1.0 }
@@ -83,11 +105,7 @@ impl Camera {
         let distance = distance / self.zoom;
         let center =
             [0, 1, 2].map(|i| center[i] + (shift[0] * rotation[0][i] + shift[1] * rotation[1][i]) / scale);
-        let corners = corners(bounds).map(|corner| rotated(rotation, scaled(minus(corner, center), scale)));
-        let depth = |f: fn(f64, f64) -> f64| corners.map(|corner| distance - corner[2]).into_iter().reduce(f);
-        let far = depth(f64::max).unwrap_or(1.0).max(1e-3) * 1.01;
-        let near = (depth(f64::min).unwrap_or(0.0) * 0.99).max(far * 1e-3);
-        let projection = perspective(up, aspect, near, far, distance);
+        let projection = projection([center, bounds[0], bounds[1]], scale, rotation, distance, [up, aspect]);
         ViewTransform { center, scale, rotation, distance, projection }
     }
 
@@ -95,6 +113,41 @@ impl Camera {
         let ([sy, cy], [sp, cp]) = (sine_cosine(self.yaw), sine_cosine(self.pitch));
         [[cy, 0.0, -sy], [-sp * sy, cp, -sp * cy], [cp * sy, sp, cp * cy]]
     }
+}
+
+/// The projection in which the depths of a box are in view. `points`: the origin of eye space and the box's least and largest coordinates.
+fn projection(
+    [center, least, most]: [V3; 3],
+    scale: f64,
+    rotation: [V3; 3],
+    distance: f64,
+    [up, aspect]: [f64; 2],
+) -> [[f32; 4]; 4] {
+    let corners =
+        corners([least, most]).map(|corner| rotated(rotation, scaled(minus(corner, center), scale)));
+    let depth = |f: fn(f64, f64) -> f64| corners.map(|corner| distance - corner[2]).into_iter().reduce(f);
+    let far = depth(f64::max).unwrap_or(1.0).max(1e-3) * 1.01;
+    let near = (depth(f64::min).unwrap_or(0.0) * 0.99).max(far * 1e-3);
+    perspective(up, aspect, near, far, distance)
+}
+
+/// The rows right, up and towards the eye. `towards`: the direction to the eye, which is not zero.
+fn rotation_towards(towards: V3) -> [V3; 3] {
+    let towards = unit(towards);
+    let [x, y, z] = towards;
+    // Seen from straight above or below, any direction is right.
+    let right = if x == 0.0 && z == 0.0 { [1.0, 0.0, 0.0] } else { unit([z, 0.0, -x]) };
+    let up = [y * right[2] - z * right[1], z * right[0] - x * right[2], x * right[1] - y * right[0]];
+    [right, up, towards]
+}
+
+fn unit(v: V3) -> V3 {
+    let size = length(v);
+    v.map(|x| x / size)
+}
+
+fn length(v: V3) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// The orthographic transform of a UV layout.
@@ -125,7 +178,7 @@ fn perspective(up: f64, aspect: f64, near: f64, far: f64, distance: f64) -> [[f3
 /// The centre of a box, and the scale that makes half of its diagonal 1.
 fn center_and_scale([min, max]: Bounds) -> (V3, f64) {
     let center = [0, 1, 2].map(|i| 0.5 * (min[i] + max[i]));
-    let radius = minus(max, center).map(|x| x * x).iter().sum::<f64>().sqrt();
+    let radius = length(minus(max, center));
     (center, if radius > 0.0 { 1.0 / radius } else { 1.0 })
 }
 

@@ -29,7 +29,7 @@ impl<'a> Drawing<'a> {
     /// What the surface is coloured with.
     pub fn view(&self) -> View {
         match (self.subject, self.options.view) {
-            (Subject::UvLayout, View::Shaded) => View::Sign,
+            (Subject::UvLayout, view) if view.is_lit() => View::Sign,
             (_, view) => view,
         }
     }

@@ -20,7 +20,8 @@
 //! pose, model, derivatives, heat    from a document to triangles with tangents and colours
 //! mistakes                          tangents as wrong code computes them
 //! camera, mirrored_edges, lines     what is in view, and lines over the surface
-//! uniforms, textures, pipelines     data for the shaders surface.wgsl and lines.wgsl
+//! studio, uniforms, textures, material_textures, pipelines
+//!                                   data for the shaders surface.wgsl, studio.wgsl and lines.wgsl
 //! drawing, painter, target          one pass over a picture or a UV layout, and reading it back
 //! render, uv_inset                  the entry: the model, and the UV layout in a corner
 //! ```
@@ -32,6 +33,7 @@ mod drawing;
 mod error;
 mod heat;
 mod lines;
+mod material_textures;
 mod mipmaps;
 mod mirrored_edges;
 mod mistakes;
@@ -42,6 +44,7 @@ mod part;
 mod pipelines;
 mod pose;
 mod render;
+mod studio;
 mod subject;
 mod target;
 mod textures;
@@ -49,14 +52,14 @@ mod uniforms;
 mod uv_inset;
 mod vertex;
 
-pub use camera::Camera;
+pub use camera::{Camera, Look};
 pub use drawing::Side;
 pub use error::RenderError;
 pub use heat::HeatScale;
 pub use mistakes::FrameMistake;
 pub use model::Model;
 pub use options::{
-    LINE_COLORS, LayoutPlacement, Lines, Mistakes, RenderOptions, SEAM_COLOR, SIGN_COLORS, View,
+    LINE_COLORS, LINE_DASHES, LayoutPlacement, Lines, Mistakes, RenderOptions, SEAM_COLOR, SIGN_COLORS, View,
 };
 pub use render::{Picture, render};
 

@@ -7,12 +7,15 @@ use darboux::Transform;
 use crate::algebra::{Matrix, cross, direction_columns};
 use crate::camera::ViewTransform;
 use crate::mirrored_edges::mirrored_edges;
-use crate::options::{LINE_COLORS, Lines, Mistakes, RenderOptions, SEAM_COLOR};
+use crate::options::{LINE_COLORS, LINE_DASHES, Lines, Mistakes, RenderOptions, SEAM_COLOR};
 use crate::part::Part;
 use crate::vertex::{Segment, SurfaceVertex};
 
 /// The most vertices of a part that have lines. Of larger parts every n-th vertex has lines, because more would hide each other.
 const MAX_LINE_VERTICES: usize = 50_000;
+
+/// The part of a dash's length that is drawn.
+const DRAWN_PART: f64 = 0.6;
 
 /// The most lines, which take 151 MB of the 256 MB that every adapter allows a buffer. Small files can ask for any number.
 pub const MAX_SEGMENTS: usize = 1 << 22;
@@ -56,8 +59,12 @@ fn vector_segments(
         let vectors = vectors(matrix, corner, if mistakes.w { -1.0 } else { 1.0 });
         for (at, vector) in vectors.into_iter().enumerate().filter(|&(at, _)| is_drawn[at]) {
             let along = transform.direction(vector.map(f64::from));
-            let to = [0, 1, 2].map(|i| from[i] + length * along[i]);
-            out.push(segment([from, to], color(LINE_COLORS[at])));
+            let point = |part: f64| [0, 1, 2].map(|i| from[i] + part * length * along[i]);
+            let dashes = f64::from(LINE_DASHES[at]);
+            let drawn = if LINE_DASHES[at] > 1 { DRAWN_PART } else { 1.0 };
+            out.extend((0..LINE_DASHES[at]).map(f64::from).map(|dash| {
+                segment([dash, dash + drawn].map(|end| point(end / dashes)), color(LINE_COLORS[at]))
+            }));
         }
     }
     out

@@ -12,6 +12,7 @@ use crate::algebra::Matrix;
 use crate::camera::Bounds;
 use crate::derivatives;
 use crate::heat;
+use crate::material_textures::textures_of;
 use crate::mistakes::{self, FrameMistake};
 use crate::part::{Part, layout_position};
 use crate::pose::{self, MAX_INFLUENCE_SETS, Vertices};
@@ -256,17 +257,18 @@ fn read_part(
         })?,
     };
     let tangent_uvs = corners.vectors::<2>(&set_name(material.tangent_uv_set))?.unwrap_or_default();
-    let uvs = |texture: &Option<TextureUse>| -> Result<Vec<[f32; 2]>, Error> {
+    let uvs = |texture: Option<&TextureUse>| -> Result<Vec<[f32; 2]>, Error> {
         let Some(texture) = texture else { return Ok(tangent_uvs.clone()) };
         Ok(corners.vectors::<2>(&set_name(texture.uv_set))?.unwrap_or_default())
     };
-    let uvs = [uvs(&material.base_texture)?, uvs(&material.normal_texture)?];
+    let [base, normal, surface, occlusion, emission] = textures_of(material).map(|(used, _)| uvs(used));
+    let uvs = [base?, normal?, surface?, occlusion?, emission?];
     let (Vertices { positions, normals, tangents }, is_mirrored) = posed_vertices(corners, pose)?;
     let corner = |i: usize| SurfaceVertex {
         position: positions[i],
         normal: normals.get(i).copied().unwrap_or_default(),
         tangent: tangents.get(i).copied().unwrap_or_default(),
-        uvs: [0, 1].map(|k| uvs[k].get(i).copied().unwrap_or_default()),
+        uvs: [0, 1, 2, 3, 4].map(|k| uvs[k].get(i).copied().unwrap_or_default()),
         degrees: heat::NO_ANGLE,
     };
     let is_finite = |triangle: &[[f32; 3]; 3]| triangle.as_flattened().iter().all(|x| x.is_finite());

@@ -1,14 +1,16 @@
 //! The options of [`render`](crate::render::render).
 
-use crate::camera::Camera;
+use crate::camera::{Camera, Look};
 use crate::heat::HeatScale;
 
 /// What the surface is coloured with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum View {
-    /// The lit surface with its normal map. The light comes from the upper right.
+    /// The lit surface with its materials, in the studio of the viewer. The light comes from the upper right of the camera.
     Shaded,
+    /// The same with a pattern of bumps on materials without a normal map that are not anisotropic. It is not in the file.
+    TestBumps,
     /// The tangent in the directions of the scene. A component x has the colour 0.5 + 0.5 x.
     Tangent,
     /// The bitangent, coloured as the tangent.
@@ -21,11 +23,21 @@ pub enum View {
     Angle,
 }
 
+impl View {
+    /// Whether the surface is lit, instead of showing frames as colours.
+    pub fn is_lit(self) -> bool {
+        matches!(self, Self::Shaded | Self::TestBumps)
+    }
+}
+
 /// The sRGB colours of the signs w = 1 and w = -1. The viewer uses the same.
 pub const SIGN_COLORS: [[u8; 3]; 2] = [[61, 139, 217], [232, 135, 58]];
 
 /// The sRGB colours of lines along tangents, bitangents and normals. The viewer uses the same.
 pub const LINE_COLORS: [[u8; 3]; 3] = [[255, 77, 77], [77, 210, 77], [92, 140, 255]];
+
+/// The dashes of these lines, which tell them apart without their colours. The viewer draws the same.
+pub const LINE_DASHES: [u32; 3] = [1, 3, 2];
 
 /// The sRGB colour of mirrored edges.
 pub const SEAM_COLOR: [u8; 3] = [255, 77, 216];
@@ -130,12 +142,14 @@ pub struct RenderOptions {
     pub lines: Lines,
     /// Whether mirrored edges are drawn: edges between triangles whose tangents have different signs.
     pub seams: bool,
-    /// Where the UV layout is drawn, if it is. It has the colours of the view, or of [`View::Sign`] if the view is [`View::Shaded`].
+    /// Where the UV layout is drawn, if it is. It has the colours of the view, or of [`View::Sign`] if the view is lit.
     pub layout: Option<LayoutPlacement>,
     /// The width and height in pixels.
     pub size: [u32; 2],
     /// The position of the camera.
     pub camera: Camera,
+    /// A camera in place of that one. With it, the studio stands as in the viewer and does not turn.
+    pub look: Option<Look>,
     /// The sRGB colour of the background.
     pub background: [u8; 3],
     /// The colours of [`View::Angle`].
@@ -154,6 +168,7 @@ impl RenderOptions {
             layout: None,
             size,
             camera: Camera::default(),
+            look: None,
             background: [0; 3],
             heat,
         }
@@ -193,6 +208,12 @@ impl RenderOptions {
     #[must_use]
     pub fn with_camera(self, camera: Camera) -> Self {
         Self { camera, ..self }
+    }
+
+    /// These options with a camera at a point of the scene, or without it.
+    #[must_use]
+    pub fn with_look(self, look: Option<Look>) -> Self {
+        Self { look, ..self }
     }
 
     /// These options with another background, in sRGB.

@@ -1,5 +1,7 @@
 //! Draws both sides of a [`Drawing`] in one render pass.
 
+use std::iter;
+
 use bytemuck::Pod;
 use darboux_gpu::{AdapterKind, Gpu};
 use darboux_io::gltf::Material;
@@ -13,16 +15,16 @@ use wgpu::{
 use crate::drawing::{Drawing, Side};
 use crate::error::RenderError;
 use crate::lines::{MAX_SEGMENTS, segments};
-use crate::options::View;
+use crate::material_textures::{NORMAL, textures_of};
 use crate::part::{Part, layout_position};
 use crate::pipelines::{line_pipeline, surface_pipeline};
 use crate::subject::Subject;
 use crate::target::Target;
-use crate::textures::{Kind, Textures, sampler};
+use crate::textures::{Textures, sampler};
 use crate::uniforms::{Instance, LineUniforms, MaterialUniforms, PictureUniforms};
 use crate::vertex::SurfaceVertex;
 
-/// The most corners per vertex buffer, which take 47 MB.
+/// The most corners per vertex buffer, which take 66 MB.
 const MAX_CHUNK_CORNERS: usize = 3 << 18;
 
 /// The most triangles. Small files can ask for any number, because many nodes may show one mesh.
@@ -76,7 +78,7 @@ pub fn paint(
         return Err(RenderError::TooManyTriangles { triangles, limit });
     }
     let format = match drawing.view() {
-        View::Shaded => TextureFormat::Rgba8UnormSrgb,
+        view if view.is_lit() => TextureFormat::Rgba8UnormSrgb,
         _ => TextureFormat::Rgba8Unorm,
     };
     let painter = Painter {
@@ -167,7 +169,7 @@ impl Painter<'_> {
         let mut textures = Textures::new(self.gpu, model.document);
         let is_used = |index| {
             let mut parts = model.parts.iter();
-            self.drawing.view() == View::Shaded && parts.any(|part| part.material == Some(index))
+            self.drawing.view().is_lit() && parts.any(|part| part.material == Some(index))
         };
         let materials = model
             .materials
@@ -237,25 +239,20 @@ impl Painter<'_> {
     }
 
     fn material(&self, material: &Material, textures: &mut Textures<'_>) -> BindGroup {
-        let [base, normal] =
-            [(&material.base_texture, Kind::Color), (&material.normal_texture, Kind::Normal)]
-                .map(|(used, kind)| (textures.view(used.as_ref(), kind), sampler(self.gpu, used.as_ref())));
-        let uniforms = MaterialUniforms::of(material, normal.0.is_some());
-        let [base_view, normal_view] = [
-            base.0.unwrap_or_else(|| textures.neutral(Kind::Color)),
-            normal.0.unwrap_or_else(|| textures.neutral(Kind::Normal)),
-        ];
-        self.group(
-            &self.surfaces,
-            1,
-            &[
-                self.uniform(&uniforms).as_entire_binding(),
-                BindingResource::TextureView(&base_view),
-                BindingResource::Sampler(&base.1),
-                BindingResource::TextureView(&normal_view),
-                BindingResource::Sampler(&normal.1),
-            ],
-        )
+        let uses = textures_of(material);
+        let views = uses.map(|(used, kind)| textures.view(used, kind));
+        let has_normal_map = views[NORMAL].is_some();
+        let samplers = uses.map(|(used, _)| sampler(self.gpu, used));
+        let views: Vec<_> = (views.into_iter().zip(uses))
+            .map(|(view, (_, kind))| view.unwrap_or_else(|| textures.neutral(kind)))
+            .collect();
+        let uniforms =
+            self.uniform(&MaterialUniforms::of(material, has_normal_map, self.drawing.options.view));
+        let images = views.iter().zip(&samplers).flat_map(|(view, sampler)| {
+            [BindingResource::TextureView(view), BindingResource::Sampler(sampler)]
+        });
+        let resources: Vec<_> = iter::once(uniforms.as_entire_binding()).chain(images).collect();
+        self.group(&self.surfaces, 1, &resources)
     }
 
     fn chunks(&self, part: &Part) -> Vec<Chunk> {

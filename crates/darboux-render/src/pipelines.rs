@@ -18,6 +18,7 @@ const SURFACES: &str = concat!(
     include_str!("../shader_library/transform.wgsl"),
     include_str!("../shader_library/derivatives.wgsl"),
     include_str!("surface.wgsl"),
+    include_str!("studio.wgsl"),
 );
 const LINES: &str = include_str!("lines.wgsl");
 
@@ -36,10 +37,9 @@ struct PipelineOptions<'a> {
 
 /// The pipeline for triangles.
 pub fn surface_pipeline(gpu: &Gpu, subject: Subject, view: View, format: TextureFormat) -> RenderPipeline {
-    let vertex_attributes =
-        vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4, 4 => Float32];
+    let vertex_attributes = vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4, 5 => Float32x2, 6 => Float32];
     let instance_attributes = vertex_attr_array![
-        5 => Float32x4, 6 => Float32x4, 7 => Float32x4, 8 => Float32x4, 9 => Float32x3, 10 => Float32x3, 11 => Float32x3
+        7 => Float32x4, 8 => Float32x4, 9 => Float32x4, 10 => Float32x4, 11 => Float32x3, 12 => Float32x3, 13 => Float32x3
     ];
     let options = PipelineOptions {
         shader: SURFACES,
@@ -50,7 +50,7 @@ pub fn surface_pipeline(gpu: &Gpu, subject: Subject, view: View, format: Texture
         ],
         topology: PrimitiveTopology::TriangleList,
         has_depth: subject == Subject::Surface,
-        alpha_to_coverage: view == View::Shaded,
+        alpha_to_coverage: view.is_lit(),
     };
     pipeline(gpu, &options, format)
 }

@@ -66,6 +66,9 @@ fn view_transform(
     let bounds = model.bounds(subject)?;
     Some(match subject {
         Subject::UvLayout => flat(bounds, aspect),
-        Subject::Surface => options.camera.frame(bounds, aspect, |visit| model.visit_points(subject, visit)),
+        Subject::Surface => match options.look {
+            Some(look) => look.transform(bounds, aspect),
+            None => options.camera.frame(bounds, aspect, |visit| model.visit_points(subject, visit)),
+        },
     })
 }

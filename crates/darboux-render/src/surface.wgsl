@@ -7,7 +7,7 @@ struct Picture {
     rotation: mat3x3f,
     // The distance of the eye from the origin of eye space, along z.
     distance: f32,
-    // 0 shaded, 1 tangent, 2 bitangent, 3 normal, 4 sign, 5 angle.
+    // 0 shaded, 1 shaded with test bumps, 2 tangent, 3 bitangent, 4 normal, 5 sign, 6 angle.
     view: u32,
     // The ends of the colour scale, in degrees.
     heat_ends: vec2f,
@@ -17,6 +17,11 @@ struct Picture {
     // The colours of w = 1 and w = -1.
     plus: vec4f,
     minus: vec4f,
+    // The direction to the light, and its intensity.
+    light: vec4f,
+    // The directions to the lamps, and their sharpness.
+    lamps: array<vec4f, 6>,
+    lamp_radiance: array<vec4f, 6>,
     // -1 if the mistake is made to negate w, or green.
     w_factor: f32,
     green_factor: f32,
@@ -28,19 +33,27 @@ struct Picture {
     is_layout: u32,
     // 1 if the mistake is made to exchange the columns of bitangent and normal.
     has_wrong_columns: u32,
+    // The radiance from everywhere.
+    room: f32,
 }
 
 struct Material {
     base_color: vec4f,
-    // The texture transforms of the base colour and the normal map: the images of the u and v axes, and of the origins.
-    base_axes: vec4f,
-    normal_axes: vec4f,
-    origins: vec4f,
+    // The texture transforms of base colour, normal map, roughness and metal, occlusion, emission: the images of the u and v axes, and of the origins.
+    axes: array<vec4f, 5>,
+    origins: array<vec4f, 5>,
+    emission: vec3f,
     normal_scale: f32,
+    metallic: f32,
+    roughness: f32,
+    occlusion: f32,
     // Alpha below the cutoff is transparent. Negative if alpha is ignored, above 1 if alpha is the coverage.
     alpha_cutoff: f32,
-    // 0 if the pattern of domes replaces the normal map.
+    // 1 if the base colour is shown without light.
+    is_unlit: u32,
     has_normal_map: u32,
+    // 1 if test bumps stand for a missing normal map.
+    has_bumps: u32,
 }
 
 @group(0) @binding(0) var<uniform> picture: Picture;
@@ -49,24 +62,33 @@ struct Material {
 @group(1) @binding(2) var base_sampler: sampler;
 @group(1) @binding(3) var normal_texture: texture_2d<f32>;
 @group(1) @binding(4) var normal_sampler: sampler;
+@group(1) @binding(5) var surface_texture: texture_2d<f32>;
+@group(1) @binding(6) var surface_sampler: sampler;
+@group(1) @binding(7) var occlusion_texture: texture_2d<f32>;
+@group(1) @binding(8) var occlusion_sampler: sampler;
+@group(1) @binding(9) var emission_texture: texture_2d<f32>;
+@group(1) @binding(10) var emission_sampler: sampler;
 
 struct Corner {
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
     @location(2) tangent: vec4f,
+    // Of base colour and normal map, of roughness and occlusion, of emission.
     @location(3) uvs: vec4f,
-    @location(4) degrees: f32,
+    @location(4) surface_uvs: vec4f,
+    @location(5) emission_uv: vec2f,
+    @location(6) degrees: f32,
 }
 
 // A place of a mesh: its transform to eye space, and its linear part to the scene.
 struct Instance {
-    @location(5) eye_x: vec4f,
-    @location(6) eye_y: vec4f,
-    @location(7) eye_z: vec4f,
-    @location(8) eye_origin: vec4f,
-    @location(9) x: vec3f,
-    @location(10) y: vec3f,
-    @location(11) z: vec3f,
+    @location(7) eye_x: vec4f,
+    @location(8) eye_y: vec4f,
+    @location(9) eye_z: vec4f,
+    @location(10) eye_origin: vec4f,
+    @location(11) x: vec3f,
+    @location(12) y: vec3f,
+    @location(13) z: vec3f,
 }
 
 struct Varyings {
@@ -81,6 +103,8 @@ struct Varyings {
     @location(5) sign: f32,
     // -1 if the node mirrors.
     @location(6) @interpolate(flat) orientation: f32,
+    @location(7) surface_uvs: vec4f,
+    @location(8) emission_uv: vec2f,
 }
 
 @vertex
@@ -95,29 +119,45 @@ fn transform_corner(corner: Corner, instance: Instance) -> Varyings {
     let tangent = unit_or(mapped(transform.map, corner.tangent.xyz), vec3f(0.0, 0.0, 0.0));
     out.sign = picture.w_factor * corner.tangent.w;
     out.tangent = vec4f(tangent, transform.orientation * out.sign);
-    let base_uv = transformed_uv(corner.uvs.xy, material.base_axes, material.origins.xy);
-    out.uvs = vec4f(base_uv, transformed_uv(corner.uvs.zw, material.normal_axes, material.origins.zw));
+    out.uvs = vec4f(transformed_uv(corner.uvs.xy, 0), transformed_uv(corner.uvs.zw, 1));
+    out.surface_uvs = vec4f(transformed_uv(corner.surface_uvs.xy, 2), transformed_uv(corner.surface_uvs.zw, 3));
+    out.emission_uv = transformed_uv(corner.emission_uv, 4);
     out.degrees = corner.degrees;
     out.orientation = transform.orientation;
     return out;
 }
 
-// Applies a texture transform.
-fn transformed_uv(uv: vec2f, axes: vec4f, origin: vec2f) -> vec2f {
+// Applies the transform of a texture.
+fn transformed_uv(uv: vec2f, texture: i32) -> vec2f {
+    let axes = material.axes[texture];
     let v = select(uv.y, 1.0 - uv.y, picture.is_v_flipped != 0u);
-    return origin + uv.x * axes.xy + v * axes.zw;
+    return material.origins[texture].xy + uv.x * axes.xy + v * axes.zw;
 }
 
 @fragment
 fn shade(in: Varyings, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
     let base = material.base_color * textureSample(base_texture, base_sampler, in.uvs.xy);
     let texel = textureSample(normal_texture, normal_sampler, in.uvs.zw).xyz;
+    let surface = textureSample(surface_texture, surface_sampler, in.surface_uvs.xy);
+    let occlusion = textureSample(occlusion_texture, occlusion_sampler, in.surface_uvs.zw).x;
+    let emission = textureSample(emission_texture, emission_sampler, in.emission_uv).xyz;
+    // Curved surfaces are rougher for a pixel than for a point.
+    let unit_normal = unit_or(in.normal, vec3f(0.0, 0.0, 1.0));
+    let change = max(abs(dpdx(unit_normal)), abs(dpdy(unit_normal)));
     let facet = cross(dpdx(in.eye), dpdy(in.eye));
     let to_eye = unit_or(vec3f(0.0, 0.0, picture.distance) - in.eye, vec3f(0.0, 0.0, 1.0));
     let facing = select(abs(dot(unit_or(facet, to_eye), to_eye)), 1.0, picture.is_layout != 0u);
-    if (picture.view == 0u) {
+    if (picture.view < 2u) {
         let side = select(-1.0, 1.0, is_front) * in.orientation;
-        return vec4f(lit(base.rgb, side * surface_normal(in, texel), to_eye), coverage(base.a));
+        let point = SurfacePoint(
+            base.rgb,
+            material.metallic * surface.z,
+            max(material.roughness * surface.y, LEAST_ROUGHNESS) + max(change.x, max(change.y, change.z)),
+            1.0 + material.occlusion * (occlusion - 1.0),
+            material.emission * emission,
+        );
+        let radiance = radiance_of(point, side * surface_normal(in, texel), to_eye);
+        return vec4f(tone_mapped(select(radiance, base.rgb, material.is_unlit != 0u)), coverage(base.a));
     }
     // Overlapping triangles of a layout are translucent.
     let alpha = select(1.0, LAYOUT_ALPHA, picture.is_layout != 0u);
@@ -136,8 +176,8 @@ fn surface_normal(in: Varyings, texel: vec3f) -> vec3f {
     var normal = vec3f(0.0, 0.0, 1.0);
     if (material.has_normal_map != 0u) {
         normal = scaled_normal(normal_from_texel(texel), vec2f(material.normal_scale, material.normal_scale));
-    } else if (in.sign != 0.0) {
-        normal = dome(in.uvs.zw);
+    } else if (material.has_bumps != 0u && in.sign != 0.0) {
+        normal = bump(in.uvs.zw);
     }
     normal.y *= picture.green_factor;
     if (picture.has_wrong_columns != 0u) {
@@ -154,22 +194,12 @@ fn derived_frame(in: Varyings) -> TangentFrame {
     return cotangent_frame_from_derivatives(unit_or(in.normal, vec3f(0.0, 0.0, 1.0)), position, uv);
 }
 
-// The pattern for materials without a normal map: 8 x 8 domes over the UV square, as in the viewer.
-fn dome(uv: vec2f) -> vec3f {
+// Test bumps for materials without a normal map: 8 x 8 over the UV square, as in the viewer.
+fn bump(uv: vec2f) -> vec3f {
     let slope = 0.9 * (fract(8.0 * uv) - vec2f(0.5, 0.5)) / 0.36;
     let size = dot(slope, slope);
     // v points down in the image, green points up.
     return select(vec3f(0.0, 0.0, 1.0), vec3f(slope.x, -slope.y, sqrt(max(1.0 - size, 0.0))), size < 0.81);
-}
-
-// A light at the upper right of the eye, and ambient light that is brighter from above.
-fn lit(color: vec3f, normal: vec3f, to_eye: vec3f) -> vec3f {
-    let light = normalize(vec3f(0.6, 0.7, 0.55));
-    let above = 0.5 + 0.5 * dot(normal, picture.rotation[1]);
-    let ambient = mix(vec3f(0.16, 0.14, 0.13), vec3f(0.36, 0.40, 0.46), above);
-    let diffuse = max(dot(normal, light), 0.0);
-    let shine = 0.22 * pow(max(dot(normal, normalize(light + to_eye)), 0.0), 40.0);
-    return color * (ambient + vec3f(0.8 * diffuse)) + vec3f(shine * step(0.0, diffuse));
 }
 
 fn coverage(alpha: f32) -> f32 {
@@ -186,18 +216,18 @@ fn coverage(alpha: f32) -> f32 {
 fn frame_color(in: Varyings, facing: f32) -> vec3f {
     let has_tangent = in.sign != 0.0;
     switch picture.view {
-        case 2u: {
+        case 3u: {
             return direction_color(bitangent_of(in.normal, in.tangent));
         }
-        case 3u: {
+        case 4u: {
             return direction_color(in.normal);
         }
-        case 4u: {
+        case 5u: {
             let sides = select(picture.minus.rgb, picture.plus.rgb, in.sign > 0.0);
             return facing * select(vec3f(0.0, 0.0, 0.0), sides, has_tangent);
         }
-        case 5u: {
-            return facing * heat_color(in.degrees);
+        case 6u: {
+            return facing * heat_color(in.degrees, in.position.x + in.position.y);
         }
         default: {
             return direction_color(in.tangent.xyz);
@@ -214,12 +244,14 @@ fn direction_color(v: vec3f) -> vec3f {
     return vec3f(0.5, 0.5, 0.5) + 0.5 * v / sqrt(size);
 }
 
-fn heat_color(degrees: f32) -> vec3f {
+// `along`: the position across the stripes, in pixels.
+fn heat_color(degrees: f32, along: f32) -> vec3f {
     if (degrees < -0.5) {
         return picture.no_angle.rgb;
     }
     if (degrees > 180.5) {
-        return picture.flip.rgb;
+        // Stripes tell opposite signs from angles without the hue.
+        return select(picture.flip.rgb, vec3f(1.0, 1.0, 1.0), along % 8.0 < 3.0);
     }
     let ends = picture.heat_ends;
     let place = 8.0 * clamp(log(max(degrees, ends.x) / ends.x) / log(ends.y / ends.x), 0.0, 1.0);

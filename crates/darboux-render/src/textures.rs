@@ -27,7 +27,10 @@ const MAX_ANISOTROPY: u16 = 8;
 /// The meaning of a texture's texels.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
+    /// In sRGB.
     Color,
+    /// Numbers from 0 to 1: roughness, metal, occlusion.
+    Data,
     Normal,
 }
 
@@ -35,14 +38,14 @@ impl Kind {
     fn format(self) -> TextureFormat {
         match self {
             Self::Color => TextureFormat::Rgba8UnormSrgb,
-            Self::Normal => TextureFormat::Rgba8Unorm,
+            Self::Data | Self::Normal => TextureFormat::Rgba8Unorm,
         }
     }
 
     /// The texel that has no effect.
     fn neutral(self) -> [u8; 4] {
         match self {
-            Self::Color => [255; 4],
+            Self::Color | Self::Data => [255; 4],
             Self::Normal => [128, 128, 255, 255],
         }
     }

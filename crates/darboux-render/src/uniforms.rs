@@ -7,7 +7,9 @@ use crate::algebra::{IDENTITY, Matrix, direction_columns};
 use crate::camera::ViewTransform;
 use crate::drawing::{Drawing, Side};
 use crate::heat::HeatScale;
-use crate::options::SIGN_COLORS;
+use crate::material_textures::{TEXTURES, textures_of};
+use crate::options::{SIGN_COLORS, View};
+use crate::studio::{LAMPS, Studio};
 use crate::subject::Subject;
 
 /// Lines are one pixel wide per this many pixels of the shorter side of the picture, and at least one pixel.
@@ -26,13 +28,19 @@ pub struct PictureUniforms {
     flip: [f32; 4],
     no_angle: [f32; 4],
     signs: [[f32; 4]; 2],
+    /// The direction to the light in eye space, and its intensity.
+    light: [f32; 4],
+    /// The directions to the lamps in eye space, and their sharpness.
+    lamps: [[f32; 4]; LAMPS],
+    lamp_radiance: [[f32; 4]; LAMPS],
     w_factor: f32,
     green_factor: f32,
     is_v_flipped: u32,
     is_derived: u32,
     is_layout: u32,
     has_wrong_columns: u32,
-    padding: [u32; 2],
+    room: f32,
+    padding: u32,
 }
 
 /// `Lines` of lines.wgsl.
@@ -50,12 +58,19 @@ pub struct LineUniforms {
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub struct MaterialUniforms {
     base_color: [f32; 4],
-    base_axes: [f32; 4],
-    normal_axes: [f32; 4],
-    origins: [[f32; 2]; 2],
+    /// The images of the u and v axes under the transform of each texture.
+    axes: [[f32; 4]; TEXTURES],
+    /// The images of the origin; two floats each are not used.
+    origins: [[f32; 4]; TEXTURES],
+    emission: [f32; 3],
     normal_scale: f32,
+    metallic: f32,
+    roughness: f32,
+    occlusion: f32,
     alpha_cutoff: f32,
+    is_unlit: u32,
     has_normal_map: u32,
+    has_bumps: u32,
     padding: u32,
 }
 
@@ -75,6 +90,14 @@ impl PictureUniforms {
             let [x, y, z] = drawing.transform.rotation.map(|row| row[column] as f32);
             [x, y, z, 0.0]
         });
+        let studio = Studio::get();
+        // With a camera of the viewer's, the studio stands as the viewer has it.
+        let yaw = drawing.options.look.map_or(drawing.options.camera.yaw, |_| studio.camera_yaw);
+        let lamps = studio.lamps(yaw);
+        let in_eye_space = |direction, last: f32| {
+            let [x, y, z] = drawing.transform.direction(direction).map(|x| x as f32);
+            [x, y, z, last]
+        };
         let factor = |is_negated| if is_negated { -1.0 } else { 1.0 };
         Self {
             projection: drawing.transform.projection,
@@ -86,13 +109,17 @@ impl PictureUniforms {
             flip: color(*flip),
             no_angle: color(*none),
             signs: SIGN_COLORS.map(color),
+            light: in_eye_space(studio.light_direction(yaw), studio.light.intensity),
+            lamps: lamps.each_ref().map(|lamp| in_eye_space(lamp.towards, lamp.sharpness)),
+            lamp_radiance: lamps.map(|lamp| [lamp.radiance, 0.0, 0.0, 0.0]),
             w_factor: factor(side.mistakes.w),
             green_factor: factor(side.mistakes.green),
             is_v_flipped: side.mistakes.v.into(),
             is_derived: side.model.is_derived.into(),
             is_layout: (drawing.subject == Subject::UvLayout).into(),
             has_wrong_columns: side.mistakes.columns.into(),
-            padding: [0; 2],
+            room: studio.room(),
+            padding: 0,
         }
     }
 }
@@ -110,15 +137,19 @@ impl LineUniforms {
 }
 
 impl MaterialUniforms {
-    pub fn of(material: &Material, has_normal_map: bool) -> Self {
-        let (base_axes, base_origin) = axes(material.base_texture.as_ref());
-        let (normal_axes, normal_origin) = axes(material.normal_texture.as_ref());
+    pub fn of(material: &Material, has_normal_map: bool, view: View) -> Self {
+        let transforms = textures_of(material).map(|(used, _)| axes(used));
         Self {
             base_color: material.base_color,
-            base_axes,
-            normal_axes,
-            origins: [base_origin, normal_origin],
+            axes: transforms.map(|(axes, _)| axes),
+            origins: transforms.map(|(_, [u, v])| [u, v, 0.0, 0.0]),
+            emission: material.emission,
             normal_scale: material.normal_scale,
+            metallic: material.metallic,
+            roughness: material.roughness,
+            occlusion: material.occlusion_strength,
+            is_unlit: material.is_unlit.into(),
+            has_bumps: (view == View::TestBumps && !material.is_anisotropic).into(),
             alpha_cutoff: match material.alpha {
                 Alpha::Opaque => -1.0,
                 Alpha::Mask(cutoff) => cutoff.clamp(0.0, 1.0),

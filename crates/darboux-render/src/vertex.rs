@@ -10,8 +10,8 @@ pub struct SurfaceVertex {
     pub normal: [f32; 3],
     /// Zero if there is none.
     pub tangent: [f32; 4],
-    /// The UVs of the base colour and of the normal map, as stored in the file.
-    pub uvs: [[f32; 2]; 2],
+    /// The UVs of the material's textures in the order of [`textures_of`](crate::material_textures::textures_of), as stored in the file.
+    pub uvs: [[f32; 2]; 5],
     /// The angle to the compared tangent, [`FLIP`](crate::heat::FLIP) or [`NO_ANGLE`](crate::heat::NO_ANGLE).
     pub degrees: f32,
 }

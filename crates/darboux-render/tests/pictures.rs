@@ -87,7 +87,7 @@ fn mirrored_halves_are_lit_from_the_same_side() {
     // A normal map that leans along u. The light is on the right, so only the half where u grows to the right leans towards it.
     let along = Quad { texel: [220, 128, 200], ..Quad::mirrored() };
     let [left, right] = halves(&along, View::Shaded);
-    assert!(light(left) + 60 < light(right), "{left:?} {right:?}");
+    assert!(light(left) + 40 < light(right), "{left:?} {right:?}");
     // A node that mirrors neither turns the surface inside out nor moves the light.
     let [left, right] = halves(&Quad { node: r#""scale":[-1,1,1]"#, ..up }, View::Shaded);
     assert!(is_about(left, right) && light(left) > light(level) + 30, "{left:?} {right:?} {level:?}");
@@ -330,7 +330,11 @@ fn heat_is_the_angle() {
     let between = Quad { tangent: [angle.cos(), angle.sin(), 0.0], ..Quad::default() };
     assert!(is_about(shown(&between), scale.ramp[4]), "{:?}", shown(&between));
     let flipped = Quad { w: [-1.0; 2], ..Quad::default() };
-    assert!(is_about(shown(&flipped), scale.flip));
+    // Opposite signs have stripes.
+    let pixels = picture(&quad, &flipped, View::Angle);
+    let count = |color| pixels.iter().filter(|&&pixel| is_about(pixel, color)).count();
+    let (plain, stripes) = (count(scale.flip), count([255; 3]));
+    assert!(plain > stripes && stripes > plain / 3, "{plain} {stripes}");
     let without = Quad { has_tangents: false, ..Quad::default() };
     assert!(is_about(shown(&without), scale.none));
 }

@@ -201,14 +201,20 @@ impl Document {
     /// Declares extensions that readers must support, unless they are declared already.
     pub(super) fn require_extensions(&mut self, names: impl IntoIterator<Item = &'static str>) {
         for name in names {
-            for list in ["extensionsUsed", "extensionsRequired"] {
-                let is_declared = self.json[list]
-                    .as_array()
-                    .is_some_and(|list| list.iter().any(|declared| declared == name));
-                if !is_declared {
-                    self.push_element(list, name.into());
-                }
-            }
+            self.declare_extension("extensionsRequired", name);
+            self.use_extension(name);
+        }
+    }
+
+    /// Declares an extension that readers may do without, unless it is declared already.
+    pub(super) fn use_extension(&mut self, name: &'static str) {
+        self.declare_extension("extensionsUsed", name);
+    }
+
+    fn declare_extension(&mut self, list: &'static str, name: &'static str) {
+        let declared = self.json[list].as_array();
+        if !declared.is_some_and(|declared| declared.iter().any(|declared| declared == name)) {
+            self.push_element(list, name.into());
         }
     }
 

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 use super::Document;
 use super::objects_only::read_from_objects;
@@ -20,6 +21,24 @@ pub struct Material {
     pub base_color: [f32; 4],
     /// The texture of the base colour, in sRGB.
     pub base_texture: Option<TextureUse>,
+    /// How metallic the surface is, from 0 to 1.
+    pub metallic: f32,
+    /// How rough the surface is, from 0 to 1.
+    pub roughness: f32,
+    /// The texture of roughness (green) and metal (blue), which the factors scale.
+    pub metallic_roughness_texture: Option<TextureUse>,
+    /// The texture of ambient occlusion (red).
+    pub occlusion_texture: Option<TextureUse>,
+    /// How strong the occlusion is, from 0 to 1.
+    pub occlusion_strength: f32,
+    /// The emitted light: linear red, green and blue, times `KHR_materials_emissive_strength`.
+    pub emission: [f32; 3],
+    /// The texture of emitted light, in sRGB.
+    pub emission_texture: Option<TextureUse>,
+    /// Whether the base colour is shown without light (`KHR_materials_unlit`).
+    pub is_unlit: bool,
+    /// Whether highlights follow the tangents (`KHR_materials_anisotropy`).
+    pub is_anisotropic: bool,
     /// The normal map.
     pub normal_texture: Option<TextureUse>,
     /// The normal map of the clear coat (`KHR_materials_clearcoat`).
@@ -37,6 +56,15 @@ impl Default for Material {
         Self {
             base_color: [1.0; 4],
             base_texture: None,
+            metallic: 1.0,
+            roughness: 1.0,
+            metallic_roughness_texture: None,
+            occlusion_texture: None,
+            occlusion_strength: 1.0,
+            emission: [0.0; 3],
+            emission_texture: None,
+            is_unlit: false,
+            is_anisotropic: false,
             normal_texture: None,
             clearcoat_normal_texture: None,
             normal_scale: 1.0,
@@ -97,7 +125,7 @@ pub enum Wrap {
     Clamp,
 }
 
-read_from_objects! { StoredMaterials, StoredMaterial, StoredExtensions, StoredClearcoat, Metallic, StoredTextureUse, Texture, TextureExtensions, ImageSource, Sampler }
+read_from_objects! { StoredMaterials, StoredMaterial, StoredExtensions, StoredClearcoat, StoredEmission, StoredAnisotropy, Metallic, StoredTextureUse, Texture, TextureExtensions, ImageSource, Sampler }
 
 #[derive(Deserialize)]
 #[serde(remote = "Self")]
@@ -116,6 +144,10 @@ struct StoredMaterial {
     #[serde(default)]
     pbr_metallic_roughness: Metallic,
     normal_texture: Option<StoredTextureUse>,
+    occlusion_texture: Option<StoredTextureUse>,
+    #[serde(default)]
+    emissive_factor: [f32; 3],
+    emissive_texture: Option<StoredTextureUse>,
     alpha_mode: Option<String>,
     #[serde(default = "half")]
     alpha_cutoff: f32,
@@ -128,6 +160,26 @@ struct StoredMaterial {
 struct StoredExtensions {
     #[serde(rename = "KHR_materials_clearcoat")]
     clearcoat: Option<StoredClearcoat>,
+    #[serde(rename = "KHR_materials_emissive_strength")]
+    emission: Option<StoredEmission>,
+    #[serde(rename = "KHR_materials_anisotropy")]
+    anisotropy: Option<StoredAnisotropy>,
+    #[serde(rename = "KHR_materials_unlit")]
+    unlit: Option<IgnoredAny>,
+}
+
+#[derive(Deserialize)]
+#[serde(remote = "Self", rename_all = "camelCase")]
+struct StoredEmission {
+    #[serde(default = "one")]
+    emissive_strength: f32,
+}
+
+#[derive(Deserialize)]
+#[serde(remote = "Self", rename_all = "camelCase")]
+struct StoredAnisotropy {
+    #[serde(default)]
+    anisotropy_strength: f32,
 }
 
 #[derive(Deserialize)]
@@ -141,6 +193,9 @@ struct StoredClearcoat {
 struct Metallic {
     base_color_factor: Option<[f32; 4]>,
     base_color_texture: Option<StoredTextureUse>,
+    metallic_factor: Option<f32>,
+    roughness_factor: Option<f32>,
+    metallic_roughness_texture: Option<StoredTextureUse>,
 }
 
 #[derive(Deserialize)]
@@ -151,6 +206,8 @@ struct StoredTextureUse {
     tex_coord: usize,
     #[serde(default = "one")]
     scale: f32,
+    #[serde(default = "one")]
+    strength: f32,
     #[serde(default)]
     extensions: TextureInfoExtensions,
 }
@@ -241,7 +298,25 @@ impl Document {
         let coat =
             stored.extensions.clearcoat.as_ref().and_then(|coat| coat.clearcoat_normal_texture.as_ref());
         let choice = self.stored_materials().get(index).and_then(|material| UvChoice::of(material, index));
+        let extensions = &stored.extensions;
+        let emission_strength =
+            extensions.emission.as_ref().map_or(1.0, |emission| emission.emissive_strength);
         Ok(Material {
+            metallic: metallic.metallic_factor.unwrap_or(1.0),
+            roughness: metallic.roughness_factor.unwrap_or(1.0),
+            metallic_roughness_texture: texture(
+                metallic.metallic_roughness_texture.as_ref(),
+                "pbrMetallicRoughness.metallicRoughnessTexture",
+            )?,
+            occlusion_texture: texture(stored.occlusion_texture.as_ref(), "occlusionTexture")?,
+            occlusion_strength: stored.occlusion_texture.as_ref().map_or(1.0, |used| used.strength),
+            emission: stored.emissive_factor.map(|factor| factor * emission_strength),
+            emission_texture: texture(stored.emissive_texture.as_ref(), "emissiveTexture")?,
+            is_unlit: extensions.unlit.is_some(),
+            is_anisotropic: extensions
+                .anisotropy
+                .as_ref()
+                .is_some_and(|anisotropy| anisotropy.anisotropy_strength > 0.0),
             base_color: metallic.base_color_factor.unwrap_or([1.0; 4]),
             base_texture: texture(
                 metallic.base_color_texture.as_ref(),

@@ -124,7 +124,7 @@ impl Quad {
         let json = format!(
             r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,{node}}}{nodes}]{file},
             "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"NORMAL":1,"TEXCOORD_0":3{tangents}{attributes}}},"material":0{primitive}}}]}}],
-            "materials":[{{"normalTexture":{{"index":0}},"pbrMetallicRoughness":{{"baseColorFactor":{factor}{base_texture}}}{material}}}],
+            "materials":[{{"normalTexture":{{"index":0}},"pbrMetallicRoughness":{{"metallicFactor":0,"baseColorFactor":{factor}{base_texture}}}{material}}}],
             "textures":[{{"source":0}},{{{base_source}{sampler}}}],"samplers":[{{"magFilter":9728,"wrapS":33071,"wrapT":33071}}],
             "images":[{{"bufferView":1,"mimeType":"image/png"}},{{"bufferView":2,"mimeType":"{kind}"}}],
             "accessors":[{accessors}],

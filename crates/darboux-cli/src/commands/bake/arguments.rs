@@ -7,6 +7,7 @@ use clap::{ArgGroup, Args, ValueEnum};
 use darboux::{Convention, Method};
 use darboux_bake::{Bitangent, MapKind};
 
+use crate::heat_scale::HeatRange;
 use crate::options::choice::choice;
 use crate::options::convention::{ConventionParser, NamedConvention};
 use crate::options::files::jobs;
@@ -154,13 +155,17 @@ pub struct BakeArguments {
     #[arg(long, help_heading = "Results")]
     pub verify: bool,
 
-    /// Draw these errors over the UV layout, on a scale from 0.01 to 180 degrees
+    /// Draw these errors over the UV layout, with their scale below
     #[arg(long, value_name = "PNG", requires = "verify", help_heading = "Results")]
     pub heat_map: Option<PathBuf>,
 
-    /// Write the low model painted with these errors, on the same scale; `darboux render` and every viewer show it
+    /// Write the low model painted with these errors, unlit, and beside it a PNG of their scale; `darboux render` and every viewer show it
     #[arg(long, value_name = "GLB", requires = "verify", help_heading = "Results")]
     pub heat_model: Option<PathBuf>,
+
+    /// The ends of the scale of errors in degrees; by default those that fit the errors
+    #[arg(long, value_name = "MIN,MAX", requires = "verify", help_heading = "Results")]
+    pub heat_range: Option<HeatRange>,
 
     /// How many threads work; by default one per processor core
     #[arg(long, value_name = "NUMBER", value_parser = jobs)]

@@ -7,16 +7,15 @@ use darboux_io::image::PngImage;
 use super::arguments::BakeArguments;
 use super::report::advice;
 use super::write::stage;
-use crate::heat_scale::{ramp, row, scale_position};
+use crate::heat_scale::{HeatRange, ramp};
 
 const OUTSIDE: [u8; 3] = [16, 16, 16];
 const HIT: [u8; 3] = [96, 96, 96];
 const MISSED: [u8; 3] = [230, 40, 40];
 const MISSED_BEHIND: [u8; 3] = [255, 160, 0];
 
-/// The rows of the gap and of the scale below a heat map.
+/// The rows of the gap between a heat map and its scale.
 const GAP: usize = 8;
-const SCALE: usize = 24;
 
 /// Draws the texels without a hit, if they are many, beside the map. Returns the path; none without a picture. Errors are one sentence each.
 pub fn misses(
@@ -52,20 +51,19 @@ pub fn misses(
 }
 
 /// The errors of a verification with the scale below them.
-pub fn heat_map(name: &str, verification: &Verification) -> Result<PngImage, String> {
+pub fn heat_map(name: &str, verification: &Verification, range: HeatRange) -> Result<PngImage, String> {
     let [width, height] = verification.heat_size;
-    let mut texels = heat_colors(verification);
+    let mut texels = heat_colors(verification, range);
     texels.resize(width as usize * (height as usize + GAP), [0; 3]);
-    let scale = row(width as usize);
-    (0..SCALE).for_each(|_| texels.extend_from_slice(&scale));
-    let size = [width, height + (GAP + SCALE) as u32];
+    texels.extend(range.rows(width as usize).concat());
+    let size = [width, (texels.len() / width as usize) as u32];
     PngImage::from_rgb(name, size, &texels).map_err(|error| error.to_string())
 }
 
 /// The errors of a verification without a scale, as a texture. Texels outside the charts have the colour of the texel before them, so that
 /// filters do not darken the borders.
-pub fn heat_texture(name: &str, verification: &Verification) -> Result<PngImage, String> {
-    let mut texels = heat_colors(verification);
+pub fn heat_texture(name: &str, verification: &Verification, range: HeatRange) -> Result<PngImage, String> {
+    let mut texels = heat_colors(verification, range);
     for at in 1..texels.len() {
         if verification.heat[at].is_nan() {
             texels[at] = texels[at - 1];
@@ -74,10 +72,18 @@ pub fn heat_texture(name: &str, verification: &Verification) -> Result<PngImage,
     PngImage::from_rgb(name, verification.heat_size, &texels).map_err(|error| error.to_string())
 }
 
-fn heat_colors(verification: &Verification) -> Vec<[u8; 3]> {
+/// The scale alone, for a picture beside the painted model.
+pub fn scale(name: &str, range: HeatRange) -> Result<PngImage, String> {
+    const WIDTH: usize = 512;
+    let rows = range.rows(WIDTH);
+    let size = [WIDTH as u32, rows.len() as u32];
+    PngImage::from_rgb(name, size, &rows.concat()).map_err(|error| error.to_string())
+}
+
+fn heat_colors(verification: &Verification, range: HeatRange) -> Vec<[u8; 3]> {
     let color = |error: &f32| match error.is_nan() {
         true => OUTSIDE,
-        false => ramp(scale_position(f64::from(*error))),
+        false => ramp(range.position(f64::from(*error))),
     };
     verification.heat.iter().map(color).collect()
 }

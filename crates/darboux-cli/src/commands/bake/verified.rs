@@ -12,7 +12,8 @@ use serde::Serialize;
 use super::arguments::BakeArguments;
 use super::model::stage_painted;
 use super::pictures;
-use super::write::stage;
+use super::write::{scale_of, stage};
+use crate::heat_scale::HeatRange;
 use crate::terminal::Messages;
 
 /// The share of the progress bar that comparing has, and so has baking.
@@ -23,6 +24,8 @@ pub const PROGRESS_UNITS: u64 = 1 << 20;
 pub struct Verified {
     #[serde(flatten)]
     errors: Verification,
+    #[serde(skip)]
+    range: HeatRange,
     heat_map: Option<String>,
     heat_model: Option<String>,
 }
@@ -49,12 +52,14 @@ impl Verified {
         let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
         let errors = verify(low, high, baked, &written, options, &mut context, &mut tell)
             .map_err(|error| error.to_string())?;
+        let fitting = || HeatRange::fitting(errors.heat.iter().map(|&degrees| f64::from(degrees)));
+        let range = arguments.heat_range.unwrap_or_else(fitting);
         let draw = |path: &std::path::PathBuf| {
-            let picture = pictures::heat_map(&path.display().to_string(), &errors)?;
+            let picture = pictures::heat_map(&path.display().to_string(), &errors, range)?;
             stage(&picture, path, arguments.force, outputs)
         };
         let heat_map = arguments.heat_map.as_ref().map(draw).transpose()?;
-        Ok(Self { errors, heat_map, heat_model: None })
+        Ok(Self { errors, range, heat_map, heat_model: None })
     }
 
     /// Stages the low model with these errors as its colours, if that was asked for. Errors are one sentence each.
@@ -65,7 +70,9 @@ impl Verified {
         outputs: &mut Outputs,
     ) -> Result<(), String> {
         let Some(path) = &arguments.heat_model else { return Ok(()) };
-        let texture = pictures::heat_texture(&path.display().to_string(), &self.errors)?;
+        let texture = pictures::heat_texture(&path.display().to_string(), &self.errors, self.range)?;
+        let scale = scale_of(path);
+        stage(&pictures::scale(&scale.display().to_string(), self.range)?, &scale, arguments.force, outputs)?;
         self.heat_model = Some(stage_painted(arguments, low, &texture, path, outputs)?);
         Ok(())
     }
@@ -93,8 +100,12 @@ impl Verified {
                 ));
             }
         }
-        lines.extend(self.heat_map.iter().map(|path| format!("{path}: these errors over the UV layout")));
-        lines.extend(self.heat_model.iter().map(|path| format!("{path}: these errors on the low model")));
+        lines.extend(
+            self.heat_map
+                .iter()
+                .map(|path| format!("{path}: these errors over the UV layout, from {}", self.range)),
+        );
+        lines.extend(self.heat_model.iter().map(|path| format!("{path}: these errors on the low model, from {}; their scale is in the file of that name that ends in .scale.png", self.range)));
         lines
     }
 }

@@ -109,7 +109,13 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
 pub fn all_outputs(arguments: &BakeArguments) -> Vec<PathBuf> {
     let maps = maps_of(arguments).into_iter().map(|(_, path)| path);
     let BakeArguments { write_model, heat_map, heat_model, .. } = arguments;
-    maps.chain([write_model, heat_map, heat_model].into_iter().flatten().cloned()).collect()
+    let scale = heat_model.as_deref().map(scale_of);
+    maps.chain([write_model, heat_map, heat_model].into_iter().flatten().cloned()).chain(scale).collect()
+}
+
+/// The picture of the scale beside a painted model.
+pub fn scale_of(heat_model: &Path) -> PathBuf {
+    heat_model.with_extension("scale.png")
 }
 
 /// Stages an image and returns its path. Errors are one sentence each.

@@ -8,16 +8,15 @@ use darboux_io::gltf::PairedCorners;
 use darboux_io::image::PngImage;
 
 use super::statistics::difference;
-use crate::heat_scale::{ENDS, FLIP, ramp, row, scale_position};
+use crate::heat_scale::{ENDS, FLIP, HeatRange, ramp, scale_position};
 
 /// The width and height of the UV square in texels.
 const SIZE: usize = 1024;
 /// The height in texels of the black gap below the UV square.
 const GAP: usize = 8;
-/// The height in texels of the colour scale below the gap.
-const SCALE: usize = 24;
 
 const BACKGROUND: [u8; 3] = [16, 16, 16];
+const STRIPE: [u8; 3] = [255, 255, 255];
 /// After visiting this many texels, which takes about a second, only the corners of triangles are drawn.
 const MAX_TEXELS: u64 = 1 << 26;
 /// Texels per side of a tile, which is passed over once all of its values are greater than those of a triangle.
@@ -169,14 +168,18 @@ impl HeatMap {
         *texel = Some(texel.map_or(value, |worst| worst.max(value)));
     }
 
-    /// The picture with the colour scale below it.
+    /// The picture with the colour scale and its numbers below it.
     pub fn image(&self, name: &str) -> Result<PngImage, Error> {
-        let mut texels: Vec<[u8; 3]> =
-            self.worst.iter().map(|worst| worst.map_or(BACKGROUND, colour)).collect();
+        let color = |(at, worst): (usize, &Option<f64>)| match worst {
+            None => BACKGROUND,
+            // Stripes tell opposite signs from angles without the hue.
+            Some(degrees) if degrees.is_infinite() && (at % SIZE + at / SIZE) % 8 < 3 => STRIPE,
+            Some(degrees) => colour(*degrees),
+        };
+        let mut texels: Vec<[u8; 3]> = self.worst.iter().enumerate().map(color).collect();
         texels.resize(SIZE * (SIZE + GAP), [0; 3]);
-        let row = row(SIZE);
-        (0..SCALE).for_each(|_| texels.extend_from_slice(&row));
-        PngImage::from_rgb(name, [SIZE as u32, (SIZE + GAP + SCALE) as u32], &texels)
+        texels.extend(HeatRange::WHOLE.rows(SIZE).concat());
+        PngImage::from_rgb(name, [SIZE as u32, (texels.len() / SIZE) as u32], &texels)
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use darboux::{Choice, Method, UnknownName};
-use darboux_render::FrameMistake;
+use darboux_render::{FrameMistake, Look};
 
 use crate::options::messages::MessageOptions;
 use crate::options::reading::ReadOptions;
@@ -14,7 +14,7 @@ Draw a model or its tangents into a PNG, without a window.
 
 The views are those of `darboux view`, with the same names: colours on the surface, vectors as lines, mirrored seams, the UV layout, two sources \
 of tangents side by side, and typical mistakes. The scene is drawn in its rest pose, with nodes, skins, morph targets and instances. Parts without a \
-normal map get a pattern of domes, on which wrong tangents are visible.
+normal map hide wrong tangents; --view bumps puts test bumps on them.
 
 Drawing needs a graphics adapter; `darboux devices` lists them. Software adapters such as Mesa's lavapipe work.";
 
@@ -27,6 +27,7 @@ Examples:
   darboux render model.glb -o split.png --tangents mikktspace --against derivatives --split 50
   darboux render model.glb -o green.png --split 50 --mistakes green
   darboux render model.glb -o shield.png --mesh Shield
+  darboux render model.glb -o same.png --look 1.2,0.8,3,0,0,0
   darboux render model.glb -o back.png --camera 180,10,1.5 --size 1920x1080";
 
 /// What is drawn, and how.
@@ -96,6 +97,16 @@ pub struct RenderArguments {
     )]
     pub camera: [f64; 3],
 
+    /// Where the camera is and what it looks at, as `view=` in a link of the viewer has it; the light comes from where the viewer has it
+    #[arg(
+        long,
+        value_name = "X,Y,Z,X,Y,Z",
+        value_parser = look,
+        allow_hyphen_values = true,
+        conflicts_with = "camera"
+    )]
+    pub look: Option<Look>,
+
     /// The colour behind the model
     #[arg(long, value_name = "RRGGBB", default_value = "eceff1", value_parser = color)]
     pub background: [u8; 3],
@@ -118,9 +129,11 @@ pub struct RenderArguments {
 /// `--view`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum ViewChoice {
-    /// The surface with its base colour and normal map, lit from the upper right
+    /// The surface with its materials in the viewer's studio, lit from the upper right
     #[default]
     Shaded,
+    /// The same, with test bumps on parts without a normal map, which the file does not have
+    Bumps,
     /// Tangents as colours: 0.5 + 0.5 times each component, in scene space
     Tangent,
     /// Bitangents in the same colours
@@ -129,7 +142,7 @@ pub enum ViewChoice {
     Normal,
     /// The sign w: blue for 1, orange for -1
     Sign,
-    /// The angle between --tangents and --against, from 0.01 to 180 degrees; red where the signs are opposite
+    /// The angle between --tangents and --against, from 0.01 to 180 degrees; red with stripes where the signs are opposite
     #[value(alias = "heat")]
     Angle,
 }
@@ -137,11 +150,11 @@ pub enum ViewChoice {
 /// `--lines`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum VectorLines {
-    /// Red
+    /// Red, unbroken
     Tangent,
-    /// Green
+    /// Green, three dashes
     Bitangent,
-    /// Blue
+    /// Blue, two dashes
     Normal,
 }
 
@@ -273,6 +286,19 @@ fn camera(text: &str) -> Result<[f64; 3], String> {
         return Err("expected -360 to 360, -90 to 90 and 0.01 to 1000".to_owned());
     }
     Ok([yaw, pitch, zoom])
+}
+
+fn look(text: &str) -> Result<Look, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[a, b, c, x, y, z])
+            if [a, b, c, x, y, z].iter().all(|x| x.abs() < 1e30) && [a, b, c] != [x, y, z] =>
+        {
+            Ok(Look { eye: [a, b, c], target: [x, y, z] })
+        }
+        _ => Err("expected six numbers, the position of the camera and another point, such as 0,0,5,0,0,0"
+            .to_owned()),
+    }
 }
 
 fn color(text: &str) -> Result<[u8; 3], String> {

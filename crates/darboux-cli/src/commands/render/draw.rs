@@ -269,6 +269,7 @@ fn options(arguments: &RenderArguments) -> RenderOptions {
     let draws = |vector| arguments.lines.contains(&vector);
     let view = match arguments.view {
         ViewChoice::Shaded => darboux_render::View::Shaded,
+        ViewChoice::Bumps => darboux_render::View::TestBumps,
         ViewChoice::Tangent => darboux_render::View::Tangent,
         ViewChoice::Bitangent => darboux_render::View::Bitangent,
         ViewChoice::Normal => darboux_render::View::Normal,
@@ -290,6 +291,7 @@ fn options(arguments: &RenderArguments) -> RenderOptions {
         .with_seams(arguments.seams)
         .with_layout(layout)
         .with_camera(Camera { yaw, pitch, zoom })
+        .with_look(arguments.look)
         .with_background(arguments.background)
 }
 

@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use clap::ValueEnum;
-use darboux_render::{LINE_COLORS, Picture, RenderOptions, SEAM_COLOR, SIGN_COLORS, View};
+use darboux_render::{LINE_COLORS, LINE_DASHES, Picture, RenderOptions, SEAM_COLOR, SIGN_COLORS, View};
 use embedded_graphics::mono_font::iso_8859_1::FONT_6X13;
 use embedded_graphics::mono_font::{MonoFont, MonoTextStyle};
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
@@ -30,15 +30,44 @@ const MIN_HEIGHT_RATIO: u32 = 6;
 /// The labels of the scale in degrees, the same as in the viewer.
 const LABELS: [f64; 5] = [0.01, 0.1, 1.0, 10.0, 180.0];
 
-/// A colour and its meaning.
-type Key = ([u8; 3], &'static str);
+/// The colour of mistakes in captions, on light and on dark paper.
+const WRONG: [Rgb888; 2] = [Rgb888::new(168, 32, 13), Rgb888::new(255, 143, 125)];
+
+/// A colour, the second sign beside it, and their meaning.
+#[derive(Clone, Copy)]
+struct Key {
+    color: [u8; 3],
+    sign: Sign,
+    meaning: &'static str,
+}
+
+/// What tells a colour from others without its hue.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Sign {
+    Square,
+    Stripes,
+    /// A line of so many dashes.
+    Dashes(u32),
+}
+
+const fn key(color: [u8; 3], meaning: &'static str) -> Key {
+    Key { color, sign: Sign::Square, meaning }
+}
+
+/// The caption of a side: the source of its tangents, and the mistakes made with them; empty without one.
+struct Caption {
+    source: String,
+    mistakes: String,
+}
 
 /// The legend of a picture.
 pub struct Legend {
     keys: Vec<Key>,
     has_scale: bool,
-    /// The names of the left and the right side, and the position of the divide as a fraction of the width.
-    names: Option<([String; 2], f64)>,
+    /// The captions of the left and the right side, and the position of the divide as a fraction of the width.
+    sides: Option<([Caption; 2], f64)>,
+    /// The mistakes made in an undivided picture; empty without one.
+    mistakes: String,
     /// The height in pixels; 0 without a legend.
     rows: u32,
     ink: Rgb888,
@@ -51,9 +80,16 @@ impl Legend {
         let mut keys = colors_of(options);
         let lines = &options.lines;
         let vectors = [(lines.tangent, "tangent"), (lines.bitangent, "bitangent"), (lines.normal, "normal")];
-        let drawn = vectors.into_iter().zip(LINE_COLORS).filter(|((is_drawn, _), _)| *is_drawn);
-        keys.extend(drawn.map(|((_, name), color)| (color, name)));
-        keys.extend(options.seams.then_some((SEAM_COLOR, "mirrored seam")));
+        let drawn = vectors.into_iter().zip(LINE_COLORS.into_iter().zip(LINE_DASHES));
+        keys.extend(
+            drawn.filter(|((is_drawn, _), _)| *is_drawn).map(|((_, meaning), (color, dashes))| Key {
+                color,
+                sign: Sign::Dashes(dashes),
+                meaning,
+            }),
+        );
+        let seams = Key { color: SEAM_COLOR, sign: Sign::Dashes(1), meaning: "mirrored seam" };
+        keys.extend(options.seams.then_some(seams));
         let has_scale = options.view == View::Angle;
         let [width, height] = options.size;
         let needed = if has_scale { BAR + LINE + 2 * GAP } else { LINE + GAP };
@@ -64,7 +100,8 @@ impl Legend {
         Self {
             keys,
             has_scale,
-            names: names_of(arguments, source).filter(|_| fits),
+            sides: sides_of(arguments, source).filter(|_| fits),
+            mistakes: if fits && arguments.split.is_none() { mistakes_of(arguments) } else { String::new() },
             rows: if fits { needed } else { 0 },
             ink: if light > 3 * 128 { Rgb888::BLACK } else { Rgb888::WHITE },
             paper: options.background,
@@ -83,13 +120,15 @@ impl Legend {
         picture.size = [width, height + self.rows];
         picture.pixels.resize((width * (height + self.rows)) as usize, self.paper);
         let mut canvas = Canvas { width, pixels: &mut picture.pixels };
-        if let Some(([left, right], part)) = &self.names {
+        if let Some(([left, right], part)) = &self.sides {
             let middle = (f64::from(width) * part).round() as u32;
             canvas.fill([middle, 0], [1, height], [self.ink.r(), self.ink.g(), self.ink.b()]);
-            let from = middle.saturating_sub(GAP + LETTER * left.chars().count() as u32);
-            self.write(&mut canvas, left, [from, GAP]);
-            self.write(&mut canvas, right, [middle + GAP, GAP]);
+            let from = middle.saturating_sub(GAP + LETTER * left.source.chars().count() as u32);
+            self.write(&mut canvas, &left.source, [from, GAP]);
+            self.write(&mut canvas, &right.source, [middle + GAP, GAP]);
+            self.write_wrong(&mut canvas, &right.mistakes, [middle + GAP, GAP + LINE]);
         }
+        self.write_wrong(&mut canvas, &self.mistakes, [GAP, GAP]);
         if self.rows == 0 {
             return;
         }
@@ -104,9 +143,9 @@ impl Legend {
             self.scale(&mut canvas, [left, height + GAP], available);
             left += available + 2 * GAP;
         }
-        for &(color, meaning) in keys {
+        for &Key { color, sign, meaning } in keys {
             let [square, text] = [[left, top + (LINE - BAR) / 2], [left + BAR + GAP / 2, top]];
-            canvas.fill(square, [BAR, BAR], color);
+            draw_sign(&mut canvas, sign, color, square);
             self.write(&mut canvas, meaning, text);
             left += key_width(meaning);
         }
@@ -126,8 +165,18 @@ impl Legend {
         }
     }
 
-    fn write(&self, canvas: &mut Canvas<'_>, text: &str, [left, top]: [u32; 2]) {
-        let style = MonoTextStyle::new(FONT, self.ink);
+    fn write(&self, canvas: &mut Canvas<'_>, text: &str, at: [u32; 2]) {
+        Self::write_in(canvas, self.ink, text, at);
+    }
+
+    /// Writes mistakes in the colour of errors.
+    fn write_wrong(&self, canvas: &mut Canvas<'_>, mistakes: &str, at: [u32; 2]) {
+        let color = if self.ink == Rgb888::BLACK { WRONG[0] } else { WRONG[1] };
+        Self::write_in(canvas, color, mistakes, at);
+    }
+
+    fn write_in(canvas: &mut Canvas<'_>, color: Rgb888, text: &str, [left, top]: [u32; 2]) {
+        let style = MonoTextStyle::new(FONT, color);
         let at = Point::new(left as i32, top as i32);
         let Ok(_) = Text::with_baseline(text, at, style, Baseline::Top).draw(canvas);
     }
@@ -136,25 +185,56 @@ impl Legend {
 /// The meaning of the colours of a view.
 fn colors_of(options: &RenderOptions) -> Vec<Key> {
     match options.view {
-        View::Angle => vec![(options.heat.flip, "opposite signs"), (options.heat.none, "no tangent")],
+        View::Angle => vec![
+            Key { color: options.heat.flip, sign: Sign::Stripes, meaning: "opposite signs" },
+            key(options.heat.none, "no tangent"),
+        ],
         View::Tangent | View::Bitangent | View::Normal => {
-            vec![([255, 128, 128], "+x"), ([128, 255, 128], "+y"), ([128, 128, 255], "+z")]
+            vec![key([255, 128, 128], "+x"), key([128, 255, 128], "+y"), key([128, 128, 255], "+z")]
         }
         View::Shaded if options.layout.is_none() => Vec::new(),
-        _ => vec![(SIGN_COLORS[0], "w = 1"), (SIGN_COLORS[1], "w = -1")],
+        View::TestBumps if options.layout.is_none() => vec![key(BUMPS, "test bumps: not in the file")],
+        _ => vec![key(SIGN_COLORS[0], "w = 1"), key(SIGN_COLORS[1], "w = -1")],
     }
 }
 
-/// The names of the sides of `--split`.
-fn names_of(arguments: &RenderArguments, source: TangentSource) -> Option<([String; 2], f64)> {
+/// Draws the sign of a key in a square.
+fn draw_sign(canvas: &mut Canvas<'_>, sign: Sign, color: [u8; 3], [left, top]: [u32; 2]) {
+    match sign {
+        Sign::Square => canvas.fill([left, top], [BAR, BAR], color),
+        Sign::Stripes => (0..BAR * BAR).map(|at| [at % BAR, at / BAR]).for_each(|[x, y]| {
+            let stripe = if (x + y) % 5 < 2 { [255; 3] } else { color };
+            canvas.fill([left + x, top + y], [1, 1], stripe);
+        }),
+        Sign::Dashes(count) => {
+            let step = BAR / count;
+            let drawn = if count > 1 { (step * 6 / 10).max(1) } else { step };
+            (0..count)
+                .for_each(|dash| canvas.fill([left + dash * step, top + BAR / 2 - 1], [drawn, 3], color));
+        }
+    }
+}
+
+/// The colour beside the legend of test bumps.
+const BUMPS: [u8; 3] = [242, 193, 78];
+
+/// The mistakes of `--mistakes` in words.
+fn mistakes_of(arguments: &RenderArguments) -> String {
     let made = |mistake: &MistakeChoice| {
         let value = mistake.to_possible_value()?;
         let flips = matches!(mistake, MistakeChoice::Green | MistakeChoice::W | MistakeChoice::V);
         Some(format!("{}{}", value.get_name(), if flips { " flipped" } else { "" }))
     };
-    let against = arguments.against.map(|source| source.name());
-    let right: Vec<String> = against.into_iter().chain(arguments.mistakes.iter().filter_map(made)).collect();
-    Some(([source.name(), right.join(", ")], arguments.split? / 100.0))
+    let made: Vec<String> = arguments.mistakes.iter().filter_map(made).collect();
+    if made.is_empty() { String::new() } else { format!("x mistake: {}", made.join(", ")) }
+}
+
+/// The captions of the sides of `--split`.
+fn sides_of(arguments: &RenderArguments, source: TangentSource) -> Option<([Caption; 2], f64)> {
+    let left = Caption { source: source.name(), mistakes: String::new() };
+    let right =
+        Caption { source: arguments.against.unwrap_or(source).name(), mistakes: mistakes_of(arguments) };
+    Some(([left, right], arguments.split? / 100.0))
 }
 
 fn key_width(meaning: &str) -> u32 {
@@ -162,7 +242,7 @@ fn key_width(meaning: &str) -> u32 {
 }
 
 fn widths(keys: &[Key]) -> u32 {
-    keys.iter().map(|(_, meaning)| key_width(meaning)).sum()
+    keys.iter().map(|key| key_width(key.meaning)).sum()
 }
 
 /// The pixels of a picture.

@@ -44,13 +44,14 @@ impl Document {
         Ok(())
     }
 
-    /// Paints primitives: replaces their materials by matte ones with their normal map and a new base colour, embedded as a PNG, which uses the
-    /// UVs of the normal map.
+    /// Paints primitives: replaces their materials by unlit ones (`KHR_materials_unlit`) with a new base colour, embedded as a PNG, which uses the
+    /// UVs of the normal map. Light would change the colours, and the normal map more so.
     ///
     /// Primitives whose material has no normal map stay as they are. A material that other primitives have, too, changes for all of them.
     /// Errors: a primitive that does not exist; a material that cannot be edited.
     pub fn paint(&mut self, png: Vec<u8>, name: &str, primitives: &[PrimitiveName]) -> Result<(), Error> {
         let texture = self.push_texture(png, name);
+        self.use_extension(UNLIT);
         for primitive in primitives {
             if let Some(material) = self.primitive(primitive)?.material {
                 let painted = self.edit_element("materials", material, |material| paint(material, texture));
@@ -112,7 +113,9 @@ fn uses_set(material: &Material, uv_set: usize) -> bool {
     })
 }
 
-/// Makes a material matte, with its normal map and a texture as its colour, if it has a normal map.
+const UNLIT: &str = "KHR_materials_unlit";
+
+/// Makes a material unlit, with a texture as its colour that uses the UVs of the normal map, if it has a normal map.
 fn paint(material: &mut Value, texture: usize) {
     let Some(normal) = material.get("normalTexture") else { return };
     let mut color = normal.clone();
@@ -121,8 +124,8 @@ fn paint(material: &mut Value, texture: usize) {
         color.shift_remove("scale");
     }
     *material = json!({
-        "normalTexture": normal,
         "doubleSided": material.get("doubleSided").unwrap_or(&Value::Bool(false)),
-        "pbrMetallicRoughness": { "baseColorTexture": color, "metallicFactor": 0 },
+        "extensions": { UNLIT: {} },
+        "pbrMetallicRoughness": { "baseColorTexture": color, "metallicFactor": 0, "roughnessFactor": 0.9 },
     });
 }
