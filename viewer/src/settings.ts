@@ -2,10 +2,15 @@
 
 import type { Shown } from './surface/sources';
 
-/** What the colours of the surface show. */
-export const PAINTS = ['shaded', 'tangent', 'bitangent', 'normal', 'sign', 'angle'] as const;
+/** What the colours of the surface show. `bumps` is the shaded surface with a pattern of bumps where the file has no normal map. */
+export const PAINTS = ['shaded', 'bumps', 'tangent', 'bitangent', 'normal', 'sign', 'angle'] as const;
 
 export type Paint = (typeof PAINTS)[number];
+
+/** Whether the surface is lit, in place of showing frames as colours. */
+export function isLit(paint: Paint): boolean {
+  return paint === 'shaded' || paint === 'bumps';
+}
 
 /** Common mistakes with normal maps, applied to the right side on request. */
 export interface Mistakes {
@@ -31,13 +36,13 @@ export interface Settings {
   length: number;
   /** Whether mirrored edges are drawn. */
   seams: boolean;
+  /** Whether the outline of the model's fault is drawn. */
+  outline: boolean;
   /** Whether the edges of triangles are drawn. */
   wireframe: boolean;
   /** The numbers of the parts that are not shown. */
   hidden: Set<number>;
   /** Whether the UV layout is drawn. */
   layout: boolean;
-  /** Whether models without a normal map get a pattern. */
-  pattern: boolean;
   mistakes: Mistakes;
 }

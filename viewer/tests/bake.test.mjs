@@ -56,8 +56,6 @@ function write(name, model) {
 /** Opens a flat plate and one with waves, whose height is 2 % of the diagonal. */
 async function openPair() {
   await viewer.give('files', [write('plate_high.gltf', plate(96, 0.02 * Math.SQRT2)), write('plate_low.gltf', plate(2, 0))]);
-  await viewer.page.uncheck('#pattern');
-  await viewer.settled();
 }
 
 const isRed = (r, g, b) => r > 200 && g < 60 && b < 60;
@@ -90,17 +88,17 @@ test('a cage that is too small misses, which is seen at once', async () => {
   await viewer.click('#bake-misses');
   assert.equal((await viewer.picture()).share(isRed), 0);
   await viewer.click('#bake-misses');
-  await viewer.page.selectOption('#bake-rays', 'normals');
+  await viewer.pick('#bake-rays', 'normals');
   await viewer.slide('bake-inwards', 1);
   await viewer.slide('bake-distance', 1);
   assert.match(await viewer.text('bake-result'), /^Rays of all /);
-  await viewer.page.selectOption('#bake-rays', 'cage');
+  await viewer.pick('#bake-rays', 'cage');
   await viewer.settled();
 });
 
 test('the saved map is the command\'s', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {
-  await viewer.page.selectOption('#bake-size', '128');
-  await viewer.page.selectOption('#bake-samples', '2');
+  await viewer.pick('#bake-size', '128');
+  await viewer.pick('#bake-samples', '2');
   await viewer.slide('bake-distance', 0.8);
   const { name, bytes } = await viewer.download('#bake-save');
   assert.equal(name, 'plate_low.normal.png');
@@ -114,8 +112,8 @@ test('the saved map is the command\'s', { skip: !DARBOUX && 'DARBOUX names no co
 });
 
 test('a bake can be ended, and the next change starts another one', async () => {
-  await viewer.page.selectOption('#bake-samples', '4');
-  await viewer.page.selectOption('#bake-size', '2048');
+  await viewer.pick('#bake-samples', '4');
+  await viewer.pick('#bake-size', '2048');
   await viewer.page.waitForSelector('#bake-cancel', { state: 'visible' });
   await viewer.page.waitForFunction(() => document.getElementById('bake-progress').value > 0);
   await viewer.page.focus('#bake-cancel');
@@ -123,9 +121,9 @@ test('a bake can be ended, and the next change starts another one', async () => 
   await viewer.page.waitForSelector('#bake-cancel', { state: 'hidden' });
   assert.match(await viewer.text('bake-result'), /^The bake was ended/);
   assert.equal(await viewer.page.evaluate(() => document.activeElement.id), 'bake-rays', 'the focus stays in the panel');
-  await viewer.page.selectOption('#bake-samples', '1');
+  await viewer.pick('#bake-samples', '1');
   await viewer.page.waitForSelector('#bake-cancel', { state: 'visible' });
-  await viewer.page.selectOption('#bake-size', '256');
+  await viewer.pick('#bake-size', '256');
   await viewer.settled();
   assert.match(await viewer.text('bake-result'), /^Rays of all 65,536 texels/);
 });

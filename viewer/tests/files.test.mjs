@@ -92,9 +92,11 @@ test('on a flat surface every source lights alike, in OBJ and glTF', async () =>
       pictures.push(await viewer.picture());
     }
     for (const picture of pictures) assert.ok(picture.differs(pictures[0]) < 0.002, path);
-    await viewer.click('#pattern');
-    assert.ok((await viewer.picture()).differs(pictures[0]) > 0.02, 'the domes are seen');
-    await viewer.click('#pattern');
+    await viewer.click('input[value=bumps]');
+    assert.ok((await viewer.picture()).differs(pictures[0]) > 0.02, 'test bumps are seen');
+    assert.match(await viewer.text('chips'), /^Test bumps: not in the file/);
+    await viewer.click('#chips button');
+    assert.equal((await viewer.picture()).differs(pictures[0]) < 0.002, true, 'the chip shows the file again');
   }
 });
 
@@ -111,9 +113,9 @@ test('an OBJ with materials and normal map looks the same when it is saved', asy
   await viewer.slide('split', 100);
   await viewer.choose('left', 'mikktspace');
   const before = await viewer.picture();
-  await viewer.click('#pattern');
+  await viewer.click('input[value=bumps]');
   assert.equal((await viewer.picture()).differs(before), 0, 'it has a normal map of its own');
-  await viewer.click('#pattern');
+  await viewer.click('input[value=shaded]');
   await viewer.slide('split', 0);
   await viewer.choose('right', 'mikktspace');
   await viewer.click('#flip-green');

@@ -44,7 +44,7 @@ test('findings have a severity in words, a sentence, a look, a cure, and evidenc
   for (const { severity, text } of findings) {
     assert.match(text, new RegExp(`^${words[severity]}\\s*Shield: .*\\.\\s+Looks like: .*\\s+Cure: .*\\s+Evidence`), text);
   }
-  const icons = await viewer.page.$$eval('#findings svg', (all) => all.map((icon) => icon.querySelector('.shape').getAttribute('d')));
+  const icons = await viewer.page.$$eval('#findings svg, #notes-list svg', (all) => all.map((icon) => icon.querySelector('.shape').getAttribute('d')));
   assert.equal(new Set(icons).size, 3, 'every severity has a shape of its own');
   const evidence = viewer.page.locator('#findings li').first().locator('dl');
   assert.equal(await evidence.isVisible(), false);

@@ -36,7 +36,7 @@ async function place(x, y) {
 
 test('the values under the pointer are those of the file, and a click pins them', async () => {
   await open('quad.gltf', gltf({ attributes: { ...QUAD, TANGENT: TANGENTS } }));
-  await viewer.page.mouse.move(...(await place(0.3, 0.5)));
+  await viewer.page.mouse.move(...(await place(0.2, 0.5)));
   await viewer.settled();
   const left = await values();
   assert.deepEqual([left['In the file'], left.Normal, left.Tangent], ['mesh_0', '0, 0, 1', '-1, 0, 0']);
@@ -46,7 +46,7 @@ test('the values under the pointer are those of the file, and a click pins them'
   assert.equal(left.w, '-1');
   assert.match(left['Angle to the other side'], /^[\d.e-]+°$/);
   await viewer.page.mouse.click(...(await place(0.7, 0.5)));
-  await viewer.page.mouse.move(...(await place(0.3, 0.5)));
+  await viewer.page.mouse.move(...(await place(0.2, 0.5)));
   await viewer.settled();
   const right = await values();
   assert.deepEqual([right.MikkTSpace, right.w], ['mesh_0', '1'], 'they stay pinned');
@@ -142,10 +142,10 @@ test('clips, morph targets and cameras of the file pose the model', async () => 
   await viewer.slide('clip-time', 0.4);
   assert.ok((await viewer.picture()).differs(rest) > 0.01, 'it moved');
   const time = () => viewer.page.inputValue('#clip-time').then(Number);
-  await viewer.page.click('#clip-play');
+  await viewer.press('#clip-play');
   await viewer.page.waitForFunction(() => Math.abs(document.getElementById('clip-time').valueAsNumber - 0.4) > 0.05);
   assert.equal(await viewer.page.getAttribute('#clip-play', 'aria-pressed'), 'true');
-  await viewer.page.click('#clip-play');
+  await viewer.press('#clip-play');
   await viewer.settled();
   const stopped = await time();
   await viewer.page.waitForTimeout(300);

@@ -39,9 +39,9 @@ async function seen(text, sources) {
     await viewer.choose('left', source);
     pictures[`${source}, shaded`] = await viewer.picture();
     await viewer.click('input[value=bitangent]');
-    for (const id of LINES) await viewer.page.click(`#${id}`);
+    for (const id of LINES) await viewer.press(`#${id}`);
     pictures[`${source}, bitangent and lines`] = await viewer.picture();
-    for (const id of LINES) await viewer.page.click(`#${id}`);
+    for (const id of LINES) await viewer.press(`#${id}`);
     await viewer.click('input[value=shaded]');
   }
   if (await viewer.page.isVisible(PLACE)) {

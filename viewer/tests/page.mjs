@@ -47,6 +47,7 @@ export class Viewer {
   /** What the page said that it should not have, and what it asked of others. */
   faults = [];
 
+  /** Opens the page, which shows the whole of models and not their faults, but for addresses with a state of their own. */
   static async open(browser, address, options = {}) {
     const context = await browser.newContext({ viewport: { width: 1000, height: 600 }, reducedMotion: 'reduce', ...options });
     const viewer = new Viewer();
@@ -58,7 +59,7 @@ export class Viewer {
       const url = request.url();
       if (!url.startsWith(new URL(address).origin) && !/^(blob|data):/.test(url)) viewer.faults.push(`a request to ${url}`);
     });
-    await viewer.page.goto(address);
+    await viewer.page.goto(address.includes('#') ? address : `${address}#first-sight=0`);
     await viewer.settled();
     return viewer;
   }
@@ -79,9 +80,21 @@ export class Viewer {
     return this.page.textContent(`#${id}`);
   }
 
+  /** Opens the tab and the folds that something is in. */
+  reveal(selector) {
+    return this.page.$$eval(selector, ([found]) => {
+      for (let around = found; around; around = around.parentElement) {
+        if (around.role === 'tabpanel' && around.hidden) document.getElementById(around.getAttribute('aria-labelledby')).click();
+        if (around.tagName === 'DETAILS' && around !== found.closest('summary')?.parentElement) around.open = true;
+      }
+    });
+  }
+
   /** The findings of the check: code, severity and sentence. */
-  findings() {
-    return this.page.$$eval('#findings li', (items) => items.map((item) => ({ code: item.dataset.code, severity: item.dataset.severity, text: item.innerText })));
+  async findings() {
+    await this.reveal('#findings');
+    await this.page.$eval('#notes', (notes) => (notes.open = true));
+    return this.page.$$eval('#findings > li, #notes-list > li', (items) => items.map((item) => ({ code: item.dataset.code, severity: item.dataset.severity, text: item.innerText })));
   }
 
   /** The findings of the rules for accessible pages. */
@@ -93,6 +106,7 @@ export class Viewer {
   }
 
   async choose(id, source) {
+    await this.reveal(`#${id}`);
     await this.page.selectOption(`#${id}`, source);
     await this.settled();
   }
@@ -108,8 +122,27 @@ export class Viewer {
 
   /** Presses, checks or unchecks something. */
   async click(selector) {
+    await this.reveal(selector);
     await this.page.click(selector);
     await this.settled();
+  }
+
+  /** Presses something, without waiting for what it does. */
+  async press(selector) {
+    await this.reveal(selector);
+    await this.page.click(selector);
+  }
+
+  /** Checks a box. */
+  async tick(selector) {
+    await this.reveal(selector);
+    await this.page.check(selector);
+  }
+
+  /** Chooses an option, without waiting for what it does. */
+  async pick(selector, value) {
+    await this.reveal(selector);
+    await this.page.selectOption(selector, value);
   }
 
   /** The codes of the findings. */
@@ -134,6 +167,7 @@ export class Viewer {
 
   /** What a button gives as a file: its name and bytes. */
   async download(selector) {
+    await this.reveal(selector);
     const [download] = await Promise.all([this.page.waitForEvent('download'), this.page.click(selector)]);
     await this.settled();
     return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
@@ -141,7 +175,7 @@ export class Viewer {
 
   /** The picture, without what lies over it. */
   async picture() {
-    const show = (visibility) => this.page.$$eval('#divider, .caption, .split, #legend, #values', (over, visibility) => over.forEach((one) => (one.style.visibility = visibility)), visibility);
+    const show = (visibility) => this.page.$$eval('#divider, .caption, .split, #legend, #values, #chips, #verdict, #broken', (over, visibility) => over.forEach((one) => (one.style.visibility = visibility)), visibility);
     await show('hidden');
     const shot = await this.page.locator('#view').screenshot();
     await show('');

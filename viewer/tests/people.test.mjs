@@ -65,11 +65,15 @@ test('the rules for accessible pages hold, dark and light', async () => {
   await viewer.click('input[value=shaded]');
 });
 
-test('Tab visits all controls in the order of the page, and focus is visible', async () => {
+const TABS = ['check', 'view', 'pose', 'bake', 'light'];
+
+for (const tab of TABS) test(`${tab}: Tab visits all controls in the order of the page, and focus is visible`, async () => {
+  await viewer.click(`#tab-${tab}`);
   const all = await viewer.page.evaluate(() => {
-    // Tab stops at the selected radio button only.
-    const usable = document.querySelectorAll('button, select, summary, canvas[tabindex], input:not([hidden], [type=radio]:not(:checked))');
-    const visible = [...usable].filter((one) => one.checkVisibility());
+    document.querySelectorAll('[data-order]').forEach((one) => delete one.dataset.order);
+    // Tab stops at the selected radio button and the selected tab only.
+    const usable = document.querySelectorAll('button:not([tabindex="-1"]), select, summary, canvas[tabindex], input:not([hidden], [type=radio]:not(:checked))');
+    const visible = [...usable].filter((one) => one.checkVisibility() && !one.disabled);
     return visible.map((one, at) => (one.dataset.order = String(at)));
   });
   await viewer.page.focus('[data-order="0"]');
@@ -81,6 +85,20 @@ test('Tab visits all controls in the order of the page, and focus is visible', a
     assert.notEqual(outline, 'none', `${order} after ${reached.length}`);
   }
   assert.deepEqual(reached, all);
+  if (tab === 'view') {
+    const surface = await viewer.page.$eval('input[name=paint]:checked', (input) => Number(input.dataset.order));
+    assert.ok(surface <= 10, `the surface is ${surface} Tabs away`);
+  }
+});
+
+test('arrow keys choose tabs', async () => {
+  await viewer.page.focus('#tab-light');
+  for (const [key, tab] of [['ArrowRight', 'check'], ['ArrowLeft', 'light'], ['Home', 'check'], ['ArrowRight', 'view']]) {
+    await viewer.page.keyboard.press(key);
+    assert.equal(await viewer.page.evaluate(() => document.activeElement.id), `tab-${tab}`);
+    assert.equal(await viewer.page.isVisible(`#panel-${tab}`), true);
+  }
+  await viewer.click('#tab-check');
 });
 
 test('sliders have value texts with units', async () => {
@@ -95,7 +113,11 @@ test('sliders have value texts with units', async () => {
 });
 
 test('every control has an accessible name', async () => {
-  const snapshot = await viewer.page.locator('body').ariaSnapshot();
+  let snapshot = '';
+  for (const tab of TABS) {
+    await viewer.click(`#tab-${tab}`);
+    snapshot += await viewer.page.locator('body').ariaSnapshot();
+  }
   for (const line of snapshot.split('\n')) {
     const [, role, name] = /^\s*- (button|checkbox|radio|slider|combobox)\b(?: "(.*?)")?/.exec(line) ?? [];
     if (role) assert.ok(name, `nameless: ${line}`);

@@ -32,7 +32,7 @@ for (const [name, [width, height, isTouched]] of Object.entries(SCREENS)) {
     // Everything that can be shown at once.
     await viewer.page.locator('#findings summary').first().click();
     await viewer.click('#repair');
-    for (const id of ['wireframe', 'layout']) await viewer.page.check(`#${id}`);
+    for (const id of ['wireframe', 'layout']) await viewer.tick(`#${id}`);
     await viewer.page.focus('#view');
     await viewer.page.keyboard.press('Enter');
     assert.ok(await viewer.page.isVisible('#values'));
@@ -76,9 +76,9 @@ async function poses(viewer, width) {
   await viewer.page.keyboard.press('Enter');
   const position = () => viewer.page.$eval('#values-list', (list) => list.innerText);
   const before = await position();
-  await viewer.page.click('#clip-play');
+  await viewer.press('#clip-play');
   await viewer.page.waitForFunction(() => document.getElementById('clip-time').valueAsNumber > 0.1);
-  await viewer.page.click('#clip-play');
+  await viewer.press('#clip-play');
   await viewer.slide('clip-time', 0.5);
   await viewer.page.focus('#view');
   await viewer.page.keyboard.press('Escape');
@@ -107,9 +107,9 @@ async function touches(viewer, view) {
   await drag([0.6 * view.width, middle], [0.9 * view.width, middle]);
   assert.ok((await viewer.picture()).differs(before) > 0.05, 'the model turned');
   // A click, because a tap so soon after a drag may count as its second half.
-  await viewer.page.click('#sheet');
+  await viewer.press('#sheet');
   await viewer.page.waitForSelector('#sheet[aria-expanded=false]');
   const taller = (await viewer.page.locator('#view').boundingBox()).height;
   assert.ok(taller > 1.3 * view.height, `${taller} after ${view.height}`);
-  await viewer.page.click('#sheet');
+  await viewer.press('#sheet');
 }

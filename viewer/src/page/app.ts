@@ -1,7 +1,7 @@
 // The application: opens models, computes tangents, and draws them by the settings.
 
 import type { Finding } from 'darboux/check';
-import { Box3, Matrix3, Sphere, Vector3 } from 'three';
+import { Box3, Matrix3, Vector3 } from 'three';
 
 import { openGltf } from '../files/gltf';
 import { openModel, type Model } from '../files/model';
@@ -23,8 +23,15 @@ import { element, isOn, numberOf } from './elements';
 import { Examination } from './examination';
 import { placeOf } from './findings-panel';
 import { connectKeys, connectLightDrag } from './keyboard';
-import { showLegend } from './legend';
-import { readControls, readView, resetControls, writeLink } from './link';
+import { legendOf, showLegend } from './legend';
+import { captionsOf, showCaptions } from './captions';
+import { recordClip } from './clip';
+import { hideVerdict, showVerdict, swing, worstOf } from './first-sight';
+import { drawLabelled } from './labelled-picture';
+import { showTab, connectTabs } from './tabs';
+import { differenceOf, faultOf, type Fault } from '../surface/fault';
+import { outlineLines } from '../scene/fault-outline';
+import { hasView, readControls, readView, resetControls, writeLink } from './link';
 import { connectSheet, connectSplit } from './layout';
 import { connectLayoutFrame, showLayoutFrame } from './layout-frame';
 import { connectOpening, type FindFiles } from './opening';
@@ -35,12 +42,24 @@ import { clearError, showDone, showError, showProgress } from './status';
 import { connectTheme } from './theme';
 import { ValuesPanel } from './values-panel';
 import type { ShownBake } from '../bake/baker';
-import type { Settings } from '../settings';
+import { isLit, type Settings } from '../settings';
 import { counted } from '../plural';
 import type { Place } from '../surface/places';
 
 /** The most triangles that are searched while the pointer moves over the model. */
 const QUICK_TRIANGLES = 200_000;
+
+/** The most triangles whose worst place is searched when a model opens. */
+const SEARCHED_TRIANGLES = 300_000;
+
+/** The radius around the worst place that is in view, relative to the model's radius. */
+const FIRST_CLOSE_UP = 0.45;
+
+/** The share of a model's triangles from which a fault is everywhere, and has no outline. */
+const MOST_OF_A_MODEL = 0.6;
+
+/** The share of a picture's pixels below which a difference is not seen. */
+const ALIKE = 0.004;
 
 /** The most triangles that are shown only once their tangents are computed. */
 const PREVIEW_TRIANGLES = 200_000;
@@ -64,6 +83,7 @@ export class App {
   private sides: [Side, Side] = [empty(), empty()];
   private readonly examination = new Examination({
     visit: (finding, n) => this.visitFinding(finding, n),
+    checked: (findings) => this.showFirst(findings),
     showRepaired: (file) => this.showRepaired(file),
     attempt: (work) => this.attempt(work),
   });
@@ -82,6 +102,12 @@ export class App {
   private parts: Part[] = [];
   /** Whether the state in the address was applied to the first model. */
   private isLinkRead = false;
+  /** Whether the address says what the open model's first screen is. */
+  private isLinked = false;
+  /** Where the sides of the open model's parts differed when it was opened. */
+  private faults: (Fault | null)[] = [];
+  private outline: ReturnType<typeof outlineLines>[] = [];
+  private comparisons: Comparison[] = [];
   private linkTimer = 0;
   /** Whether the model moved while its surfaces were read. */
   private isMoved = false;
@@ -104,7 +130,11 @@ export class App {
     element('reset').addEventListener('click', () => this.attempt(() => this.reset()));
     connectSplit(() => this.moveSplit());
     connectSheet();
+    connectTabs();
+    element('verdict-close').addEventListener('click', hideVerdict);
     connectLayoutFrame(this.viewport.layoutCamera);
+    element('save-clip').addEventListener('click', () => this.attempt(() => this.saveClip()));
+    element('copy-link').addEventListener('click', () => this.attempt(() => this.copyLink()));
     element('save-picture').addEventListener('click', () => this.attempt(() => this.savePicture()));
     element('save-model').addEventListener('click', () => this.attempt(() => this.saveModel()));
     connectOpening((find) => this.attempt(() => this.open(find)));
@@ -175,6 +205,7 @@ export class App {
   private async open(find: FindFiles): Promise<void> {
     const turn = ++this.opening;
     const isOutdated = () => turn !== this.opening;
+    element('broken').hidden = true;
     try {
       showProgress('Searching for a model', null);
       const { low, high } = await find();
@@ -184,14 +215,18 @@ export class App {
       // Stops the comparison of the model before.
       this.comparing++;
       const isPreviewed = trianglesOf(parts) > PREVIEW_TRIANGLES;
-      if (isPreviewed) await this.preview(parts);
-      else this.viewport.setCoarse(null);
+      const box = parts.reduce((all, part) => all.union(boundsOfCopies(part, part.surface.positions)), new Box3());
+      this.viewport.offerCoarse(() => coarseCopy(parts, box));
+      if (isPreviewed) await this.preview(box);
       await call('open', 'given', parts.map((part) => part.surface));
       if (isOutdated()) return;
       this.setModel(model, parts);
       await this.present(model, isPreviewed, isOutdated, high);
     } catch (error) {
-      if (!isOutdated()) throw error;
+      if (isOutdated()) return;
+      element('broken').textContent = error instanceof Error ? error.message : String(error);
+      element('broken').hidden = false;
+      throw error;
     }
   }
 
@@ -201,6 +236,7 @@ export class App {
       await this.compare();
       if (isOutdated()) return;
       if (!isPreviewed) this.viewport.lookAtAll();
+      this.isLinked = !this.isLinkRead && hasView();
       if (!this.isLinkRead) readView(this.viewport);
       this.isLinkRead = true;
       this.light();
@@ -215,19 +251,19 @@ export class App {
   }
 
   /** Shows a coarse copy of a large model while its tangents are computed. */
-  private async preview(parts: Part[]): Promise<void> {
-    const box = parts.reduce((all, part) => all.union(boundsOfCopies(part, part.surface.positions)), new Box3());
+  private async preview(box: Box3): Promise<void> {
     this.viewport.setBounds(box);
-    this.viewport.setCoarse(coarseCopy(parts, box));
+    this.viewport.showCoarse();
     this.viewport.lookAtAll();
     this.light();
-    for (const [id, text] of [['caption-left', 'Coarse preview'], ['caption-right', '']]) element(id).textContent = text;
+    showCaptions({ sides: ['Coarse preview', ''], mistake: '', chip: '' });
     await nextPicture();
   }
 
   /** Replaces the model. */
   private setModel(model: Model, parts: Part[]): void {
-    [this.model, this.parts] = [model, parts];
+    [this.model, this.parts, this.faults] = [model, parts, []];
+    hideVerdict();
     model.warnings.push(...oddities(parts.map((part) => part.surface)));
     this.viewport.layoutCamera.setWhole(uvSquare(parts));
     this.marker.hide();
@@ -270,9 +306,9 @@ export class App {
       comparisons.push(await call('compare', 'given', at, ownSources(sources, part.surface.tangents !== null)));
       if (turn !== this.comparing) return;
     }
+    this.comparisons = comparisons;
     this.view.setParts(this.parts, comparisons);
     this.viewport.setBounds(this.view.bounds());
-    for (const [at, id] of ['caption-left', 'caption-right'].entries()) element(id).textContent = SOURCE_NAMES[sources[at]];
     this.moveSplit();
     this.build();
     showDone(this.summary());
@@ -297,13 +333,15 @@ export class App {
     this.changed();
     this.viewport.show(this.sides, now.layout);
     showLayoutFrame(now.layout);
-    showLegend(now);
+    showLegend(legendOf(now, this.hasFault()));
+    this.drawOutline(now);
+    showCaptions(captionsOf(now, this.parts));
   }
 
   private sideOf(at: 0 | 1, now: Settings): Side {
     const shown = now.sources[at];
-    // The parts, the pattern and the layout are those of the open model.
-    const own = shown === 'high' ? { ...now, pattern: false, layout: false, hidden: new Set<number>() } : now;
+    // The parts, test bumps and the layout are those of the open model.
+    const own = shown === 'high' ? { ...now, paint: now.paint === 'bumps' ? 'shaded' as const : now.paint, layout: false, hidden: new Set<number>() } : now;
     return this.viewOf(shown).side(at, own, this.viewport.radius, shown === 'baked' ? this.bakedMap : null);
   }
 
@@ -347,9 +385,76 @@ export class App {
     await this.compare();
   }
 
+  /** Shows the worst fault of a model that has just been checked: its place, one sentence, the file and the cure. */
+  private async showFirst(findings: Finding[]): Promise<void> {
+    const worst = worstOf(findings);
+    if (!worst || !isOn('first-sight') || this.isLinked || this.bakePanel.isOpen) return;
+    const isSmall = trianglesOf(this.parts) <= SEARCHED_TRIANGLES;
+    this.faults = isSmall && this.hasTangents() ? this.comparisons.map(faultOf) : [];
+    const isOfTangents = worst.code.startsWith('tangent');
+    const cost = isSmall && worst.leftBecause === null ? await this.examination.costOfRepair() : null;
+    // The cure of other faults is the repaired file: tangents computed again do not show it.
+    if (cost && !isOfTangents) await this.examination.repair();
+    if (isOfTangents && this.hasFault()) this.goToFault();
+    else this.viewport.lookAtAll();
+    this.build();
+    await nextPicture();
+    const alike = isSmall && this.hasTangents() && isOfTangents && this.viewport.visibleDifference() < ALIKE ? differenceOf(this.comparisons) : null;
+    showVerdict(worst, cost, alike, () => this.showAngles());
+    void swing({ split: (percent) => this.setSplit(percent), turnLight: (degrees) => this.viewport.lightFrom(numberOf('light-around') + degrees, numberOf('light-above')) });
+  }
+
+  /** Whether a part of the model is wrong, and not nearly all of it. */
+  private hasFault(): boolean {
+    const sum = (count: (fault: Fault) => number) => this.faults.reduce((sum, fault) => sum + (fault ? count(fault) : 0), 0);
+    const wrong = sum(({ triangles }) => triangles);
+    return wrong > 0 && wrong < MOST_OF_A_MODEL * trianglesOf(this.parts);
+  }
+
+  /** Moves the camera to the place where the sides differ most. */
+  private goToFault(): void {
+    const part = this.faults.reduce((worst, fault, at) => ((fault?.weight ?? 0) > (this.faults[worst]?.weight ?? 0) ? at : worst), 0);
+    const { position, normal, radius } = this.faults[part]!;
+    const [matrix] = placesOf(this.parts[part]);
+    const at = new Vector3(...position).applyMatrix4(matrix);
+    const direction = facing(new Vector3(...normal).applyMatrix3(new Matrix3().getNormalMatrix(matrix))).normalize();
+    // From a little above, where bumps throw longer highlights.
+    direction.y += 0.25;
+    const around = Math.max(FIRST_CLOSE_UP * this.viewport.radius, 1.5 * radius * matrix.getMaxScaleOnAxis());
+    this.viewport.look(at, Math.min(this.viewport.radius, around), direction, true);
+  }
+
+  /** Draws the outline of the fault, unless nearly everything is wrong. */
+  private drawOutline({ outline, hidden, paint }: Settings): void {
+    for (const lines of this.outline) {
+      lines.removeFromParent();
+      lines.geometry.dispose();
+      lines.material.dispose();
+    }
+    const isDrawn = outline && isLit(paint) && this.faults.length === this.parts.length && this.hasFault();
+    const drawn = isDrawn ? this.parts.map((part, at) => ({ part, fault: hidden.has(at) ? null : this.faults[at] })) : [];
+    this.outline = drawn.flatMap(({ part, fault }) => (fault?.outline.length ? [outlineLines(fault.outline, placesOf(part))] : []));
+    for (const lines of this.outline) this.viewport.add(lines);
+    this.viewport.draw();
+  }
+
+  private showAngles(): void {
+    showTab('view');
+    const angle = document.querySelector<HTMLInputElement>('input[name=paint][value=angle]')!;
+    if (angle.disabled) return;
+    angle.checked = true;
+    angle.dispatchEvent(new Event('change', { bubbles: true }));
+  }
+
+  private setSplit(percent: number): void {
+    element<HTMLInputElement>('split').valueAsNumber = percent;
+    this.moveSplit();
+  }
+
   private light(): void {
     this.viewport.lightFrom(numberOf('light-around'), numberOf('light-above'));
-    this.viewport.brightness(numberOf('surroundings'), numberOf('light'));
+    this.viewport.surround(element<HTMLSelectElement>('surroundings-name').value);
+    this.viewport.brightness(numberOf('surroundings'), numberOf('light'), numberOf('exposure'));
   }
 
   /** Moves the camera to the n-th place of a finding, or to its whole part. */
@@ -379,14 +484,48 @@ export class App {
   /** Shows the whole of a part, and marks its box. */
   private visitPart(part: number): number[] {
     const box = this.view.boundsOfPart(part);
-    const { center, radius } = box.getBoundingSphere(new Sphere());
     this.marker.showBox(box);
-    this.viewport.look(center, Math.max(radius, CLOSE_UP * this.viewport.radius), new Vector3(0.35, 0.3, 1), true);
-    return center.toArray();
+    this.viewport.lookAtBox(box, new Vector3(0.35, 0.3, 1), true);
+    return box.getCenter(new Vector3()).toArray();
   }
 
   private async savePicture(): Promise<void> {
-    save(nameLike(this.model?.name ?? 'picture', '.png'), await this.viewport.picture());
+    const picture = this.labelledPicture();
+    const blob = await new Promise<Blob | null>((resolve) => picture.toBlob(resolve, 'image/png'));
+    if (!blob) throw new Error('The browser cannot save a picture of this size; make the window smaller.');
+    save(nameLike(this.model?.name ?? 'picture', '.png'), blob);
+  }
+
+  /** The picture with what says what it shows. */
+  private labelledPicture(): HTMLCanvasElement {
+    const out = document.createElement('canvas');
+    this.drawLabelled(out);
+    return out;
+  }
+
+  private drawLabelled(out: HTMLCanvasElement): void {
+    const now = settings();
+    drawLabelled(out, this.viewport.picture(), captionsOf(now, this.parts), legendOf(now, this.hasFault()), this.viewport.split, devicePixelRatio);
+  }
+
+  private async saveClip(): Promise<void> {
+    const { split } = this.viewport;
+    showProgress('Recording four seconds', null);
+    const clip = await recordClip((percent, canvas) => {
+      this.viewport.split = percent / 100;
+      this.drawLabelled(canvas);
+    }).finally(() => (this.viewport.split = split));
+    this.moveSplit();
+    save(nameLike(this.model?.name ?? 'clip', clip.type.includes('mp4') ? '.mp4' : '.webm'), clip);
+    showDone(this.summary());
+  }
+
+  private async copyLink(): Promise<void> {
+    writeLink(this.viewport);
+    await navigator.clipboard.writeText(location.href).catch(() => {
+      throw new Error("The browser does not let the page copy; copy the page's address instead.");
+    });
+    showDone('The link is copied. It carries what is shown, not the model.');
   }
 
   private async saveModel(): Promise<void> {

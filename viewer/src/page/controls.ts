@@ -1,12 +1,14 @@
 // The controls of the page: fills them, reads them, and reports changes.
 
+import { ENVIRONMENTS } from '../scene/studio';
 import { isOtherModel, SOURCES, SOURCE_NAMES, type Shown } from '../surface/sources';
 import { hiddenParts } from './parts-list';
 import { element, isOn, numberOf } from './elements';
-import { PAINTS, VECTORS, type Paint, type Settings } from '../settings';
+import { PAINTS, VECTORS, type Mistakes, type Paint, type Settings } from '../settings';
 
 const PAINT_NAMES: Record<Paint, string> = {
   shaded: 'Shaded',
+  bumps: 'Test bumps',
   tangent: 'Tangent',
   bitangent: 'Bitangent',
   normal: 'Normal',
@@ -21,6 +23,15 @@ const LATER = ['repaired', 'high', 'baked'] as const;
 const SHOWN: Shown[] = [...SOURCES, ...LATER];
 
 const MISTAKES = ['green', 'w', 'v'] as const;
+
+/** The name of each mistake in captions. */
+const MISTAKE_NAMES: Record<keyof Mistakes, string> = { green: 'green flipped', w: 'w flipped', v: 'V flipped' };
+
+/** The mistakes that are made on the right, for its caption; empty without one. */
+export function mistakeCaption(mistakes: Mistakes): string {
+  const made = MISTAKES.filter((name) => mistakes[name]).map((name) => MISTAKE_NAMES[name]);
+  return made.length ? `mistake: ${made.join(', ')}` : '';
+}
 
 /** The description of each mistake. */
 const MISTAKE_TEXTS: Record<(typeof MISTAKES)[number], string> = {
@@ -49,7 +60,7 @@ export function connectControls(changes: Changes): void {
   }
   element('paints').append(...PAINTS.map(paintButton));
   element('paints').addEventListener('change', changes.look);
-  for (const id of [...VECTORS.map((name) => `lines-${name}`), 'seams', 'wireframe', 'layout', 'pattern']) {
+  for (const id of [...VECTORS.map((name) => `lines-${name}`), 'seams', 'outline', 'wireframe', 'layout']) {
     element(id).addEventListener('change', changes.look);
   }
   element('length').addEventListener('input', changes.look);
@@ -67,7 +78,8 @@ export function connectControls(changes: Changes): void {
     input.addEventListener('input', update);
     update();
   }
-  for (const id of ['light-around', 'light-above', 'light', 'surroundings']) element(id).addEventListener('input', changes.light);
+  for (const id of ['light-around', 'light-above', 'light', 'exposure', 'surroundings', 'surroundings-name']) element(id).addEventListener('input', changes.light);
+  element('surroundings-name').append(...ENVIRONMENTS.map(({ name }, at) => new Option(name, name, at === 0)));
 }
 
 function paintButton(paint: Paint): HTMLElement {
@@ -136,10 +148,10 @@ export function settings(): Settings {
     vectors: { tangent: isOn('lines-tangent'), bitangent: isOn('lines-bitangent'), normal: isOn('lines-normal') },
     length: numberOf('length') / 100,
     seams: isOn('seams'),
+    outline: isOn('outline'),
     wireframe: isOn('wireframe'),
     hidden: hiddenParts(),
     layout: isOn('layout'),
-    pattern: isOn('pattern'),
     mistakes: { green: isPressed('green'), w: isPressed('w'), v: isPressed('v') },
   };
 }

@@ -9,22 +9,31 @@ import type { Model } from '../files/model';
 import { nameLike, save } from './download';
 import { element } from './elements';
 import { setBusy, showChecking, showCheckFailed, showFindings, type Visit } from './findings-panel';
+import { verticesIn, type Cost } from './first-sight';
 import { connectMaps, showMaps, visitMap, type ShownMap } from './map-panel';
 
 /** What the application does for an examination. */
 export interface Host {
   /** Leads to a place of a finding on a mesh. */
   visit: Visit;
+  /** Shows the worst of the findings of the check. */
+  checked(findings: Finding[]): Promise<void>;
   /** Shows the repaired file beside the open one. */
   showRepaired(file: Uint8Array<ArrayBuffer>): Promise<void>;
   /** Runs a task, and shows its error. */
   attempt(work: () => Promise<void>): Promise<void>;
 }
 
+interface Repaired {
+  file: Uint8Array<ArrayBuffer> | null;
+  findings: Finding[];
+}
+
 export class Examination {
   private model: Model | null = null;
   private maps: ShownMap[] = [];
   private repaired: Uint8Array<ArrayBuffer> | null = null;
+  private readonly repairs = new WeakMap<Model, Promise<Repaired>>();
 
   constructor(private readonly host: Host) {
     connectMaps();
@@ -53,6 +62,8 @@ export class Examination {
       const findings = await checker('check', file);
       if (this.model !== model) return;
       showFindings(findings, this.visit);
+      await this.host.checked(findings);
+      if (this.model !== model) return;
       const maps = await checker('judgeMaps', file);
       if (this.model !== model) return;
       this.maps = maps.map((map) => ({ ...map, isRepaired: false }));
@@ -63,12 +74,28 @@ export class Examination {
     }
   }
 
+  /** What a repair of the open model adds to its file; null where nothing is repaired or another model is open. */
+  async costOfRepair(): Promise<Cost | null> {
+    const { model } = this;
+    if (!model) return null;
+    const before = await documentOf(model);
+    const { file } = await this.repairOnce(model);
+    return file && { vertices: verticesIn(file) - verticesIn(before), bytes: file.byteLength - before.byteLength };
+  }
+
+  /** The repaired file and what became of the findings, computed once for a model. */
+  private async repairOnce(model: Model): Promise<Repaired> {
+    const found = this.repairs.get(model) ?? documentOf(model).then((file) => checker('repair', file));
+    this.repairs.set(model, found);
+    return found;
+  }
+
   /** Repairs the model and shows what became of each finding. */
-  private async repair(): Promise<void> {
+  async repair(): Promise<void> {
     const model = this.model!;
     setBusy(true);
     try {
-      const { file, findings } = await checker('repair', await documentOf(model));
+      const { file, findings } = await this.repairOnce(model);
       if (this.model !== model) return;
       if (file) await this.show(file, findings);
       showFindings(findings, this.visit);

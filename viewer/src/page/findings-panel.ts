@@ -1,4 +1,4 @@
-// The list of findings: what is wrong with the model, what it looks like, the cure, and the evidence on demand.
+// The findings, one card per problem with all parts that have it: what is wrong, what it looks like, the cure, and the evidence on demand. Notes are folded.
 
 import type { Finding } from 'darboux/check';
 
@@ -26,15 +26,25 @@ export function setBusy(isBusy: boolean): void {
 /** Clears the list and says that the check runs. */
 export function showChecking(): void {
   element('findings').replaceChildren();
+  element('notes').hidden = true;
   setBusy(true);
   element('findings-summary').textContent = 'Checking the model and its normal maps …';
   for (const id of ['repair', 'make-normals', 'save-repaired']) element(id).hidden = true;
 }
 
-/** Lists findings, the worst first. */
+/** The parts of a card that are shown at once. */
+const SHOWN_PARTS = 6;
+
+/** Lists findings, the worst problem first. */
 export function showFindings(findings: Finding[], visit: Visit): void {
   const sorted = [...findings].sort((a, b) => SEVERITIES.indexOf(a.severity) - SEVERITIES.indexOf(b.severity));
-  element('findings').replaceChildren(...sorted.map((finding) => row(finding, visit)));
+  const problems = Map.groupBy(sorted, ({ code, severity }) => `${severity} ${code}`);
+  const cards = [...problems.values()].map((same) => ({ isNote: ['info', 'not-checked'].includes(same[0].severity), card: card(same, visit) }));
+  const of = (isNote: boolean) => cards.filter((one) => one.isNote === isNote).map(({ card }) => card);
+  element('findings').replaceChildren(...of(false));
+  element('notes-list').replaceChildren(...of(true));
+  element('notes').hidden = !of(true).length;
+  element('notes-title').textContent = counted(of(true).length, 'note', 'notes');
   element('findings-summary').textContent = summary(findings);
   const repairable = findings.filter(isRepairable).length;
   const isDone = findings.some(({ repaired }) => repaired !== undefined);
@@ -58,24 +68,46 @@ function summary(findings: Finding[]): string {
   return repaired ? `${said.join(', ')}; ${repaired} of them repaired.` : `${said.join(', ')}.`;
 }
 
-function row(finding: Finding, visit: Visit): HTMLElement {
+/** The card of one problem. `findings`: the same problem on several parts, at least one. */
+function card(findings: Finding[], visit: Visit): HTMLElement {
+  const [first, ...others] = findings;
   const item = document.createElement('li');
-  item.dataset.code = finding.code;
-  item.dataset.severity = finding.severity;
-  const head = document.createElement('button');
-  head.type = 'button';
-  head.className = 'finding';
-  const severity = text('strong', SEVERITY_NAMES[finding.severity], 'severity');
-  severity.prepend(severityIcon(finding.severity));
-  head.append(severity, text('span', `${placeOf(finding)}: ${finding.text}.`));
+  item.dataset.code = first.code;
+  item.dataset.severity = first.severity;
+  const severity = text('strong', SEVERITY_NAMES[first.severity], 'severity');
+  severity.prepend(severityIcon(first.severity));
+  const sentence = `${placeOf(first)}: ${first.text}`;
+  const more = others.length ? ` The same on ${counted(others.length, 'other part', 'other parts')}, below.` : '';
+  const head = visiting(first, visit, [severity, text('span', `${sentence}.${more}`)]);
+  item.append(head, ...became(first), paragraph('Looks like', first.looksLike), paragraph('Cure', first.cure), evidence(first));
+  const rows = others.map((finding) => {
+    const row = document.createElement('div');
+    row.className = 'part';
+    row.append(visiting(finding, visit, [text('span', `${placeOf(finding)}: ${finding.text}.`)]), ...became(finding), evidence(finding));
+    return row;
+  });
+  item.append(...rows.slice(0, SHOWN_PARTS));
+  if (rows.length > SHOWN_PARTS) {
+    const rest = document.createElement('details');
+    rest.append(text('summary', `${rows.length - SHOWN_PARTS} more`), ...rows.slice(SHOWN_PARTS));
+    item.append(rest);
+  }
+  return item;
+}
+
+/** A button that leads to the places of a finding, one after the other. */
+function visiting(finding: Finding, visit: Visit, content: HTMLElement[]): HTMLElement {
+  const button = document.createElement('button');
+  button.type = 'button';
+  button.className = 'finding';
+  button.append(...content);
   let next = 0;
-  head.addEventListener('click', async () => {
+  button.addEventListener('click', async () => {
     const { text, count } = await visit(finding, next);
     next = (next + 1) % Math.max(count, 1);
     element('status').textContent = text;
   });
-  item.append(head, ...became(finding), paragraph('Looks like', finding.looksLike), paragraph('Cure', finding.cure), evidence(finding));
-  return item;
+  return button;
 }
 
 /** What the repair did. */

@@ -2,12 +2,17 @@
 
 import type { Viewport } from '../scene/viewport';
 import { element } from './elements';
+import { hiddenParts, hideParts } from './parts-list';
+import { showTab, shownTab } from './tabs';
 
 /** The controls whose values a link carries. */
-const CONTROLS = ['left', 'right', 'split', 'lines-tangent', 'lines-bitangent', 'lines-normal', 'seams', 'layout', 'wireframe', 'length', 'light-around', 'light-above', 'light', 'surroundings', 'pattern', 'bake-rays', 'bake-distance', 'bake-inwards', 'bake-size', 'bake-samples', 'bake-back-faces', 'bake-misses'];
+const CONTROLS = ['left', 'right', 'split', 'first-sight', 'outline', 'lines-tangent', 'lines-bitangent', 'lines-normal', 'seams', 'layout', 'wireframe', 'length', 'light-around', 'light-above', 'light', 'exposure', 'surroundings-name', 'surroundings', 'bake-rays', 'bake-distance', 'bake-inwards', 'bake-size', 'bake-samples', 'bake-back-faces', 'bake-misses'];
 
 /** A choice that depends on the model, which a link does not carry. */
 const OF_MODEL = 'bake-material';
+
+/** A choice of the person, which stays. */
+const PREFERENCE = 'first-sight';
 
 /** The buttons whose state a link carries. */
 const BUTTONS = ['flip-green', 'flip-w', 'flip-v'];
@@ -23,6 +28,9 @@ export function writeLink(viewport: Viewport): void {
   for (const id of BUTTONS) if (element(id).ariaPressed === 'true') state.set(id, '1');
   const paint = document.querySelector<HTMLInputElement>('input[name=paint]:checked')!.value;
   if (paint !== 'shaded') state.set('paint', paint);
+  if (shownTab() !== 'check') state.set('tab', shownTab());
+  const hidden = [...hiddenParts()];
+  if (hidden.length) state.set('hidden', hidden.join(','));
   state.set('view', viewport.view().map((x) => Number(x.toPrecision(5))).join(','));
   history.replaceState(null, '', `#${state}`);
 }
@@ -38,8 +46,15 @@ export function readControls(): void {
     if (control.type === 'range') control.dispatchEvent(new Event('input', { bubbles: true }));
   }
   for (const id of BUTTONS) if (state.has(id) && element(id).ariaPressed !== 'true') element(id).click();
+  showTab(state.get('tab') ?? '');
+  hideParts((state.get('hidden') ?? '').split(',').filter(Boolean).map(Number));
   const paint = state.get('paint');
   for (const input of document.querySelectorAll<HTMLInputElement>('input[name=paint]')) if (input.value === paint) input.checked = true;
+}
+
+/** Whether the address says where the camera is. */
+export function hasView(): boolean {
+  return new URLSearchParams(location.hash.slice(1)).has('view');
 }
 
 /** Moves the camera by the address, if it has one. */
@@ -50,7 +65,7 @@ export function readView(viewport: Viewport): void {
 
 /** Sets the controls back to what they were when the page opened, except the sources of tangents. */
 export function resetControls(): void {
-  for (const id of [...CONTROLS, OF_MODEL]) {
+  for (const id of [...CONTROLS, OF_MODEL].filter((id) => id !== PREFERENCE)) {
     const control = element<HTMLInputElement>(id);
     if (control.type === 'checkbox') control.checked = control.defaultChecked;
     else if (defaultOf(control) !== undefined) {

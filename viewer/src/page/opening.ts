@@ -22,9 +22,16 @@ export function connectOpening(open: (find: FindFiles) => void): void {
       if (bundle.size) open(async () => pairOf(bundle));
     });
   }
-  document.addEventListener('dragover', (event) => event.preventDefault());
+  const showTarget = (isShown: boolean) => (element('drop-target').hidden = !isShown);
+  document.addEventListener('dragover', (event) => {
+    event.preventDefault();
+    showTarget(true);
+  });
+  // Without a related target, the pointer left the page.
+  document.addEventListener('dragleave', (event) => event.relatedTarget === null && showTarget(false));
   document.addEventListener('drop', (event) => {
     event.preventDefault();
+    showTarget(false);
     const bundle = event.dataTransfer && fromDrop(event.dataTransfer);
     if (bundle) open(async () => pairOf(await bundle));
   });

@@ -17,6 +17,11 @@ export function hiddenParts(): Set<number> {
   return new Set([...boxes].map((box) => Number(box.value)));
 }
 
+/** Hides parts by their numbers. Numbers of parts that do not exist are ignored. */
+export function hideParts(numbers: number[]): void {
+  for (const box of element('parts-list').querySelectorAll<HTMLInputElement>('input')) if (numbers.includes(Number(box.value))) box.checked = false;
+}
+
 function tick(name: string, at: number, changed: () => void): HTMLElement {
   const label = document.createElement('label');
   label.className = 'tick';

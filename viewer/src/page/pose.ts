@@ -19,6 +19,7 @@ export function offerPoses({ scene, animations, cameras }: Model, host: PoseHost
   const mixer = new AnimationMixer(scene);
   const [clip, time] = [element<HTMLSelectElement>('clip'), element<HTMLInputElement>('clip-time')];
   element('pose').hidden = !animations.length && !morphs.length && !cameras.length;
+  element('no-pose').hidden = !element('pose').hidden;
   element('clips').hidden = !animations.length;
   clip.replaceChildren(new Option('As in the file', ''), ...animations.map(({ name }, at) => new Option(name || `Clip ${at}`, String(at))));
   const chosen = () => animations[clip.value === '' ? -1 : Number(clip.value)];
@@ -46,7 +47,7 @@ export function offerPoses({ scene, animations, cameras }: Model, host: PoseHost
   play.onclick = () => (playing ? stop() : start(() => chosen().duration, pose));
   time.value = '0';
   time.disabled = play.disabled = true;
-  element('morphs').replaceChildren(...morphs.map((morph) => slider(morph, () => void host.posed())));
+  offerMorphs(morphs, host);
   offerCameras(cameras, host);
 }
 
@@ -102,6 +103,27 @@ function morphsOf(scene: Object3D): Morph[] {
     }
   });
   return [...found.values()];
+}
+
+/** Lists the morph targets, with a search and a button that sets all back. */
+function offerMorphs(morphs: Morph[], host: PoseHost): void {
+  const stored = morphs.map(({ meshes }) => meshes[0].mesh.morphTargetInfluences![meshes[0].target]);
+  const labels = morphs.map((morph) => slider(morph, () => void host.posed()));
+  element('morphs').replaceChildren(...labels);
+  element('morph-controls').hidden = !morphs.length;
+  const search = element<HTMLInputElement>('morph-search');
+  search.value = '';
+  search.oninput = () => {
+    const wanted = search.value.trim().toLowerCase();
+    morphs.forEach(({ name }, at) => (labels[at].hidden = !name.toLowerCase().includes(wanted)));
+  };
+  element('morph-reset').onclick = () => {
+    morphs.forEach(({ meshes }, at) => {
+      for (const { mesh, target } of meshes) mesh.morphTargetInfluences![target] = stored[at];
+      labels[at].querySelector('input')!.valueAsNumber = stored[at];
+    });
+    void host.posed();
+  };
 }
 
 function slider({ name, meshes }: Morph, changed: () => void): HTMLElement {

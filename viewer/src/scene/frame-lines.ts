@@ -4,6 +4,12 @@ import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Matri
 
 import type { VectorName } from '../settings';
 
+/** Lines of n dashes, so that vectors are told apart without their colours. */
+export const VECTOR_DASHES: Record<VectorName, number> = { tangent: 1, bitangent: 3, normal: 2 };
+
+/** The part of a dash's length that is drawn. */
+const DRAWN = 0.6;
+
 /** The usual colours of axes. */
 export const VECTOR_COLORS: Record<VectorName, string> = { tangent: '#ff4d4d', bitangent: '#4dd24d', normal: '#5c8cff' };
 
@@ -27,13 +33,17 @@ export function vectorLines(vertices: LineVertices, name: VectorName, length: nu
   const { positions, places } = vertices;
   const count = positions.length / 3;
   const step = Math.ceil((count * places.length) / MAX_LINES);
-  const out = new Float32Array(Math.ceil((count * places.length) / step) * 6);
-  const [from, along, directions] = [new Vector3(), new Vector3(), new Matrix3()];
-  for (let line = 0, at = 0; line < count * places.length; line += step, at += 6) {
+  const dashes = VECTOR_DASHES[name];
+  const out = new Float32Array(Math.ceil((count * places.length) / step) * 6 * dashes);
+  const [from, along, directions, end] = [new Vector3(), new Vector3(), new Matrix3(), new Vector3()];
+  for (let line = 0, at = 0; line < count * places.length; line += step) {
     const [vertex, place] = [line % count, places[Math.floor(line / count)]];
-    from.fromArray(positions, vertex * 3).applyMatrix4(place).toArray(out, at);
+    from.fromArray(positions, vertex * 3).applyMatrix4(place);
     direction(vertices, name, vertex, along).applyMatrix3(directions.setFromMatrix4(place)).setLength(length);
-    from.add(along).toArray(out, at + 3);
+    for (let dash = 0; dash < dashes; dash++, at += 6) {
+      end.copy(from).addScaledVector(along, dash / dashes).toArray(out, at);
+      end.copy(from).addScaledVector(along, (dash + (dashes > 1 ? DRAWN : 1)) / dashes).toArray(out, at + 3);
+    }
   }
   return segments(out, VECTOR_COLORS[name]);
 }

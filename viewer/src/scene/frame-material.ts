@@ -11,7 +11,7 @@ export const SCALE = { ends: [0.01, 180], ticks: [0.01, 0.1, 1, 10, 180] } as co
 export const RAMP = ['#440154', '#472c7a', '#3b518b', '#2c718e', '#21908d', '#27ad81', '#5cc863', '#aadc32', '#fde725'] as const;
 
 /** The colours of values that are not on the scale. */
-export const COLORS = { plus: '#3d8bd9', minus: '#e8873a', flipped: '#e62828', none: '#000000' } as const;
+export const COLORS = { plus: '#3d8bd9', minus: '#e8873a', flipped: '#e62828', stripe: '#ffffff', none: '#000000' } as const;
 
 const VERTEX = /* glsl */ `
 attribute vec4 frame;
@@ -64,7 +64,8 @@ const vec3 RAMP[${RAMP.length}] = vec3[${RAMP.length}](${RAMP.map(color).join(',
 vec3 heat(float degrees) {
   if (degrees < -0.5) return ${color(COLORS.none)};
   // FLIPPED and NO_ANGLE are no angles.
-  if (degrees > 180.5) return ${color(COLORS.flipped)};
+  // Stripes tell opposite signs from angles without the hue.
+  if (degrees > 180.5) return mod(gl_FragCoord.x + gl_FragCoord.y, 8.0) < 3.0 ? ${color(COLORS.stripe)} : ${color(COLORS.flipped)};
   float least = log(float(${SCALE.ends[0]}));
   float most = log(float(${SCALE.ends[1]}.0));
   float at = clamp((log(max(degrees, 1e-6)) - least) / (most - least), 0.0, 1.0) * float(${RAMP.length - 1});
@@ -80,11 +81,11 @@ vec3 direction(vec3 v) {
 
 void main() {
   vec3 color = vec3(0.6);
-  if (paint == 1) color = direction(vTangent);
-  if (paint == 2) color = direction(cross(vNormal, vTangent) * vSign);
-  if (paint == 3) color = direction(vNormal);
-  if (paint == 4) color = vSign > 0.0 ? ${color(COLORS.plus)} : vSign < 0.0 ? ${color(COLORS.minus)} : ${color(COLORS.none)};
-  if (paint == 5) color = heat(vAngle);
+  if (paint == ${PAINTS.indexOf('tangent')}) color = direction(vTangent);
+  if (paint == ${PAINTS.indexOf('bitangent')}) color = direction(cross(vNormal, vTangent) * vSign);
+  if (paint == ${PAINTS.indexOf('normal')}) color = direction(vNormal);
+  if (paint == ${PAINTS.indexOf('sign')}) color = vSign > 0.0 ? ${color(COLORS.plus)} : vSign < 0.0 ? ${color(COLORS.minus)} : ${color(COLORS.none)};
+  if (paint == ${PAINTS.indexOf('angle')}) color = heat(vAngle);
   #ifdef LAYOUT
     #ifdef EDGES
       gl_FragColor = vec4(0.06, 0.07, 0.09, 0.7);

@@ -2,7 +2,7 @@
 
 import { Box3, BufferAttribute, Group, InstancedMesh, type Intersection, LineSegments, Mesh, MeshBasicMaterial, PlaneGeometry, Sphere, SRGBColorSpace, type BufferGeometry, type Material, type Texture, Vector3 } from 'three';
 
-import type { Mistakes, Settings } from '../settings';
+import { isLit, type Mistakes, type Settings } from '../settings';
 import { cornerAngles, NO_ANGLE } from '../surface/angles';
 import type { Comparison } from '../surface/comparison';
 import type { BakedMap } from './baked-map';
@@ -104,10 +104,10 @@ export class ModelView {
       const { part } = compared;
       const hasTangents = isVertexData(compared, settings, at);
       const geometry = geometriesOf(compared, settings)[at];
-      const isShaded = settings.paint === 'shaded';
+      const isShaded = isLit(settings.paint);
       const map = baked?.covers(part) ? baked : null;
       for (const copy of part.copies) {
-        const material = isShaded ? sideMaterial(part, hasTangents, settings.pattern, mistakes, map) : frameMaterial(settings.paint, copy.place, false);
+        const material = isShaded ? sideMaterial(part, hasTangents, settings.paint === 'bumps', mistakes, map) : frameMaterial(settings.paint, copy.place, false);
         const mesh = placedMesh(copy, geometry, material);
         mesh.userData.part = number;
         side.model.add(mesh);

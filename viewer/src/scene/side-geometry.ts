@@ -1,6 +1,6 @@
 // The geometry and material of a part on one side of the slider, with the tangents of one source.
 
-import { BufferAttribute, BufferGeometry, type MeshStandardMaterial } from 'three';
+import { BufferAttribute, BufferGeometry, MeshPhysicalMaterial, type MeshStandardMaterial } from 'three';
 
 import type { Mistakes } from '../settings';
 import { NO_ANGLE } from '../surface/angles';
@@ -8,7 +8,7 @@ import type { Comparison } from '../surface/comparison';
 import { floatsOf } from './attribute-floats';
 import type { BakedMap } from './baked-map';
 import type { Part } from './model-parts';
-import { withPattern } from './dome-pattern';
+import { withBumps } from './test-bumps';
 
 /** The attributes that both sides share, by name. */
 export type SharedAttributes = Map<string, BufferAttribute>;
@@ -67,16 +67,21 @@ function withComponent(attribute: BufferAttribute, component: number, change: (x
   return copy;
 }
 
-/** Makes the material. `baked`: the map in place of the file's own, or null. */
-export function sideMaterial(part: Part, hasTangents: boolean, hasPattern: boolean, mistakes: Mistakes, baked: BakedMap | null): MeshStandardMaterial {
+/** Whether test bumps may stand for a part's missing normal map. They would hide the highlights of anisotropic materials, which show the tangents better. */
+export function takesBumps({ material }: Part): boolean {
+  return !material.normalMap && !(material instanceof MeshPhysicalMaterial && material.anisotropy > 0);
+}
+
+/** Makes the material. `hasBumps`: whether test bumps stand for a missing normal map; `baked`: the map in place of the file's own, or null. */
+export function sideMaterial(part: Part, hasTangents: boolean, hasBumps: boolean, mistakes: Mistakes, baked: BakedMap | null): MeshStandardMaterial {
   const material = part.material.clone();
   const { vDown } = part.surface;
-  const isPattern = !material.normalMap && hasPattern && !baked;
-  if (isPattern) withPattern(material, vDown);
+  const isBumpy = hasBumps && takesBumps(part) && !baked;
+  if (isBumpy) withBumps(material, vDown);
   baked?.applyTo(material, part);
   // Without tangents, three.js takes green along the derivative by v. In glTF v points down, so green has to be negated.
   const isNegated = vDown && !hasTangents;
-  const wasNegated = part.isGreenNegated && !isPattern && !baked;
+  const wasNegated = part.isGreenNegated && !isBumpy && !baked;
   if (isNegated !== wasNegated) material.normalScale.y *= -1;
   if (mistakes.green) material.normalScale.y *= -1;
   material.polygonOffset = true;

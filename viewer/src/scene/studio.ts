@@ -1,4 +1,4 @@
-// The environment: a studio of soft lamps, already filtered for every roughness.
+// The environment: a studio, or another room, of soft lamps, already filtered for every roughness.
 //
 // three.js would filter a scene on the GPU, which takes seconds without a graphics card. A lamp is a spherical Gaussian a exp(s (cos - 1)), and so,
 // nearly, is the lobe of a rough surface that is seen from straight above, so that their convolution is a Gaussian, too, of the sharpness
@@ -6,6 +6,8 @@
 // t = 1 / (2 roughness^4) for a microfacet lobe).
 
 import { CubeTexture, DataTexture, DataUtils, HalfFloatType, LinearFilter, LinearMipmapLinearFilter, RGBAFormat, Vector3 } from 'three';
+
+import description from '../../../crates/darboux-render/src/studio.json';
 
 /** The side of the sharpest level in texels. Each level has half the side of the one before. */
 const SIDE = 64;
@@ -17,33 +19,30 @@ const LEVELS = 5;
 const COSINE_SHARPNESS = 1.6;
 
 interface Lamp {
-  /** The direction to the lamp. y points up. */
+  /** The unit direction to the lamp. y points up. */
   towards: Vector3;
   radiance: number;
   sharpness: number;
 }
 
-const lamp = (x: number, y: number, z: number, radiance: number, sharpness: number): Lamp => ({ towards: new Vector3(x, y, z).normalize(), radiance, sharpness });
+/** The lamps of an environment and the radiance from everywhere. `darboux render` has the first one, too. */
+interface Environment {
+  name: string;
+  lamps: Lamp[];
+  room: number;
+}
 
-/**
- * A large lamp above, one in front, two beside, one behind and a weak one below, and the light of the room. With the directional light a white matt surface
- * stays below white, so that its shading is seen.
- */
-const LAMPS = [
-  lamp(0.2, 1, 0.3, 0.9, 6),
-  lamp(-0.3, 0.6, 1, 3, 60),
-  lamp(-1, 0.35, 0.5, 4, 60),
-  lamp(1, 0.2, 0.2, 3, 60),
-  lamp(0.1, 0.3, -1, 0.8, 12),
-  lamp(0, -1, 0, 0.08, 2),
-];
-const ROOM = 0.1;
+export const ENVIRONMENTS: Environment[] = description.environments.map((environment) => ({
+  ...environment,
+  lamps: environment.lamps.map((lamp) => ({ ...lamp, towards: new Vector3(...lamp.towards).normalize() })),
+}));
 
-/** Makes the environment in the form that three.js calls PMREM. */
-export function studio(): CubeTexture {
+/** Makes an environment in the form that three.js calls PMREM. */
+export function studio(name: string): CubeTexture {
+  const environment = ENVIRONMENTS.find((other) => other.name === name) ?? ENVIRONMENTS[0];
   const faces = Array.from({ length: LEVELS + 1 }, (_, level) => level).map((level) => {
     const of = Math.min(level, LEVELS - 1) / (LEVELS - 1);
-    return filtered(SIDE >> level, 1 - Math.sqrt(1 - of));
+    return filtered(environment, SIDE >> level, 1 - Math.sqrt(1 - of));
   });
   const cubes = faces.map((images) => new CubeTexture(images));
   const out = cubes[0];
@@ -56,9 +55,9 @@ export function studio(): CubeTexture {
 }
 
 /** The six faces of a level. */
-function filtered(side: number, roughness: number): DataTexture[] {
+function filtered({ lamps: all, room }: Environment, side: number, roughness: number): DataTexture[] {
   const sharpness = Math.min(1e4, 0.5 / roughness ** 4) + COSINE_SHARPNESS;
-  const lamps = LAMPS.map((own) => {
+  const lamps = all.map((own) => {
     const joint = (own.sharpness * sharpness) / (own.sharpness + sharpness);
     return { ...own, sharpness: joint, radiance: (own.radiance * integral(own.sharpness)) / integral(joint) };
   });
@@ -68,7 +67,7 @@ function filtered(side: number, roughness: number): DataTexture[] {
     for (let texel = 0; texel < side * side; texel++) {
       const [u, v] = [texel % side, Math.floor(texel / side)].map((at) => (2 * at + 1) / side - 1);
       towards(face, u, v, direction);
-      const radiance = lamps.reduce((sum, own) => sum + own.radiance * Math.exp(own.sharpness * (own.towards.dot(direction) - 1)), ROOM);
+      const radiance = lamps.reduce((sum, own) => sum + own.radiance * Math.exp(own.sharpness * (own.towards.dot(direction) - 1)), room);
       data.fill(DataUtils.toHalfFloat(radiance), texel * 4, texel * 4 + 4);
     }
     return new DataTexture(data, side, side, RGBAFormat, HalfFloatType);

@@ -1,7 +1,7 @@
 // The viewport: camera, light, environment, and drawing, once for each side of the slider.
 
 import {
-  type Box3,
+  Box3,
   type Camera,
   Color,
   DirectionalLight,
@@ -21,12 +21,16 @@ import {
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 import { fly, type View } from './camera-flight';
+import { framing } from './framing';
 import { LayoutCamera } from './layout-camera';
 import type { Side } from './model-view';
-import { studio } from './studio';
+import { ENVIRONMENTS, studio } from './studio';
 
 /** The vertical field of view in degrees. */
 const FIELD_OF_VIEW = 35;
+
+/** Where the camera is at first: in front, slightly right of the middle and above. */
+const HOME = new Vector3(0.35, 0.3, 1);
 
 /** The side of the UV layout, relative to the shorter side of the picture; page.css places its frame likewise. */
 const LAYOUT_SIZE = 0.5;
@@ -37,6 +41,15 @@ const LAYOUT_BOTTOM = 36;
 
 /** The time in milliseconds without a move after which the camera rests. */
 const REST = 250;
+
+/** A picture that takes longer than this, in milliseconds, is too slow for a moving camera. */
+const SLOW = 45;
+
+/** The size of the pictures that are compared for whether both sides look alike. */
+const COMPARED = [240, 150] as const;
+
+/** The difference of a channel, of 255, that is seen. */
+const SEEN = 14;
 
 /** What lies under a place of the picture. */
 export interface Picked {
@@ -60,6 +73,14 @@ export class Viewport {
   private sides: Side[] = [];
   private hasLayout = false;
   private coarse: Mesh | null = null;
+  private makeCoarse: (() => Mesh) | null = null;
+  /** Whether the last picture of both sides took too long for a moving camera. */
+  private isSlow = false;
+  private isMeasured = false;
+  /** Whether the sides were drawn once, so that their shaders are compiled. */
+  private isWarm = false;
+  private readonly box = new Box3();
+  private environment = '';
   /** Whether the sides are those of the model, and not of the one before it. */
   private hasSides = true;
   private isMoving = false;
@@ -76,7 +97,7 @@ export class Viewport {
     this.controls.addEventListener('change', () => this.moved());
     this.controls.addEventListener('start', () => this.stopFlight());
     this.scene.add(this.light, this.light.target);
-    this.scene.environment = studio();
+    this.surround(ENVIRONMENTS[0].name);
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
@@ -85,19 +106,31 @@ export class Viewport {
     return this.sphere.radius;
   }
 
-  /** Sets the coarse copy of a large model, or null. It is shown until there are sides, and while the camera moves. */
-  setCoarse(copy: Mesh | null): void {
+  /** Takes a function that makes the coarse copy of a model. The copy is shown while the camera moves, if pictures of the model take long. */
+  offerCoarse(make: (() => Mesh) | null): void {
     this.coarse?.removeFromParent();
     this.coarse?.geometry.dispose();
-    this.coarse = copy;
-    if (copy) this.scene.add(copy);
-    this.hasSides = !copy;
+    [this.coarse, this.makeCoarse, this.isSlow] = [null, make, false];
+    this.hasSides = true;
+  }
+
+  /** Shows the coarse copy until there are sides. */
+  showCoarse(): void {
+    this.useCoarse();
+    this.hasSides = false;
     this.draw();
   }
 
-  /** Draws the coarse copy until the camera rests. */
+  private useCoarse(): void {
+    if (this.coarse || !this.makeCoarse) return;
+    this.coarse = this.makeCoarse();
+    this.scene.add(this.coarse);
+  }
+
+  /** Draws the coarse copy until the camera rests, if the model is drawn slowly. */
   private moved(): void {
-    if (this.coarse) {
+    if (this.isSlow) this.useCoarse();
+    if (this.coarse && (this.isSlow || !this.hasSides)) {
       clearTimeout(this.restTimer);
       this.isMoving = true;
       this.restTimer = setTimeout(() => {
@@ -111,6 +144,7 @@ export class Viewport {
   /** Replaces both sides. */
   show(sides: Side[], hasLayout: boolean): void {
     this.hasSides = true;
+    this.isMeasured = false;
     this.sides = sides;
     this.hasLayout = hasLayout;
     this.scene.add(...sides.map((side) => side.model));
@@ -139,10 +173,20 @@ export class Viewport {
     this.draw();
   }
 
-  /** Sets the intensity of the environment and of the light. */
-  brightness(surroundings: number, light: number): void {
+  /** Sets the intensity of the environment and of the light, and the exposure in steps of twice the light. */
+  brightness(surroundings: number, light: number, exposure: number): void {
     this.scene.environmentIntensity = surroundings;
     this.light.intensity = light;
+    this.renderer.toneMappingExposure = 2 ** exposure;
+    this.draw();
+  }
+
+  /** Chooses an environment by its name. */
+  surround(name: string): void {
+    if (name === this.environment) return;
+    this.environment = name;
+    this.scene.environment?.dispose();
+    this.scene.environment = studio(name);
     this.draw();
   }
 
@@ -150,11 +194,21 @@ export class Viewport {
   setBounds(box: Box3): void {
     box.getBoundingSphere(this.sphere);
     if (!(this.sphere.radius > 0) || !Number.isFinite(this.sphere.radius)) this.sphere.set(new Vector3(), 1);
+    this.box.copy(box.isEmpty() ? new Box3().setFromCenterAndSize(this.sphere.center, new Vector3(1, 1, 1)) : box);
   }
 
   /** Shows the whole model, from the front and slightly above. */
   lookAtAll(): void {
-    this.look(this.sphere.center, this.sphere.radius, new Vector3(0.35, 0.3, 1));
+    this.lookAtBox(this.box, HOME);
+  }
+
+  /** Looks at a box from a direction, so that it fills the picture. */
+  lookAtBox(box: Box3, from: Vector3, isFlight = false): void {
+    const to = framing(box, from, FIELD_OF_VIEW, this.camera.aspect);
+    const distance = to.eye.distanceTo(to.target);
+    this.camera.near = Math.min(this.sphere.radius / 100, distance / 100);
+    this.camera.far = this.sphere.radius * 20 + distance;
+    this.moveTo(to, isFlight);
   }
 
   /** Looks at a point from a direction, so that a sphere around it is in view. */
@@ -162,7 +216,10 @@ export class Viewport {
     const distance = radius / Math.sin(((FIELD_OF_VIEW / 2) * Math.PI) / 180) / Math.min(1, this.camera.aspect);
     this.camera.near = Math.min(this.sphere.radius, radius) / 100;
     this.camera.far = this.sphere.radius * 20 + distance;
-    const to = { eye: at.clone().addScaledVector(from.clone().normalize(), distance), target: at.clone() };
+    this.moveTo({ eye: at.clone().addScaledVector(from.clone().normalize(), distance), target: at.clone() }, isFlight);
+  }
+
+  private moveTo(to: View, isFlight: boolean): void {
     const move = ({ eye, target }: View) => {
       this.camera.position.copy(eye);
       this.controls.target.copy(target);
@@ -226,14 +283,28 @@ export class Viewport {
     this.requestedFrame ||= requestAnimationFrame(() => this.drawNow());
   }
 
-  /** The picture as a file. */
-  async picture(): Promise<Blob> {
+  /** Draws the picture at once. Its pixels are valid until the running task ends. */
+  picture(): HTMLCanvasElement {
     this.isMoving = false;
-    // The drawing buffer is valid until this task ends.
     this.drawNow();
-    const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, 'image/png'));
-    if (!blob) throw new Error('The browser cannot save a picture of this size; make the window smaller.');
-    return blob;
+    return this.canvas;
+  }
+
+  /** The share of the pixels of the model's picture that differ visibly between both sides. */
+  visibleDifference(): number {
+    const [width, height] = COMPARED;
+    const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true })!;
+    const split = this.split;
+    const [left, right] = [1, 0].map((at) => {
+      this.split = at;
+      context.drawImage(this.picture(), 0, 0, width, height);
+      return context.getImageData(0, 0, width, height).data;
+    });
+    this.split = split;
+    this.drawNow();
+    let differing = 0;
+    for (let at = 0; at < left.length; at += 4) differing += Number([0, 1, 2].some((i) => Math.abs(left[at + i] - right[at + i]) > SEEN));
+    return differing / (width * height);
   }
 
   private drawNow(): void {
@@ -246,14 +317,30 @@ export class Viewport {
     renderer.setSize(width, height, false);
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
+    const start = performance.now();
     this.drawSplit(0, 0, width, height, this.scene, camera);
+    this.measure(start);
     if (!this.hasLayout || this.isCoarse()) return;
     const size = Math.round(LAYOUT_SIZE * Math.min(width, height));
     this.drawSplit(width - size - LAYOUT_RIGHT, LAYOUT_BOTTOM, size, size, this.layouts, this.layoutCamera.camera);
   }
 
+  /** Measures the first picture after its shaders are compiled: one that is drawn again. Reading a pixel waits for its end. */
+  private measure(start: number): void {
+    if (this.isCoarse() || !this.sides.length || this.isMeasured) return;
+    if (!this.isWarm) {
+      this.isWarm = true;
+      this.draw();
+      return;
+    }
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    this.isSlow = performance.now() - start > SLOW;
+    [this.isMeasured, this.isWarm] = [true, false];
+  }
+
   private isCoarse(): boolean {
-    return this.coarse !== null && (this.isMoving || !this.hasSides);
+    return this.coarse !== null && ((this.isMoving && this.isSlow) || !this.hasSides);
   }
 
   /** Draws a rectangle of the canvas: the left side left of the slider and the right side right of it. */

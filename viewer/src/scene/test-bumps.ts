@@ -1,17 +1,17 @@
-// A normal map of domes for models that have none. Domes make wrong tangents visible under any light.
+// Test bumps: a normal map of bumps for materials that have none, on request. Bumps make wrong tangents visible under any light.
 
 import { DataTexture, LinearFilter, LinearMipmapLinearFilter, RepeatWrapping, type MeshStandardMaterial } from 'three';
 
 const SIZE = 128;
-/** The number of domes along a side. */
-const DOMES = 4;
-/** The radius of a dome, relative to its cell. */
+/** The number of bumps along a side. */
+const BUMPS = 4;
+/** The radius of a bump, relative to its cell. */
 const RADIUS = 0.36;
 
 let texture: DataTexture | undefined;
 
-/** Sets the pattern as the normal map of a material: eight domes across the UV square. */
-export function withPattern(material: MeshStandardMaterial, vDown: boolean): void {
+/** Sets the bumps as the normal map of a material: eight of them across the UV square. */
+export function withBumps(material: MeshStandardMaterial, vDown: boolean): void {
   texture ??= pattern();
   material.normalMap = texture;
   material.normalScale.set(1, vDown ? 1 : -1);
@@ -23,8 +23,8 @@ function pattern(): DataTexture {
   for (let row = 0; row < SIZE; row++) {
     for (let column = 0; column < SIZE; column++) {
       const [x, y] = [within(column), within(row)];
-      const isDome = Math.hypot(x, y) < RADIUS;
-      const [nx, ny] = isDome ? [x / RADIUS, -y / RADIUS].map((slope) => 0.9 * slope) : [0, 0];
+      const isBump = Math.hypot(x, y) < RADIUS;
+      const [nx, ny] = isBump ? [x / RADIUS, -y / RADIUS].map((slope) => 0.9 * slope) : [0, 0];
       const nz = Math.sqrt(1 - nx * nx - ny * ny);
       data.set([nx, ny, nz].map((n) => Math.round(127.5 * n + 127.5)), (row * SIZE + column) * 4);
       data[(row * SIZE + column) * 4 + 3] = 255;
@@ -41,7 +41,7 @@ function pattern(): DataTexture {
   return out;
 }
 
-/** The coordinate of a texel in its dome's cell, from -0.5 to 0.5. */
+/** The coordinate of a texel in its bump's cell, from -0.5 to 0.5. */
 function within(texel: number): number {
-  return ((texel + 0.5) * DOMES) / SIZE % 1 - 0.5;
+  return ((texel + 0.5) * BUMPS) / SIZE % 1 - 0.5;
 }
