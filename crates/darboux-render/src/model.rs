@@ -264,11 +264,13 @@ fn read_part(
     let [base, normal, surface, occlusion, emission] = textures_of(material).map(|(used, _)| uvs(used));
     let uvs = [base?, normal?, surface?, occlusion?, emission?];
     let (Vertices { positions, normals, tangents }, is_mirrored) = posed_vertices(corners, pose)?;
+    let colors = vertex_colors(corners)?;
     let corner = |i: usize| SurfaceVertex {
         position: positions[i],
         normal: normals.get(i).copied().unwrap_or_default(),
         tangent: tangents.get(i).copied().unwrap_or_default(),
         uvs: [0, 1, 2, 3, 4].map(|k| uvs[k].get(i).copied().unwrap_or_default()),
+        color: colors.get(i).copied().unwrap_or([1.0; 4]),
         degrees: heat::NO_ANGLE,
     };
     let is_finite = |triangle: &[[f32; 3]; 3]| triangle.as_flattened().iter().all(|x| x.is_finite());
@@ -289,6 +291,15 @@ fn read_part(
         tangent_uvs: kept.iter().filter_map(|&i| tangent_uvs.get(i).copied()).collect(),
         matrices: pose.matrices.clone(),
     })
+}
+
+/// The colours of a primitive's corners, with or without alpha in the file; empty if it has none.
+fn vertex_colors(corners: &PrimitiveCorners<'_>) -> Result<Vec<[f32; 4]>, Error> {
+    if let Ok(colors) = corners.vectors::<4>("COLOR_0") {
+        return Ok(colors.unwrap_or_default());
+    }
+    let colors = corners.vectors::<3>("COLOR_0")?.unwrap_or_default();
+    Ok(colors.into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect())
 }
 
 /// The vertices of a primitive's corners in a pose. With a skin, also whether the skin mirrors each of them.

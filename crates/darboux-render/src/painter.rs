@@ -24,7 +24,7 @@ use crate::textures::{Textures, sampler};
 use crate::uniforms::{Instance, LineUniforms, MaterialUniforms, PictureUniforms};
 use crate::vertex::SurfaceVertex;
 
-/// The most corners per vertex buffer, which take 66 MB.
+/// The most corners per vertex buffer, which take 79 MB.
 const MAX_CHUNK_CORNERS: usize = 3 << 18;
 
 /// The most triangles. Small files can ask for any number, because many nodes may show one mesh.

@@ -37,7 +37,7 @@ struct PipelineOptions<'a> {
 
 /// The pipeline for triangles.
 pub fn surface_pipeline(gpu: &Gpu, subject: Subject, view: View, format: TextureFormat) -> RenderPipeline {
-    let vertex_attributes = vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4, 5 => Float32x2, 6 => Float32];
+    let vertex_attributes = vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4, 5 => Float32x2, 14 => Float32x4, 6 => Float32];
     let instance_attributes = vertex_attr_array![
         7 => Float32x4, 8 => Float32x4, 9 => Float32x4, 10 => Float32x4, 11 => Float32x3, 12 => Float32x3, 13 => Float32x3
     ];

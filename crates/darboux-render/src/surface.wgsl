@@ -77,6 +77,7 @@ struct Corner {
     @location(3) uvs: vec4f,
     @location(4) surface_uvs: vec4f,
     @location(5) emission_uv: vec2f,
+    @location(14) color: vec4f,
     @location(6) degrees: f32,
 }
 
@@ -105,6 +106,7 @@ struct Varyings {
     @location(6) @interpolate(flat) orientation: f32,
     @location(7) surface_uvs: vec4f,
     @location(8) emission_uv: vec2f,
+    @location(9) color: vec4f,
 }
 
 @vertex
@@ -122,6 +124,7 @@ fn transform_corner(corner: Corner, instance: Instance) -> Varyings {
     out.uvs = vec4f(transformed_uv(corner.uvs.xy, 0), transformed_uv(corner.uvs.zw, 1));
     out.surface_uvs = vec4f(transformed_uv(corner.surface_uvs.xy, 2), transformed_uv(corner.surface_uvs.zw, 3));
     out.emission_uv = transformed_uv(corner.emission_uv, 4);
+    out.color = corner.color;
     out.degrees = corner.degrees;
     out.orientation = transform.orientation;
     return out;
@@ -136,7 +139,7 @@ fn transformed_uv(uv: vec2f, texture: i32) -> vec2f {
 
 @fragment
 fn shade(in: Varyings, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
-    let base = material.base_color * textureSample(base_texture, base_sampler, in.uvs.xy);
+    let base = in.color * material.base_color * textureSample(base_texture, base_sampler, in.uvs.xy);
     let texel = textureSample(normal_texture, normal_sampler, in.uvs.zw).xyz;
     let surface = textureSample(surface_texture, surface_sampler, in.surface_uvs.xy);
     let occlusion = textureSample(occlusion_texture, occlusion_sampler, in.surface_uvs.zw).x;
