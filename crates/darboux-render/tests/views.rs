@@ -55,9 +55,9 @@ fn lines_lead_from_vertices_along_their_vectors() {
         let pixels = common::drawn(quad, &plain().with_lines(bitangents)).pixels;
         extent(&pixels[row * SIZE..][..SIZE], LINE_COLORS[1]).is_some()
     };
-    assert!(crosses(&quad, 8) && !crosses(&quad, 56));
+    assert!(crosses(&quad, 6) && !crosses(&quad, 58));
     let up = Quad::default();
-    assert!(crosses(&up, 56) && !crosses(&up, 8) && !crosses(&up, 40));
+    assert!(crosses(&up, 58) && !crosses(&up, 6) && !crosses(&up, 40));
     // From the side the surface is a line in the middle, and normals point left.
     let mut side = common::options(View::Tangent).with_lines(none.with_normal(true));
     side.camera.yaw = 90.0;
@@ -77,8 +77,8 @@ fn bitangents_follow_a_wrong_w() {
         extent(&pixels[row * SIZE..][..SIZE], LINE_COLORS[1]).is_some()
     };
     // Bitangents lead from the lower vertices up, or from the upper vertices down.
-    assert!(has_lines(false, 56) && !has_lines(false, 8));
-    assert!(has_lines(true, 8) && !has_lines(true, 56));
+    assert!(has_lines(false, 58) && !has_lines(false, 6));
+    assert!(has_lines(true, 6) && !has_lines(true, 58));
 }
 
 #[test]
