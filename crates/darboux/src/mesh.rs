@@ -337,8 +337,12 @@ impl<'a> Mesh<'a> {
 
 /// Errors: an index that is not below `vertices`.
 fn check_range<I: Copy + Into<u32>>(list: &[I], vertices: usize) -> Result<(), Error> {
-    match list.iter().position(|&index| index.into() as usize >= vertices) {
-        None => Ok(()),
-        Some(at) => Err(Error::IndexOutOfRange { at, index: list[at].into(), vertices }),
+    // The largest index is found without a branch per index.
+    let largest = list.iter().fold(0, |largest, &index| index.into().max(largest));
+    if list.is_empty() || (largest as usize) < vertices {
+        return Ok(());
     }
+    let is_outside = |&&index: &&I| index.into() as usize >= vertices;
+    let (at, &index) = list.iter().enumerate().find(|(_, index)| is_outside(index)).expect("the largest");
+    Err(Error::IndexOutOfRange { at, index: index.into(), vertices })
 }

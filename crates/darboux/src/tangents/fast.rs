@@ -47,7 +47,12 @@
 //!   hash. A triangle adds f(next) - f(previous); at an edge that two triangles share, the terms cancel. So the sum is zero when
 //!   every edge is shared, that is, when the triangles form closed loops, and f(a) - f(b) when one open row from a to b is left besides.
 //!   Every closed loop of triangles of one orientation turns around the vertex in UV space at least once, so each ray is in a wedge of it.
-//!   Sum zero and the ray +u in one wedge: one loop. Sum f(a) - f(b) and one of the rays +u, -u, +v, -v in no wedge: one row.
+//!   Sum zero and the ray +u in one wedge: one loop. Sum f(a) - f(b) and one of the rays +u, -u, +v, -v in no wedge: one row. The numbers of
+//!   a and b follow from their difference and that of their squares, but for a few candidates, which are sums of two numbers below the number of
+//!   vertices.
+//!
+//! A block of triangles of which each is marked as trouble adds its marks alone: all of its vertices are undecided or have no UV area around them,
+//! and nothing reads their sums.
 //!
 //! The first two tests are certain. The third is certain for a fan, and can be wrong for a vertex of several fans whose terms cancel by
 //! chance. Numbers and squares can be made to cancel; the hash has a random key, drawn when the program first needs it, so that a mesh cannot
@@ -61,9 +66,11 @@
 //!   the same vertices that runs the opposite way. So which half-edges match depends on the half-edges between these two vertices and on the
 //!   order of their triangles, and on nothing else. All of them are around either vertex. This holds for edges of any number of triangles;
 //!   the exception are the reference's last edges, whose runs are found first.
+//!   Among all half-edges between a vertex and another, the first that leaves matches the first that comes back, the second the second:
+//!   unmatched ones all run one way. So a triangle has at most two neighbours around a vertex, and a group is a row or a loop of them.
 //! - **Groups.** A group is a flood fill around its vertex, from triangle to triangle across matched edges, where the orientation is equal.
 //!   Triangles without UV area take part in one more decision, which is not local: each adopts the orientation of the first group that
-//!   reaches it at any of its vertices. So the fills run in the reference's order, by their first triangles. All vertices of such a triangle
+//!   reaches it at any of its vertices. So where there is such a triangle, the fills run in the reference's order, by their first triangles. All vertices of such a triangle
 //!   are undecided, so no fill that could reach it is missing, but for those around which no triangle has UV area: no fill starts there, since
 //!   fills start from triangles with UV area alone. Their corners keep the default, which the first pass writes.
 //! - **Sums.** All members of a group join when nothing is opposite (the test above, on the marks of the members alone). The group's sum is
@@ -78,7 +85,8 @@
 //! only, so the vertices of such triangles that have groups are left to it as well.
 //!
 //! [`Mode::Corrected`] gives all corners of a face one sign. The default of a vertex around which no triangle has UV area has the sign -1, so in this
-//! mode the first pass decides such vertices only where no triangle of the mesh has UV area; otherwise it is run again without deciding them.
+//! mode such a vertex is made undecided again where one of its faces has a corner that is undecided or has the sign +1. At all others the signs
+//! of every face are equal, and nothing is unified.
 //!
 //! # Where the fast path does not apply
 //!
@@ -154,6 +162,7 @@ pub(crate) use crate::tangents::fast::state::FastPath;
 use crate::tangents::fast::state::triangle_list;
 use crate::tangents::fast::vertex_quantity::VertexQuantity;
 use crate::tangents::fast::worker::{Findings, Worker};
+use crate::tangents::mikktspace::raw_frames::DEFAULT_FRAME;
 use crate::tangents::options::{MikkTSpaceOptions, Mode};
 
 impl FastPath {
@@ -231,7 +240,7 @@ impl FastPath {
         let tail = TailCells::first(&list, &self.weld.bounds, self.is_shuffled());
         self.discover(mesh, (&tail, decides_flat), limits, quantities, out);
         if options.mode == Mode::Corrected && self.flat_signs_may_change(mesh) && !limits.is_cancelled() {
-            self.discover(mesh, (&tail, false), limits, quantities, out);
+            self.undecide_flat_vertices_of_mixed_faces(mesh, out);
         }
         self.tail_runs.clear();
         // Where no triangle has UV area there are no groups, whatever the order of edges.
@@ -251,6 +260,27 @@ impl FastPath {
         self.flat_triangles < triangle_count(mesh) && !self.flat_vertices.is_empty()
     }
 
+    /// Makes the vertices undecided that were decided because their triangles have no UV area, and that have a face with a corner of another sign
+    /// or an undecided one.
+    fn undecide_flat_vertices_of_mixed_faces(&mut self, mesh: &Mesh<'_>, out: &mut [[f32; 4]]) {
+        let Self { weld, split, exceptions, flat_vertices, .. } = self;
+        let list = triangle_list(mesh, weld, split);
+        let mut is_flat = vec![false; weld.count];
+        flat_vertices.iter().for_each(|&vertex| is_flat[vertex as usize] = true);
+        let mut is_mixed = vec![false; weld.count];
+        for corners in mesh.face_ranges() {
+            if out[corners.clone()].iter().any(|corner| corner[3] != DEFAULT_FRAME.sign) {
+                for vertex in corners.map(|corner| list.vertex(corner as u32) as usize) {
+                    is_mixed[vertex] |= is_flat[vertex];
+                }
+            }
+        }
+        flat_vertices.retain(|&vertex| !is_mixed[vertex as usize]);
+        let entries = 0..3 * list.count() as u32;
+        let is_undecided = |entry: &u32| is_mixed[list.vertex(list.corner(*entry)) as usize];
+        exceptions.undecide(&list, entries.filter(is_undecided), out);
+    }
+
     /// True where triangles that share vertices are far apart in the list.
     fn is_shuffled(&self) -> bool {
         self.windows.last().is_some_and(|last| last.vertices.len() > self.weld.count / 4)
@@ -266,7 +296,8 @@ impl FastPath {
         out: &mut [[f32; 4]],
     ) {
         let list = triangle_list(mesh, &self.weld, &self.split);
-        let pass = Discover { tail, decides_flat, quantity: PhantomData };
+        let vertex_count = self.weld.count as u32;
+        let pass = Discover { tail, decides_flat, vertex_count, quantity: PhantomData };
         let input = PassInput { list, windows: &self.windows, pass, limits };
         self.exceptions.clear();
         quantities.clear();

@@ -5,6 +5,7 @@
 use std::ops::Range;
 
 use crate::tangents::fast::kernel::{BLOCK_SIZE, TriangleBlock};
+use crate::tangents::fast::proof::UNDECIDED;
 use crate::tangents::fast::vertex_record::{VertexRecord, position_of};
 
 /// A welded vertex. Its marks lie in an array of their own, beside it.
@@ -57,6 +58,13 @@ impl VertexAccumulator {
     pub fn finish(&mut self, [x, y, z]: [f32; 3], sign: f32, flags: u32) {
         self.sum = [x, y, z, sign];
         self.fingerprint[0] = flags;
+    }
+
+    /// Leaves a finished vertex to later stages.
+    #[inline(always)]
+    pub fn undecide(&mut self) {
+        self.sum[3] = UNDECIDED;
+        self.fingerprint[0] |= flags::IS_UNDECIDED;
     }
 
     /// The tangent and the sign of a finished vertex.
@@ -127,6 +135,12 @@ pub(crate) fn scatter(
     marks: &mut [u32],
 ) {
     let marks = &mut marks[..vertices.len()];
+    if block.has_marks_only {
+        for i in 0..count.min(BLOCK_SIZE) {
+            (0..3).for_each(|k| marks[block.vertex[k][i] as usize] |= block.marks[k][i]);
+        }
+        return;
+    }
     for i in 0..count.min(BLOCK_SIZE) {
         for k in 0..3 {
             let at = block.vertex[k][i] as usize;

@@ -50,6 +50,8 @@ pub(crate) struct TriangleBlock {
     pub fingerprint: [[[u32; 4]; BLOCK_SIZE]; 3],
     /// How many triangles without UV area have been counted.
     pub flat_triangles: usize,
+    /// True where no triangle is one that the fast path decides. Then all vertices are undecided, and only marks were computed.
+    pub has_marks_only: bool,
 }
 
 impl TriangleBlock {
@@ -70,6 +72,7 @@ impl TriangleBlock {
         magnitude_sum: [[[0.0; 2]; BLOCK_SIZE]; 3],
         fingerprint: [[[0; 4]; BLOCK_SIZE]; 3],
         flat_triangles: 0,
+        has_marks_only: false,
     };
 }
 
@@ -91,11 +94,17 @@ impl TriangleBlock {
         }
     }
 
-    /// Computes terms, marks and fingerprints from vertices and records.
+    /// Computes terms, marks and fingerprints from vertices and records; of a block that the fast path does not decide, marks alone.
     #[inline(always)]
     pub fn evaluate(&mut self) {
         self.unpack();
         self.derivatives();
+        let all = self.face_marks.iter().fold(u32::MAX, |all, marks| all & marks);
+        self.has_marks_only = all & marks::NEEDS_GENERAL_PATH != 0;
+        if self.has_marks_only {
+            self.marks = [self.face_marks; 3];
+            return;
+        }
         self.angles();
         self.terms::<true>();
         self.bitangent_marks();

@@ -23,7 +23,9 @@ use crate::tangents::fast::accumulator::{
 use crate::tangents::fast::edge_tail::TailCells;
 use crate::tangents::fast::exceptions::Exceptions;
 use crate::tangents::fast::kernel::{BLOCK_SIZE, CornerVertices, TriangleBlock};
-use crate::tangents::fast::proof::{UNDECIDED, decided_sign, first_ray_count, marks as corner_marks};
+use crate::tangents::fast::proof::{
+    Fan, OpenRows, UNDECIDED, fan, first_ray_count, marks as corner_marks, sign_of_marks,
+};
 use crate::tangents::fast::triangle_list::TriangleList;
 use crate::tangents::fast::vertex_quantity::{QuantityRange, VertexQuantity};
 use crate::tangents::fast::vertex_record::{VertexSlices, VertexValues};
@@ -75,7 +77,7 @@ pub(crate) trait Pass: Copy + Sync {
     fn mark_quads(self, list: &TriangleList<'_>, triangles: Range<usize>, range: &mut VertexRange<'_>);
 
     /// Finishes up to [`BLOCK_SIZE`] vertices: `tangents` holds their normalized sums.
-    fn finish(self, range: &mut VertexRange<'_>, tangents: &TangentBlock, findings: &mut Findings);
+    fn finish(self, range: &mut VertexRange<'_>, tangents: &mut TangentBlock, findings: &mut Findings);
 }
 
 /// The pass that decides which vertices have one tangent. `Q`: the further quantity of vertices.
@@ -85,6 +87,8 @@ pub(crate) struct Discover<'a, Q> {
     pub tail: &'a TailCells,
     /// True where vertices whose triangles all have no UV area are decided.
     pub decides_flat: bool,
+    /// The number of welded vertices.
+    pub vertex_count: u32,
     pub quantity: PhantomData<Q>,
 }
 
@@ -140,11 +144,15 @@ impl<Q: VertexQuantity> Pass for Discover<'_, Q> {
     }
 
     #[inline(always)]
-    fn finish(self, range: &mut VertexRange<'_>, tangents: &TangentBlock, findings: &mut Findings) {
+    fn finish(self, range: &mut VertexRange<'_>, tangents: &mut TangentBlock, findings: &mut Findings) {
+        tangents.rows.clear();
+        let mut signs = [UNDECIDED; BLOCK_SIZE];
+        for ((sign, &marks), &is_usable) in signs.iter_mut().zip(&*range.marks).zip(&tangents.is_usable) {
+            *sign = sign_of_marks(marks, is_usable != 0);
+        }
         for (i, (vertex, &marks)) in range.vertices.iter_mut().zip(&*range.marks).enumerate() {
-            let is_usable = tangents.is_usable[i] != 0;
             let mut tangent = tangents.get(i);
-            let mut sign = decided_sign(marks, vertex.sum[3], &vertex.fingerprint, is_usable);
+            let mut sign = signs[i % BLOCK_SIZE];
             if sign.is_nan() {
                 if marks & corner_marks::FLAT == 0 {
                     findings.note_unused(vertex.position());
@@ -154,17 +162,24 @@ impl<Q: VertexQuantity> Pass for Discover<'_, Q> {
                         findings.flat_vertices.push(range.first + i as u32);
                     }
                 }
+            } else if sign != UNDECIDED {
+                match fan(marks, vertex.sum[3], &vertex.fingerprint) {
+                    Fan::Loop => {}
+                    Fan::Row => tangents.rows.push(i, &vertex.fingerprint),
+                    Fan::Several => sign = UNDECIDED,
+                }
             }
             let undecided = if sign == UNDECIDED { flags::IS_UNDECIDED } else { 0 };
             let in_tail = if self.tail.contain(vertex.position()) { flags::IN_TAIL } else { 0 };
             vertex.finish(tangent, sign, undecided | in_tail);
         }
+        tangents.rows.for_each_failed(self.vertex_count, |at| range.vertices[at].undecide());
     }
 }
 
 impl<Q> Discover<'_, Q> {
     /// The tangent and the sign of a vertex whose triangles all have no UV area: no group starts at it, so its corners keep the default.
-    #[cold]
+    #[inline(always)]
     fn flat_tangent(self, vertex: &VertexAccumulator) -> ([f32; 3], f32) {
         let Frame { tangent, sign, .. } = DEFAULT_FRAME;
         let is_decided = self.decides_flat && is_clearly_usable(tangent, vertex.normal());
@@ -226,7 +241,7 @@ impl Pass for Replay<'_> {
 
     /// Notes whether all vertices with a sign have usable tangents.
     #[inline(always)]
-    fn finish(self, range: &mut VertexRange<'_>, tangents: &TangentBlock, findings: &mut Findings) {
+    fn finish(self, range: &mut VertexRange<'_>, tangents: &mut TangentBlock, findings: &mut Findings) {
         let mut all_usable = true;
         let signs = &self.signs[range.first as usize..];
         for (i, (vertex, &sign)) in range.vertices.iter_mut().zip(signs).enumerate() {
@@ -389,7 +404,7 @@ impl<P: Pass> Task for FinishVertices<'_, P> {
             tangents.load(vertices);
             tangents.normalize();
             let count = vertices.len() as u32;
-            self.pass.finish(&mut VertexRange { first, vertices, marks }, &tangents, self.findings);
+            self.pass.finish(&mut VertexRange { first, vertices, marks }, &mut tangents, self.findings);
             first += count;
         }
     }
@@ -401,11 +416,18 @@ pub(crate) struct TangentBlock {
     normal: [[f32; BLOCK_SIZE]; 3],
     /// 1 where the tangent needs no repair, else 0.
     is_usable: [u32; BLOCK_SIZE],
+    /// The vertices that can be one open row.
+    rows: OpenRows,
 }
 
 impl Default for TangentBlock {
     fn default() -> Self {
-        Self { sum: [[0.0; BLOCK_SIZE]; 3], normal: [[0.0; BLOCK_SIZE]; 3], is_usable: [0; BLOCK_SIZE] }
+        Self {
+            sum: [[0.0; BLOCK_SIZE]; 3],
+            normal: [[0.0; BLOCK_SIZE]; 3],
+            is_usable: [0; BLOCK_SIZE],
+            rows: OpenRows::default(),
+        }
     }
 }
 

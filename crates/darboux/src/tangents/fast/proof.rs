@@ -1,12 +1,14 @@
 //! The tests that prove that all triangles around a vertex share one tangent. The head of `fast.rs` says why they suffice.
 //!
 //! The kernel computes marks (bits that are OR-ed together) and a fingerprint (numbers that are added up) for every corner of a
-//! triangle. [`decided_sign`] reads the marks and the fingerprint of a vertex to which all corners have been added.
+//! triangle. [`sign_of_marks`], [`fan`] and [`OpenRows`] read the marks and the fingerprint of a vertex to which all corners have been added.
 
 use std::sync::OnceLock;
 
 use crate::math::V3;
 use crate::util::random::random_bits;
+
+use crate::tangents::fast::kernel::BLOCK_SIZE;
 
 /// The sign of a vertex at which the tests fail: its tangent is left to the general path.
 pub const UNDECIDED: f32 = 0.0;
@@ -106,20 +108,19 @@ pub(crate) fn difference(a: [u32; 4], b: [u32; 4]) -> [u32; 4] {
     [0, 1, 2, 3].map(|lane| a[lane].wrapping_sub(b[lane]))
 }
 
-/// The tangent sign of a vertex to which all corners have been added: [`UNDECIDED`] where a test fails, NaN where no triangle uses the
-/// vertex.
+/// The tangent sign of a vertex to which all corners have been added, if its triangles are one fan: [`UNDECIDED`] where another test fails, NaN
+/// where the vertex has no triangle with UV area. Has no branches, so that loops over vertices vectorise.
 ///
-/// `found`: the vertex's marks. `first_ray_count`: how many wedges hold the ray +u. `fingerprint`: a reference, because a copy on the
-/// stack, written in pieces and read as a whole, stalls the processor. `is_usable`: the tangent needs no repair.
+/// `found`: the vertex's marks. `is_usable`: the tangent needs no repair.
 #[inline(always)]
-pub(crate) fn decided_sign(found: u32, first_ray_count: f32, fingerprint: &[u32; 4], is_usable: bool) -> f32 {
-    let decided = is_usable & is_one_subgroup(found) && is_one_fan(found, first_ray_count, fingerprint);
-    match found & (marks::PRESERVES | marks::MIRRORS) {
-        0 => f32::NAN,
-        _ if !decided => UNDECIDED,
-        marks::MIRRORS => -1.0,
-        _ => 1.0,
-    }
+pub(crate) fn sign_of_marks(found: u32, is_usable: bool) -> f32 {
+    let has_axis = |shift: u32| found >> shift & marks::ALL_AXES != marks::ALL_AXES;
+    let orientation = found & (marks::PRESERVES | marks::MIRRORS | marks::NEEDS_GENERAL_PATH);
+    let sign = if found & marks::MIRRORS == 0 { 1.0 } else { -1.0 };
+    let has_one_orientation = (orientation == marks::PRESERVES) | (orientation == marks::MIRRORS);
+    let is_decided = is_usable & has_one_orientation & has_axis(marks::TANGENT) & has_axis(marks::BITANGENT);
+    let sign = if is_decided { sign } else { UNDECIDED };
+    if found & (marks::PRESERVES | marks::MIRRORS) == 0 { f32::NAN } else { sign }
 }
 
 /// True when the triangles have one orientation, and no two of them have opposite tangents or opposite bitangents.
@@ -133,45 +134,130 @@ pub(crate) fn is_one_subgroup(found: u32) -> bool {
         && has_axis(marks::TANGENT) & has_axis(marks::BITANGENT)
 }
 
-/// True when all triangles are connected by edges at the vertex; wrongly true with a probability of 2^-64, or at most 2^-58 where
-/// [`CANDIDATES`] are tried (see the head of `fast.rs`).
+/// Whether all triangles are connected by edges at a vertex.
 ///
 /// An edge at the vertex that as many triangles leave along as come back along adds nothing to the fingerprint. So the fingerprint is
 /// zero when all triangles lie in closed loops, and the difference of two vertices when there is one open row besides. Every closed
 /// loop of triangles of one orientation turns about the vertex in UV space at least once and crosses every ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fan {
+    /// The triangles are one closed loop.
+    Loop,
+    /// They are one open row if the fingerprint is the difference of two vertices: see [`OpenRows`].
+    Row,
+    /// They are several fans.
+    Several,
+}
+
+/// The kind of a vertex's fan.
+///
+/// `found`: the vertex's marks. `first_ray_count`: how many wedges hold the ray +u. `fingerprint`: a reference, because a copy on the stack,
+/// written in pieces and read as a whole, stalls the processor.
 #[inline(always)]
-fn is_one_fan(found: u32, first_ray_count: f32, fingerprint: &[u32; 4]) -> bool {
-    if *fingerprint == [0; 4] {
-        first_ray_count == 1.0
-    } else {
-        found & marks::RAYS != marks::RAYS && is_difference_of_two(*fingerprint)
+pub(crate) fn fan(found: u32, first_ray_count: f32, fingerprint: &[u32; 4]) -> Fan {
+    match *fingerprint == [0; 4] {
+        true if first_ray_count == 1.0 => Fan::Loop,
+        false if found & marks::RAYS != marks::RAYS => Fan::Row,
+        _ => Fan::Several,
     }
 }
 
-/// True when `sum` is the fingerprint of one vertex minus the fingerprint of another.
-///
-/// The first lanes hold a - b and a^2 - b^2 modulo 2^32. Their quotient is a + b, and both give a and b; the other lanes then confirm
-/// them. A difference with many factors of two leaves several candidates.
-fn is_difference_of_two(sum: [u32; 4]) -> bool {
-    let key = fingerprint_key();
-    let a_minus_b = i64::from(sum[0] as i32);
-    if a_minus_b == 0 {
-        return false;
+/// Fingerprints of up to [`BLOCK_SIZE`] vertices that are tested for being the difference of two vertices, in lanes. The test is wrongly passed
+/// with a probability of 2^-64, or at most 2^-58 where [`CANDIDATES`] are tried (see the head of `fast.rs`).
+#[derive(Debug)]
+pub(crate) struct OpenRows {
+    fingerprint: [[u32; BLOCK_SIZE]; 4],
+    /// The place of each vertex in its block.
+    place: [u32; BLOCK_SIZE],
+    /// 1 where the first candidate is confirmed, else 0.
+    is_confirmed: [u32; BLOCK_SIZE],
+    count: usize,
+}
+
+impl Default for OpenRows {
+    fn default() -> Self {
+        let zero = [0; BLOCK_SIZE];
+        Self { fingerprint: [zero; 4], place: zero, is_confirmed: zero, count: 0 }
     }
-    let twos = a_minus_b.trailing_zeros();
-    let first = u64::from(sum[1].wrapping_mul(inverse((a_minus_b >> twos) as u32)) >> twos);
-    let mut candidates = (0..CANDIDATES).map(|n| (first + (n << (32 - twos))) as i64);
-    candidates.any(|a_plus_b| {
-        let (a, b) = ((a_plus_b + a_minus_b) / 2, (a_plus_b - a_minus_b) / 2);
-        let (Ok(a), Ok(b)) = (u32::try_from(a), u32::try_from(b)) else { return false };
-        difference(fingerprint(a, key), fingerprint(b, key)) == sum
-    })
+}
+
+impl OpenRows {
+    pub fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// Adds a vertex to the test. At most [`BLOCK_SIZE`] are added between two calls of [`OpenRows::clear`].
+    #[inline(always)]
+    pub fn push(&mut self, place: usize, fingerprint: &[u32; 4]) {
+        let at = self.count % BLOCK_SIZE;
+        self.place[at] = place as u32;
+        for (lane, &value) in self.fingerprint.iter_mut().zip(fingerprint) {
+            lane[at] = value;
+        }
+        self.count += 1;
+    }
+
+    /// Calls `visit` with the places of the vertices that fail the test. `vertex_count`: the number of vertices of the mesh.
+    #[inline(always)]
+    pub fn for_each_failed(&mut self, vertex_count: u32, mut visit: impl FnMut(usize)) {
+        if self.count == 0 {
+            return;
+        }
+        let key = fingerprint_key();
+        for i in 0..BLOCK_SIZE {
+            let sum = [0, 1, 2, 3].map(|lane| self.fingerprint[lane][i]);
+            let is_confirmed = is_difference_with(sum, first_candidate(sum), key);
+            self.is_confirmed[i] = if is_confirmed { 1 } else { 0 };
+        }
+        for i in 0..self.count.min(BLOCK_SIZE) {
+            if self.is_confirmed[i] == 0 {
+                let sum = [0, 1, 2, 3].map(|lane| self.fingerprint[lane][i]);
+                if !has_later_candidate(sum, vertex_count) {
+                    visit(self.place[i] as usize);
+                }
+            }
+        }
+    }
+}
+
+/// The least a + b for which a fingerprint can be that of vertex a minus that of vertex b. Unspecified where a - b is zero.
+///
+/// The first lanes hold a - b and a^2 - b^2 modulo 2^32. Their quotient is a + b. A difference with factors of two leaves further candidates.
+#[inline(always)]
+fn first_candidate([a_minus_b, of_squares, ..]: [u32; 4]) -> u32 {
+    let twos = factors_of_two(a_minus_b);
+    of_squares.wrapping_mul(inverse((a_minus_b as i32 >> twos) as u32)) >> twos
+}
+
+/// How many factors of two a number has; 31 for zero. The exponent of a float, because few processors count zeros in lanes.
+#[inline(always)]
+fn factors_of_two(number: u32) -> u32 {
+    let lowest_bit = number & number.wrapping_neg();
+    ((lowest_bit as i32 as f32).to_bits() >> 23 & 0xff).wrapping_sub(127) & 31
+}
+
+/// True when `sum` is the fingerprint of vertex a minus that of vertex b, a + b being given.
+#[inline(always)]
+fn is_difference_with(sum: [u32; 4], a_plus_b: u32, key: [u32; 2]) -> bool {
+    let (a, b) = (a_plus_b.wrapping_add(sum[0]) >> 1, a_plus_b.wrapping_sub(sum[0]) >> 1);
+    let found = difference(fingerprint(a, key), fingerprint(b, key));
+    (found[0] == sum[0]) & (found[1] == sum[1]) & (found[2] == sum[2]) & (found[3] == sum[3])
+}
+
+/// As [`is_difference_with`], for the candidates after the first that are sums of two vertices.
+#[cold]
+fn has_later_candidate(sum: [u32; 4], vertex_count: u32) -> bool {
+    let (first, step) = (u64::from(first_candidate(sum)), 1 << (32 - factors_of_two(sum[0])));
+    let later = (1..CANDIDATES).map(|n| first + n * step);
+    let mut possible = later.take_while(|&a_plus_b| a_plus_b < 2 * u64::from(vertex_count));
+    possible.any(|a_plus_b| is_difference_with(sum, a_plus_b as u32, fingerprint_key()))
 }
 
 /// How many values of a + b are tried; a vertex with more candidates is left to the general path.
 const CANDIDATES: u64 = 64;
 
 /// The inverse of an odd number modulo 2^32, by Newton's iteration: each step doubles the number of right bits, 5 at the start.
+#[inline(always)]
 fn inverse(odd: u32) -> u32 {
     (0..3).fold(odd.wrapping_mul(3) ^ 2, |inverse, _| {
         inverse.wrapping_mul(2u32.wrapping_sub(odd.wrapping_mul(inverse)))
@@ -187,10 +273,22 @@ mod tests {
         difference(fingerprint(a, key), fingerprint(b, key))
     }
 
+    fn is_difference_of_two(sum: [u32; 4], vertex_count: u32) -> bool {
+        let (mut rows, mut passes) = (OpenRows::default(), true);
+        rows.push(0, &sum);
+        rows.for_each_failed(vertex_count, |_| passes = false);
+        passes
+    }
+
     #[test]
     fn a_difference_of_two_vertices_is_recognised() {
-        for (a, b) in [(1, 0), (0, 1), (7, 1_000_000_000), (70_000, 4_464), (1 << 24, (1 << 24) + 4096)] {
-            assert!(is_difference_of_two(of_two(a, b)), "{a} - {b}");
+        let pairs = [(1_u32, 0), (0, 1), (7, 1_000_000_000), (70_000, 4_464), (1 << 24, (1 << 24) + 4096)];
+        let multiples = (0..30).flat_map(|twos| [(1 << twos, 0), (5, (1 << twos) + 5)]);
+        for (a, b) in pairs.into_iter().chain(multiples) {
+            let step = 1u64 << (32 - a.abs_diff(b).trailing_zeros());
+            if u64::from(a + b) / step < CANDIDATES {
+                assert!(is_difference_of_two(of_two(a, b), a.max(b) + 1), "{a} - {b}");
+            }
         }
     }
 
@@ -198,6 +296,7 @@ mod tests {
     fn a_difference_of_more_vertices_is_not() {
         let [first, second] = [of_two(10, 11), of_two(20, 25)];
         let both = std::array::from_fn(|lane| first[lane].wrapping_add(second[lane]));
-        assert!(!is_difference_of_two(both));
+        assert!(!is_difference_of_two(both, 26));
+        assert!(!is_difference_of_two([0, 2, 3, 4], 26));
     }
 }

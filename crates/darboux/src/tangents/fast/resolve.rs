@@ -118,6 +118,11 @@ impl Resolution {
         (0..self.is_left.len()).filter(|&vertex| self.triangles.is_undecided[vertex] && !self.is_left[vertex])
     }
 
+    /// True where some vertex stays undecided.
+    pub fn leaves_any(&self) -> bool {
+        self.is_left.contains(&true)
+    }
+
     /// True for a face without a vertex that is left. `face`: its triangles.
     pub fn is_complete(&self, face: Range<usize>) -> bool {
         !self.triangles.triangles[face].as_flattened().iter().any(|&vertex| self.is_left[vertex as usize])
@@ -152,6 +157,9 @@ impl Resolution {
     /// Leaves the vertices whose groups depend on those around others that are left. Around a vertex that no group has reached there is nothing to
     /// depend on a triangle without UV area.
     fn leave_dependent(&mut self) {
+        if !self.leaves_any() {
+            return;
+        }
         let has_groups: Vec<bool> = (0..self.is_left.len()).map(|vertex| self.has_groups(vertex)).collect();
         let mut pending: Vec<usize> = (0..has_groups.len()).filter(|&vertex| self.is_left[vertex]).collect();
         while let Some(vertex) = pending.pop() {
@@ -207,14 +215,14 @@ impl Resolution {
     /// other corner at the vertex has.
     pub fn groups_at(&self, vertex: usize) -> impl Iterator<Item = (u32, usize, bool)> {
         let Self { triangles, fans, is_usable, .. } = self;
-        let entries = fans.entries_of(vertex);
-        let is_degenerate = |entry: u32| triangles.kind(entry) & kinds::DEGENERATE != 0;
-        let first_good = entries.iter().copied().find(|&entry| !is_degenerate(entry));
-        entries.iter().map(move |&entry| {
-            let source = if is_degenerate(entry) { first_good } else { Some(entry) };
-            let group = source.map_or(NONE, |source| fans.group_of_entry[source as usize]) as usize;
+        let entries = fans.entries_and_degenerate(vertex);
+        let first_good = entries.clone().find(|(_, is_degenerate)| !is_degenerate);
+        let of_degenerate = first_good.map_or(NONE, |(entry, _)| fans.group_of_entry[entry as usize]);
+        entries.map(move |(entry, is_degenerate)| {
+            let group = if is_degenerate { of_degenerate } else { fans.group_of_entry[entry as usize] };
             let default = || needs_no_repair(DEFAULT_FRAME.tangent, triangles.normal(vertex as u32));
-            (entry, group, is_usable.get(group).copied().unwrap_or_else(default))
+            let is_usable = is_usable.get(group as usize).copied();
+            (entry, group as usize, is_usable.unwrap_or_else(default))
         })
     }
 
@@ -234,6 +242,9 @@ impl Resolution {
                 out[triangles.corner(entry) as usize] = tangent;
                 report.repaired_corners += usize::from(!is_usable && self.is_counted(entry));
             }
+        }
+        if report.degenerate_triangles + report.uv_degenerate_triangles == 0 {
+            return report;
         }
         for face in triangles.faces().filter(|face| self.can_have_both_signs(face.clone())) {
             let signs = self.corners_of(face.clone()).map(|corner| out[corner][3]);
@@ -274,17 +285,21 @@ impl Resolution {
         }
     }
 
+    /// The number of vertices of the mesh whose corners have different tangents. `out`: the tangents of all corners.
     pub fn count_split(&self, mesh: &Mesh<'_>, out: &[[f32; 4]]) -> usize {
         let Self { triangles, fans, .. } = self;
-        let bits = |entry: u32| distinct_bits(out[triangles.corner(entry) as usize]);
+        let tangent = |entry: u32| out[triangles.corner(entry) as usize];
+        let bits = |entry: u32| distinct_bits(tangent(entry));
         let mut count = 0;
         let mut by_vertex = Vec::new();
         for vertex in (0..triangles.is_undecided.len()).filter(|&vertex| triangles.is_undecided[vertex]) {
             let entries = fans.entries_of(vertex);
-            if entries.iter().all(|&entry| bits(entry) == bits(entries[0])) {
+            let of_mesh = |entry: u32| mesh.vertex_of_corner(triangles.corner(entry) as usize) as u32;
+            // Most are equal in all bits; then nothing has to be told apart.
+            let first_bits = tangent(entries[0]).map(f32::to_bits);
+            if entries.iter().all(|&entry| tangent(entry).map(f32::to_bits) == first_bits) {
                 continue;
             }
-            let of_mesh = |entry: u32| mesh.vertex_of_corner(triangles.corner(entry) as usize) as u32;
             by_vertex.clear();
             by_vertex.extend(entries.iter().map(|&entry| pair(of_mesh(entry), entry)));
             sort(&mut by_vertex);

@@ -45,8 +45,12 @@ impl FastPath {
         if let Some(frames) = frames {
             resolution.list_frames(frames);
         }
-        let mut is_complete = resolution.triangles.faces().map(|face| resolution.is_complete(face));
-        faces.retain(|_| !is_complete.next().unwrap_or(false));
+        if resolution.leaves_any() {
+            let mut is_complete = resolution.triangles.faces().map(|face| resolution.is_complete(face));
+            faces.retain(|_| !is_complete.next().unwrap_or(false));
+        } else {
+            faces.clear();
+        }
         Some(report)
     }
 
