@@ -1,0 +1,132 @@
+// The first screen of a model: its worst fault, the file and the cure, one sentence; and what is shared of it.
+
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+
+import { changedMap, glb, parts, shield, withImage } from './glb.mjs';
+import { browser, Picture, serve, Viewer } from './page.mjs';
+
+let server, chromium;
+
+before(async () => {
+  [server, chromium] = [await serve(), await browser()];
+});
+
+after(async () => {
+  await chromium?.close();
+  server?.close();
+});
+
+/** Opens the page as people do. */
+async function opened(use, options = {}) {
+  const viewer = await Viewer.open(chromium, `${server.address}#`, { viewport: { width: 800, height: 500 }, ...options });
+  await use(viewer);
+  assert.deepEqual(viewer.faults, []);
+  await viewer.close();
+}
+
+async function give(viewer, name, buffer) {
+  await viewer.page.setInputFiles('#files', { name, mimeType: 'model/gltf-binary', buffer });
+  await viewer.settled();
+}
+
+const isOutline = (r, g, b) => b > 200 && g > 180 && r < 130;
+
+test('the camera goes to the fault, which has an outline, and a sentence says what it is and what the cure costs', () =>
+  opened(async (viewer) => {
+    assert.match(await viewer.text('verdict-text'), /^Shield: 25 vertices serve both sides of mirrored UV seams\. The repaired file has 25 vertices more and [\d.]+ kB more; /);
+    assert.equal(await viewer.page.inputValue('#split'), '62');
+    const near = await viewer.picture();
+    assert.ok(near.share(isOutline) > 0.003, 'the outline is seen');
+    assert.match(await viewer.text('legend'), /around the fault/);
+    await viewer.click('#outline');
+    assert.equal((await viewer.picture()).share(isOutline), 0);
+    await viewer.press('#verdict-close');
+    assert.equal(await viewer.page.isVisible('#verdict'), false);
+    await viewer.page.focus('#view');
+    await viewer.page.keyboard.press('Home');
+    await viewer.settled();
+    const isBack = (r, g, b) => Math.abs(r - 223) < 3 && Math.abs(g - 225) < 3 && Math.abs(b - 228) < 3;
+    assert.ok(near.share(isBack) + 0.1 < (await viewer.picture()).share(isBack), 'the fault was seen from nearby');
+  }));
+
+test('a fault of a map is shown beside the repaired file; a model without a fault is shown whole, without a sentence', () =>
+  opened(async (viewer) => {
+    await give(viewer, 'flipped.glb', withImage(changedMap(([r, g, b]) => [r, 255 - g, b])));
+    assert.match(await viewer.text('verdict-text'), /^Image 0: it is in the convention of DirectX/);
+    assert.equal(await viewer.page.inputValue('#right'), 'repaired');
+    const { json, binary } = parts(shield());
+    delete json.meshes[0].primitives[0].attributes.TANGENT;
+    await give(viewer, 'bare.glb', glb(json, binary));
+    assert.equal(await viewer.page.isVisible('#verdict'), false);
+  }));
+
+test('where both sides look alike, it says by how much they differ, and shows where', () =>
+  opened(async (viewer) => {
+    const { json, binary } = parts(shield());
+    json.materials[0].normalTexture.scale = 0.01;
+    await give(viewer, 'smooth.glb', glb(json, binary));
+    assert.match(await viewer.text('verdict-text'), /Both sides look alike from here: they differ by [\d.]+° \(median\), \d+° \(worst\); the signs differ at \d+ vertices: show$/);
+    await viewer.click('#verdict-text button');
+    assert.equal(await viewer.page.isChecked('input[value=angle]'), true);
+  }));
+
+test('the slider swings once, and a press stops it', () =>
+  opened(
+    async (viewer) => {
+      const seen = async () => {
+        const places = [];
+        for (let times = 0; times < 40; times++) {
+          places.push(Number(await viewer.page.inputValue('#split')));
+          await viewer.page.waitForTimeout(60);
+        }
+        return places;
+      };
+      await viewer.press('#open-sample');
+      await viewer.settled();
+      const places = await seen();
+      assert.ok(Math.max(...places) > 68 && Math.min(...places) < 50, String(places));
+      await viewer.page.waitForFunction(() => document.getElementById('split').value === '62');
+      await viewer.press('#open-sample');
+      await viewer.settled();
+      await viewer.page.mouse.click(300, 300);
+      const [stopped] = await seen();
+      assert.ok((await seen()).every((place) => place === stopped), 'it stays where it was');
+    },
+    { reducedMotion: 'no-preference' },
+  ));
+
+test('a link decides what is seen first', async () => {
+  const viewer = await Viewer.open(chromium, `${server.address}#view=0,0,9,0,0,0&tab=light&flip-green=1`, { viewport: { width: 800, height: 500 } });
+  assert.equal(await viewer.page.isVisible('#verdict'), false);
+  assert.equal(await viewer.page.isVisible('#panel-light'), true);
+  assert.match(await viewer.text('caption-right'), /^MikkTSpace ✕ mistake: green flipped$/);
+  await viewer.close();
+});
+
+test('saved pictures and clips carry captions and mistakes', () =>
+  opened(async (viewer) => {
+    await viewer.click('#flip-green');
+    const { name, bytes } = await viewer.download('#save-picture');
+    assert.equal(name, 'shield.png');
+    const picture = await Picture.decode(viewer.page, bytes);
+    const isError = (r, g, b) => r > 130 && g < 70 && b < 50 && r > 2.5 * g;
+    assert.ok(picture.share(isError, 0.6) > 0.0005, 'the mistake is written in the colour of errors');
+    const clip = await viewer.download('#save-clip');
+    assert.equal(clip.name, 'shield.webm');
+    assert.deepEqual([...clip.bytes.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3], 'it is WebM');
+  }));
+
+test('a broken file names itself on the canvas, and a drag shows where to drop', () =>
+  opened(async (viewer) => {
+    await viewer.page.setInputFiles('#files', { name: 'broken.glb', mimeType: 'model/gltf-binary', buffer: Buffer.from('glTF no more') });
+    await viewer.settled();
+    assert.match(await viewer.text('broken'), /broken\.glb/);
+    const dispatch = (type) => viewer.page.evaluate((type) => document.dispatchEvent(new DragEvent(type, { bubbles: true, cancelable: true })), type);
+    await dispatch('dragover');
+    assert.equal(await viewer.page.isVisible('#drop-target'), true);
+    await dispatch('dragleave');
+    assert.equal(await viewer.page.isVisible('#drop-target'), false);
+    await viewer.click('#open-sample');
+    assert.equal(await viewer.page.isVisible('#broken'), false);
+  }));
