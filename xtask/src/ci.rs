@@ -51,7 +51,12 @@ const LONG: &[Step] = &[
     ("long tests", || test("cargo test --release --workspace -- --ignored --skip acos_exhaustive")),
     ("Python wheel", python::test_wheel),
     ("Blender", python::blender),
-    ("Ray, Dask, Open3D", python::large_packages),
+    ("Ray, Dask, Open3D, USD", python::large_packages),
+    ("Bevy's Mesh", || {
+        run(&mut program(
+            "cargo run --quiet --manifest-path examples/bevy/Cargo.toml --target-dir target/bevy",
+        ))
+    }),
     ("fuzzing", fuzz),
 ];
 
