@@ -1,4 +1,4 @@
-// Search over all sections of the site, the menu's state, wide blocks that keys can scroll, and answers that open when the page is printed.
+// The theme, search over all sections of the site, the menu's state, wide blocks that keys can scroll, and answers that open when the page is printed.
 
 'use strict';
 
@@ -19,9 +19,13 @@
       document.head.append(script);
     }));
 
+  /** What people look for first, and reports, which answer hardly anybody's question. */
+  const FIRST = ['docs/learn/symptoms', 'docs/check.', 'docs/viewer', 'docs/matching-your-baker', 'index.html'];
+  const LAST = ['docs/notes/', 'docs/check-mistakes', 'conformance/', 'benches/', 'docs/api/'];
+
   /** How well a section fits the words; 0 unless it has all of them. */
-  function score({ low, lowTitle, page }, words) {
-    let sum = 0;
+  function score({ low, lowTitle, page, path }, words) {
+    let sum = FIRST.some((name) => path.startsWith(name)) ? 15 : LAST.some((name) => path.startsWith(name)) ? -15 : 0;
     for (const word of words) {
       const inTitle = lowTitle.includes(word) ? 20 : 0;
       const inPage = page.toLowerCase().includes(word) ? 5 : 0;
@@ -29,13 +33,19 @@
       if (!inTitle && !inPage && !times) return 0;
       sum += inTitle + inPage + Math.min(times, 5);
     }
-    return sum;
+    return Math.max(sum, 1);
   }
 
   /** The text around the first of the words. */
   function excerpt({ text, low }, words) {
     const at = Math.max(0, ...words.map((word) => low.indexOf(word)).filter((at) => at >= 0).slice(0, 1));
     return `${at > 40 ? '… ' : ''}${text.slice(Math.max(0, at - 40), at + 120)} …`;
+  }
+
+  /** A text as nodes, with the words in it marked. */
+  function marked(text, words) {
+    const parts = text.split(new RegExp(`(${words.map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, '\\$&')).join('|')})`, 'i'));
+    return parts.map((part, at) => (at % 2 ? Object.assign(document.createElement('mark'), { textContent: part }) : part));
   }
 
   async function search() {
@@ -54,12 +64,32 @@
   function item(section, words) {
     const link = Object.assign(document.createElement('a'), {
       href: `${base}${section.path}${section.id ? `#${section.id}` : ''}`,
-      textContent: section.title && section.title !== section.page ? `${section.page}: ${section.title}` : section.page,
     });
+    link.append(...marked(section.title && section.title !== section.page ? `${section.page}: ${section.title}` : section.page, words));
+    const around = document.createElement('small');
+    around.append(...marked(excerpt(section, words), words));
     const entry = document.createElement('li');
-    entry.append(link, Object.assign(document.createElement('small'), { textContent: excerpt(section, words) }));
+    entry.append(link, around);
     return entry;
   }
+
+  document.addEventListener('keydown', (event) => {
+    if (event.key !== '/' || event.ctrlKey || event.metaKey || event.target.matches('input, textarea, select')) return;
+    event.preventDefault();
+    field.focus();
+  });
+
+  // The system's colours, or those that the button chose before.
+  const button = document.getElementById('theme');
+  const setTheme = (theme) => (document.documentElement.dataset.theme = theme);
+  const kept = localStorage.getItem('theme');
+  if (kept === 'light' || kept === 'dark') setTheme(kept);
+  button.hidden = false;
+  button.addEventListener('click', () => {
+    const isDark = document.documentElement.dataset.theme ? document.documentElement.dataset.theme === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
+    setTheme(isDark ? 'light' : 'dark');
+    localStorage.setItem('theme', isDark ? 'light' : 'dark');
+  });
 
   field.addEventListener('input', search);
   field.form.addEventListener('submit', (event) => event.preventDefault());
@@ -69,6 +99,13 @@
   const isWide = matchMedia('(min-width: 64rem)');
   const setMenu = () => (menu.open = isWide.matches);
   isWide.addEventListener('change', setMenu);
+
+  // So do the contents of the page.
+  const contents = document.querySelector('.contents');
+  const isWidest = matchMedia('(min-width: 100rem)');
+  const setContents = () => contents && (contents.open = isWidest.matches);
+  isWidest.addEventListener('change', setContents);
+  setContents();
   setMenu();
 
   // Code and tables that are wider than the page can be scrolled by keys.

@@ -99,15 +99,77 @@ impl Menu {
     pub fn document(&self, path: &Path, page: &Page) -> String {
         let base = "../".repeat(path.components().count() - 1);
         let menu: String = self.parts.iter().map(|(name, pages)| part(name, pages, path, &base)).collect();
+        let turn = self.turn(path, &base);
         let figures = if page.body.contains("class=\"interactive\"") { FIGURES } else { "" };
         // The body comes last: it may contain the names of the other parts.
         TEMPLATE
             .replace("{figures}", figures)
             .replace("{base}", &base)
             .replace("{title}", &escaped(&page.title))
+            .replace("{version}", env!("CARGO_PKG_VERSION"))
+            .replace("{repository}", &repository())
             .replace("{menu}", &menu)
+            .replace("{contents}", &contents(&page.body))
+            .replace("{turn}", &turn)
             .replacen("{body}", &page.body, 1)
     }
+
+    /// Links to the pages before and after a page in the menu.
+    fn turn(&self, path: &Path, base: &str) -> String {
+        let all: Vec<_> = self.parts.iter().flat_map(|(_, pages)| pages).collect();
+        let Some(at) = all.iter().position(|(other, _)| other == path) else { return String::new() };
+        let link = |way: &str, entry: Option<&&(PathBuf, String)>| {
+            entry.map_or(String::new(), |(path, title)| {
+                format!("<a href=\"{base}{}\">{way}: {}</a>", target(path).display(), escaped(title))
+            })
+        };
+        let before = at.checked_sub(1).and_then(|before| all.get(before));
+        let [before, after] = [link("Previous", before), link("Next", all.get(at + 1))];
+        format!("<nav class=\"turn\" aria-label=\"Pages before and after\">{before}{after}</nav>\n")
+    }
+}
+
+/// The address of the repository in the workspace's manifest, as a link; empty while there is none.
+fn repository() -> String {
+    match env!("CARGO_PKG_REPOSITORY") {
+        "" => String::new(),
+        address => format!("<a href=\"{}\">Repository</a> ", escaped(address)),
+    }
+}
+
+/// A page with fewer headings has no list of them.
+const LEAST_HEADINGS: usize = 6;
+
+/// The headings of level 2 of a long page as links.
+fn contents(body: &str) -> String {
+    let heading = |part: &str| {
+        let (id, rest) = part.split_once('"')?;
+        let (title, _) = rest.split_once('>')?.1.split_once("</h2>")?;
+        Some(format!("<li><a href=\"#{id}\">{}</a></li>", without_tags(title)))
+    };
+    let items: Vec<String> = body.split("<h2 id=\"").skip(1).filter_map(heading).collect();
+    if items.len() < LEAST_HEADINGS {
+        return String::new();
+    }
+    format!(
+        "<details class=\"contents\"><summary>On this page</summary><nav aria-label=\"On this page\"><ul>{}</ul></nav></details>\n",
+        items.concat()
+    )
+}
+
+/// HTML without its tags.
+fn without_tags(html: &str) -> String {
+    let mut text = String::new();
+    let mut is_tag = false;
+    for letter in html.chars() {
+        match letter {
+            '<' => is_tag = true,
+            '>' => is_tag = false,
+            letter if !is_tag => text.push(letter),
+            _ => {}
+        }
+    }
+    text
 }
 
 fn part(name: &str, pages: &[(PathBuf, String)], current: &Path, base: &str) -> String {
