@@ -147,13 +147,20 @@ impl Soak {
         Some(case.map(|case| Case { name: directed.name.to_owned(), ..case }))
     }
 
+    /// A file of any format: each is as frequent as the others, though most seeds are GLB files; these come twice as often.
+    fn seed(&self, random: &mut Random) -> &Seed {
+        let mut kinds: Vec<String> = self.seeds.iter().map(Seed::extension).collect();
+        kinds.sort();
+        kinds.dedup();
+        kinds.push("glb".into());
+        let kind = &kinds[random.below(kinds.len())];
+        let seeds: Vec<&Seed> = self.seeds.iter().filter(|seed| seed.extension() == *kind).collect();
+        seeds[random.below(seeds.len())]
+    }
+
     /// A damaged file, or a good one beside a damaged companion, under any subcommand that reads it.
     fn damaged(&self, random: &mut Random) -> Case {
-        // Each format often, though most seeds are GLB files.
-        let kinds: &[&str] = random.pick(&[&["glb", "vrm"], &["glb", "vrm"], &["gltf"], &["obj"], &["png"]]);
-        let seeds: Vec<&Seed> =
-            self.seeds.iter().filter(|seed| kinds.contains(&seed.extension().as_str())).collect();
-        let seed = seeds[random.below(seeds.len())];
+        let seed = self.seed(random);
         let extension = seed.extension();
         let (bytes, companions) = damage(random, seed);
         let file = format!("in.{extension}");
@@ -176,7 +183,8 @@ impl Soak {
 
     /// The viewer on a damaged model, under hostile connections.
     fn view(&self, random: &mut Random) -> Case {
-        let models: Vec<&Seed> = self.seeds.iter().filter(|seed| seed.extension() != "png").collect();
+        let models: Vec<&Seed> =
+            self.seeds.iter().filter(|seed| !command_lines::is_image(&seed.extension())).collect();
         let seed = models[random.below(models.len())];
         let name = format!("in.{}", seed.extension());
         let (bytes, companions) = if random.one_in(2) {

@@ -7,9 +7,9 @@ use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 use darboux::Convention;
-use darboux_io::Error;
 use darboux_io::gltf::Document;
 use darboux_io::image::{PngImage, RgbaImage};
+use darboux_io::{Error, system_reason};
 
 use crate::batch::plan::Output;
 use crate::batch::report::Status;
@@ -43,8 +43,8 @@ impl<'a> Source<'a> {
         match (&self.stdin, self.input) {
             (Some(bytes), _) => Ok(RgbaImage::is_format_known(bytes).then_some(Cow::Borrowed(bytes))),
             (None, Input::File(path)) if is_image(path) => {
-                let bytes =
-                    fs::read(path).map_err(|error| format!("{}: cannot be read: {error}", self.input))?;
+                let bytes = fs::read(path)
+                    .map_err(|error| format!("{}: cannot be read: {}", self.input, system_reason(&error)))?;
                 Ok(Some(Cow::Owned(bytes)))
             }
             (None, _) => Ok(None),
@@ -140,7 +140,8 @@ fn has_extension(path: &Path, extensions: &[&str]) -> bool {
 pub fn read_stdin() -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     let read = io::stdin().lock().read_to_end(&mut bytes);
-    read.map(|_| bytes).map_err(|error| format!("{}: cannot be read: {error}", Input::Stdin))
+    read.map(|_| bytes)
+        .map_err(|error| format!("{}: cannot be read: {}", Input::Stdin, system_reason(&error)))
 }
 
 /// Writes a document and returns its status and the files written. `changed`: whether the command changed the document.
@@ -186,7 +187,8 @@ pub fn save_image(
     match output {
         Output::Stdout => {
             let bytes = image.to_bytes().map_err(sentence)?;
-            write_stdout(&bytes).map_err(|error| format!("{output}: cannot be written: {error}"))?;
+            write_stdout(&bytes)
+                .map_err(|error| format!("{output}: cannot be written: {}", system_reason(&error)))?;
             Ok((status, Vec::new()))
         }
         Output::File(path) if !is_png(path) => {

@@ -4,6 +4,7 @@ use std::ffi::OsStr;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use darboux_io::system_reason;
 use walkdir::{DirEntry, WalkDir};
 
 use crate::paths::{canonical, is_model};
@@ -135,7 +136,7 @@ impl FoundInputs {
 }
 
 fn reason_of(error: walkdir::Error) -> String {
-    error.into_io_error().map_or("the folder contains itself".into(), |error| error.to_string())
+    error.into_io_error().map_or("the folder contains itself".into(), |error| system_reason(&error))
 }
 
 /// Whether the file is named like an output for which no name was given, such as model.tangents.glb.

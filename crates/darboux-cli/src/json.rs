@@ -2,6 +2,7 @@
 
 use std::io;
 
+use darboux_io::system_reason;
 use serde::Serialize;
 
 use crate::exit;
@@ -25,7 +26,7 @@ pub fn print_report(report: &impl Serialize, json: bool, messages: &Messages) ->
     match to_json(report).map_err(io::Error::from).and_then(|text| write_stdout(&text)) {
         Ok(()) => exit::DONE,
         Err(error) => {
-            messages.error(&format!("the report cannot be written: {error}"));
+            messages.error(&format!("the report cannot be written: {}", system_reason(&error)));
             exit::FAILED
         }
     }

@@ -48,7 +48,7 @@ pub enum Error {
         source: darboux::Error,
     },
     /// The operating system refuses to read a file.
-    #[error("{}: cannot be read: {source}{}", file.display(), advice_on_reading(source))]
+    #[error("{}: cannot be read: {}{}", file.display(), system_reason(source), advice_on_reading(source))]
     Read {
         /// The file.
         file: PathBuf,
@@ -56,7 +56,7 @@ pub enum Error {
         source: io::Error,
     },
     /// The operating system refuses to write a file.
-    #[error("{}: cannot be written: {source}{}", file.display(), advice_on_writing(source))]
+    #[error("{}: cannot be written: {}{}", file.display(), system_reason(source), advice_on_writing(source))]
     Write {
         /// The file.
         file: PathBuf,
@@ -157,6 +157,16 @@ impl ContentError {
         }
     }
 }
+
+/// What the system says, without the number that Rust adds to it.
+pub fn system_reason(error: &io::Error) -> String {
+    let text = error.to_string();
+    match (error.raw_os_error(), text.rfind(" (os error ")) {
+        (Some(_), Some(end)) => text[..end].to_owned(),
+        _ => text,
+    }
+}
+
 /// What to do about a file that cannot be read, as a clause; empty where the system's reason says all.
 fn advice_on_reading(reason: &io::Error) -> &'static str {
     match reason.kind() {
@@ -172,6 +182,7 @@ fn advice_on_writing(reason: &io::Error) -> &'static str {
         io::ErrorKind::NotFound => "; make its folder first",
         io::ErrorKind::PermissionDenied => "; change the permissions of its folder",
         io::ErrorKind::StorageFull => "; free some space",
+        io::ErrorKind::ReadOnlyFilesystem => "; name an output elsewhere",
         _ => "",
     }
 }

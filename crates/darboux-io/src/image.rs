@@ -5,6 +5,7 @@ mod chunks;
 mod normal_map;
 mod palette;
 mod png_image;
+mod reasons;
 #[cfg(feature = "textures")]
 mod rgba;
 mod srgb;

@@ -33,7 +33,7 @@ pub mod obj;
 mod paths;
 mod staging;
 
-pub use error::Error;
+pub use error::{Error, system_reason};
 pub use files::Files;
 pub use load_options::{LoadOptions, OptionNames};
 pub use memory_limit::MemoryLimit;

@@ -69,8 +69,8 @@ fn text_of_the_file_cannot_forge_or_flood_a_message() {
 
 #[test]
 fn json_text() {
-    refused(parse("{\"asset\":"), "is not JSON: EOF");
-    refused(parse("{\"asset\":{\"version\":\"2.0\"}} trailing"), "is not JSON: trailing characters");
+    refused(parse("{\"asset\":"), "asset: is not JSON: the text ends too early at line 1, column ");
+    refused(parse("{\"asset\":{\"version\":\"2.0\"}} trailing"), "is not JSON: more text follows its end");
     refused(parse(b"{\"asset\":\"\xff\"}".as_slice()), "the JSON is not UTF-8");
     refused(
         parse(r#"{"asset":{"version":"1.0"},"meshes":{}}"#),

@@ -360,8 +360,7 @@ fn counts_in_the_head_of_a_draco_stream_that_it_cannot_hold_are_errors() {
         json["bufferViews"][view]["byteOffset"] = json!(offset);
         json["bufferViews"][view]["byteLength"] = json!(lie.len());
         let error = decode(&json).map(|_| ()).unwrap_err().to_string();
-        assert!(error.contains("the stream cannot be decoded ("), "{error}");
-        assert!(!error.contains("the decoder failed"), "no panic: {error}");
+        assert!(error.contains("the stream is broken; compress the file again"), "{error}");
     }
 }
 

@@ -51,6 +51,11 @@ const WRONG_NUMBERS: &[&str] = &["0", "0.5", "-1", "1000", "nan", "1e39"];
 /// Options that go without an input, and those that [`Line::add_files`] adds.
 const LEFT_OUT: [&str; 6] = ["--explain", "--output", "--out-dir", "--in-place", "--resume", "--high"];
 
+/// Whether files with this extension are images.
+pub fn is_image(extension: &str) -> bool {
+    ["png", "jpg", "jpeg", "webp", "ktx2"].contains(&extension)
+}
+
 impl Commands {
     /// Reads [`DESCRIPTION`]. Errors: it is missing or has another form.
     pub fn read() -> Result<Self, String> {
@@ -83,13 +88,14 @@ impl Commands {
     /// A line that reads the files.
     pub fn any(&self, random: &mut Random, program: &Program, files: &Files) -> Line {
         // The other subcommands test models more than pictures of them do.
-        let draws = files.renders && (files.extension == "obj" || random.one_in(4));
+        let is_gltf = ["glb", "gltf", "vrm"].contains(&files.extension);
+        let draws = files.renders && (!is_gltf || random.one_in(4));
         let can_run = |name: &str| program.has(name, "") && (name != "render" || draws);
         let known: Vec<_> = self.0.iter().filter(|(name, _)| can_run(name)).collect();
         let maps: Vec<_> =
             known.iter().filter(|(name, _)| name == "convert" || name == "check").copied().collect();
-        let choices =
-            if files.extension == "png" && !maps.is_empty() && !random.one_in(10) { maps } else { known };
+        let is_map = is_image(files.extension);
+        let choices = if is_map && !maps.is_empty() && !random.one_in(10) { maps } else { known };
         let (name, arguments) = random.pick(&choices);
         let mut line = Line { words: vec![name.clone()], reads_stdin: false };
         let mut rare = 5;
@@ -184,8 +190,11 @@ impl Line {
     }
 
     fn write(&mut self, random: &mut Random, files: &Files) {
-        let is_image = files.extension == "png";
-        let output = if is_image { "out.png" } else { random.pick(&["out.glb", "out.gltf", "out.vrm"]) };
+        let output = if is_image(files.extension) {
+            "out.png"
+        } else {
+            random.pick(&["out.glb", "out.gltf", "out.vrm"])
+        };
         let words: &[&str] = match random.below(8) {
             _ if self.words == ["check"] => &[files.file],
             0 => &[files.file, "--in-place"],

@@ -16,7 +16,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-use darboux_io::RunId;
+use darboux_io::{RunId, system_reason};
 use same_file::Handle;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -119,7 +119,7 @@ fn content_of(input: &Path, reading: &ReadOptions) -> Result<String, String> {
     let mut all = blake3::Hasher::new();
     for file in files {
         let hash = hash_of(&file, Links::Follow)
-            .map_err(|error| format!("{}: cannot be read: {error}", file.display()))?;
+            .map_err(|error| format!("{}: cannot be read: {}", file.display(), system_reason(&error)))?;
         all.update(hash.as_bytes());
     }
     Ok(all.finalize().to_hex().to_string())
@@ -148,7 +148,7 @@ impl Record {
         };
         let hashed = |(name, path): (String, &String)| {
             let hash = hash_of(Path::new(path), Links::Follow)
-                .map_err(|error| format!("{path}: cannot be read again: {error}"))?;
+                .map_err(|error| format!("{path}: cannot be read again: {}", system_reason(&error)))?;
             Ok((name, hash.to_hex().to_string()))
         };
         let files = names.into_iter().zip(written).map(hashed).collect::<Result<_, String>>()?;
@@ -187,8 +187,9 @@ impl Journal {
         let path = folder.join(NAME);
         let failed = |error: io::Error| {
             format!(
-                "{}: the journal cannot be opened: {error}; remove it, or choose another folder",
-                path.display()
+                "{}: the journal cannot be opened: {}; remove it, or choose another folder",
+                path.display(),
+                system_reason(&error)
             )
         };
         fs::create_dir_all(folder).map_err(failed)?;
@@ -278,7 +279,9 @@ impl Journal {
         for entry in WalkDir::new(&self.folder).into_iter().filter_map(Result::ok) {
             if entry.file_type().is_file() && is_temporary(entry.path()) {
                 let removed = fs::remove_file(entry.path());
-                removed.map_err(|error| format!("{}: cannot be removed: {error}", entry.path().display()))?;
+                removed.map_err(|error| {
+                    format!("{}: cannot be removed: {}", entry.path().display(), system_reason(&error))
+                })?;
             }
         }
         Ok(())
@@ -291,7 +294,9 @@ impl Journal {
 
     /// Lets other processes open the journal.
     pub fn unlock(&self) -> Result<(), String> {
-        self.file.unlock().map_err(|error| format!("{}: cannot be unlocked: {error}", self.folder.display()))
+        self.file.unlock().map_err(|error| {
+            format!("{}: cannot be unlocked: {}", self.folder.display(), system_reason(&error))
+        })
     }
 
     /// Finds the record of an output.
@@ -329,7 +334,7 @@ impl Journal {
         let mut line = Vec::new();
         let written = append_line(&mut line, value).and_then(|()| (&self.file).write_all(&line));
         let path = self.folder.join(NAME);
-        written.map_err(|error| format!("{}: cannot be written: {error}", path.display()))
+        written.map_err(|error| format!("{}: cannot be written: {}", path.display(), system_reason(&error)))
     }
 }
 

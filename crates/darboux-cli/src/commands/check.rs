@@ -14,6 +14,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use darboux_check::{Finding, check_document};
+use darboux_io::system_reason;
 
 use crate::batch;
 use crate::documents::Source;
@@ -81,7 +82,7 @@ pub fn run(arguments: &CheckArguments) -> u8 {
     match text {
         Ok(text) => print(&messages, &text, code),
         Err(error) => {
-            messages.error(&format!("the findings cannot be written: {error}"));
+            messages.error(&format!("the findings cannot be written: {}", error));
             exit::FAILED
         }
     }
@@ -106,7 +107,7 @@ fn print(messages: &Messages, text: &[u8], code: u8) -> u8 {
     match write_stdout(text) {
         Ok(()) => code,
         Err(error) => {
-            messages.error(&format!("the findings cannot be written: {error}"));
+            messages.error(&format!("the findings cannot be written: {}", system_reason(&error)));
             exit::FAILED
         }
     }

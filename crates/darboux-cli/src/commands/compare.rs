@@ -9,8 +9,8 @@ mod text;
 use std::path::Path;
 
 use darboux::{Choice, TangentOptions};
-use darboux_io::SaveOptions;
 use darboux_io::gltf::{AddTangentsOptions, Document, Pair, Progress, add_tangents, pair_tangents};
+use darboux_io::{SaveOptions, system_reason};
 
 use crate::documents::{load, refuse_used};
 use crate::inputs::Input;
@@ -53,7 +53,7 @@ pub fn run(arguments: &CompareArguments) -> u8 {
         (false, false) => Ok(text::describe(&report).into_bytes()),
     };
     if let Err(error) = text.and_then(|text| write_stdout(&text)) {
-        messages.error(&format!("the comparison cannot be written: {error}"));
+        messages.error(&format!("the comparison cannot be written: {}", system_reason(&error)));
         return exit::FAILED;
     }
     if report.within_tolerance == Some(false) { exit::DIFFERENT } else { exit::DONE }

@@ -4,6 +4,7 @@ pub mod arguments;
 
 use clap::{Command, CommandFactory};
 use clap_complete::generate;
+use darboux_io::system_reason;
 
 use crate::command_line::Arguments;
 use crate::exit;
@@ -17,7 +18,7 @@ pub fn run(arguments: &CompletionsArguments) -> u8 {
     match write_stdout(&script) {
         Ok(()) => exit::DONE,
         Err(error) => {
-            Messages::new(false).error(&format!("the script cannot be written: {error}"));
+            Messages::new(false).error(&format!("the script cannot be written: {}", system_reason(&error)));
             exit::FAILED
         }
     }

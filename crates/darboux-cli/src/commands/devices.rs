@@ -4,6 +4,7 @@ pub mod arguments;
 
 use std::fmt::Write as _;
 
+use darboux_io::system_reason;
 use indicatif::{HumanBytes, HumanCount};
 use serde::Serialize;
 
@@ -31,7 +32,7 @@ pub fn run(arguments: &DevicesArguments) -> u8 {
         Ok(describe(&adapters).into_bytes())
     };
     if let Err(error) = text.map_err(std::io::Error::from).and_then(|text| write_stdout(&text)) {
-        Messages::new(false).error(&format!("the list cannot be written: {error}"));
+        Messages::new(false).error(&format!("the list cannot be written: {}", system_reason(&error)));
         return exit::FAILED;
     }
     exit::DONE

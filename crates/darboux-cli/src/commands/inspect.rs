@@ -5,6 +5,7 @@ mod report;
 mod table;
 
 use darboux_io::gltf::inspect;
+use darboux_io::system_reason;
 
 use crate::documents::load;
 use crate::exit;
@@ -40,7 +41,7 @@ pub fn run(arguments: &InspectArguments) -> u8 {
         }
     };
     if let Err(error) = text.map_err(std::io::Error::from).and_then(|text| write_stdout(&text)) {
-        messages.error(&format!("the table cannot be written: {error}"));
+        messages.error(&format!("the table cannot be written: {}", system_reason(&error)));
         return exit::FAILED;
     }
     print_problems(&files, &messages)

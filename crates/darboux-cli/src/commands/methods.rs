@@ -1,6 +1,7 @@
 //! `darboux methods`: explains the methods of computing tangents.
 
 use darboux::{Choice, Method};
+use darboux_io::system_reason;
 
 use crate::exit;
 use crate::terminal::{Messages, write_stdout};
@@ -21,7 +22,7 @@ pub fn run() -> u8 {
     match write_stdout(format!("{INTRODUCTION}{lines}{CONCLUSION}").as_bytes()) {
         Ok(()) => exit::DONE,
         Err(error) => {
-            Messages::new(false).error(&format!("the text cannot be written: {error}"));
+            Messages::new(false).error(&format!("the text cannot be written: {}", system_reason(&error)));
             exit::FAILED
         }
     }

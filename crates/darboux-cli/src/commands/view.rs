@@ -10,6 +10,8 @@ use std::convert::Infallible;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use darboux_io::system_reason;
+
 use crate::exit;
 use crate::terminal::{Messages, write_stdout};
 use arguments::ViewArguments;
@@ -38,7 +40,7 @@ fn serve(arguments: &ViewArguments, messages: &Messages) -> Result<Infallible, S
     let server = Server::start(page, models, secret()?)?;
     let address = server.address();
     write_stdout(format!("{address}\n").as_bytes())
-        .map_err(|error| format!("the address cannot be written: {error}"))?;
+        .map_err(|error| format!("the address cannot be written: {}", system_reason(&error)))?;
     if !arguments.no_open && open::that_detached(address).is_err() {
         messages.warn("no browser could be opened; open the address above in one");
     }

@@ -115,7 +115,10 @@ impl Document {
         at: &str,
     ) -> Result<(), ContentError> {
         if sparse.count > count {
-            let problem = format!("{} is more than the accessor's count of {count}", sparse.count);
+            let problem = format!(
+                "{} is more than the accessor's count of {count}; export the file again",
+                sparse.count
+            );
             return Err(ContentError::invalid(format!("{at}.count"), problem));
         }
         let places = self.sparse_indices(sparse, at)?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::resources::{ResourceFile, Resources, UriTarget, decode_data_uri};
 use super::schema;
-use crate::error::ContentError;
+use crate::error::{ContentError, system_reason};
 
 /// The source of a buffer's bytes.
 #[derive(Debug)]
@@ -45,9 +45,9 @@ pub fn load_buffer(
         }
         Some(Ok(UriTarget::File(located))) => {
             let file = resources.open(&located);
-            BufferSource::File(
-                file.map_err(|error| ContentError::resource(at(), format!("cannot be read: {error}")))?,
-            )
+            BufferSource::File(file.map_err(|error| {
+                ContentError::resource(at(), format!("cannot be read: {}", system_reason(&error)))
+            })?)
         }
         Some(Err(problem)) => return Err(ContentError::resource(at(), problem)),
     };

@@ -2,7 +2,7 @@
 //!
 //! Exponents are the exception: serde_json writes `1E5` as `1e+5`.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::fmt;
 
 use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
@@ -24,19 +24,53 @@ const MAX_DEPTH: usize = 100;
 /// a number is beyond the range of 64-bit floats; the value would take more memory than `limit`.
 pub fn parse(text: &str, limit: Budget) -> Result<Value, ContentError> {
     let mut parser = serde_json::Deserializer::from_str(text);
-    let bytes_left = Cell::new(limit.bytes);
-    let parsed =
-        StrictValue { depth: 0, bytes_left: &bytes_left }.deserialize(&mut parser).and_then(|value| {
-            parser.end()?;
-            Ok(value)
-        });
+    let (bytes_left, failed_at) = (Cell::new(limit.bytes), RefCell::default());
+    let root = StrictValue { depth: 0, bytes_left: &bytes_left, failed_at: &failed_at };
+    let parsed = root.deserialize(&mut parser).and_then(|value| {
+        parser.end()?;
+        Ok(value)
+    });
     parsed.map_err(|error| {
         if bytes_left.get() == 0 {
             return ContentError::unsupported("", limit.exceeded("has JSON that needs"));
         }
-        let (what, problem) = (if error.is_data() { "" } else { "is not JSON: " }, error.to_string());
-        ContentError::invalid("", format!("{what}{}; export the file again", shortened(&problem)))
+        let at =
+            failed_at.borrow().iter().rev().take(LONGEST_PATH).fold(String::new(), |path, step| match step {
+                Step::Index(index) => format!("{path}[{index}]"),
+                Step::Key(key) if path.is_empty() => key.clone(),
+                Step::Key(key) => format!("{path}.{key}"),
+            });
+        ContentError::invalid(at, format!("{}; export the file again", shortened(&parse_problem(&error))))
     })
+}
+
+/// Why a text cannot be parsed, as a clause whose subject is the place.
+fn parse_problem(error: &serde_json::Error) -> String {
+    let (line, column) = (error.line(), error.column());
+    let message = error.to_string();
+    let message = message.strip_suffix(&format!(" at line {line} column {column}")).unwrap_or(&message);
+    if error.is_data() {
+        return message.to_owned();
+    }
+    let problem = match message {
+        _ if error.is_eof() => "the text ends too early",
+        "expected `:`" => "a colon is missing",
+        "expected `,` or `]`" => "a comma or ] is missing",
+        "expected `,` or `}`" => "a comma or } is missing",
+        "expected value" => "a value is missing",
+        "expected ident" => "the only words outside quotes are true, false and null",
+        "key must be a string" => "a key must be a string in quotes",
+        "invalid number" => "a number is misspelled",
+        "trailing comma" => "a bracket follows a comma",
+        "trailing characters" => "more text follows its end",
+        "invalid escape" => "a string has a backslash before a character that needs none",
+        _ if message.starts_with("control character") => "a string has a control character",
+        _ if message.contains("hex escape") || message.contains("code point") => {
+            "the digits after \\u in a string are those of no character"
+        }
+        _ => "its text is wrong",
+    };
+    format!("is not JSON: {problem} at line {line}, column {column}")
 }
 
 /// A part of a document's JSON as another type. `at` is the JSON path of the part. Errors: it is not of that type.
@@ -92,8 +126,12 @@ fn expected_value(name: &str) -> String {
         "a map" => "an object".to_owned(),
         "a sequence" => "an array".to_owned(),
         "a boolean" => "true or false".to_owned(),
+        "string or map" | "map with a single key" => "a string".to_owned(),
         name if name.starts_with("struct ") => "an object".to_owned(),
-        name => name.replace('`', ""),
+        name => match name.strip_prefix("an array of length ") {
+            Some(length) => format!("an array of {length} numbers"),
+            None => name.replace('`', ""),
+        },
     }
 }
 
@@ -105,12 +143,23 @@ const BYTES_PER_VALUE: usize = 112;
 const BYTES_PER_MEMBER: usize = 48;
 const BYTES_PER_TABLE: usize = 400;
 
+/// The most steps of a path in a message; those of glTF have fewer.
+const LONGEST_PATH: usize = 12;
+
+/// A step of the path to the value that cannot be read.
+enum Step {
+    Index(usize),
+    Key(String),
+}
+
 /// Reads a value strictly.
 #[derive(Clone, Copy)]
 struct StrictValue<'a> {
     depth: usize,
     /// The memory that values may still take; 0 once it is spent.
     bytes_left: &'a Cell<usize>,
+    /// The path to the value that cannot be read, its last step first.
+    failed_at: &'a RefCell<Vec<Step>>,
 }
 
 impl StrictValue<'_> {
@@ -119,6 +168,12 @@ impl StrictValue<'_> {
             return Err(E::custom(format_args!("the JSON is nested more than {MAX_DEPTH} levels deep")));
         }
         Ok(Self { depth: self.depth + 1, ..self })
+    }
+
+    /// Adds a step to the path of a value that cannot be read.
+    fn fail<E>(self, error: E, step: Step) -> E {
+        self.failed_at.borrow_mut().push(step);
+        error
     }
 
     fn spend<E: serde::de::Error>(self, bytes: usize) -> Result<(), E> {
@@ -169,7 +224,10 @@ impl<'de> Visitor<'de> for StrictValue<'_> {
     fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Value, A::Error> {
         let inner = self.inner()?;
         let mut array = Vec::new();
-        while let Some(element) = elements.next_element_seed(inner)? {
+        let next = |elements: &mut A, index| {
+            elements.next_element_seed(inner).map_err(|error| self.fail(error, Step::Index(index)))
+        };
+        while let Some(element) = next(&mut elements, array.len())? {
             self.spend(BYTES_PER_VALUE)?;
             array.push(element);
         }
@@ -187,7 +245,9 @@ impl<'de> Visitor<'de> for StrictValue<'_> {
             match object.entry(key) {
                 Entry::Vacant(entry) => {
                     self.spend(BYTES_PER_VALUE + BYTES_PER_MEMBER + entry.key().len())?;
-                    entry.insert(members.next_value_seed(inner)?);
+                    let value = members.next_value_seed(inner);
+                    let value = value.map_err(|error| self.fail(error, Step::Key(entry.key().clone())))?;
+                    entry.insert(value);
                 }
                 Entry::Occupied(entry) => {
                     return Err(A::Error::custom(format_args!(
@@ -330,8 +390,27 @@ mod tests {
         assert!(parse(&allowed).is_ok());
         assert!(problem(r#"{"a":1,"b":{"a":1,"\u0061":2}}"#).contains("an object has the key \"a\" twice"));
         assert!(problem("[1e400]").contains("the number 1e+400 is out of range"));
-        assert!(problem("[1,]").starts_with("is not JSON: "));
-        assert!(problem("{} {}").starts_with("is not JSON: "));
+        let sentence = |text: &str| parse(text).expect_err("invalid JSON").in_file("f").to_string();
+        assert!(
+            sentence("{\"a\":[0,{\"b\":1e400}]}")
+                .starts_with("f: a[1].b: the number 1e+400 is out of range; ")
+        );
+        for (text, expected) in [
+            ("[1,]", "a bracket follows a comma"),
+            ("{} {}", "more text follows its end"),
+            ("[1 2]", "a comma or ] is missing"),
+            ("[1 ", "the text ends too early"),
+            ("[nul]", "the only words outside quotes are true, false and null"),
+            ("[\"\\ud800\"]", "the digits after \\u in a string are those of no character"),
+            ("[\"\u{1}\"]", "a string has a control character"),
+            ("[-]", "a number is misspelled"),
+        ] {
+            assert!(
+                problem(text).starts_with(&format!("is not JSON: {expected} at line 1, column ")),
+                "{}",
+                problem(text)
+            );
+        }
         let limit = Budget { bytes: 1 << 20, is_of_process: false, option: "--memory-limit" };
         let many = format!("[{}0]", "{\"\":0},".repeat(10_000));
         let refused = super::parse(&many, limit).expect_err("6 MB").into_clause();

@@ -98,7 +98,11 @@ impl Document {
     ) -> Result<Self, ContentError> {
         let container = Container::parse(&file)?;
         let text = std::str::from_utf8(&file[container.json.clone()]).map_err(|error| {
-            ContentError::invalid("", format!("the JSON is not UTF-8: {error}; export the file again"))
+            let byte = error.valid_up_to();
+            ContentError::invalid(
+                "",
+                format!("the JSON is not UTF-8 at its byte {byte}; export the file again"),
+            )
         })?;
         let limit = options.budget(file.len(), 0);
         let (json, layout) = (json::parse(text, limit)?, TextLayout::of(text));

@@ -11,7 +11,7 @@ use super::resources::{UriTarget, decode_data_uri};
 use super::schema::{Image, TextureInfoExtensions};
 use super::tangents::uv::{UvChoice, UvTransform};
 use crate::Error;
-use crate::error::ContentError;
+use crate::error::{ContentError, system_reason};
 
 /// A material: the parts that a simple renderer needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -391,9 +391,11 @@ impl Document {
             Ok(UriTarget::Remote) => {
                 Err(ContentError::resource(at, "is on another machine; download it and refer to the file"))
             }
-            Ok(UriTarget::File(located)) => (self.resources.bytes(&located.path))
-                .map(|bytes| Cow::Owned(bytes.into_vec()))
-                .map_err(|error| ContentError::resource(at, format!("cannot be read: {error}"))),
+            Ok(UriTarget::File(located)) => {
+                (self.resources.bytes(&located.path)).map(|bytes| Cow::Owned(bytes.into_vec())).map_err(
+                    |error| ContentError::resource(at, format!("cannot be read: {}", system_reason(&error))),
+                )
+            }
             Err(problem) => Err(ContentError::resource(at, problem)),
         }
     }

@@ -17,7 +17,7 @@ use super::resources::{UriTarget, encode_data_uri, image_type};
 use super::schema::{Buffer, BufferView};
 use super::segments::Segment;
 use super::unused_data::UnusedData;
-use crate::error::ContentError;
+use crate::error::{ContentError, system_reason};
 
 /// The segments of a binary chunk, or of a new file.
 #[derive(Debug, Default)]
@@ -262,7 +262,7 @@ impl<'a> OutputLayout<'a> {
                     let bytes = document.resources.bytes(&located.path).map_err(|error| {
                         ContentError::resource(
                             format!("images[{index}].uri"),
-                            format!("cannot be read: {error}"),
+                            format!("cannot be read: {}", system_reason(&error)),
                         )
                     })?;
                     let kind = image_type(&bytes);

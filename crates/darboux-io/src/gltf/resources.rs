@@ -17,7 +17,7 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
 
 use super::file_bytes::{FileAccess, FileBytes};
-use crate::{LoadOptions, files, paths};
+use crate::{LoadOptions, files, paths, system_reason};
 
 /// The target of a URI.
 #[derive(Debug)]
@@ -94,7 +94,7 @@ impl Resources {
         let joined = base.join(Path::new(&*decoded));
         let path = self.access.resolved(&joined).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound => format!("the file {shown} does not exist; put it beside the document"),
-            _ => format!("the file {shown} cannot be opened: {error}"),
+            _ => format!("the file {shown} cannot be opened: {}", system_reason(&error)),
         })?;
         if !path.starts_with(base) && !self.options.allow_outside {
             return Err(self.outside(&shown));
@@ -225,7 +225,7 @@ pub fn decode_data_uri(data: &str) -> Result<Vec<u8>, String> {
         .with_decode_allow_trailing_bits(true);
     GeneralPurpose::new(&STANDARD, config)
         .decode(content)
-        .map_err(|error| format!("the data URI is not base64 ({error}); export the file again"))
+        .map_err(|_| "the data URI is not base64; export the file again".to_owned())
 }
 
 /// The `data:` URI of bytes of a media type.

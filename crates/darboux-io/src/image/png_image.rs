@@ -8,6 +8,7 @@ use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 use super::channels;
 use super::chunks::{self, Chunk, Chunks};
 use super::palette::check_palette;
+use super::reasons;
 use crate::LoadOptions;
 use crate::error::ContentError;
 use crate::staging::Outputs;
@@ -128,7 +129,10 @@ impl PngImage {
 
     fn decode(name: &str, file: Vec<u8>, options: &LoadOptions) -> Result<Self, ContentError> {
         let broken = |error: png::DecodingError| {
-            ContentError::invalid("", format!("is not a complete PNG: {error}; save it again"))
+            ContentError::invalid(
+                "",
+                format!("is not a complete PNG: {}; save it again", reasons::of_png(&error)),
+            )
         };
         let chunks = Chunks::split(&file)?;
         let mut decoder = Decoder::new(Cursor::new(&file));
@@ -294,8 +298,6 @@ fn encoded([width, height]: [u32; 2], color: ColorType, texels: &Texels) -> Resu
             encoder.write_header().and_then(|mut writer| writer.write_image_data(&bytes))
         }
     };
-    written.map_err(|error| {
-        ContentError::unsupported("", format!("cannot be encoded: {error}; check its size"))
-    })?;
+    written.map_err(|_| ContentError::unsupported("", "cannot be encoded as PNG; check its size"))?;
     Ok(encoded)
 }

@@ -11,6 +11,7 @@ use zune_jpeg::JpegDecoder;
 
 use super::chunks::SIGNATURE as PNG;
 use super::palette::check_palette;
+use super::reasons;
 
 /// An image as 8-bit RGBA texels.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -135,15 +136,15 @@ impl RgbaImage {
     }
 }
 
-fn broken(error: impl std::fmt::Display) -> DecodeError {
-    DecodeError::Broken(error.to_string())
+fn broken(problem: &str) -> DecodeError {
+    DecodeError::Broken(problem.to_owned())
 }
 
 /// Checks a size from a header; gives the number of texels.
 fn texel_count(width: usize, height: usize, limits: &DecodeLimits) -> Result<usize, DecodeError> {
     let side = limits.max_side as usize;
     match width.checked_mul(height) {
-        _ if width == 0 || height == 0 => Err(DecodeError::Broken("it has no texels".to_owned())),
+        _ if width == 0 || height == 0 => Err(broken("it has no texels")),
         Some(texels) if width <= side && height <= side && texels as u64 <= limits.max_texels => Ok(texels),
         _ => Err(DecodeError::TooLarge { width, height }),
     }
@@ -154,14 +155,14 @@ fn decode_png(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeErr
     decoder.set_transformations(Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
-    let mut reader = decoder.read_info().map_err(broken)?;
-    check_palette(reader.info()).map_err(broken)?;
+    let mut reader = decoder.read_info().map_err(|error| broken(reasons::of_png(&error)))?;
+    check_palette(reader.info()).map_err(|problem| broken(&problem))?;
     let (width, height) = (reader.info().width, reader.info().height);
     texel_count(width as usize, height as usize, limits)?;
     let (color, depth) = reader.output_color_type();
     let length = reader.output_buffer_size().ok_or_else(|| broken("it is too large"))?;
     let mut bytes = vec![0; length];
-    reader.next_frame(&mut bytes).map_err(broken)?;
+    reader.next_frame(&mut bytes).map_err(|error| broken(reasons::of_png(&error)))?;
     if depth == png::BitDepth::Sixteen {
         bytes = bytes.as_chunks().0.iter().map(|&word| to_byte(u16::from_be_bytes(word))).collect();
     }
@@ -183,13 +184,13 @@ fn decode_jpeg(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeEr
     // Without the strict mode, the decoder fills what damaged data does not give with grey.
     let options = DecoderOptions::default().set_strict_mode(true).set_max_width(side).set_max_height(side);
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(file), options);
-    decoder.decode_headers().map_err(broken)?;
+    decoder.decode_headers().map_err(|error| broken(reasons::of_jpeg(&error)))?;
     let (width, height) = decoder.dimensions().ok_or_else(|| broken("it has no size"))?;
     texel_count(width, height, limits)?;
     let is_grey = decoder.input_colorspace() == Some(ColorSpace::Luma);
     let space = if is_grey { ColorSpace::Luma } else { ColorSpace::RGB };
     decoder.set_options(options.jpeg_set_out_colorspace(space));
-    let bytes = decoder.decode().map_err(broken)?;
+    let bytes = decoder.decode().map_err(|error| broken(reasons::of_jpeg(&error)))?;
     let texels = match is_grey {
         true => rgba(&bytes, |[l]| [l, l, l, 255]),
         false => rgba(&bytes, |[r, g, b]| [r, g, b, 255]),
@@ -216,12 +217,13 @@ fn ends_with_its_image(file: &[u8]) -> bool {
 }
 
 fn decode_webp(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
-    let mut decoder = WebPDecoder::new(Cursor::new(file)).map_err(broken)?;
+    let mut decoder =
+        WebPDecoder::new(Cursor::new(file)).map_err(|error| broken(reasons::of_webp(&error)))?;
     let (width, height) = decoder.dimensions();
     texel_count(width as usize, height as usize, limits)?;
     let length = decoder.output_buffer_size().ok_or_else(|| broken("it is too large"))?;
     let mut bytes = vec![0; length];
-    decoder.read_image(&mut bytes).map_err(broken)?;
+    decoder.read_image(&mut bytes).map_err(|error| broken(reasons::of_webp(&error)))?;
     let texels = match decoder.has_alpha() {
         true => rgba(&bytes, |texel| texel),
         false => rgba(&bytes, |[r, g, b]| [r, g, b, 255]),

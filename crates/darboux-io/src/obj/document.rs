@@ -8,7 +8,7 @@ use tobj::Model;
 
 use super::companions::Companion;
 use super::libraries::LibraryMaterial;
-use crate::error::ContentError;
+use crate::error::{ContentError, system_reason};
 use crate::gltf::{ComponentType, ElementType, container, segments};
 use crate::image::{DecodeLimits, RgbaImage, srgb_to_linear};
 
@@ -69,8 +69,11 @@ impl DocumentBuilder {
         let bytes = match file.read() {
             Ok(bytes) => bytes,
             Err(error) => {
-                self.warnings
-                    .push(format!("{}: cannot be read: {error}; the texture is left out", file.name));
+                self.warnings.push(format!(
+                    "{}: cannot be read: {}; the texture is left out",
+                    file.name,
+                    system_reason(&error)
+                ));
                 return None;
             }
         };

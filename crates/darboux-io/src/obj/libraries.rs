@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use tobj::LoadError;
 
 use super::companions::{Companion, FileLookup};
+use crate::error::system_reason;
 
 /// A material of a library.
 pub struct LibraryMaterial {
@@ -96,8 +97,9 @@ impl MaterialLibraries {
 
 /// The materials of a library. The error is a clause whose subject is the library.
 fn parse_library(library: &Companion) -> Result<Vec<tobj::Material>, String> {
-    let bytes =
-        library.read().map_err(|error| format!("cannot be read: {error}; its materials are left out"))?;
+    let bytes = library
+        .read()
+        .map_err(|error| format!("cannot be read: {}; its materials are left out", system_reason(&error)))?;
     let text = String::from_utf8_lossy(&bytes);
     // The parser panics at colours with one or two numbers.
     let is_whole = |line: &str| {

@@ -72,6 +72,9 @@ pub fn file(random: &mut Random, extension: &str, bytes: &mut Vec<u8>) {
                 }
             }
             "obj" | "mtl" if !random.one_in(4) => lines(random, bytes),
+            "ply" | "stl" if bytes.is_ascii() && !bytes.contains(&0) && !random.one_in(4) => {
+                lines(random, bytes);
+            }
             "png" if !random.one_in(3) => png_chunks(random, bytes),
             _ => some_bytes(random, bytes),
         }

@@ -19,6 +19,10 @@ pub struct Seed {
     pub companions: Vec<(PathBuf, Vec<u8>)>,
 }
 
+/// The extensions of files that the command reads. Where it does not read one yet, it says so.
+const READ: [&str; 12] =
+    ["gltf", "glb", "vrm", "obj", "ply", "stl", "fbx", "png", "jpg", "jpeg", "webp", "ktx2"];
+
 /// Files larger than this are left out: damage to small ones finds as much in less time.
 const MAX_SIZE: usize = 400_000;
 
@@ -59,7 +63,7 @@ fn in_folder(folder: &Path) -> Result<Vec<Seed>, String> {
     for path in &files {
         let kind = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let is_small = fs::metadata(path).is_ok_and(|file| file.len() <= MAX_SIZE as u64);
-        if !is_small || !["gltf", "glb", "vrm", "obj", "png"].contains(&&*kind) {
+        if !is_small || !READ.contains(&&*kind) {
             continue;
         }
         let mut seed = Seed { name: name_of(path), bytes: read(path)?, companions: Vec::new() };
@@ -99,6 +103,10 @@ fn of_corpus() -> Result<Vec<Seed>, String> {
 fn made() -> Result<Vec<Seed>, String> {
     let mut random = Random::new(0, 0);
     let mut seeds = vec![Seed::new("grid.glb", Mesh::grid(40).glb()), sparse(), obj()];
+    seeds.extend(scans());
+    seeds.push(Seed::new("grid.vrm", Mesh::grid(8).glb()));
+    seeds.push(Seed::new("bumps.jpeg", BUMPS_JPEG.into()));
+    seeds.push(Seed::new("bumps.webp", BUMPS_WEBP.into()));
     for number in 0..12 {
         seeds.push(Seed::new(&format!("map{number}.png"), images::any_png(&mut random)?));
     }
@@ -156,6 +164,49 @@ fn obj() -> Seed {
         .with("normal.png", BUMPS_PNG)
 }
 
+/// A square in PLY and STL, as text and binary.
+fn scans() -> [Seed; 4] {
+    let mesh = Mesh::square(1.0);
+    let floats = |vector: &[f32]| vector.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+    let header = |format: &str| {
+        let vertex: String = ["x", "y", "z", "nx", "ny", "nz", "s", "t"]
+            .map(|name| format!("property float {name}\n"))
+            .concat();
+        format!(
+            "ply\nformat {format} 1.0\ncomment made\nelement vertex 4\n{vertex}element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+        )
+    };
+    let vertices = || (0..4).map(|i| [&mesh.positions[i][..], &mesh.normals[i], &mesh.uvs[i]].concat());
+    let mut ply = header("ascii");
+    vertices().for_each(|vertex| {
+        ply += &format!("{}\n", vertex.iter().map(f32::to_string).collect::<Vec<_>>().join(" "))
+    });
+    ply += "3 0 1 2\n3 0 2 3\n";
+    let mut binary_ply = header("binary_little_endian").into_bytes();
+    vertices().for_each(|vertex| binary_ply.extend(floats(&vertex)));
+    let mut stl = "solid made\n".to_owned();
+    let mut binary_stl = [&[0; 80][..], &2u32.to_le_bytes()].concat();
+    for triangle in mesh.indices.chunks(3) {
+        binary_ply.push(3);
+        binary_ply.extend(triangle.iter().flat_map(|index| index.to_le_bytes()));
+        stl += "facet normal 0 0 1\nouter loop\n";
+        binary_stl.extend(floats(&[0.0, 0.0, 1.0]));
+        for position in triangle.iter().map(|&index| mesh.positions[index as usize]) {
+            stl += &format!("vertex {} {} {}\n", position[0], position[1], position[2]);
+            binary_stl.extend(floats(&position));
+        }
+        stl += "endloop\nendfacet\n";
+        binary_stl.extend([0; 2]);
+    }
+    stl += "endsolid made\n";
+    [
+        Seed::new("text.ply", ply.into()),
+        Seed::new("binary.ply", binary_ply),
+        Seed::new("text.stl", stl.into()),
+        Seed::new("binary.stl", binary_stl),
+    ]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -163,7 +214,7 @@ mod tests {
     #[test]
     fn every_format_has_a_seed() {
         let seeds = all(None).expect("seeds");
-        for kind in ["gltf", "glb", "obj", "png"] {
+        for kind in ["gltf", "glb", "vrm", "obj", "ply", "stl", "png", "jpeg", "webp"] {
             assert!(seeds.iter().any(|seed| seed.extension() == kind), "{kind}");
         }
         let names: Vec<_> = seeds.iter().map(|seed| seed.name.display().to_string()).collect();

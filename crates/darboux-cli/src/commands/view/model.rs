@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use darboux_io::LoadOptions;
 use darboux_io::gltf::{Document, inspect};
 use darboux_io::obj::{Companion, companions};
-use darboux_io::resolve_input;
+use darboux_io::{resolve_input, system_reason};
 
 use crate::regular_file::{Links, open_regular};
 
@@ -61,7 +61,8 @@ impl ServedModel {
     /// unchanged; a glTF file is sent as a GLB with its buffers and images. Errors: one sentence about the file.
     pub fn read(&self, index: usize) -> Option<Result<Vec<u8>, String>> {
         let unchanged = |path: &Path| {
-            read_regular(path).map_err(|error| format!("{}: cannot be read: {error}", path.display()))
+            read_regular(path)
+                .map_err(|error| format!("{}: cannot be read: {}", path.display(), system_reason(&error)))
         };
         match (&self.kind, index) {
             (ModelKind::Gltf, 0) => {
@@ -72,7 +73,11 @@ impl ServedModel {
             (ModelKind::Obj(companions), index) => {
                 let companion = companions.get(index - 1)?;
                 let shown = companion.path.display();
-                Some(companion.read().map_err(|error| format!("{shown}: cannot be read: {error}")))
+                Some(
+                    companion
+                        .read()
+                        .map_err(|error| format!("{shown}: cannot be read: {}", system_reason(&error))),
+                )
             }
         }
     }

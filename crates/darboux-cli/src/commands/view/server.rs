@@ -11,6 +11,7 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
+use darboux_io::system_reason;
 use http_body_util::Full;
 use hyper::body::{Bytes, Incoming};
 use hyper::header::{CACHE_CONTROL, CONTENT_TYPE, HOST, HeaderValue, X_CONTENT_TYPE_OPTIONS};
@@ -80,7 +81,7 @@ const TEXT: &str = "text/plain; charset=utf-8";
 impl Server {
     /// Opens a port. Errors: the system refuses one.
     pub fn start(page: Page, models: ServedModels, secret: String) -> Result<Self, String> {
-        let failed = |error: io::Error| format!("no port can be opened: {error}");
+        let failed = |error: io::Error| format!("no port can be opened: {}", system_reason(&error));
         let listener = StdListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, 0))).map_err(failed)?;
         listener.set_nonblocking(true).map_err(failed)?;
         let host = listener.local_addr().map_err(failed)?.to_string();
@@ -101,7 +102,7 @@ impl Server {
 
     /// Serves until the process ends. Errors: the system refuses what the server needs.
     pub fn run(self) -> Result<Infallible, String> {
-        let failed = |error: io::Error| format!("the server cannot run: {error}");
+        let failed = |error: io::Error| format!("the server cannot run: {}", system_reason(&error));
         let runtime = runtime::Builder::new_current_thread().enable_all().build().map_err(failed)?;
         runtime.block_on(async {
             let listener = TcpListener::from_std(self.listener).map_err(failed)?;

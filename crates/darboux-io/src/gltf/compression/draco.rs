@@ -4,7 +4,8 @@ use std::collections::{BTreeSet, HashMap};
 use std::panic;
 
 use ::draco_core::{
-    DataType, DecodeLimits, DecoderBuffer, FaceIndex, Mesh, MeshDecoder, PointAttribute, PointIndex,
+    DataType, DecodeLimits, DecoderBuffer, ErrorKind, FaceIndex, Mesh, MeshDecoder, PointAttribute,
+    PointIndex,
 };
 
 use super::DecodeBudget;
@@ -85,10 +86,7 @@ impl Document {
         let at = format!("{at}.extensions.{NAME}");
         let (stream, _) = self.view(draco.buffer_view, &format!("{at}.bufferView"))?;
         let mesh = decode(stream, budget.left).map_err(|problem| {
-            ContentError::invalid(
-                &at,
-                format!("the stream cannot be decoded ({problem}); compress the file again"),
-            )
+            ContentError::invalid(&at, format!("the stream {problem}; compress the file again"))
         })?;
         // The whole stream was decoded, whichever of its accessors are new: this bounds the time of many primitives over one stream.
         budget.spend(mesh.num_faces().saturating_mul(BYTES_PER_FACE), &at)?;
@@ -141,7 +139,8 @@ fn wanted_accessors(
     Ok(wanted)
 }
 
-fn decode(stream: &[u8], max_bytes: usize) -> Result<Mesh, String> {
+/// The error is a clause whose subject is the stream.
+fn decode(stream: &[u8], max_bytes: usize) -> Result<Mesh, &'static str> {
     let limits = DecodeLimits::default().with_max_decoded_bytes(max_bytes as u64);
     // A panic of the decoder becomes an error of this file. None is known.
     let decoded = panic::catch_unwind(|| {
@@ -149,7 +148,13 @@ fn decode(stream: &[u8], max_bytes: usize) -> Result<Mesh, String> {
         let mut buffer = DecoderBuffer::new(stream).with_limits(limits);
         MeshDecoder::new().decode(&mut buffer, &mut mesh).map(|()| mesh)
     });
-    decoded.map_err(|_| "the decoder failed".to_owned())?.map_err(|error| error.to_string())
+    decoded.map_err(|_| "makes the decoder fail")?.map_err(|error| match error.kind() {
+        ErrorKind::LimitExceeded => "needs more memory than the limit",
+        ErrorKind::UnsupportedVersion | ErrorKind::UnsupportedFeature => {
+            "is of a kind that has no decoder here"
+        }
+        _ => "is broken",
+    })
 }
 
 fn index_elements(mesh: &Mesh, accessor: &Accessor) -> Result<Elements, String> {
