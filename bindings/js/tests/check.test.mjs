@@ -114,6 +114,7 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
   test(`${name}: wrong input is refused`, () => {
     assert.throws(() => check(new Uint8Array([1, 2, 3])), /the model/);
     assert.throws(() => check('model.glb'), TypeError);
+    assert.throws(() => check(undefined), /^TypeError: file must be a Uint8Array, not Undefined/);
     assert.throws(() => check(asset('made/shield.glb'), { green: 'left' }), RangeError);
     assert.deepEqual(errors(check(new Uint8Array([0x89, 0x50, 0x4e, 0x47]))), ['map-unreadable']);
     assert.throws(() => convertFile(asset('made/shield.glb'), 'metal', 'gltf'), /^Error: source: "metal" is not a convention/);

@@ -112,7 +112,7 @@ fn results_that_cannot_be_printed_are_an_error() {
         &["inspect", model, "--json"],
         &["check", model],
         &["check", model, "--json"],
-        &["compare", model, "--method", "area"],
+        &["compare", text(&asset("made/shield.glb")), "--method", "area"],
         &["tangents", model, "-o", "-"],
         &["methods"],
         &["completions", "bash"],
