@@ -16,7 +16,7 @@ use super::verdict::BrokenPromise;
 const CONNECTIONS: usize = 200;
 /// The memory that the server may take beside four times the model.
 const MEMORY: u64 = 200 << 20;
-/// The time in which the page must arrive.
+/// The time in which the page must arrive, beside ten times that of a page without hostile connections, which is long on a busy machine.
 const PAGE_TIME: Duration = Duration::from_secs(5);
 /// The time in which the server must start.
 const START_TIME: Duration = Duration::from_secs(20);
@@ -83,6 +83,9 @@ fn attack(
     broken: &mut Vec<BrokenPromise>,
 ) -> io::Result<()> {
     let mut add = |detail: String| broken.push(BrokenPromise { kind: "server", detail });
+    let start = Instant::now();
+    let _reported_below = get(host, path);
+    let page_time = PAGE_TIME + 10 * start.elapsed();
     let mut connections = Vec::new();
     for _ in 0..CONNECTIONS {
         // A server that has ended refuses connections, which the request for the page reports.
@@ -100,7 +103,7 @@ fn attack(
         }
     }
     used.wall = start.elapsed();
-    if start.elapsed() > PAGE_TIME {
+    if start.elapsed() > page_time {
         add(format!("the page took {:.1} s", start.elapsed().as_secs_f32()));
     }
     if let Some(status) = server.try_wait()? {
@@ -132,7 +135,7 @@ fn request(random: &mut Random) -> Vec<u8> {
 /// The status of the answer to a request for `path`. Errors: none arrives in time.
 fn get(host: &str, path: &str) -> io::Result<u16> {
     let mut stream = TcpStream::connect(host)?;
-    stream.set_read_timeout(Some(2 * PAGE_TIME))?;
+    stream.set_read_timeout(Some(12 * PAGE_TIME))?;
     write!(stream, "GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n")?;
     let mut answer = Vec::new();
     stream.read_to_end(&mut answer)?;
