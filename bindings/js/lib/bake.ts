@@ -23,8 +23,8 @@ interface BakeExports extends Exports {
   baked_states(): number;
 }
 
-/** A kind of image: tangent-space normals, object-space normals, heights, ambient occlusion, positions. */
-export type MapKind = 'normal' | 'object-normal' | 'height' | 'ao' | 'position';
+/** A kind of image. `darboux bake --help` says what each is. */
+export type MapKind = (typeof KINDS)[number][0];
 
 /** The kinds in the order of their numbers in WebAssembly: names of images, and floats per texel. */
 const KINDS = [
@@ -33,7 +33,26 @@ const KINDS = [
   ['height', 'height', 1],
   ['ao', 'ao', 1],
   ['position', 'position', 3],
-] as const satisfies (readonly [MapKind, keyof BakedImages, number])[];
+  ['bent-normal', 'bentNormal', 3],
+  ['object-bent-normal', 'objectBentNormal', 3],
+  ['thickness', 'thickness', 1],
+  ['curvature', 'curvature', 1],
+  ['id', 'id', 3],
+  ['vertex-color', 'vertexColor', 4],
+  ['base-color', 'baseColor', 3],
+  ['opacity', 'opacity', 1],
+  ['roughness', 'roughness', 1],
+  ['metalness', 'metalness', 1],
+  ['emission', 'emission', 3],
+  ['texture', 'texture', 4],
+  ['world-direction', 'worldDirection', 3],
+  ['uv-islands', 'uvIslands', 3],
+  ['wireframe', 'wireframe', 1],
+] as const satisfies (readonly [string, keyof BakedImages, number])[];
+
+const FALLOFFS = ['none', 'linear', 'quadratic'] as const;
+const WEIGHTS = ['cosine', 'uniform'] as const;
+const ID_SOURCES = ['material', 'mesh', 'part', 'vertex-color'] as const;
 
 /** A mesh of triangles that receives the detail. */
 export interface LowMesh {
@@ -85,6 +104,18 @@ export interface BakeOptions {
   aoRays?: number | null;
   /** How far surfaces occlude each other. Default: any distance. */
   aoDistance?: number | null;
+  /** How occlusion fades up to `aoDistance`. Default: 'none'. */
+  aoFalloff?: (typeof FALLOFFS)[number] | null;
+  /** How the directions of occlusion and bent normals are weighted. Default: 'cosine'. */
+  aoWeights?: (typeof WEIGHTS)[number] | null;
+  /** How far the other side is looked for by 'thickness'. Default: any distance. */
+  thicknessDistance?: number | null;
+  /** The radius of 'curvature', in `curvatureUnit`. Default: 4. */
+  curvatureRadius?: number | null;
+  /** Default: 'texels'. */
+  curvatureUnit?: 'texels' | 'distance' | null;
+  /** The direction of 'world-direction', along the axes of the meshes. Default: [0, 1, 0]. */
+  worldDirection?: readonly [number, number, number] | null;
   /** The convention of the meshes, whose UVs and axes it describes. Default: 'gltf', which models are in. */
   meshConvention?: Convention | null;
   /** Called while the call runs, with the finished part from 0 to 1. */
@@ -101,6 +132,12 @@ export interface BakeModelsOptions extends Omit<BakeOptions, 'meshConvention'> {
   match?: 'nearest' | 'name' | null;
   /** Whether the normal maps of the high models count. Default: true. */
   highMaps?: boolean | null;
+  /** Whether parts of the high models are occluded by themselves only. Default: false. */
+  aoOwnPart?: boolean | null;
+  /** What the colours of 'id' stand for. Default: 'material'. */
+  idFrom?: (typeof ID_SOURCES)[number] | null;
+  /** The texture of the map 'texture': its place in the JSON of the high models' materials, such as 'occlusionTexture'. */
+  texture?: string | null;
 }
 
 /** The images of a bake, the top row first; null where a kind was not chosen. */
@@ -115,6 +152,36 @@ export interface BakedImages {
   ao: Float32Array<ArrayBuffer> | null;
   /** Positions along the axes of the convention, 3 floats per texel. */
   position: Float32Array<ArrayBuffer> | null;
+  /** The mean of the open directions in tangent space, 3 floats per texel. */
+  bentNormal: Float32Array<ArrayBuffer> | null;
+  /** The same along the axes of the convention, 3 floats per texel. */
+  objectBentNormal: Float32Array<ArrayBuffer> | null;
+  /** The mean distance to the other side. */
+  thickness: Float32Array<ArrayBuffer> | null;
+  /** The mean curvature times its radius: convex above 0, concave below. */
+  curvature: Float32Array<ArrayBuffer> | null;
+  /** A colour for each material, mesh or part, 3 floats per texel; `legends` says which. */
+  id: Float32Array<ArrayBuffer> | null;
+  /** Red, green, blue and alpha, 4 floats per texel. */
+  vertexColor: Float32Array<ArrayBuffer> | null;
+  /** Linear light, 3 floats per texel. */
+  baseColor: Float32Array<ArrayBuffer> | null;
+  /** From 0, transparent, to 1. */
+  opacity: Float32Array<ArrayBuffer> | null;
+  /** From 0 to 1. */
+  roughness: Float32Array<ArrayBuffer> | null;
+  /** From 0 to 1. */
+  metalness: Float32Array<ArrayBuffer> | null;
+  /** Linear light, 3 floats per texel. */
+  emission: Float32Array<ArrayBuffer> | null;
+  /** The texture of the option `texture`, 4 floats per texel. */
+  texture: Float32Array<ArrayBuffer> | null;
+  /** The direction of the option `worldDirection` in tangent space, 3 floats per texel. */
+  worldDirection: Float32Array<ArrayBuffer> | null;
+  /** A colour for each chart, 3 floats per texel. */
+  uvIslands: Float32Array<ArrayBuffer> | null;
+  /** 1 along the edges of the low mesh. */
+  wireframe: Float32Array<ArrayBuffer> | null;
 }
 
 /** The result of {@link bake} and {@link bakeModels}. */
@@ -130,6 +197,19 @@ export interface BakedMaps extends BakedImages {
   distance: readonly [number, number];
   /** What was left out, one sentence each. */
   warnings: string[];
+  /** What the colours of 'id' and 'uv-islands' stand for. */
+  legends: Partial<Record<MapKind, LegendEntry[]>>;
+}
+
+/** A colour of a map, and what it stands for. */
+export interface LegendEntry {
+  /** The number of the material, mesh, part or chart. */
+  id: number;
+  /** Its name; null where it has none. */
+  name: string | null;
+  /** Red, green and blue from 0 to 255. */
+  color: [number, number, number];
+  texels: number;
 }
 
 /** The states of texels. 'missed': in a chart, but no ray hit; 'missedBehind': and rays met triangles from behind. Both are filled from around. */
@@ -169,7 +249,7 @@ export interface BakeReport {
 
 /** What the module reports: counts by their names in Rust, or a sentence. */
 interface Outcome {
-  report?: Pick<BakedMaps, 'diagonal' | 'distance' | 'warnings'> & { counts: Record<string, number> };
+  report?: Pick<BakedMaps, 'diagonal' | 'distance' | 'warnings' | 'legends'> & { counts: Record<string, number> };
   error?: string;
 }
 
@@ -251,9 +331,9 @@ function call(chosen: BakeOptions, run: (exports: BakeExports) => number): Baked
     exports.begin_bake();
     const { report, error } = readJson<Outcome>(exports, run(exports));
     if (!report) throw new Error(error);
-    const { counts, diagonal, distance, warnings } = report;
+    const { counts, diagonal, distance, warnings, legends } = report;
     const size = sizeOf(chosen);
-    return { ...images(exports, size), size, states: states(exports, size), report: camelCased(counts), diagonal, distance, warnings };
+    return { ...images(exports, size), size, states: states(exports, size), report: camelCased(counts), diagonal, distance, warnings, legends };
   });
 }
 
@@ -278,7 +358,9 @@ function optionsText(options: BakeModelsOptions, meshConvention?: Convention | n
   for (const [name, value] of Object.entries(whole)) {
     if (value != null && !(Number.isInteger(value) && value >= 0 && value < 2 ** 32)) throw new RangeError(`${name} is ${value}; it must be a whole number from 0 on`);
   }
-  const lengths = { cageOffset, aoDistance, 'the first distance': distance?.[0], 'the second distance': distance?.[1] };
+  const [x, y, z] = options.worldDirection ?? [0, 1, 0];
+  const { thicknessDistance, curvatureRadius } = options;
+  const lengths = { cageOffset, aoDistance, thicknessDistance, curvatureRadius, 'worldDirection[0]': x, 'worldDirection[1]': y, 'worldDirection[2]': z, 'the first distance': distance?.[0], 'the second distance': distance?.[1] };
   for (const [name, value] of Object.entries(lengths)) {
     if (value != null && !Number.isFinite(value)) throw new RangeError(`${name} is ${value}; it must be a finite number`);
   }
@@ -299,6 +381,15 @@ function optionsText(options: BakeModelsOptions, meshConvention?: Convention | n
     highMaps: options.highMaps ?? true,
     aoRays: whole.aoRays,
     aoDistance: aoDistance ?? null,
+    aoFalloff: FALLOFFS[choice('aoFalloff', options.aoFalloff, FALLOFFS, 'none')],
+    aoWeights: WEIGHTS[choice('aoWeights', options.aoWeights, WEIGHTS, 'cosine')],
+    ownPartOnly: Boolean(options.aoOwnPart),
+    thicknessDistance: options.thicknessDistance ?? null,
+    curvatureRadius: options.curvatureRadius ?? 4,
+    isCurvatureInTexels: choice('curvatureUnit', options.curvatureUnit, ['texels', 'distance'], 'texels') === 0,
+    idFrom: ID_SOURCES[choice('idFrom', options.idFrom, ID_SOURCES, 'material')],
+    worldDirection: options.worldDirection ?? [0, 1, 0],
+    texture: options.texture ?? null,
   });
 }
 

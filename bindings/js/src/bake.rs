@@ -1,9 +1,12 @@
 //! `bakeModels` of `darboux/bake`: maps of a low model from the detail of high ones; and what `bake` shares with it.
 
-use darboux::{Context, Convention};
+use std::collections::BTreeMap;
+
+use darboux::{Choice, Context, Convention};
 use darboux_bake::{
-    BakeOptions, BakeProgress, BakeReport, Baked, Bitangent, HighModel, HighModelOptions, LowModel,
-    LowModelOptions, LowSurface, MapKind, MapSet, bake, default_cage_offset, group_by_name, inflated_cage,
+    BakeOptions, BakeProgress, BakeReport, Baked, Bitangent, CurvatureRadius, HighModel, HighModelOptions,
+    IdColor, IdSource, LowModel, LowModelOptions, LowSurface, MapKind, MapSet, bake, default_cage_offset,
+    group_by_name, inflated_cage,
 };
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
@@ -56,19 +59,8 @@ pub extern "C" fn json_length() -> usize {
 #[unsafe(no_mangle)]
 pub extern "C" fn baked_image(kind: usize) -> *const f32 {
     with_arena(|arena| {
-        let images = &arena.bake.images;
-        let vectors =
-            |image: &Option<Vec<[f32; 3]>>| image.as_ref().map(|image| image.as_flattened().as_ptr());
-        let numbers = |image: &Option<Vec<f32>>| image.as_ref().map(|image| image.as_ptr());
-        let found = match MapKind::ALL.get(kind) {
-            Some(MapKind::Normal) => vectors(&images.normal),
-            Some(MapKind::ObjectNormal) => vectors(&images.object_normal),
-            Some(MapKind::Height) => numbers(&images.height),
-            Some(MapKind::Occlusion) => numbers(&images.occlusion),
-            Some(MapKind::Position) => vectors(&images.position),
-            _ => None,
-        };
-        found.unwrap_or(std::ptr::null())
+        let numbers = MapKind::ALL.get(kind).and_then(|&kind| arena.bake.images.numbers(kind));
+        numbers.map_or(std::ptr::null(), <[f32]>::as_ptr)
     })
 }
 
@@ -99,6 +91,15 @@ pub struct Options {
     high_maps: bool,
     ao_rays: u32,
     ao_distance: Option<f32>,
+    ao_falloff: String,
+    ao_weights: String,
+    own_part_only: bool,
+    thickness_distance: Option<f32>,
+    curvature_radius: f32,
+    is_curvature_in_texels: bool,
+    id_from: String,
+    world_direction: [f32; 3],
+    texture: Option<String>,
 }
 
 /// What a bake reports beside its images.
@@ -110,6 +111,31 @@ pub struct Report {
     pub distance: [f32; 2],
     pub has_cage: bool,
     pub warnings: Vec<String>,
+    /// What the colours of maps stand for, by the names of the maps.
+    pub legends: BTreeMap<&'static str, Vec<LegendEntry>>,
+}
+
+/// A colour of a map, and what it stands for.
+#[derive(Serialize)]
+pub struct LegendEntry {
+    id: u32,
+    name: Option<String>,
+    color: [u8; 3],
+    texels: u64,
+}
+
+/// The legends of a bake. `names`: of what the colours of [`MapKind::Id`] stand for.
+pub fn legends(baked: &Baked, names: &[&str]) -> BTreeMap<&'static str, Vec<LegendEntry>> {
+    let entry = |kind: MapKind, color: &IdColor| LegendEntry {
+        id: color.id,
+        name: names.get(color.id as usize).filter(|_| kind == MapKind::Id).map(|&name| name.to_owned()),
+        color: color.color,
+        texels: color.texels,
+    };
+    let of_map = |(kind, colors): &(MapKind, Vec<IdColor>)| {
+        (kind.name(), colors.iter().map(|color| entry(*kind, color)).collect())
+    };
+    baked.legends.iter().map(of_map).collect()
 }
 
 #[derive(Serialize)]
@@ -164,7 +190,10 @@ fn bake_files(files: &[Vec<u8>], options: &[u8], context: &mut Context) -> Resul
     let low = LowModel::read(&low_document, &low_corners, &low_options).map_err(sentence)?;
     let high_corners: Vec<_> =
         high_documents.iter().map(Document::corners).collect::<Result<_, _>>().map_err(sentence)?;
-    let high_options = HighModelOptions::default().with_normal_maps(options.high_maps);
+    let high_options = HighModelOptions::default()
+        .with_normal_maps(options.high_maps)
+        .with_maps(chosen_maps(&options))
+        .with_texture(options.texture.clone());
     let highs = HighModel::read_all(&high_documents, &high_corners, &high_options).map_err(sentence)?;
     let mut report = Report {
         counts: BakeReport::default(),
@@ -172,10 +201,19 @@ fn bake_files(files: &[Vec<u8>], options: &[u8], context: &mut Context) -> Resul
         distance: distance(&options, low.diagonal()),
         has_cage: options.distance.is_none(),
         warnings: warnings(&low, &highs),
+        legends: BTreeMap::new(),
     };
     let baked = bake_read(&low, &highs, &options, &mut report, context)?;
     report.counts = baked.report;
+    let source = options.id_from.parse::<IdSource>().unwrap_or_default();
+    report.legends = legends(&baked, &HighModel::names_of_all(&highs, source));
     Ok((baked, report))
+}
+
+fn chosen_maps(options: &Options) -> MapSet {
+    let kinds: Vec<MapKind> =
+        options.maps.iter().filter_map(|&kind| MapKind::ALL.get(kind).copied()).collect();
+    MapSet::of(&kinds)
 }
 
 /// Bakes models that were read.
@@ -211,22 +249,30 @@ fn bake_read(
 }
 
 pub fn bake_settings(options: &Options, distance: [f32; 2]) -> Result<BakeOptions, String> {
-    let kinds: Vec<MapKind> =
-        options.maps.iter().filter_map(|&kind| MapKind::ALL.get(kind).copied()).collect();
     let convention: Convention =
         options.convention.parse().map_err(|error| format!("convention: {error}"))?;
     let mesh_convention: Convention =
         options.mesh_convention.parse().map_err(|error| format!("meshConvention: {error}"))?;
     let bitangent = if options.is_per_vertex { Bitangent::PerVertex } else { Bitangent::PerPixel };
     Ok(BakeOptions::new(options.size, distance)
-        .with_maps(MapSet::of(&kinds))
+        .with_maps(chosen_maps(options))
         .with_samples_per_axis(options.samples)
         .with_back_faces(options.back_faces)
         .with_bitangent(bitangent)
         .with_surface_convention(mesh_convention)
         .with_map_convention(convention)
         .with_padding(options.padding)
-        .with_occlusion(options.ao_rays, options.ao_distance.unwrap_or(f32::INFINITY)))
+        .with_occlusion(options.ao_rays, options.ao_distance.unwrap_or(f32::INFINITY))
+        .with_occlusion_falloff(options.ao_falloff.parse().map_err(|error| format!("aoFalloff: {error}"))?)
+        .with_occlusion_weights(options.ao_weights.parse().map_err(|error| format!("aoWeights: {error}"))?)
+        .with_own_part_only(options.own_part_only)
+        .with_thickness_distance(options.thickness_distance.unwrap_or(f32::INFINITY))
+        .with_curvature_radius(match options.is_curvature_in_texels {
+            true => CurvatureRadius::Texels(options.curvature_radius),
+            false => CurvatureRadius::Distance(options.curvature_radius),
+        })
+        .with_id_source(options.id_from.parse().map_err(|error| format!("idFrom: {error}"))?)
+        .with_world_direction(options.world_direction))
 }
 
 /// How far rays begin outside and end inside: the options', or a share of the model's diagonal.

@@ -6,7 +6,7 @@ use darboux::{Context, Indices, Mesh, Strided, TangentOptions, write_tangents};
 use darboux_bake::{Baked, HighSurface, LowSurface, bake, inflated_cage};
 
 use crate::arena::{Arena, with_arena};
-use crate::bake::{Report, bake_settings, distance, put_outcome, read_options, tell, text};
+use crate::bake::{Report, bake_settings, distance, legends, put_outcome, read_options, tell, text};
 use crate::bake_arrays::BakeArrays;
 use crate::inputs::resized;
 use crate::mesh_arrays::{Surface, Vertices, rows};
@@ -83,6 +83,7 @@ fn bake_arrays(
         distance,
         has_cage: cage.is_some(),
         warnings: Vec::new(),
+        legends: legends(&baked, &[]),
     };
     Ok((baked, report))
 }

@@ -1,33 +1,38 @@
 //! Bakes the detail of high meshes into images.
 
+use std::collections::HashMap;
+
 use darboux::{Cancel, Context, Convention};
 use darboux_bake::{
-    BakeError, BakeOptions, BakeReport, Baked, Bitangent, HighSurface, LowSurface, MapKind, MapSet,
-    bake as bake_surfaces, inflated_cage,
+    BakeError, BakeOptions, BakeReport, Baked, Bitangent, ColorTexture, CurvatureRadius, HighSurface,
+    LowSurface, MapKind, MapSet, MaterialProperty, bake as bake_surfaces, inflated_cage,
 };
-use numpy::PyArray1;
 use numpy::prelude::*;
+use numpy::{PyArray1, PyReadonlyArray3};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::arrays::Rows;
-use crate::choices::choice;
+use crate::choices::{choice, named_choice};
 use crate::convention::convention;
 use crate::mesh::{IndexArray, MeshArrays};
 use crate::numbers::{Natural, Threads, natural};
 use crate::results::named;
 use crate::threads::run_interruptibly;
 
-const MAPS: &[(&str, MapKind)] = &[
-    ("normal", MapKind::Normal),
-    ("object-normal", MapKind::ObjectNormal),
-    ("height", MapKind::Height),
-    ("ao", MapKind::Occlusion),
-    ("position", MapKind::Position),
-];
-
 const BITANGENTS: &[(&str, Bitangent)] = &[("pixel", Bitangent::PerPixel), ("vertex", Bitangent::PerVertex)];
+
+const UNITS: &[(&str, fn(f32) -> CurvatureRadius)] =
+    &[("texels", CurvatureRadius::Texels), ("distance", CurvatureRadius::Distance)];
+
+/// The textures of the high mesh, and whether they are in sRGB.
+const TEXTURES: &[(&str, (MaterialProperty, bool))] = &[
+    ("base-color", (MaterialProperty::BaseColor, true)),
+    ("metallic-roughness", (MaterialProperty::MetallicRoughness, false)),
+    ("emission", (MaterialProperty::Emission, true)),
+    ("texture", (MaterialProperty::Texture, false)),
+];
 
 /// Bake the detail of a high mesh into images over the UVs of a low mesh.
 ///
@@ -53,7 +58,7 @@ const BITANGENTS: &[(&str, Bitangent)] = &[("pixel", Bitangent::PerPixel), ("ver
 ///     Rays begin on the low mesh with its vertices moved to these positions, or outwards by this distance along smooth normals, so that hard edges
 ///     leave no gaps; they end inside as `distance` says.
 /// maps : sequence of str
-///     Of 'normal', 'object-normal', 'height', 'ao' and 'position'. They share rays.
+///     Names of maps: 'normal', 'ao', 'curvature', 'base-color' and so on, as `darboux bake --map` has them. They share rays.
 /// samples : int
 ///     Samples per texel and axis, 1 to 16.
 /// source, target : str
@@ -65,7 +70,21 @@ const BITANGENTS: &[(&str, Bitangent)] = &[("pixel", Bitangent::PerPixel), ("ver
 /// back_faces : bool
 ///     Rays also hit triangles from behind.
 /// ao_rays, ao_distance
-///     Rays of ambient occlusion per sample, and how far surfaces occlude each other.
+///     Rays per sample of occlusion, bent normals and thickness, and how far surfaces occlude each other.
+/// ao_falloff, ao_weights : str
+///     How occlusion fades up to `ao_distance`: 'none', 'linear' or 'quadratic'; how directions are weighted: 'cosine' or 'uniform'.
+/// thickness_distance : float
+///     How far the other side is looked for. Rays that meet nothing count as this distance; where it is infinite they do not count.
+/// curvature_radius : float, curvature_unit : str
+///     The radius in which curvature is measured, in 'texels' or as a 'distance' in units of the positions.
+/// world_direction : (float, float, float)
+///     The direction of the map 'world-direction', along the axes of the source's convention.
+/// high_colors : (W, 4) array_like, optional
+///     Red, green, blue and alpha of the high mesh's vertices, in linear light: the map 'vertex-color', and a factor of 'base-color' and 'opacity'.
+/// high_uvs : (W, 2) array_like, optional
+///     Where `high_textures` are read; the origin is that of glTF, above left.
+/// high_textures : dict of str to (N, M, 4) uint8 array, optional
+///     Of 'base-color' and 'emission' (in sRGB), 'metallic-roughness' (green, blue) and 'texture', the top row first.
 /// threads : int, optional
 ///     At most so many threads. The result has the same bits for every number.
 ///
@@ -84,7 +103,9 @@ const BITANGENTS: &[(&str, Bitangent)] = &[("pixel", Bitangent::PerPixel), ("ver
 #[pyo3(signature = (
     positions, normals, uvs, indices, tangents, high_positions, high_indices=None, high_normals=None, *, size, distance,
     cage=None, maps=vec!["normal".to_owned()], samples=1, source="gltf", target="gltf", bitangent="pixel",
-    padding=None, back_faces=false, ao_rays=64, ao_distance=f32::INFINITY, threads=None
+    padding=None, back_faces=false, ao_rays=64, ao_distance=f32::INFINITY, ao_falloff="none", ao_weights="cosine",
+    thickness_distance=f32::INFINITY, curvature_radius=4.0, curvature_unit="texels", world_direction=(0.0, 1.0, 0.0),
+    high_colors=None, high_uvs=None, high_textures=None, threads=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "Python passes them by name")]
 pub fn bake<'py>(
@@ -109,9 +130,18 @@ pub fn bake<'py>(
     back_faces: bool,
     #[pyo3(from_py_with = natural)] ao_rays: u32,
     ao_distance: f32,
+    ao_falloff: &str,
+    ao_weights: &str,
+    thickness_distance: f32,
+    curvature_radius: f32,
+    curvature_unit: &str,
+    world_direction: (f32, f32, f32),
+    high_colors: Option<&Bound<'py, PyAny>>,
+    high_uvs: Option<&Bound<'py, PyAny>>,
+    high_textures: Option<HashMap<String, PyReadonlyArray3<'py, u8>>>,
     threads: Option<Threads>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let kinds = maps.iter().map(|name| choice("maps", name, MAPS)).collect::<PyResult<Vec<_>>>()?;
+    let kinds = maps.iter().map(|name| named_choice(name)).collect::<PyResult<Vec<_>>>()?;
     let conventions: [Convention; 2] = [convention("source", source)?, convention("target", target)?];
     let options = BakeOptions::new([size.0.0, size.1.0], distance.into())
         .with_maps(MapSet::of(&kinds))
@@ -121,7 +151,12 @@ pub fn bake<'py>(
         .with_bitangent(choice("bitangent", bitangent, BITANGENTS)?)
         .with_padding(padding.map(|Natural(texels)| texels))
         .with_back_faces(back_faces)
-        .with_occlusion(ao_rays, ao_distance);
+        .with_occlusion(ao_rays, ao_distance)
+        .with_occlusion_falloff(named_choice(ao_falloff)?)
+        .with_occlusion_weights(named_choice(ao_weights)?)
+        .with_thickness_distance(thickness_distance)
+        .with_curvature_radius(choice("curvature_unit", curvature_unit, UNITS)?(curvature_radius))
+        .with_world_direction(world_direction.into());
     let low = MeshArrays::new(positions, normals, uvs, indices, None)?;
     let tangents = Rows::<4>::new("tangents", "C", tangents)?;
     let tangents = tangents.packed()?;
@@ -136,7 +171,11 @@ pub fn bake<'py>(
     let surface = LowSurface::new(mesh, &tangents).map_err(bake_error)?;
     let high_normals = high_normals.as_ref().map(Rows::view).transpose()?;
     let high = HighSurface::new(high_positions.view()?, high_normals, high_indices.view());
-    let high = [high.map_err(bake_error)?];
+    let high_colors = high_colors.map(|colors| Rows::<4>::new("high_colors", "W", colors)).transpose()?;
+    let high_uvs = high_uvs.map(|uvs| Rows::<2>::new("high_uvs", "W", uvs)).transpose()?;
+    let textures = textures(high_textures)?;
+    let high = shown(high.map_err(bake_error)?, high_colors.as_ref(), high_uvs.as_ref(), &textures)?;
+    let high = [high];
     let cage = cage.map(|cage| Cage::new(cage, &surface)).transpose()?;
     let surface = match &cage {
         Some(Cage::Given(rows)) => surface.with_cage(rows.view()?).map_err(bake_error)?,
@@ -174,30 +213,74 @@ fn bake_error(error: BakeError) -> PyErr {
     }
 }
 
+/// A texture of the high mesh.
+type Texture = (MaterialProperty, ColorTexture);
+
+fn textures(given: Option<HashMap<String, PyReadonlyArray3<'_, u8>>>) -> PyResult<Vec<Texture>> {
+    let read = |(name, array): (String, PyReadonlyArray3<'_, u8>)| {
+        let (property, is_srgb) = choice("high_textures", &name, TEXTURES)?;
+        let view = array.as_array();
+        let &[height, width, channels] = view.shape() else {
+            return Err(PyValueError::new_err(format!(
+                "high_textures['{name}'] must have the shape (N, M, 4)"
+            )));
+        };
+        if channels != 4 {
+            let message = format!("high_textures['{name}'] has {channels} channels; it must have 4");
+            return Err(PyValueError::new_err(message));
+        }
+        let texels: Vec<u8> = view.iter().copied().collect();
+        let size = [width, height].map(|side| u32::try_from(side).unwrap_or(u32::MAX));
+        let texture = ColorTexture::new(size, texels.as_chunks().0.to_vec(), is_srgb);
+        Ok((property, texture.map_err(bake_error)?))
+    };
+    given.into_iter().flatten().map(read).collect()
+}
+
+/// The high surface with its colours and textures.
+fn shown<'a>(
+    mut high: HighSurface<'a>,
+    colors: Option<&'a Rows<'_, 4>>,
+    uvs: Option<&'a Rows<'_, 2>>,
+    textures: &'a [Texture],
+) -> PyResult<HighSurface<'a>> {
+    if let Some(colors) = colors {
+        high = high.with_colors(colors.view()?).map_err(bake_error)?;
+    }
+    for (property, texture) in textures {
+        let uvs = uvs.ok_or_else(|| PyValueError::new_err("high_textures needs high_uvs; pass both"))?;
+        high = high.with_property(*property, [1.0; 4], Some((texture, uvs.view()?))).map_err(bake_error)?;
+    }
+    Ok(high)
+}
+
 /// The images as arrays, and the counts.
 fn result(py: Python<'_>, baked: Baked) -> PyResult<Bound<'_, PyAny>> {
-    let images = baked.images;
+    let mut images = baked.images;
     let [width, height] = images.size.map(|side| side as usize);
-    let vectors = |image: Option<Vec<[f32; 3]>>| {
-        image
-            .map(|image| PyArray1::from_vec(py, image.into_flattened()).reshape([height, width, 3]))
-            .transpose()
+    let mut image = |kind: MapKind| -> PyResult<Option<Bound<'_, PyAny>>> {
+        let Some(numbers) = images.take(kind) else { return Ok(None) };
+        let array = PyArray1::from_vec(py, numbers);
+        Ok(Some(match kind.channels() {
+            1 => array.reshape([height, width])?.into_any(),
+            channels => array.reshape([height, width, channels])?.into_any(),
+        }))
     };
-    let numbers = |image: Option<Vec<f32>>| {
-        image.map(|image| PyArray1::from_vec(py, image).reshape([height, width])).transpose()
-    };
+    let mut fields = Vec::new();
+    for kind in MapKind::ALL {
+        fields.push(image(kind)?);
+    }
     let states: Vec<u8> = images.states.iter().map(|state| state.number()).collect();
-    let fields = (
-        vectors(images.normal)?,
-        vectors(images.object_normal)?,
-        numbers(images.height)?,
-        numbers(images.occlusion)?,
-        vectors(images.position)?,
-        PyArray1::from_vec(py, states).reshape([height, width])?,
-        report(py, &baked.report)?,
-    );
-    named(py, "BakedMaps", fields)
+    let states = PyArray1::from_vec(py, states).reshape([height, width])?.into_any();
+    let later = fields.split_off(FIRST_MAPS);
+    fields.push(Some(states));
+    fields.push(Some(report(py, &baked.report)?));
+    fields.extend(later);
+    named(py, "BakedMaps", PyTuple::new(py, fields)?)
 }
+
+/// The maps before the states and the counts, in BakedMaps; the others stand behind.
+const FIRST_MAPS: usize = 5;
 
 fn report<'py>(py: Python<'py>, report: &BakeReport) -> PyResult<Bound<'py, PyAny>> {
     let fields = [

@@ -17,7 +17,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use darboux::{Context, Convention, TexelLayout};
-use darboux_bake::{BakeOptions, Baked, LowSurface, NormalTexture, bake, inflated_cage, verify};
+use darboux_bake::{BakeOptions, Baked, LowSurface, MapKind, NormalTexture, bake, inflated_cage, verify};
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
 use meshopt::{SimplifyOptions, simplify_decoder};
@@ -91,7 +91,7 @@ fn main() -> Result<()> {
             let ours = runs.darboux(&meshes, per_axis)?;
             let (map, seconds) = runs.cycles(&meshes, per_axis)?;
             let theirs = runs.judged(&meshes, &ours.0, &map, seconds)?;
-            let normals = ours.0.images.normal.as_deref().ok_or("no normal map")?;
+            let normals = ours.0.images.vectors(MapKind::Normal).ok_or("no normal map")?;
             let ours = runs.judged(&meshes, &ours.0, normals, ours.1)?;
             println!(
                 "| {} | {} | {:.4} | {:.4} | {:.2} | {:.4} | {:.4} | {:.2} | {:.1} |",

@@ -7,13 +7,18 @@ use darboux::internal::jobs;
 
 use crate::band::Bake;
 use crate::budget::Budget;
+use crate::charts::Charts;
 use crate::common_box::CommonBox;
 use crate::high::HighGroup;
 use crate::images::{Band, Images, TexelState};
 use crate::layout::{BLOCK, Layout};
 use crate::limits::{MAX_SAMPLES_PER_AXIS, MAX_SIDE};
+use crate::maps::{MapList, Units, has_palette, is_label};
 use crate::samples::pattern;
-use crate::{BakeError, BakeOptions, BakeReport, HighSurface, LowSurface, memory, padding};
+use crate::{
+    BakeError, BakeOptions, BakeReport, CurvatureRadius, HighSurface, IdColor, LowSurface, MapKind, memory,
+    padding, palette,
+};
 
 /// The share of a run that is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +37,8 @@ pub struct Baked {
     pub images: Images,
     /// The counts of the run.
     pub report: BakeReport,
+    /// For each map whose colours stand for numbers: the colours.
+    pub legends: Vec<(MapKind, Vec<IdColor>)>,
 }
 
 /// Bakes the detail of the high surfaces into images over the UVs of the low surfaces.
@@ -45,7 +52,7 @@ pub struct Baked {
 ///
 /// ```
 /// use darboux::{Context, Mesh, TangentOptions, generate_tangents};
-/// use darboux_bake::{BakeOptions, HighSurface, LowSurface, bake};
+/// use darboux_bake::{BakeOptions, HighSurface, LowSurface, MapKind, bake};
 ///
 /// let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 /// let uvs = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]];
@@ -60,7 +67,7 @@ pub struct Baked {
 ///
 /// let options = BakeOptions::new([16, 16], [1.0, 1.0]);
 /// let baked = bake(&[low], &[high], &options, &mut Context::new(), &mut |_| {})?;
-/// let [x, y, z] = baked.images.normal.expect("was chosen")[0];
+/// let [x, y, z] = baked.images.vectors(MapKind::Normal).expect("was chosen")[0];
 /// assert!((x / z + 0.5).abs() < 1e-6 && y.abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -80,19 +87,25 @@ pub fn bake(
     let layout = Layout::new(low, options.size, options.surface_convention, &mut budget)?;
     let groups = group_surfaces(low, high, context)?;
     let mut images = Images::background(options, &budget)?;
+    let needs_charts = options.maps.has(MapKind::UvIslands);
     let stages = Bake {
         low,
         groups: &groups,
         layout: &layout,
         options,
-        conversion: options.surface_convention.generated().to(options.map_convention),
-        space: *space,
+        maps: MapList::new(options),
+        charts: if needs_charts { Charts::of(low) } else { Charts::default() },
+        units: Units {
+            conversion: options.surface_convention.generated().to(options.map_convention),
+            space: *space,
+        },
         samples: pattern(options.samples_per_axis),
     };
     let mut report = bake_bands(&stages, &mut images, context, progress)?;
     fill(&mut images, options.padding, context)?;
+    let legends = color_labels(&mut images, options);
     count_triangles(&mut report, low, high, &layout, &groups);
-    Ok(Baked { images, report })
+    Ok(Baked { images, report, legends })
 }
 
 /// The surfaces, and the distances of the options, in a box around the places that the low triangles use.
@@ -112,11 +125,22 @@ impl<'a> Boxed<'a> {
         let space = CommonBox::around(used);
         let distance = options.distance.map(|distance| space.distance(distance));
         let occlusion_distance = space.distance(options.occlusion_distance);
+        let thickness_distance = space.distance(options.thickness_distance);
+        let curvature_radius = match options.curvature_radius {
+            CurvatureRadius::Distance(radius) => CurvatureRadius::Distance(space.distance(radius)),
+            texels => texels,
+        };
         Self {
             space,
             low: low.iter().map(|surface| surface.in_space(space)).collect(),
             high: high.iter().map(|surface| surface.in_space(space)).collect(),
-            options: BakeOptions { distance, occlusion_distance, ..*options },
+            options: BakeOptions {
+                distance,
+                occlusion_distance,
+                thickness_distance,
+                curvature_radius,
+                ..*options
+            },
         }
     }
 }
@@ -133,7 +157,44 @@ pub(crate) fn check_options(options: &BakeOptions) -> Result<(), BakeError> {
     if !distance.iter().all(is_distance) || distance == [0.0; 2] {
         return Err(BakeError::Distance { found: distance });
     }
-    if maps.is_empty() { Err(BakeError::NoMaps) } else { Ok(()) }
+    if maps.is_empty() {
+        return Err(BakeError::NoMaps);
+    }
+    check_map_options(options)
+}
+
+/// Refuses numbers of single maps that mean nothing.
+fn check_map_options(options: &BakeOptions) -> Result<(), BakeError> {
+    let radius = match options.curvature_radius {
+        CurvatureRadius::Texels(radius) | CurvatureRadius::Distance(radius) => radius,
+    };
+    let largest = options.world_direction.iter().fold(0f32, |most, x| most.max(x.abs()));
+    let is_positive = |x: f32| x > 0.0;
+    let needed = [
+        (
+            "the distance of occlusion",
+            "above 0",
+            options.occlusion_distance,
+            !options.occlusion_distance.is_nan(),
+        ),
+        (
+            "the distance of thickness",
+            "above 0",
+            options.thickness_distance,
+            is_positive(options.thickness_distance),
+        ),
+        ("the radius of curvature", "finite and above 0", radius, is_positive(radius) && radius.is_finite()),
+        (
+            "the largest component of the world's direction",
+            "finite and above 0",
+            largest,
+            is_positive(largest) && options.world_direction.iter().all(|x| x.is_finite()),
+        ),
+    ];
+    match needed.into_iter().find(|(.., is_valid)| !is_valid) {
+        Some((what, expected, found, _)) => Err(BakeError::Option { what, expected, found }),
+        None => Ok(()),
+    }
 }
 
 pub(crate) fn check_surfaces(low: &[LowSurface<'_>], high: &[HighSurface<'_>]) -> Result<(), BakeError> {
@@ -199,6 +260,18 @@ fn fill(images: &mut Images, padding: Option<u32>, context: &Context) -> Result<
         images.continue_normals(&sources);
     }
     Ok(())
+}
+
+/// Gives labels their colours; returns the legends.
+fn color_labels(images: &mut Images, options: &BakeOptions) -> Vec<(MapKind, Vec<IdColor>)> {
+    let mut legends = Vec::new();
+    for kind in options.maps.kinds().filter(|&kind| is_label(kind)) {
+        match has_palette(kind, options) {
+            true => legends.push((kind, palette::color_labels(images, kind))),
+            false => palette::unpack_colors(images, kind),
+        }
+    }
+    legends
 }
 
 fn count_triangles(

@@ -1,22 +1,21 @@
 //! Stages 2 to 6 for a band of the image: coverage, rays, hits, frames, texels.
 
-use darboux::Conversion;
-
 use crate::bvh::{Hit, PreparedRay, Shaft, Sides, Stack};
-use crate::common_box::CommonBox;
+use crate::charts::Charts;
 use crate::coverage::{Coverage, TEXELS};
 use crate::face::Face;
+use crate::found::{Found, LowSample};
 use crate::frame::ShadingFrame;
 use crate::high::HighGroup;
 use crate::images::Band;
 use crate::layout::{BLOCK, Layout};
-use crate::occlusion::Opening;
+use crate::maps::{MapList, Units};
 use crate::point::SurfacePoint;
 use crate::rays::{SampleRay, point_at, ray_of};
 use crate::samples::STEPS;
-use crate::texel::{Sample, TexelSums};
-use crate::vector::{narrow, unit};
-use crate::{BakeOptions, BakeReport, LowSurface, MapKind};
+use crate::texel::TexelSums;
+use crate::vector::{Vector, scale};
+use crate::{BakeOptions, BakeReport, LowSurface};
 
 /// What all bands share.
 pub struct Bake<'a> {
@@ -24,9 +23,11 @@ pub struct Bake<'a> {
     pub groups: &'a [HighGroup<'a>],
     pub layout: &'a Layout,
     pub options: &'a BakeOptions,
-    pub conversion: Conversion,
-    /// The box in which rays are followed; heights and positions leave it again.
-    pub space: CommonBox,
+    pub maps: MapList,
+    /// The charts of the low surfaces; empty unless a map shows them.
+    pub charts: Charts,
+    /// What heights, positions and directions become.
+    pub units: Units,
     /// The places of samples within a texel.
     pub samples: Vec<[i64; 2]>,
 }
@@ -35,6 +36,8 @@ pub struct Bake<'a> {
 pub struct Scratch {
     pub coverage: Coverage,
     pub sums: Vec<TexelSums>,
+    /// The numbers of all maps, texel after texel.
+    pub numbers: Vec<f64>,
     pub stack: Stack,
     pub rays: u64,
     rays_of_tile: Vec<TexelRay>,
@@ -54,6 +57,8 @@ struct TexelRay {
     ray: SampleRay,
     prepared: PreparedRay,
     group: usize,
+    /// The sides of the sample's area on the low surface.
+    sides: [Vector; 2],
 }
 
 impl Bake<'_> {
@@ -62,6 +67,7 @@ impl Bake<'_> {
         let mut scratch = Scratch {
             coverage: Coverage::new(),
             sums: vec![TexelSums::default(); TEXELS],
+            numbers: vec![0.0; TEXELS * self.maps.len],
             stack: Stack::new(),
             rays: 0,
             rays_of_tile: Vec::with_capacity(TILE * TILE),
@@ -69,13 +75,14 @@ impl Bake<'_> {
         let mut report = BakeReport::default();
         for column in 0..self.layout.blocks_per_row() {
             scratch.sums.fill(TexelSums::default());
+            scratch.numbers.fill(0.0);
             let mut gutter = None;
             for &sample in &self.samples {
                 self.cover([column, band.row / BLOCK], sample, &mut scratch.coverage);
                 self.sample([column * BLOCK, band.row], sample, &mut scratch);
                 self.sample_gutter([column, band.row / BLOCK], sample, &mut gutter, &mut scratch);
             }
-            self.store(column * BLOCK, &scratch.sums, band, &mut report);
+            self.store(column * BLOCK, &scratch, band, &mut report);
         }
         report.rays = scratch.rays;
         report
@@ -112,33 +119,40 @@ impl Bake<'_> {
             }
             let Some(face) = &last else { continue };
             let sums = &mut scratch.sums[texel];
-            sums.is_charted = true;
+            sums.charted += 1;
             sums.is_overlapped |= scratch.coverage.overlaps[texel];
             let place = [0, 1].map(|i| (first[i] + in_block[i]) as f64 + sample[i] as f64 / STEPS as f64);
             let point = face.point(place);
+            if self.maps.has_low() {
+                let sample =
+                    LowSample { face, point: &point, place, charts: &self.charts, options: self.options };
+                self.add_low(&sample, texel, &mut scratch.numbers);
+            }
             let Some(ray) = ray_of(&point, self.options.distance) else { continue };
             let prepared = self.groups[face.group].bvh.prepare(&ray.ray);
-            scratch.rays_of_tile.push(TexelRay { texel, point, ray, prepared, group: face.group });
+            let sides = self.sides_of_sample(face);
+            scratch.rays_of_tile.push(TexelRay { texel, point, ray, prepared, group: face.group, sides });
         }
         scratch.rays += scratch.rays_of_tile.len() as u64;
     }
 
     /// Stages 4 and 5: the hits of a tile's rays, all of which begin at the cut of their shaft.
     fn follow_rays(&self, first: [usize; 2], sample: [i64; 2], scratch: &mut Scratch) {
-        let Scratch { rays_of_tile, sums, stack, .. } = scratch;
+        let Scratch { rays_of_tile, sums, numbers, stack, .. } = scratch;
         for rays in rays_of_tile.chunk_by(|a, b| a.group == b.group) {
             let group = &self.groups[rays[0].group];
             let Some(shaft) = Shaft::of(rays.iter().map(|ray| &ray.prepared)) else { continue };
             let cut = group.bvh.cut(&shaft);
             let sides = if self.options.back_faces { Sides::Both } else { Sides::Front };
-            for TexelRay { texel, point, ray, prepared, .. } in rays {
-                let sums = &mut sums[*texel];
+            for ray in rays {
+                let (sums, prepared) = (&mut sums[ray.texel], &ray.prepared);
                 match group.bvh.nearest_of_cut(&cut, prepared, sides, stack) {
                     Some(hit) => {
-                        let at = [first[0] + texel % BLOCK, first[1] + texel / BLOCK];
-                        if let Some(found) = self.found(group, point, ray, &hit, self.seed(at, sample), stack)
-                        {
-                            sums.add(&found);
+                        let at = [first[0] + ray.texel % BLOCK, first[1] + ray.texel / BLOCK];
+                        let sample_ray = LowRay { point: &ray.point, ray: &ray.ray, sides: ray.sides };
+                        if let Some(found) = self.found(group, &sample_ray, &hit, self.seed(at, sample)) {
+                            sums.add(&found.sample(false));
+                            self.add_high(&found, ray.texel, numbers, stack);
                         }
                     }
                     None if sides == Sides::Front => {
@@ -157,86 +171,86 @@ impl Bake<'_> {
         ((texel * STEPS + sample[1]) * STEPS + sample[0]) as u64
     }
 
-    /// What a hit adds to its texel.
-    pub fn found(
-        &self,
-        group: &HighGroup<'_>,
-        point: &SurfacePoint,
-        ray: &SampleRay,
-        hit: &Hit,
+    /// The sides of a sample's area on a triangle; zeros where no map needs them.
+    pub fn sides_of_sample(&self, face: &Face) -> [Vector; 2] {
+        if !self.maps.needs_sides {
+            return [[0.0; 3]; 2];
+        }
+        let share = 1.0 / f64::from(self.options.samples_per_axis);
+        face.sides_of_texel().map(|side| scale(share, side))
+    }
+
+    /// What a ray has found; `None` where the high triangle has no area.
+    pub fn found<'f>(
+        &'f self,
+        group: &'f HighGroup<'f>,
+        low: &LowRay<'f>,
+        hit: &'f Hit,
         seed: u64,
-        stack: &mut Stack,
-    ) -> Option<Sample> {
-        let BakeOptions { maps, bitangent, occlusion_rays, occlusion_distance, .. } = *self.options;
+    ) -> Option<Found<'f>> {
         let high = group.point(hit)?;
-        let position = point_at(&ray.ray, hit.distance);
-        let opening = || {
-            let face_normal = unit(high.face_normal).unwrap_or(high.normal);
-            Opening { position, normal: high.normal, face_normal, seed }
-        };
-        Some(Sample {
-            normal: ShadingFrame::new(point, bitangent).to_tangent_space(high.normal),
-            object_normal: high.normal,
-            height: ray.surface - f64::from(hit.distance),
-            occlusion: match maps.has(MapKind::Occlusion) {
-                true => opening().share(&group.bvh, occlusion_rays, occlusion_distance, stack),
-                false => 1.0,
-            },
-            position,
-            is_inverted: high.is_inverted,
-            is_extended: false,
+        let frame = ShadingFrame::new(low.point, self.options.bitangent);
+        Some(Found {
+            point: low.point,
+            group,
+            hit,
+            high,
+            position: point_at(&low.ray.ray, hit.distance),
+            height: low.ray.surface - f64::from(hit.distance),
+            frame,
+            normal: frame.to_tangent_space(high.normal),
+            sides: low.sides,
+            options: self.options,
+            seed,
         })
     }
 
+    /// Adds what the maps of the high surfaces show at a hit to a texel of a block.
+    pub fn add_high(&self, found: &Found<'_>, texel: usize, numbers: &mut [f64], stack: &mut Stack) {
+        let of_sample = self.maps.find(found, stack);
+        self.maps.add(&mut numbers[self.maps.len * texel..][..self.maps.len], &of_sample, false);
+    }
+
+    /// Adds what the maps of the low surface show at a sample to a texel of a block.
+    pub fn add_low(&self, sample: &LowSample<'_>, texel: usize, numbers: &mut [f64]) {
+        let of_sample = self.maps.find_low(sample);
+        self.maps.add(&mut numbers[self.maps.len * texel..][..self.maps.len], &of_sample, true);
+    }
+
     /// Stage 6: stores the texels of a block.
-    fn store(&self, first: usize, sums: &[TexelSums], band: &mut Band<'_>, report: &mut BakeReport) {
+    fn store(&self, first: usize, scratch: &Scratch, band: &mut Band<'_>, report: &mut BakeReport) {
         let width = self.layout.size[0];
         let rows = band.states.len() / width;
         for row in 0..rows.min(BLOCK) {
             for column in first..width.min(first + BLOCK) {
-                let sums = &sums[row * BLOCK + column - first];
+                let in_block = row * BLOCK + column - first;
+                let sums = &scratch.sums[in_block];
+                let numbers = &scratch.numbers[self.maps.len * in_block..][..self.maps.len];
                 let at = row * width + column;
                 band.states[at] = sums.state();
                 count(sums, report);
-                if sums.state().has_content() {
-                    self.store_texel(at, sums, band, report);
-                }
+                self.maps.resolve(numbers, sums.shares(), at, &mut band.images, &self.units);
             }
-        }
-    }
-
-    fn store_texel(&self, at: usize, sums: &TexelSums, band: &mut Band<'_>, report: &mut BakeReport) {
-        let texel = sums.resolve();
-        report.below_horizon_texels += u64::from(texel.normal[2] < 0.0);
-        if let Some(image) = &mut band.normal {
-            let sign = |inverts| if inverts { -1.0 } else { 1.0 };
-            let [x, y, z] = narrow(texel.normal);
-            image[at] =
-                [sign(self.conversion.inverts_red()) * x, sign(self.conversion.inverts_green()) * y, z];
-        }
-        if let Some(image) = &mut band.object_normal {
-            image[at] = self.conversion.vector(narrow(texel.object_normal));
-        }
-        if let Some(image) = &mut band.height {
-            image[at] = self.space.restored(texel.height) as f32;
-        }
-        if let Some(image) = &mut band.occlusion {
-            image[at] = texel.occlusion as f32;
-        }
-        if let Some(image) = &mut band.position {
-            let position = texel.position.map(|x| self.space.restored(x));
-            image[at] = self.conversion.vector(narrow(position));
         }
     }
 }
 
+/// A sample's ray from the low surface.
+pub struct LowRay<'a> {
+    pub point: &'a SurfacePoint,
+    pub ray: &'a SampleRay,
+    /// The sides of the sample's area.
+    pub sides: [Vector; 2],
+}
+
 fn count(sums: &TexelSums, report: &mut BakeReport) {
-    let is_missed = sums.state().is_missed();
+    let state = sums.state();
     report.texels += 1;
-    report.charted_texels += u64::from(sums.is_charted);
-    report.missed_texels += u64::from(is_missed);
-    report.back_facing_texels += u64::from(is_missed && sums.hits_back);
+    report.charted_texels += u64::from(sums.charted > 0);
+    report.missed_texels += u64::from(state.is_missed());
+    report.back_facing_texels += u64::from(state.is_missed() && sums.hits_back);
     report.overlapping_texels += u64::from(sums.is_overlapped);
     report.inverted_texels += u64::from(sums.is_inverted);
     report.frameless_texels += u64::from(sums.is_frameless);
+    report.below_horizon_texels += u64::from(state.has_content() && sums.is_below_horizon());
 }

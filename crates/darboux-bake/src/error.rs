@@ -19,7 +19,7 @@ pub enum BakeError {
         /// The number of positions found.
         found: usize,
     },
-    /// A normal map on a high surface has another number of UVs than the surface has vertices.
+    /// A map on a high surface has another number of UVs than the surface has vertices.
     Uvs {
         /// The number of vertices.
         vertices: usize,
@@ -40,6 +40,15 @@ pub enum BakeError {
     Distance {
         /// The distances found.
         found: [f32; 2],
+    },
+    /// Another number of the options is out of range.
+    Option {
+        /// What the number is.
+        what: &'static str,
+        /// What it must be.
+        expected: &'static str,
+        /// The number found.
+        found: f32,
     },
     /// The set of maps is empty.
     NoMaps,
@@ -85,7 +94,7 @@ impl fmt::Display for BakeError {
             ),
             Self::Uvs { vertices, found } => write!(
                 f,
-                "the normal map has {found} UVs but the high surface has {vertices} vertices; pass one per vertex"
+                "the map has {found} UVs but the high surface has {vertices} vertices; pass one per vertex"
             ),
             Self::Size { size: [width, height] } => {
                 write!(
@@ -100,6 +109,7 @@ impl fmt::Display for BakeError {
                 f,
                 "rays cannot begin {outwards} outside the low surface and end {inwards} inside it; give two finite distances of which none is negative and one is positive"
             ),
+            Self::Option { what, expected, found } => write!(f, "{what} is {found}; it must be {expected}"),
             Self::NoMaps => f.write_str("no map was chosen; choose at least one"),
             Self::Texels { expected, found } => write!(
                 f,

@@ -47,6 +47,32 @@ impl Face {
         }
     }
 
+    /// The sides of a texel on the surface: how the position changes along the columns and rows of the image.
+    pub fn sides_of_texel(&self) -> [Vector; 2] {
+        if self.area == 0.0 {
+            return [[0.0; 3]; 2];
+        }
+        let [a, b, c] = self.texels;
+        let of_axis = |i: usize| {
+            // The weights of the corners are linear in the place.
+            let sign = if i == 0 { 1.0 } else { -1.0 };
+            let other = 1 - i;
+            let weights = [b[other] - c[other], c[other] - a[other], a[other] - b[other]];
+            weighted(weights.map(|weight| sign * weight / self.area), self.positions)
+        };
+        [of_axis(0), of_axis(1)]
+    }
+
+    /// The distance of a place in texels from the nearest of the triangle's edges, as lines.
+    pub fn distance_to_edges(&self, at: [f64; 2]) -> f64 {
+        let [a, b, c] = self.texels;
+        let distance = |[p, q]: [[f64; 2]; 2]| {
+            let [x, y] = [q[0] - p[0], q[1] - p[1]];
+            area([p, q, at]).abs() / (x * x + y * y).sqrt().max(f64::MIN_POSITIVE)
+        };
+        [[a, b], [b, c], [c, a]].map(distance).into_iter().fold(f64::INFINITY, f64::min)
+    }
+
     /// The point at a place of the image, in texels. A place outside the triangle, where rounding has put it, moves to its edge.
     pub fn point(&self, at: [f64; 2]) -> SurfacePoint {
         let weights = self.continued_weights(at).map(|weight| weight.max(0.0));

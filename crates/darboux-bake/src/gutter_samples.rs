@@ -1,14 +1,14 @@
 //! Samples in the gutters of charts: stages 3 to 5 for texels that filters mix with those of a chart.
 
-use crate::band::{Bake, Scratch};
+use crate::band::{Bake, LowRay, Scratch};
 use crate::bvh::Sides;
 use crate::coverage::TEXELS;
 use crate::face::Face;
+use crate::found::LowSample;
 use crate::gutter::Gutter;
 use crate::layout::BLOCK;
 use crate::rays::ray_of;
 use crate::samples::STEPS;
-use crate::texel::Sample;
 
 /// The least z of a normal in the gutter of a chart. Where the surface turns away further than 60 degrees, the chart does not continue.
 const LEAST_Z: f64 = 0.5;
@@ -45,29 +45,33 @@ impl Bake<'_> {
             }
             let Some(face) = &last else { continue };
             let at = [first[0] + texel % BLOCK, first[1] + texel / BLOCK];
-            if let Some(found) = self.continued(face, at, sample, scratch) {
-                scratch.sums[texel].add(&found);
-            }
+            self.sample_continued(face, at, texel, sample, scratch);
         }
     }
 
-    /// What the ray of a sample finds, if it continues the chart.
-    fn continued(
+    /// Adds what the ray of a sample finds, if it continues the chart. `at`: the texel in the image; `texel`: in the block.
+    fn sample_continued(
         &self,
         face: &Face,
         at: [usize; 2],
+        texel: usize,
         sample: [i64; 2],
         scratch: &mut Scratch,
-    ) -> Option<Sample> {
+    ) {
         let place = [0, 1].map(|i| at[i] as f64 + sample[i] as f64 / STEPS as f64);
-        let point = face.continued_point(place)?;
-        let ray = ray_of(&point, self.options.distance)?;
+        let Some(point) = face.continued_point(place) else { return };
+        let Some(ray) = ray_of(&point, self.options.distance) else { return };
         let group = &self.groups[face.group];
         let sides = if self.options.back_faces { Sides::Both } else { Sides::Front };
         scratch.rays += 1;
-        let hit = group.bvh.nearest(&ray.ray, sides, &mut scratch.stack)?;
-        let found = self.found(group, &point, &ray, &hit, self.seed(at, sample), &mut scratch.stack)?;
-        let continues = found.normal.is_some_and(|normal| normal[2] > LEAST_Z);
-        continues.then_some(Sample { is_extended: true, ..found })
+        let Some(hit) = group.bvh.nearest(&ray.ray, sides, &mut scratch.stack) else { return };
+        let low = LowRay { point: &point, ray: &ray, sides: self.sides_of_sample(face) };
+        let Some(found) = self.found(group, &low, &hit, self.seed(at, sample)) else { return };
+        if found.normal.is_some_and(|normal| normal[2] > LEAST_Z) {
+            scratch.sums[texel].add(&found.sample(true));
+            self.add_high(&found, texel, &mut scratch.numbers, &mut scratch.stack);
+            let low = LowSample { face, point: &point, place, charts: &self.charts, options: self.options };
+            self.add_low(&low, texel, &mut scratch.numbers);
+        }
     }
 }

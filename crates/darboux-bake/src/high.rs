@@ -20,6 +20,9 @@ pub struct HighGroup<'a> {
 /// The high surface at a hit.
 #[derive(Clone, Copy, Debug)]
 pub struct HighPoint {
+    /// The place of the surface in its group.
+    pub surface: usize,
+    pub triangle: usize,
     /// The normal that the surface's map shows, or else the interpolated one, or that of the triangle's plane; unit length.
     pub normal: Vector,
     /// The normal of the triangle's plane, towards the ray's origin; not normalised, not zero.
@@ -53,8 +56,8 @@ impl<'a> HighGroup<'a> {
 
     /// The surface at a hit. With back faces the normal is turned to the side from which the ray came.
     pub fn point(&self, hit: &Hit) -> Option<HighPoint> {
-        let (surface, triangle) = find(&self.starts, hit.triangle);
-        let surface = &self.surfaces[surface];
+        let (place, triangle) = find(&self.starts, hit.triangle);
+        let surface = &self.surfaces[place];
         let [a, b, c] = surface.corners(triangle).map(wide);
         let side = if hit.is_front { 1.0 } else { -1.0 };
         let plane = cross(sub(b, a), sub(c, a));
@@ -71,7 +74,18 @@ impl<'a> HighGroup<'a> {
         let is_inverted = dot(outwards, plane) < 0.0;
         let normal = surface.mapped_normal(triangle, weights, outwards).unwrap_or(smooth);
         let face_normal = scale(side, plane);
-        Some(HighPoint { normal: scale(side, normal), face_normal, is_inverted })
+        let normal = scale(side, normal);
+        Some(HighPoint { surface: place, triangle, normal, face_normal, is_inverted })
+    }
+
+    /// The surface of a point.
+    pub fn surface(&self, point: &HighPoint) -> &HighSurface<'a> {
+        &self.surfaces[point.surface]
+    }
+
+    /// Whether a triangle belongs to a part.
+    pub fn is_of_part(&self, triangle: u32, part: u32) -> bool {
+        self.surfaces[find(&self.starts, triangle).0].labels.part == part
     }
 }
 

@@ -42,72 +42,77 @@ impl TexelState {
     }
 }
 
-/// The images that were chosen, row after row, the top row first; one element per texel.
+/// The images that were chosen, row after row, the top row first.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Images {
     /// Texels per row, and rows.
     pub size: [u32; 2],
-    /// Unit normals in tangent space: red and green point as the map's convention says. (0, 0, 1) in the background.
-    pub normal: Option<Vec<[f32; 3]>>,
-    /// Unit normals along the axes of the map's convention. (0, 0, 0) in the background.
-    pub object_normal: Option<Vec<[f32; 3]>>,
-    /// Distances in units of the positions, positive outside. 0 in the background.
-    pub height: Option<Vec<f32>>,
-    /// From 0, closed, to 1, open. 1 in the background.
-    pub occlusion: Option<Vec<f32>>,
-    /// Positions along the axes of the map's convention. (0, 0, 0) in the background.
-    pub position: Option<Vec<[f32; 3]>>,
     /// What is in each texel.
     pub states: Vec<TexelState>,
+    images: Vec<Image>,
+}
+
+/// The content of a map.
+#[derive(Clone, Debug, PartialEq)]
+struct Image {
+    kind: MapKind,
+    /// [`MapKind::channels`] numbers per texel.
+    numbers: Vec<f32>,
 }
 
 impl Images {
     /// Images of the background. Errors: the system refuses the memory.
     pub(crate) fn background(options: &BakeOptions, budget: &Budget) -> Result<Self, BakeError> {
         let count = options.size.map(|side| side as usize).iter().product();
-        let vectors = |kind, background| {
-            let filled = options.maps.has(kind).then(|| filled(count, background));
-            filled.transpose().map_err(|_| budget.refused())
+        let image = |kind: MapKind| {
+            let numbers = repeated(count, &kind.background()[..kind.channels()])?;
+            Ok(Image { kind, numbers })
         };
-        let numbers = |kind, background| {
-            let filled = options.maps.has(kind).then(|| filled(count, background));
-            filled.transpose().map_err(|_| budget.refused())
-        };
+        let images: Result<_, std::collections::TryReserveError> = options.maps.kinds().map(image).collect();
         Ok(Self {
             size: options.size,
-            normal: vectors(MapKind::Normal, [0.0, 0.0, 1.0])?,
-            object_normal: vectors(MapKind::ObjectNormal, [0.0; 3])?,
-            height: numbers(MapKind::Height, 0.0)?,
-            occlusion: numbers(MapKind::Occlusion, 1.0)?,
-            position: vectors(MapKind::Position, [0.0; 3])?,
-            states: filled(count, TexelState::Outside).map_err(|_| budget.refused())?,
+            states: repeated(count, &[TexelState::Outside]).map_err(|_| budget.refused())?,
+            images: images.map_err(|_| budget.refused())?,
         })
+    }
+
+    /// The kinds that were chosen, in the order of [`MapKind::ALL`].
+    pub fn kinds(&self) -> impl Iterator<Item = MapKind> {
+        self.images.iter().map(|image| image.kind)
+    }
+
+    /// The numbers of a map, [`MapKind::channels`] per texel; none if it was not chosen.
+    pub fn numbers(&self, kind: MapKind) -> Option<&[f32]> {
+        self.images.iter().find(|image| image.kind == kind).map(|image| &image.numbers[..])
+    }
+
+    /// As [`Images::numbers`], to change them.
+    pub fn numbers_mut(&mut self, kind: MapKind) -> Option<&mut [f32]> {
+        self.images.iter_mut().find(|image| image.kind == kind).map(|image| &mut image.numbers[..])
+    }
+
+    /// The texels of a map of three channels; none if it was not chosen or has another number of channels.
+    pub fn vectors(&self, kind: MapKind) -> Option<&[[f32; 3]]> {
+        let numbers = self.numbers(kind).filter(|_| kind.channels() == 3)?;
+        Some(numbers.as_chunks().0)
+    }
+
+    /// Removes a map and returns its numbers; none if it was not chosen.
+    pub fn take(&mut self, kind: MapKind) -> Option<Vec<f32>> {
+        let at = self.images.iter().position(|image| image.kind == kind)?;
+        Some(self.images.remove(at).numbers)
     }
 
     /// The rows of all images, in bands of `height` rows.
     pub(crate) fn bands(&mut self, height: usize) -> Vec<Band<'_>> {
-        let width = self.size[0] as usize;
-        let texels = width * height;
-        let mut bands: Vec<Band<'_>> = self
-            .states
-            .chunks_mut(texels)
-            .enumerate()
-            .map(|(index, states)| Band {
-                row: index * height,
-                states,
-                normal: None,
-                object_normal: None,
-                height: None,
-                occlusion: None,
-                position: None,
-            })
-            .collect();
-        deal(&mut bands, &mut self.normal, texels, |band| &mut band.normal);
-        deal(&mut bands, &mut self.object_normal, texels, |band| &mut band.object_normal);
-        deal(&mut bands, &mut self.height, texels, |band| &mut band.height);
-        deal(&mut bands, &mut self.occlusion, texels, |band| &mut band.occlusion);
-        deal(&mut bands, &mut self.position, texels, |band| &mut band.position);
+        let texels = self.size[0] as usize * height;
+        let band = |(index, states)| Band { row: index * height, states, images: Vec::new() };
+        let mut bands: Vec<Band<'_>> = self.states.chunks_mut(texels).enumerate().map(band).collect();
+        for Image { kind, numbers } in &mut self.images {
+            let parts = numbers.chunks_mut(texels * kind.channels());
+            bands.iter_mut().zip(parts).for_each(|(band, part)| band.images.push(part));
+        }
         bands
     }
 
@@ -115,7 +120,11 @@ impl Images {
     /// changes across the border. Sharp changes are not continued.
     pub(crate) fn continue_normals(&mut self, source_of_texel: &[u32]) {
         let [width, height] = self.size.map(|side| side as usize);
-        for image in [&mut self.normal, &mut self.object_normal].into_iter().flatten() {
+        let Self { images, states, .. } = self;
+        for Image { numbers, .. } in
+            images.iter_mut().filter(|image| matches!(image.kind, MapKind::Normal | MapKind::ObjectNormal))
+        {
+            let image = numbers.as_chunks_mut::<3>().0;
             for (texel, &source) in source_of_texel.iter().enumerate() {
                 let source = source as usize;
                 if source == texel {
@@ -127,7 +136,7 @@ impl Images {
                     continue;
                 }
                 let [x, y] = [0, 1].map(|i| (2 * from[i]).checked_sub(to[i]).unwrap_or(usize::MAX));
-                if x >= width || y >= height || self.states[y * width + x] != TexelState::Baked {
+                if x >= width || y >= height || states[y * width + x] != TexelState::Baked {
                     continue;
                 }
                 let [near, far] = [image[source], image[y * width + x]].map(wide);
@@ -138,19 +147,19 @@ impl Images {
         }
     }
 
-    /// Copies texels within every image. `source_of_texel`: for each texel the one that it copies, which copies itself.
+    /// Copies texels within every image. `source_of_texel`: for each texel the one that it copies, which copies itself. Maps of the low surface keep
+    /// what they have in charts.
     pub(crate) fn copy_texels(&mut self, source_of_texel: &[u32]) {
-        fn copy<T: Copy>(image: &mut Option<Vec<T>>, source_of_texel: &[u32]) {
-            let Some(image) = image else { return };
+        for Image { kind, numbers } in &mut self.images {
+            let channels = kind.channels();
             for (texel, &source) in source_of_texel.iter().enumerate() {
-                image[texel] = image[source as usize];
+                let keeps = kind.is_of_low_surface() && self.states[texel].is_missed();
+                if source as usize != texel && !keeps {
+                    let from = channels * source as usize;
+                    numbers.copy_within(from..from + channels, channels * texel);
+                }
             }
         }
-        copy(&mut self.normal, source_of_texel);
-        copy(&mut self.object_normal, source_of_texel);
-        copy(&mut self.height, source_of_texel);
-        copy(&mut self.occlusion, source_of_texel);
-        copy(&mut self.position, source_of_texel);
     }
 }
 
@@ -160,30 +169,14 @@ pub(crate) struct Band<'a> {
     /// The first row.
     pub row: usize,
     pub states: &'a mut [TexelState],
-    pub normal: Option<&'a mut [[f32; 3]]>,
-    pub object_normal: Option<&'a mut [[f32; 3]]>,
-    pub height: Option<&'a mut [f32]>,
-    pub occlusion: Option<&'a mut [f32]>,
-    pub position: Option<&'a mut [[f32; 3]]>,
+    /// In the order of [`Images::kinds`].
+    pub images: Vec<&'a mut [f32]>,
 }
 
-/// Gives every band its part of an image.
-fn deal<'a, T>(
-    bands: &mut [Band<'a>],
-    image: &'a mut Option<Vec<T>>,
-    texels: usize,
-    slot: impl for<'b> Fn(&'b mut Band<'a>) -> &'b mut Option<&'a mut [T]>,
-) {
-    let Some(image) = image else { return };
-    for (band, part) in bands.iter_mut().zip(image.chunks_mut(texels)) {
-        *slot(band) = Some(part);
-    }
-}
-
-/// A list of `count` equal elements, or the system's refusal.
-fn filled<T: Clone>(count: usize, element: T) -> Result<Vec<T>, std::collections::TryReserveError> {
+/// A list of `count` times the same elements, or the system's refusal.
+fn repeated<T: Copy>(count: usize, elements: &[T]) -> Result<Vec<T>, std::collections::TryReserveError> {
     let mut list = Vec::new();
-    list.try_reserve_exact(count)?;
-    list.resize(count, element);
+    list.try_reserve_exact(count * elements.len())?;
+    (0..count).for_each(|_| list.extend_from_slice(elements));
     Ok(list)
 }

@@ -1,4 +1,4 @@
-//! Bakes the detail of high-poly models into normal, height, occlusion and position maps of low-poly models.
+//! Bakes the detail of high-poly models into maps of low-poly models: normals, heights, occlusion, thickness, curvature, materials and more.
 //!
 //! A normal map is right only together with the tangent frames of the mesh that it was baked for. [`bake()`] puts the normals of the high
 //! surfaces into the frames that a renderer will use: MikkTSpace's, interpolated and not normalised, with the bitangent per pixel or per
@@ -10,7 +10,7 @@
 //! face, rays 3  the point on it, and the ray through the point
 //! bvh, high  4  the first hit on the high surfaces, and the normal there
 //! frame      5  that normal in the frame of the low surface, as a renderer will undo it
-//! texel      6  the samples of a texel become its content
+//! maps       6  what each map has there; the samples of a texel become its content
 //! padding    7  texels without a hit are filled from the nearest one
 //! ```
 
@@ -18,10 +18,13 @@ mod bake;
 mod band;
 mod budget;
 mod bvh;
+mod charts;
+mod color_texture;
 mod common_box;
 mod coverage;
 mod error;
 mod face;
+mod found;
 mod frame;
 mod gutter;
 mod gutter_samples;
@@ -29,13 +32,16 @@ mod high;
 mod images;
 mod layout;
 mod limits;
+mod map_kind;
+mod maps;
+mod material;
 mod memory;
 mod model;
 mod name_match;
 mod normal_texture;
-mod occlusion;
 mod options;
 mod padding;
+mod palette;
 mod point;
 mod rays;
 mod report;
@@ -44,19 +50,26 @@ mod space;
 mod surface;
 mod texel;
 mod text;
+mod texture_wrap;
 mod vector;
 mod verify;
 
 pub use bake::{BakeProgress, Baked, bake};
+pub use color_texture::ColorTexture;
 pub use error::BakeError;
 pub use images::{Images, TexelState};
-pub use model::{HighModel, HighModelOptions, LowModel, LowModelOptions, UnpairedParts, group_by_name};
+pub use map_kind::{MapContent, MapKind, MapSet};
+pub use material::MaterialProperty;
+pub use model::{
+    HighModel, HighModelOptions, LowModel, LowModelOptions, UnpairedParts, group_by_name, is_color_texture,
+};
 pub use name_match::{NameMatch, match_names};
 pub use normal_texture::NormalTexture;
-pub use options::{BakeOptions, Bitangent, MapKind, MapSet};
+pub use options::{BakeOptions, Bitangent, CurvatureRadius, IdSource, OcclusionFalloff, OcclusionWeights};
+pub use palette::IdColor;
 pub use report::BakeReport;
 pub use space::{ConvertedSpace, NormalSpace, SpaceOptions, convert_space};
-pub use surface::{HighSurface, LowSurface, default_cage_offset, inflated_cage};
+pub use surface::{HighSurface, LowSurface, SurfaceLabels, default_cage_offset, inflated_cage};
 pub use verify::{ErrorStatistics, Mistake, Verification, VerifiedPlace, check_verification, verify};
 
 /// The example of README.md compiles.

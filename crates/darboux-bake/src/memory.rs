@@ -1,7 +1,7 @@
 //! How many bytes runs need, estimated before anything large is allocated.
 
 use crate::images::TexelState;
-use crate::{BakeOptions, HighSurface, MapKind, bvh, padding};
+use crate::{BakeOptions, HighSurface, bvh, padding};
 
 /// The bytes per texel of the two normal maps that a verification compares.
 const BYTES_PER_COMPARED_TEXEL: u64 = 24;
@@ -27,10 +27,6 @@ fn of_hierarchies(high: &[HighSurface<'_>]) -> u64 {
 
 /// The bytes per texel of the images.
 fn bytes_of_images(options: &BakeOptions) -> u64 {
-    let bytes = |kind: &MapKind| match kind {
-        MapKind::Height | MapKind::Occlusion => 4,
-        MapKind::Normal | MapKind::ObjectNormal | MapKind::Position => 12,
-    };
-    let of_maps: u64 = MapKind::ALL.iter().filter(|&&kind| options.maps.has(kind)).map(bytes).sum();
+    let of_maps: u64 = options.maps.kinds().map(|kind| 4 * kind.channels() as u64).sum();
     of_maps + size_of::<TexelState>() as u64
 }

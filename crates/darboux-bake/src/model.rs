@@ -1,5 +1,6 @@
 //! The surfaces of glTF documents, in the space of the scene.
 
+mod content;
 mod high;
 mod low;
 mod maps;
@@ -7,6 +8,7 @@ mod parts;
 mod placed;
 mod stored;
 
+pub use content::is_color_texture;
 pub use high::{HighModel, HighModelOptions};
 pub use low::{LowModel, LowModelOptions};
 pub use parts::{UnpairedParts, group_by_name};

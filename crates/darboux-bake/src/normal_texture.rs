@@ -4,6 +4,7 @@ use darboux::{Convention, UvOrigin};
 use darboux_io::gltf::Wrap;
 
 use crate::BakeError;
+use crate::texture_wrap::Mix;
 use crate::vector::{Place, Vector};
 
 /// A tangent-space normal map, read with a bilinear filter.
@@ -83,41 +84,6 @@ pub fn filter_texels(place: Place, size: [usize; 2]) -> [usize; 4] {
     let [columns, rows] = [0, 1].map(|i| Mix::of(place[i], size[i], Wrap::Repeat));
     let at = |row: usize, column: usize| rows.texels[row] * size[0] + columns.texels[column];
     [at(0, 0), at(0, 1), at(1, 0), at(1, 1)]
-}
-
-/// The two texels along an axis that a filter mixes, and the share of the second.
-struct Mix {
-    texels: [usize; 2],
-    share: f64,
-}
-
-impl Mix {
-    /// `place`: in texels; texel i has its centre at i + 0.5.
-    fn of(place: f64, size: usize, wrap: Wrap) -> Self {
-        let first = (place - 0.5).floor();
-        Self {
-            texels: [first, first + 1.0].map(|texel| wrapped(texel, size, wrap)),
-            share: place - 0.5 - first,
-        }
-    }
-
-    fn mixed(&self, [a, b]: [Vector; 2]) -> Vector {
-        [0, 1, 2].map(|i| (1.0 - self.share) * a[i] + self.share * b[i])
-    }
-}
-
-/// The texel of the image that a whole number stands for.
-fn wrapped(texel: f64, size: usize, wrap: Wrap) -> usize {
-    let last = size as f64 - 1.0;
-    let place = match wrap {
-        Wrap::Clamp => texel.clamp(0.0, last),
-        Wrap::Repeat => texel.rem_euclid(size as f64),
-        Wrap::Mirror => {
-            let place = texel.rem_euclid(2.0 * size as f64);
-            place.min(2.0 * size as f64 - 1.0 - place)
-        }
-    };
-    place.min(last) as usize
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! What is baked, and how.
 
-use darboux::Convention;
+use darboux::{Choice, Convention, UnknownName};
+
+use crate::{MapKind, MapSet};
 
 /// Options of [`bake`](crate::bake()).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +34,21 @@ pub struct BakeOptions {
     pub occlusion_rays: u32,
     /// How far a surface occludes another, in units of the positions. Default: any distance.
     pub occlusion_distance: f32,
+    /// How occlusion fades with the distance, up to [`BakeOptions::occlusion_distance`]. Default: not at all.
+    pub occlusion_falloff: OcclusionFalloff,
+    /// How the directions of occlusion and bent normals are weighted. Default: by the cosine.
+    pub occlusion_weights: OcclusionWeights,
+    /// Whether surfaces are occluded by their own part only. Default: by all parts of their group.
+    pub own_part_only: bool,
+    /// How far the other side of a surface is looked for, in units of the positions. Rays that meet nothing count as this distance; they do not
+    /// count where it is infinite. Default: infinite.
+    pub thickness_distance: f32,
+    /// The radius in which curvature is measured. Default: 4 texels.
+    pub curvature_radius: CurvatureRadius,
+    /// What the colours of [`MapKind::Id`] stand for. Default: materials.
+    pub id_source: IdSource,
+    /// The direction of [`MapKind::WorldDirection`], along the axes of the surfaces. Default: (0, 1, 0), up in glTF.
+    pub world_direction: [f32; 3],
     /// The most bytes that a run may take. Default: no limit.
     pub memory_limit: Option<u64>,
 }
@@ -53,6 +70,13 @@ impl BakeOptions {
             padding: None,
             occlusion_rays: 64,
             occlusion_distance: f32::INFINITY,
+            occlusion_falloff: OcclusionFalloff::None,
+            occlusion_weights: OcclusionWeights::Cosine,
+            own_part_only: false,
+            thickness_distance: f32::INFINITY,
+            curvature_radius: CurvatureRadius::Texels(4.0),
+            id_source: IdSource::Material,
+            world_direction: [0.0, 1.0, 0.0],
             memory_limit: None,
         }
     }
@@ -117,6 +141,48 @@ impl BakeOptions {
         Self { occlusion_rays: rays, occlusion_distance: distance, ..self }
     }
 
+    /// These options with another fading of occlusion.
+    #[must_use]
+    pub fn with_occlusion_falloff(self, occlusion_falloff: OcclusionFalloff) -> Self {
+        Self { occlusion_falloff, ..self }
+    }
+
+    /// These options with other weights of the directions of occlusion.
+    #[must_use]
+    pub fn with_occlusion_weights(self, occlusion_weights: OcclusionWeights) -> Self {
+        Self { occlusion_weights, ..self }
+    }
+
+    /// These options with occlusion by the own part only, or by all.
+    #[must_use]
+    pub fn with_own_part_only(self, own_part_only: bool) -> Self {
+        Self { own_part_only, ..self }
+    }
+
+    /// These options with another distance up to which thickness is measured.
+    #[must_use]
+    pub fn with_thickness_distance(self, thickness_distance: f32) -> Self {
+        Self { thickness_distance, ..self }
+    }
+
+    /// These options with another radius of curvature maps.
+    #[must_use]
+    pub fn with_curvature_radius(self, curvature_radius: CurvatureRadius) -> Self {
+        Self { curvature_radius, ..self }
+    }
+
+    /// These options with colours of [`MapKind::Id`] that stand for something else.
+    #[must_use]
+    pub fn with_id_source(self, id_source: IdSource) -> Self {
+        Self { id_source, ..self }
+    }
+
+    /// These options with another direction for [`MapKind::WorldDirection`]; its length does not matter.
+    #[must_use]
+    pub fn with_world_direction(self, world_direction: [f32; 3]) -> Self {
+        Self { world_direction, ..self }
+    }
+
     /// These options with a memory limit in bytes, or none.
     #[must_use]
     pub fn with_memory_limit(self, memory_limit: Option<u64>) -> Self {
@@ -135,45 +201,95 @@ pub enum Bitangent {
     PerVertex,
 }
 
-/// A kind of image.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum MapKind {
-    /// The normal of the high surface in the frame of the low surface.
-    Normal,
-    /// The normal of the high surface.
-    ObjectNormal,
-    /// The distance of the high surface from the low one along the ray, positive outside.
-    Height,
-    /// The share of the hemisphere over the high surface that is open, weighted by the cosine.
-    Occlusion,
-    /// The position on the high surface.
-    Position,
-}
-
-impl MapKind {
-    /// All kinds.
-    pub const ALL: [Self; 5] =
-        [Self::Normal, Self::ObjectNormal, Self::Height, Self::Occlusion, Self::Position];
-}
-
-/// A set of kinds of images.
+/// How occlusion fades with the distance d of the occluder, as a share of the greatest distance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct MapSet(u8);
+#[non_exhaustive]
+pub enum OcclusionFalloff {
+    /// Not at all.
+    #[default]
+    None,
+    /// 1 - d.
+    Linear,
+    /// (1 - d)^2.
+    Quadratic,
+}
 
-impl MapSet {
-    /// The set of these kinds.
-    pub fn of(kinds: &[MapKind]) -> Self {
-        Self(kinds.iter().fold(0, |bits, &kind| bits | 1 << kind as u8))
-    }
+/// How the directions of a hemisphere are weighted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum OcclusionWeights {
+    /// By the cosine of the angle to the normal, as light falls on a matte surface.
+    #[default]
+    Cosine,
+    /// All alike.
+    Uniform,
+}
 
-    /// Whether the set has a kind.
-    pub fn has(self, kind: MapKind) -> bool {
-        self.0 >> kind as u8 & 1 != 0
-    }
+/// The radius in which curvature is measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum CurvatureRadius {
+    /// In texels: larger where the image is coarser.
+    Texels(f32),
+    /// In units of the positions.
+    Distance(f32),
+}
 
-    /// Whether the set is empty.
-    pub fn is_empty(self) -> bool {
-        self.0 == 0
-    }
+/// What the colours of an id map stand for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum IdSource {
+    /// The material.
+    #[default]
+    Material,
+    /// The mesh, wherever the scene has it.
+    Mesh,
+    /// The part: a node of the scene with a mesh.
+    Part,
+    /// The colour of the vertices itself, rounded to 8 bits.
+    VertexColor,
+}
+
+/// Implements [`Choice`] and `FromStr`, as the core does for its own choices.
+macro_rules! choice {
+    ($type:ident, $what:literal, $($value:ident => $name:literal, $summary:literal;)+) => {
+        impl Choice for $type {
+            const WHAT: &'static str = $what;
+            const ALL: &'static [Self] = &[$(Self::$value),+];
+
+            fn name(self) -> &'static str {
+                match self { $(Self::$value => $name),+ }
+            }
+
+            fn summary(self) -> &'static str {
+                match self { $(Self::$value => $summary),+ }
+            }
+        }
+
+        impl std::str::FromStr for $type {
+            type Err = UnknownName;
+
+            fn from_str(name: &str) -> Result<Self, Self::Err> {
+                Choice::from_name(name)
+            }
+        }
+    };
+}
+
+choice! { OcclusionFalloff, "falloff",
+    None => "none", "Occlusion does not fade with the distance";
+    Linear => "linear", "It fades evenly up to the greatest distance";
+    Quadratic => "quadratic", "It fades fast near the surface and slowly far away";
+}
+
+choice! { OcclusionWeights, "weights",
+    Cosine => "cosine", "By the cosine of the angle to the normal, as light falls on a matte surface";
+    Uniform => "uniform", "All directions alike";
+}
+
+choice! { IdSource, "id source",
+    Material => "material", "A colour for each material";
+    Mesh => "mesh", "A colour for each mesh";
+    Part => "part", "A colour for each part: each node with a mesh";
+    VertexColor => "vertex-color", "The colours of the vertices themselves";
 }

@@ -4,8 +4,9 @@ use darboux::{Error, Faces, Indices, Mesh, NormalOptions, Strided, generate_norm
 
 use crate::common_box::CommonBox;
 use crate::frame::ShadingFrame;
+use crate::material::{Property, SurfaceMaterial};
 use crate::vector::{Vector, add_scaled, box_diagonal, narrow, weighted, wide};
-use crate::{BakeError, NormalTexture};
+use crate::{BakeError, ColorTexture, MaterialProperty, NormalTexture};
 
 /// A surface that receives the detail: triangles with normals, UVs and tangents.
 #[derive(Clone, Copy, Debug)]
@@ -81,7 +82,23 @@ pub struct HighSurface<'a> {
     pub(crate) mesh: Mesh<'a>,
     pub(crate) group: usize,
     pub(crate) space: CommonBox,
+    pub(crate) labels: SurfaceLabels,
+    /// Red, green, blue and alpha of the vertices.
+    pub(crate) colors: Option<Strided<'a, 4>>,
+    pub(crate) material: SurfaceMaterial<'a>,
     normal_map: Option<SurfaceMap<'a>>,
+}
+
+/// The numbers of what a high surface belongs to, for [`MapKind::Id`](crate::MapKind::Id) and for
+/// [`BakeOptions::own_part_only`](crate::BakeOptions::own_part_only). By default all are 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct SurfaceLabels {
+    /// The number of the material, below 2^24.
+    pub material: u32,
+    /// The number of the mesh, below 2^24.
+    pub mesh: u32,
+    /// The number of the part, below 2^24.
+    pub part: u32,
 }
 
 /// A normal map on a high surface.
@@ -106,7 +123,15 @@ impl<'a> HighSurface<'a> {
         let normals = normals.unwrap_or_else(|| Strided::repeated(&[0.0; 3], positions.len()));
         let uvs = Strided::repeated(&[0.0; 2], positions.len());
         let mesh = Mesh::triangles(positions, normals, uvs, indices)?;
-        Ok(Self { mesh, group: 0, space: CommonBox::default(), normal_map: None })
+        Ok(Self {
+            mesh,
+            group: 0,
+            space: CommonBox::default(),
+            labels: SurfaceLabels::default(),
+            colors: None,
+            material: SurfaceMaterial::default(),
+            normal_map: None,
+        })
     }
 
     /// This surface with a normal map of its own: its normals are those that a renderer shows, with the bitangent per pixel.
@@ -128,6 +153,45 @@ impl<'a> HighSurface<'a> {
             return Err(Error::InputLength { what: "tangents", expected: corners, found }.into());
         }
         Ok(Self { normal_map: Some(SurfaceMap { texture, uvs, tangents }), ..self })
+    }
+
+    /// This surface with colours: red, green, blue and alpha of each vertex, in linear light. Errors: another number of colours than vertices.
+    pub fn with_colors(self, colors: impl Into<Strided<'a, 4>>) -> Result<Self, BakeError> {
+        let colors = colors.into();
+        let expected = self.mesh.vertex_count();
+        if colors.len() != expected {
+            return Err(Error::InputLength { what: "colors", expected, found: colors.len() }.into());
+        }
+        Ok(Self { colors: Some(colors), ..self })
+    }
+
+    /// This surface with a property of its material: a factor, times a texture and the UVs, one per vertex, where it is read.
+    ///
+    /// `factor`: red, green, blue and alpha in linear light. Errors: another number of UVs than vertices.
+    pub fn with_property(
+        self,
+        property: MaterialProperty,
+        factor: [f32; 4],
+        texture: Option<(&'a ColorTexture, Strided<'a, 2>)>,
+    ) -> Result<Self, BakeError> {
+        let vertices = self.mesh.vertex_count();
+        if let Some(found) = texture.map(|(_, uvs)| uvs.len()).filter(|&found| found != vertices) {
+            return Err(BakeError::Uvs { vertices, found });
+        }
+        let mut surface = self;
+        surface.material.set(property, Property { factor, texture });
+        Ok(surface)
+    }
+
+    /// This surface with the numbers of its material, mesh and part.
+    #[must_use]
+    pub fn with_labels(self, labels: SurfaceLabels) -> Self {
+        Self { labels, ..self }
+    }
+
+    /// The numbers of its material, mesh and part.
+    pub fn labels(&self) -> SurfaceLabels {
+        self.labels
     }
 
     /// The unit normal that the normal map shows at a point of a triangle whose interpolated normal is `normal`; `None` without a map, and where
@@ -165,6 +229,11 @@ impl<'a> HighSurface<'a> {
     pub(crate) fn corners(&self, triangle: usize) -> [[f32; 3]; 3] {
         let vertices = [0, 1, 2].map(|corner| self.mesh.vertex_of_corner(3 * triangle + corner));
         vertices.map(|vertex| self.space.position(self.mesh.positions().get(vertex)))
+    }
+
+    /// The vertices of a triangle.
+    pub(crate) fn vertices(&self, triangle: usize) -> [usize; 3] {
+        [0, 1, 2].map(|corner| self.mesh.vertex_of_corner(3 * triangle + corner))
     }
 
     pub(crate) fn normals(&self, triangle: usize) -> [[f32; 3]; 3] {

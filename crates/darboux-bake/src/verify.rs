@@ -17,7 +17,9 @@ use darboux::Context;
 use crate::bake::{Boxed, check_options, check_surfaces, for_each_band, group_surfaces};
 use crate::budget::Budget;
 use crate::layout::Layout;
-use crate::{BakeError, BakeOptions, BakeProgress, HighSurface, Images, LowSurface, NormalTexture, memory};
+use crate::{
+    BakeError, BakeOptions, BakeProgress, HighSurface, Images, LowSurface, MapKind, NormalTexture, memory,
+};
 use points::{BYTES_PER_POINT, BandPoints, Points, cell_side};
 use summary::summarize;
 
@@ -43,8 +45,8 @@ pub fn verify(
     progress: &mut (dyn FnMut(BakeProgress) + Send),
 ) -> Result<Verification, BakeError> {
     let Plan { layout, cell_side } = Plan::new(low, high, options)?;
-    let unrounded =
-        baked.normal.clone().filter(|_| baked.size == options.size && written.size() == options.size);
+    let unrounded = baked.vectors(MapKind::Normal).map(<[_]>::to_vec);
+    let unrounded = unrounded.filter(|_| baked.size == options.size && written.size() == options.size);
     let unrounded = unrounded.ok_or(BakeError::NoMaps)?;
     let unrounded =
         NormalTexture::new(options.size, unrounded, options.map_convention, options.surface_convention)?;

@@ -5,7 +5,7 @@ mod support;
 use std::io::Write;
 
 use darboux::{Context, Convention, TexelLayout};
-use darboux_bake::{BakeOptions, LowSurface, NormalTexture, bake, verify};
+use darboux_bake::{BakeOptions, LowSurface, MapKind, NormalTexture, bake, verify};
 use darboux_tests::maps::surfaces::Surface;
 use support::Shape;
 
@@ -44,7 +44,7 @@ fn median_error(surface: Surface, size: u32) -> f64 {
     assert_eq!(baked.report.missed_texels, 0, "{surface:?}");
     let layout = TexelLayout::<3>::RGB;
     let rounded = |normal: &[f32; 3]| layout.vector(layout.texel::<u16>(*normal));
-    let texels = baked.images.normal.iter().flatten().map(rounded).collect();
+    let texels = baked.images.vectors(MapKind::Normal).into_iter().flatten().map(rounded).collect();
     let map = NormalTexture::new([size; 2], texels, Convention::GLTF, Convention::GLTF).expect("a map");
     let errors = verify(&lows, &highs, &baked.images, &map, &options, &mut Context::new(), &mut |_| {});
     let errors = errors.expect("valid input").all;

@@ -3,7 +3,7 @@
 mod support;
 
 use darboux::{Context, Convention};
-use darboux_bake::{BakeOptions, Baked, LowSurface, NormalTexture, TexelState, bake};
+use darboux_bake::{BakeOptions, Baked, LowSurface, MapKind, NormalTexture, TexelState, bake};
 use darboux_dice::Dice;
 use support::{PAIRS, Shape, Vector, unit};
 
@@ -32,7 +32,7 @@ fn transferred(from: &Shape, to: &Shape, texture: &NormalTexture) -> Baked {
 
 /// The largest difference of a component between baked texels and what is expected at their places.
 fn largest_difference(baked: &Baked, expected: impl Fn(usize, usize) -> [f32; 3]) -> f32 {
-    let normals = baked.images.normal.as_ref().expect("chosen");
+    let normals = baked.images.vectors(MapKind::Normal).expect("chosen");
     let side = SIZE as usize;
     let texels = (0..side * side).filter(|&texel| baked.images.states[texel] == TexelState::Baked);
     let difference = |texel: usize| {

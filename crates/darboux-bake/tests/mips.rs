@@ -3,7 +3,7 @@
 mod support;
 
 use darboux::Context;
-use darboux_bake::{BakeOptions, LowSurface, bake};
+use darboux_bake::{BakeOptions, LowSurface, MapKind, bake};
 use support::Shape;
 
 const SIZE: usize = 256;
@@ -60,7 +60,7 @@ fn least_x(padding: Option<u32>) -> [f32; 6] {
     let options =
         BakeOptions::new([SIZE as u32; 2], [0.1, 0.1]).with_samples_per_axis(4).with_padding(padding);
     let baked = bake(&[surface], &[high.high()], &options, &mut Context::new(), &mut |_| {});
-    let mut level = baked.expect("valid input").images.normal.expect("chosen");
+    let mut level = baked.expect("valid input").images.vectors(MapKind::Normal).expect("chosen").to_vec();
     std::array::from_fn(|index| {
         let side = SIZE >> index;
         if index > 0 {

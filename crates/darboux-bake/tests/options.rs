@@ -45,11 +45,11 @@ fn every_map_of_a_roof_is_what_geometry_says() {
     for texel in 0..64 {
         let [x, y] = [texel % 8, 7 - texel / 8].map(|i| (i as f32 + 0.5) / 8.0);
         let height = 0.25 + 0.5 * x;
-        assert!(near(&images.normal.as_ref().expect("chosen")[texel], &leaning));
-        assert!(near(&images.object_normal.as_ref().expect("chosen")[texel], &leaning));
-        assert!(near(&images.height.as_ref().expect("chosen")[texel..=texel], &[height]));
-        assert!(near(&images.occlusion.as_ref().expect("chosen")[texel..=texel], &[1.0]));
-        assert!(near(&images.position.as_ref().expect("chosen")[texel], &[x, y, height]));
+        assert!(near(&images.vectors(MapKind::Normal).expect("chosen")[texel], &leaning));
+        assert!(near(&images.vectors(MapKind::ObjectNormal).expect("chosen")[texel], &leaning));
+        assert!(near(&images.numbers(MapKind::Height).expect("chosen")[texel..=texel], &[height]));
+        assert!(near(&images.numbers(MapKind::Occlusion).expect("chosen")[texel..=texel], &[1.0]));
+        assert!(near(&images.vectors(MapKind::Position).expect("chosen")[texel], &[x, y, height]));
     }
     assert!(images.states.iter().all(|&state| state == TexelState::Baked));
     let report = baked.report;
@@ -94,7 +94,8 @@ fn the_outermost_surface_is_hit() {
     two.positions.extend(roof(0.5, 0.5).positions);
     two.normals.extend([[0.0; 3]; 4]);
     two.indices.extend([4, 5, 6, 4, 6, 7]);
-    let heights = baked(&plate(1.0), &two, &all_maps(4)).images.height.expect("chosen");
+    let heights =
+        baked(&plate(1.0), &two, &all_maps(4)).images.numbers(MapKind::Height).expect("chosen").to_vec();
     assert!(heights.iter().all(|height| (height - 0.5).abs() < 1e-6), "{heights:?}");
 }
 
@@ -107,7 +108,7 @@ fn back_faces_are_transparent_unless_asked_for() {
     let both = baked(&plate(1.0), &high, &options(4).with_back_faces(true));
     let upright = baked(&plate(1.0), &roof(0.25, 0.75), &options(4));
     assert_eq!(both.report.missed_texels, 0);
-    assert_eq!(both.images.normal, upright.images.normal);
+    assert_eq!(both.images.vectors(MapKind::Normal), upright.images.vectors(MapKind::Normal));
 }
 
 #[test]
@@ -144,7 +145,7 @@ fn a_cage_has_no_gaps_at_hard_edges() {
     let options = BakeOptions::new([320, 64], [0.4, 0.4]).with_maps(maps).with_padding(Some(0));
     let positions = |surface: LowSurface<'_>| {
         let baked = bake(&[surface], &[high.high()], &options, &mut Context::new(), &mut |_| {});
-        baked.expect("valid input").images.position.expect("chosen")
+        baked.expect("valid input").images.vectors(MapKind::Position).expect("chosen").to_vec()
     };
     let reach =
         |positions: &[[f32; 3]]| positions.iter().fold(0f32, |most, p| most.max(p[0].abs().min(p[1].abs())));
@@ -168,7 +169,7 @@ fn more_samples_smooth_edges() {
     floor.indices.extend([4, 5, 6, 4, 6, 7]);
     let heights = |samples| {
         let options = all_maps(4).with_samples_per_axis(samples);
-        baked(&low, &floor, &options).images.height.expect("chosen")[..4].to_vec()
+        baked(&low, &floor, &options).images.numbers(MapKind::Height).expect("chosen")[..4].to_vec()
     };
     // 0.37 lies at 0.48 of the second texel.
     assert_eq!(heights(1), [-0.5, 0.0, 0.0, 0.0]);
@@ -185,14 +186,14 @@ fn conventions_turn_green_and_axes() {
         baked(&plate(1.0), &tilted, &options(2).with_maps(maps).with_map_convention(convention)).images
     };
     let (gltf, unreal) = (images(Convention::GLTF), images(Convention::UNREAL));
-    let normal = gltf.normal.expect("chosen")[0];
+    let normal = gltf.vectors(MapKind::Normal).expect("chosen")[0];
     // The roof rises to the top of the image, so its normal leans down, against glTF's green.
     assert!((normal[1] / normal[2] + 0.5).abs() < 1e-6);
-    assert_eq!(unreal.normal.expect("chosen")[0], [normal[0], -normal[1], normal[2]]);
+    assert_eq!(unreal.vectors(MapKind::Normal).expect("chosen")[0], [normal[0], -normal[1], normal[2]]);
     let conversion = Convention::GLTF.to(Convention::UNREAL);
     assert_eq!(
-        unreal.object_normal.expect("chosen")[0],
-        conversion.vector(gltf.object_normal.expect("chosen")[0])
+        unreal.vectors(MapKind::ObjectNormal).expect("chosen")[0],
+        conversion.vector(gltf.vectors(MapKind::ObjectNormal).expect("chosen")[0])
     );
 }
 
@@ -204,7 +205,7 @@ fn the_origin_of_uvs_turns_rows() {
     let high = roof(0.25, 0.75);
     let top = baked(&low, &high, &options(4)).images;
     let bottom = baked(&flipped, &high, &options(4).with_surface_convention(Convention::OPENGL)).images;
-    assert_eq!(top.normal, bottom.normal);
+    assert_eq!(top.vectors(MapKind::Normal), bottom.vectors(MapKind::Normal));
 }
 
 #[test]
@@ -213,7 +214,7 @@ fn the_bitangent_per_vertex_is_another_map() {
     let (low, high) = (pair.low(8), pair.high(64));
     let with = |bitangent| {
         let options = BakeOptions::new([64, 64], [0.2, 0.2]).with_bitangent(bitangent);
-        baked(&low, &high, &options).images.normal.expect("chosen")
+        baked(&low, &high, &options).images.vectors(MapKind::Normal).expect("chosen").to_vec()
     };
     let [pixel, vertex] = [Bitangent::PerPixel, Bitangent::PerVertex].map(with);
     let largest = pixel.iter().zip(&vertex).map(|(a, b)| (a[1] - b[1]).abs()).fold(0.0, f32::max);
@@ -226,7 +227,7 @@ fn padding_fills_so_many_texels() {
     let high = roof(0.25, 0.75);
     let filled = |padding| {
         let images = baked(&low, &high, &options(16).with_padding(padding)).images;
-        images.normal.expect("chosen").iter().filter(|normal| normal[0] != 0.0).count()
+        images.vectors(MapKind::Normal).expect("chosen").iter().filter(|normal| normal[0] != 0.0).count()
     };
     assert_eq!([filled(Some(0)), filled(None)], [64, 256]);
     // Two columns, two rows, and the one texel at the corner within a distance of 2.
@@ -239,7 +240,14 @@ fn missed_texels_are_filled_from_around() {
     high.positions.iter_mut().for_each(|p| p[0] = p[0].max(0.5));
     let baked = baked(&plate(1.0), &high, &all_maps(4).with_padding(Some(0)));
     assert_eq!(baked.report.missed_texels, 8);
-    assert!(baked.images.height.expect("chosen").iter().all(|height| (height - 0.25).abs() < 1e-6));
+    assert!(
+        baked
+            .images
+            .numbers(MapKind::Height)
+            .expect("chosen")
+            .iter()
+            .all(|height| (height - 0.25).abs() < 1e-6)
+    );
     assert_eq!(baked.images.states.iter().filter(|state| state.is_missed()).count(), 8);
 }
 
@@ -253,7 +261,7 @@ fn occlusion_is_dark_in_a_corner() {
     corner.indices.extend([4, 5, 6, 4, 6, 7]);
     let open = |distance| {
         let options = all_maps(16).with_occlusion(256, distance);
-        baked(&plate(1.0), &corner, &options).images.occlusion.expect("chosen")
+        baked(&plate(1.0), &corner, &options).images.numbers(MapKind::Occlusion).expect("chosen").to_vec()
     };
     let far = open(10.0);
     let row = &far[8 * 16..9 * 16];
@@ -272,7 +280,7 @@ fn groups_do_not_see_each_other() {
     let highs = [near.high(), far.high().with_group(1)];
     let baked =
         bake(&[surface], &highs, &all_maps(2), &mut Context::new(), &mut |_| {}).expect("valid input");
-    assert!((baked.images.height.expect("chosen")[0] - 0.2).abs() < 1e-6);
+    assert!((baked.images.numbers(MapKind::Height).expect("chosen")[0] - 0.2).abs() < 1e-6);
 }
 
 #[test]
@@ -284,11 +292,14 @@ fn unusual_uvs_are_handled_and_counted() {
     let once = baked(&plate(1.0), &high, &options(8));
     let doubled = baked(&twice, &high, &options(8));
     assert_eq!(doubled.report.overlapping_texels, 64);
-    assert_eq!(doubled.images.normal, once.images.normal);
+    assert_eq!(doubled.images.vectors(MapKind::Normal), once.images.vectors(MapKind::Normal));
     // A chart in another tile is moved into the image.
     let mut moved = plate(1.0);
     moved.uvs.iter_mut().for_each(|uv| *uv = [uv[0] - 3.0, uv[1] + 5.0]);
-    assert_eq!(baked(&moved, &high, &options(8)).images.normal, once.images.normal);
+    assert_eq!(
+        baked(&moved, &high, &options(8)).images.vectors(MapKind::Normal),
+        once.images.vectors(MapKind::Normal)
+    );
     // A chart over four tiles covers every texel four times.
     let tiled = baked(&plate(2.0), &high, &options(8)).report;
     assert_eq!([tiled.charted_texels, tiled.overlapping_texels], [64; 2]);

@@ -5,7 +5,7 @@ mod support;
 
 use std::io::Write;
 
-use darboux_bake::{BakeOptions, Bitangent};
+use darboux_bake::{BakeOptions, Bitangent, MapKind};
 use darboux_dice::Dice;
 use support::shading::{Fragment, Texture, errors, fragments, quantile};
 use support::{PAIRS, Shape, baked};
@@ -15,7 +15,7 @@ fn normals_of(low: &Shape, high: &Shape, size: u32, bitangent: Bitangent) -> Vec
     let baked = baked(low, high, &options);
     // At the ends of open surfaces rays of a coarse low mesh may pass beside the high one; the rest must hit.
     assert!(baked.report.missed_texels * 50 < baked.report.charted_texels, "{:?}", baked.report);
-    baked.images.normal.expect("chosen")
+    baked.images.vectors(MapKind::Normal).expect("chosen").to_vec()
 }
 
 fn show(line: &str) {

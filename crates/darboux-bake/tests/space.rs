@@ -89,7 +89,10 @@ fn the_baker_and_the_conversion_agree() {
                 .with_bitangent(bitangent);
             let baked = bake(&[surface], &[high.high()], &options, &mut Context::new(), &mut |_| {});
             let images = baked.expect("valid input").images;
-            let (normal, object) = (images.normal.expect("chosen"), images.object_normal.expect("chosen"));
+            let (normal, object) = (
+                images.vectors(MapKind::Normal).expect("chosen").to_vec(),
+                images.vectors(MapKind::ObjectNormal).expect("chosen").to_vec(),
+            );
             for (to, from, expected) in
                 [(NormalSpace::Tangent, &object, &normal), (NormalSpace::Object, &normal, &object)]
             {

@@ -7,7 +7,7 @@ use std::io::Write;
 use darboux::{Context, Convention, Mesh, Method, TexelLayout, generate_tangents};
 use darboux_bake::{
     BakeError, BakeOptions, BakeProgress, Baked, Bitangent, ErrorStatistics, HighSurface, LowSurface,
-    Mistake, NormalTexture, Verification, VerifiedPlace, bake, check_verification, verify,
+    MapKind, Mistake, NormalTexture, Verification, VerifiedPlace, bake, check_verification, verify,
 };
 use darboux_io::image::srgb_to_linear;
 use support::{PAIRS, Shape, unit};
@@ -49,7 +49,8 @@ impl Bench {
         change: impl Fn([f32; 3]) -> [f32; 3],
     ) -> Verification {
         let low = LowSurface::new(low.mesh(), tangents).expect("one tangent per corner");
-        let texels = baked.images.normal.iter().flatten().map(|&texel| change(texel)).collect();
+        let texels =
+            baked.images.vectors(MapKind::Normal).into_iter().flatten().map(|&texel| change(texel)).collect();
         let written =
             NormalTexture::new(self.options.size, texels, self.options.map_convention, Convention::GLTF);
         let written = written.expect("a texture");
@@ -100,7 +101,7 @@ fn of_surfaces_that_lie_over_each_other_64_are_compared() {
     let bench = Bench { low, high, options: BakeOptions::new([32; 2], [0.1; 2]) };
     let tangents = bench.low.tangents();
     let low = LowSurface::new(bench.low.mesh(), &tangents).expect("one tangent per corner");
-    let texels = bench.bake().images.normal.expect("chosen");
+    let texels = bench.bake().images.vectors(MapKind::Normal).expect("chosen").to_vec();
     let written =
         NormalTexture::new(bench.options.size, texels, bench.options.map_convention, Convention::GLTF)
             .expect("a texture");
@@ -183,7 +184,7 @@ fn memory_for_the_comparison_is_checked_before_the_bake() {
     let baked = bench.bake();
     let written = NormalTexture::new(
         bench.options.size,
-        baked.images.normal.clone().expect("was chosen"),
+        baked.images.vectors(MapKind::Normal).expect("was chosen").to_vec(),
         bench.options.map_convention,
         Convention::GLTF,
     );
@@ -264,7 +265,7 @@ fn repeated_uvs_are_compared_at_fewer_points_and_the_progress_is_told() {
     let high = [HighSurface::new(&positions, None, &indices).expect("a surface")];
     let options = BakeOptions::new([192; 2], [0.1, 0.1]);
     let baked = bake(&[low], &high, &options, &mut Context::new(), &mut |_| {}).expect("valid input");
-    let texels = baked.images.normal.clone().expect("was chosen");
+    let texels = baked.images.vectors(MapKind::Normal).expect("was chosen").to_vec();
     let written = NormalTexture::new(options.size, texels, options.map_convention, Convention::GLTF);
     let written = written.expect("a texture");
     let mut last = None;

@@ -387,7 +387,7 @@ fn a_model_is_written_that_bakes_to_the_same_map() {
         assert!(stderr.contains(what), "{stderr}");
     };
     refused(&["--convention", "unreal"], "needs a map in glTF's convention");
-    refused(&["--map", "ao"], "--write-model needs a normal map");
+    refused(&["--map", "height"], "--write-model needs a map that materials have");
     let gltf = pair.path("model.gltf");
     assert!(
         pair.bake(&["--force", "--write-model", text(&gltf)]).exits(2).stderr.contains("must end in .glb")
@@ -753,7 +753,10 @@ fn wrong_use_is_refused() {
     says(&["--distance", "1,1"], 2, "cannot be used with");
     says(&["--samples", "5"], 2, "expected a square number");
     says(&["--bits", "12"], 2, "expected 8 or 16");
-    says(&["--map", "curvature"], 2, "possible values");
+    says(&["--map", "curvy"], 2, "possible values");
+    says(&["--map", "texture"], 2, "--texture names the place");
+    says(&["--ao-falloff", "linear"], 2, "--ao-distance");
+    says(&["--curvature-radius", "0texels"], 2, "texels such as 4texels");
     says(&["--uv-set", "3"], 1, "no triangles have TEXCOORD_3, onto which to bake; choose one of TEXCOORD_0");
     fs::write(pair.path("low.glb"), plate([0.0, 0.0], &["POSITION", "TEXCOORD_0"], 1.0)).expect("a file");
     says(&[], 1, "has no normals");
@@ -793,4 +796,66 @@ fn nothing_is_written_when_one_of_several_outputs_fails() {
     assert_eq!(run.status.code(), Some(1), "{stderr}");
     assert!(stderr.contains("w.glb"), "{stderr}");
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0, "{stderr}");
+}
+
+/// The JSON of a GLB.
+fn json_of(path: &Path) -> Value {
+    let glb = fs::read(path).expect("a model");
+    let length = u32::from_le_bytes([glb[12], glb[13], glb[14], glb[15]]) as usize;
+    serde_json::from_slice(&glb[20..20 + length]).expect("JSON")
+}
+
+/// A high model whose material has colour, roughness, metalness and light.
+fn painted_high(pair: &Pair) {
+    let high = edited(&plate([0.0, 0.0], &["POSITION"], 1.0), |json| {
+        json["meshes"][0]["primitives"][0]["material"] = 0.into();
+        json["materials"] = json!([{
+            "name": "paint",
+            "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 1], "roughnessFactor": 0.25, "metallicFactor": 0.75},
+            "emissiveFactor": [1, 1, 0.5],
+            "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}},
+        }]);
+        json["extensionsUsed"] = json!(["KHR_materials_emissive_strength"]);
+    });
+    fs::write(pair.path("high.glb"), high).expect("a file");
+}
+
+#[test]
+fn materials_are_transferred_and_put_where_gltf_wants_them() {
+    let pair = Pair::new();
+    painted_high(&pair);
+    let model = pair.path("baked.glb");
+    let maps = "normal,ao,base-color,roughness,metalness,emission,id,uv-islands";
+    let report = pair.bake(&["--map", maps, "--write-model", text(&model), "--json"]).exits(0).json();
+    // 0.5 in linear light is 188 in sRGB.
+    assert_eq!(pair.texel("map.base-color.png").0, [1.0, 188.0 / 255.0, 0.0]);
+    assert_eq!(pair.texel("map.roughness.png").0, [64.0 / 255.0]);
+    assert_eq!(pair.texel("map.metalness.png").0, [191.0 / 255.0]);
+    assert_eq!(pair.texel("map.emission.png").0, [1.0, 1.0, 188.0 / 255.0]);
+    assert_eq!(report["maps"][5]["range"][0], json!([0.0, 4.0]));
+    let legend: Value =
+        serde_json::from_slice(&fs::read(pair.path("map.id.json")).expect("a legend")).expect("JSON");
+    assert_eq!((&legend[0]["name"], &legend[0]["texels"]), (&json!("paint"), &json!(256)));
+    assert_eq!(report["legends"].as_array().map(Vec::len), Some(2));
+    let json = json_of(&model);
+    let material = &json["materials"][0];
+    let metallic = &material["pbrMetallicRoughness"];
+    assert_eq!(material["occlusionTexture"]["index"], metallic["metallicRoughnessTexture"]["index"]);
+    assert_eq!(metallic["baseColorFactor"], json!([1, 1, 1, 1]));
+    assert!((&metallic["roughnessFactor"], &metallic["metallicFactor"]) == (&json!(1), &json!(1)));
+    assert_eq!(material["emissiveFactor"], json!([1, 1, 1]));
+    let strength = &material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"];
+    assert_eq!(strength.as_f64(), Some(4.0));
+    assert_eq!(json["textures"].as_array().map(Vec::len), Some(4));
+    // Its materials give the same maps again.
+    let again = pair.path("again.png");
+    let line =
+        ["bake", text(&pair.path("low.glb")), "--high", text(&model), "-o", text(&again)].map(str::to_owned);
+    let line: Vec<&str> = line.iter().map(String::as_str).collect();
+    let more = ["--size", "16", "--cage-offset", "0.01", "--map", "base-color,roughness,metalness"];
+    darboux(&[&line[..], &more].concat()).exits(0);
+    for map in ["base-color", "roughness", "metalness"] {
+        let [first, second] = ["map", "again"].map(|name| fs::read(pair.path(&format!("{name}.{map}.png"))));
+        assert_eq!(first.expect("a map"), second.expect("a map"), "{map}");
+    }
 }

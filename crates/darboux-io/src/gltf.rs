@@ -46,6 +46,7 @@ pub use compare::{Pair, PairedCorners, Unpaired, pair_tangents};
 pub use convert::{ConversionSummary, convert_vertices};
 pub use document::Document;
 pub use edit::Checkpoint;
+pub use edit::materials::MaterialTexture;
 pub use element_type::{ComponentType, ElementType};
 pub use elements::{Elements, NewAccessor, Target};
 pub use inspect::{PrimitiveInfo, inspect};

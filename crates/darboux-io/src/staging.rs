@@ -13,7 +13,7 @@ use std::collections::HashSet;
 use std::ffi::OsStr;
 use std::fmt;
 use std::fs::{self, File};
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Write};
 use std::num::ParseIntError;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -21,7 +21,7 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 
 use tempfile::NamedTempFile;
 
-use crate::Error;
+use crate::{Error, paths};
 
 /// The files that one save writes. Dropped before [`Staging::commit`], it removes them.
 pub struct Staging {
@@ -60,6 +60,13 @@ impl Outputs {
     /// cannot be renamed, or that was made by another process meanwhile where replacing was not permitted.
     pub fn commit(self) -> Result<Vec<PathBuf>, Error> {
         self.staging.commit()
+    }
+
+    /// Stages the content of a file of any kind. Errors: an existing file without [`SaveOptions::force`], or one that is not regular; a path that
+    /// cannot be written.
+    pub fn stage_bytes(&mut self, path: &Path, bytes: &[u8], options: &SaveOptions) -> Result<(), Error> {
+        let target = paths::resolve_output(path, options.force, |_| None)?;
+        self.staging.stage(&target, options.force, |file| file.write_all(bytes))
     }
 
     pub(crate) fn staging(&mut self) -> &mut Staging {

@@ -1,6 +1,6 @@
 import os
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterable, List, Literal, Optional, Sequence, Tuple, Union, final, overload
+from typing import Any, Callable, Dict, Iterable, List, Literal, Mapping, Optional, Sequence, Tuple, Union, final, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -302,7 +302,7 @@ def bake(
     size: Tuple[int, int],
     distance: Tuple[float, float],
     cage: Union[npt.ArrayLike, float, None] = None,
-    maps: Sequence[Literal["normal", "object-normal", "height", "ao", "position"]] = ...,
+    maps: Sequence[str] = ...,
     samples: int = 1,
     source: str = "gltf",
     target: str = "gltf",
@@ -311,6 +311,15 @@ def bake(
     back_faces: bool = False,
     ao_rays: int = 64,
     ao_distance: float = ...,
+    ao_falloff: Literal["none", "linear", "quadratic"] = "none",
+    ao_weights: Literal["cosine", "uniform"] = "cosine",
+    thickness_distance: float = ...,
+    curvature_radius: float = 4.0,
+    curvature_unit: Literal["texels", "distance"] = "texels",
+    world_direction: Tuple[float, float, float] = (0.0, 1.0, 0.0),
+    high_colors: Optional[npt.ArrayLike] = None,
+    high_uvs: Optional[npt.ArrayLike] = None,
+    high_textures: Optional[Mapping[str, npt.NDArray[np.uint8]]] = None,
     threads: Optional[int] = None,
 ) -> BakedMaps: ...
 def check(

@@ -313,3 +313,33 @@ class BakedMaps(NamedTuple):
     """(H, W): 0 outside the charts, 1 baked, 2 beside a chart and baked on its continuation, 3 missed, 4 missed, but hit from behind."""
     report: BakeReport
     """The counts."""
+    bent_normal: Optional[Floats] = None
+    """(H, W, 3): unit vectors in tangent space: the mean of the open directions."""
+    object_bent_normal: Optional[Floats] = None
+    """(H, W, 3): the same along the axes of the target's convention."""
+    thickness: Optional[Floats] = None
+    """(H, W): the mean distance to the other side."""
+    curvature: Optional[Floats] = None
+    """(H, W): the mean curvature times the radius in which it is measured, convex above 0."""
+    id: Optional[Floats] = None
+    """(H, W, 3): one colour for each material, mesh or part; a high mesh of arrays has one."""
+    vertex_color: Optional[Floats] = None
+    """(H, W, 4): red, green, blue and alpha of the vertices."""
+    base_color: Optional[Floats] = None
+    """(H, W, 3): linear light."""
+    opacity: Optional[Floats] = None
+    """(H, W): from 0, transparent, to 1."""
+    roughness: Optional[Floats] = None
+    """(H, W): from 0 to 1."""
+    metalness: Optional[Floats] = None
+    """(H, W): from 0 to 1."""
+    emission: Optional[Floats] = None
+    """(H, W, 3): linear light."""
+    texture: Optional[Floats] = None
+    """(H, W, 4): the texture 'texture', as it is."""
+    world_direction: Optional[Floats] = None
+    """(H, W, 3): unit vectors in tangent space."""
+    uv_islands: Optional[Floats] = None
+    """(H, W, 3): one colour for each UV chart of the low mesh."""
+    wireframe: Optional[Floats] = None
+    """(H, W): 1 along the edges of the low mesh's triangles, 0 elsewhere."""

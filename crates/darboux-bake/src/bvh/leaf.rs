@@ -35,9 +35,16 @@ impl Leaf {
     /// The nearest hit that is nearer than `best`, or as near with a smaller number.
     ///
     /// The test of S. Woop et al., "Watertight Ray/Triangle Intersection": the corners are sheared so that the ray is the last axis. The edge
-    /// functions of an edge that two triangles share differ in their sign alone, so that no ray passes between the triangles.
+    /// functions of an edge that two triangles share differ in their sign alone, so that no ray passes between the triangles. Triangles that
+    /// `accepts` refuses are transparent.
     #[inline(always)]
-    pub fn nearest(&self, ray: &PreparedRay, sides: Sides, best: Option<Hit>) -> Option<Hit> {
+    pub fn nearest(
+        &self,
+        ray: &PreparedRay,
+        sides: Sides,
+        accepts: &impl Fn(u32) -> bool,
+        best: Option<Hit>,
+    ) -> Option<Hit> {
         let [first, second, last] = ray.axes;
         let [shear_x, shear_y, scale] = ray.shear;
         let mut sheared = [[[0f32; SIZE]; 3]; 3];
@@ -77,7 +84,7 @@ impl Leaf {
             let is_nearer = found.is_none_or(|best| {
                 distance < best.distance || (distance == best.distance && triangle < best.triangle)
             });
-            if is_nearer {
+            if is_nearer && accepts(triangle) {
                 let weights = [u[i], v[i], w[i]].map(|edge| edge / sum[i]);
                 found = Some(Hit { distance, triangle, weights, is_front: sum[i] > 0.0 });
             }

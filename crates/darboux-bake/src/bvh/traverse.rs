@@ -37,6 +37,11 @@ impl Bvh {
         self.nearest_below(self.root(), &self.prepare(ray), sides, stack)
     }
 
+    /// The nearest hit of a ray on the triangles that `accepts` does not refuse, from either side.
+    pub fn nearest_where(&self, ray: &Ray, accepts: impl Fn(u32) -> bool, stack: &mut Stack) -> Option<Hit> {
+        self.search(self.root(), &self.prepare(ray), Sides::Both, false, accepts, stack)
+    }
+
     /// The nearest hit of a ray whose shaft has this cut: the same as of [`Bvh::nearest`], in fewer steps.
     pub fn nearest_of_cut(
         &self,
@@ -50,7 +55,12 @@ impl Bvh {
 
     /// Whether a ray hits any triangle, from either side.
     pub fn is_blocked(&self, ray: &Ray, stack: &mut Stack) -> bool {
-        self.search(self.root(), &self.prepare(ray), Sides::Both, true, stack).is_some()
+        self.is_blocked_where(ray, |_| true, stack)
+    }
+
+    /// Whether a ray hits any triangle that `accepts` does not refuse, from either side.
+    pub fn is_blocked_where(&self, ray: &Ray, accepts: impl Fn(u32) -> bool, stack: &mut Stack) -> bool {
+        self.search(self.root(), &self.prepare(ray), Sides::Both, true, accepts, stack).is_some()
     }
 
     /// A ray, prepared for this tree.
@@ -69,7 +79,7 @@ impl Bvh {
         sides: Sides,
         stack: &mut Stack,
     ) -> Option<Hit> {
-        self.search(start, ray, sides, false, stack)
+        self.search(start, ray, sides, false, |_| true, stack)
     }
 
     /// `is_any`: returns the first hit that is found.
@@ -80,6 +90,7 @@ impl Bvh {
         ray: &PreparedRay,
         sides: Sides,
         is_any: bool,
+        accepts: impl Fn(u32) -> bool,
         stack: &mut Stack,
     ) -> Option<Hit> {
         let mut best: Option<Hit> = None;
@@ -98,7 +109,7 @@ impl Bvh {
             }
             match child {
                 Child::Leaf(index) => {
-                    best = self.leaves[index as usize].nearest(ray, sides, best);
+                    best = self.leaves[index as usize].nearest(ray, sides, &accepts, best);
                     if let Some(hit) = best {
                         limit = hit.distance;
                         if is_any {

@@ -45,6 +45,11 @@ impl Bvh {
         Ok(Self { nodes, leaves, bounds })
     }
 
+    /// The largest coordinate of all triangles, without its sign.
+    pub fn largest_coordinate(&self) -> f64 {
+        self.bounds.as_flattened().iter().fold(0.0, |largest, x| f64::from(x.abs()).max(largest))
+    }
+
     /// The number of triangles with finite corners.
     pub fn triangle_count(&self) -> usize {
         self.leaves.iter().map(Leaf::triangle_count).sum()

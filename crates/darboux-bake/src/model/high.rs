@@ -1,23 +1,31 @@
 //! [`HighModel`]: the surfaces of a document that have the detail.
 
+use std::sync::Arc;
+
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 
+use super::content::{ColorTextures, PartContent};
 use super::maps::{MapOnPart, Textures};
 use super::placed::{PlacedPrimitive, places};
-use crate::{BakeError, HighSurface};
+use crate::{BakeError, HighSurface, IdSource, MapSet, SurfaceLabels};
 
 /// How a high model is read.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct HighModelOptions {
     /// Whether surfaces have the normals that their materials' normal maps show. Default: yes.
     pub normal_maps: bool,
+    /// The maps whose colours and textures are read. Default: none.
+    pub maps: MapSet,
+    /// The texture of [`MapKind::Texture`](crate::MapKind::Texture): its place in the JSON of the material, such as `occlusionTexture` or
+    /// `extensions.KHR_materials_clearcoat.clearcoatTexture`. Default: none.
+    pub texture: Option<String>,
 }
 
 impl Default for HighModelOptions {
     fn default() -> Self {
-        Self { normal_maps: true }
+        Self { normal_maps: true, maps: MapSet::default(), texture: None }
     }
 }
 
@@ -27,6 +35,18 @@ impl HighModelOptions {
     pub fn with_normal_maps(self, normal_maps: bool) -> Self {
         Self { normal_maps, ..self }
     }
+
+    /// These options with the colours and textures that some maps need.
+    #[must_use]
+    pub fn with_maps(self, maps: MapSet) -> Self {
+        Self { maps, ..self }
+    }
+
+    /// These options with the texture of [`MapKind::Texture`](crate::MapKind::Texture).
+    #[must_use]
+    pub fn with_texture(self, texture: Option<String>) -> Self {
+        Self { texture, ..self }
+    }
 }
 
 /// The triangles of a document's scene at all their places, without animation and in the pose in which skinned meshes are stored.
@@ -35,6 +55,12 @@ pub struct HighModel<'a> {
     file: String,
     parts: Vec<HighPart<'a>>,
     textures: Textures,
+    color_textures: ColorTextures,
+    /// The names of the document's materials, with one for primitives without a material.
+    material_names: Vec<String>,
+    mesh_names: Vec<String>,
+    /// By the numbers of places.
+    part_names: Vec<String>,
 }
 
 #[derive(Debug)]
@@ -42,6 +68,8 @@ struct HighPart<'a> {
     name: PrimitiveName,
     primitive: PlacedPrimitive<'a>,
     map: Option<MapOnPart<'a>>,
+    content: Arc<PartContent<'a>>,
+    labels: SurfaceLabels,
 }
 
 impl<'a> HighModel<'a> {
@@ -54,9 +82,13 @@ impl<'a> HighModel<'a> {
         options: &HighModelOptions,
     ) -> Result<Self, Error> {
         let places = places(document)?;
-        let mut textures = Textures::default();
+        let (mut textures, mut color_textures) = (Textures::default(), ColorTextures::default());
+        let needed = (options.maps, options.texture.as_deref());
+        let material_names = material_names(document);
+        let mut part_names = vec![String::new(); places.iter().map(Vec::len).sum()];
         let mut parts = Vec::new();
         for corners in corners {
+            let content = Arc::new(PartContent::read(document, corners, needed, &mut color_textures)?);
             let texture = match options.normal_maps {
                 true => textures.of_primitive(document, corners)?,
                 false => None,
@@ -65,10 +97,20 @@ impl<'a> HighModel<'a> {
                 let Some(primitive) = PlacedPrimitive::read(document, corners, place)? else { continue };
                 let map = texture.map(|texture| textures.on_part(document, corners, texture, &primitive));
                 let map = map.transpose()?.flatten();
-                parts.push(HighPart { name: corners.name().clone(), primitive, map });
+                part_names[place.number].clone_from(&primitive.part_name);
+                let labels = SurfaceLabels {
+                    material: corners.material().unwrap_or(material_names.len() - 1) as u32,
+                    mesh: corners.name().mesh as u32,
+                    part: place.number as u32,
+                };
+                let (name, content) = (corners.name().clone(), content.clone());
+                parts.push(HighPart { name, primitive, map, content, labels });
             }
         }
-        Ok(Self { file: document.name().to_owned(), parts, textures })
+        textures.warnings.append(&mut color_textures.warnings);
+        let mesh_names = document.meshes().iter().map(|mesh| mesh.name.clone().unwrap_or_default()).collect();
+        let file = document.name().to_owned();
+        Ok(Self { file, parts, textures, color_textures, material_names, mesh_names, part_names })
     }
 
     /// Reads several models. `corners`: [`Document::corners`] of each document. Errors: as of [`HighModel::read`].
@@ -84,16 +126,44 @@ impl<'a> HighModel<'a> {
             .collect()
     }
 
-    /// The surfaces of several models, one model after the other. Errors: an index out of range.
+    /// The surfaces of several models, one model after the other, with the numbers of [`HighModel::names_of_all`]. Errors: an index out of range.
     pub fn surfaces_of_all(models: &[Self]) -> Result<Vec<HighSurface<'_>>, Error> {
-        let surfaces: Vec<_> = models.iter().map(HighModel::surfaces).collect::<Result<_, _>>()?;
-        Ok(surfaces.into_iter().flatten().collect())
+        let mut surfaces = Vec::new();
+        let mut first = SurfaceLabels::default();
+        for model in models {
+            surfaces.extend(model.surfaces()?.into_iter().map(|surface| {
+                let SurfaceLabels { material, mesh, part } = surface.labels();
+                surface.with_labels(SurfaceLabels {
+                    material: first.material + material,
+                    mesh: first.mesh + mesh,
+                    part: first.part + part,
+                })
+            }));
+            first.material += model.material_names.len() as u32;
+            first.mesh += model.mesh_names.len() as u32;
+            first.part += model.part_names.len() as u32;
+        }
+        Ok(surfaces)
+    }
+
+    /// The names that the numbers of materials, meshes or parts stand for, of several models; empty where there is none.
+    pub fn names_of_all(models: &[Self], source: IdSource) -> Vec<&str> {
+        models.iter().flat_map(|model| model.names_of(source)).map(String::as_str).collect()
+    }
+
+    fn names_of(&self, source: IdSource) -> &[String] {
+        match source {
+            IdSource::Material => &self.material_names,
+            IdSource::Mesh => &self.mesh_names,
+            IdSource::Part => &self.part_names,
+            IdSource::VertexColor => &[],
+        }
     }
 
     /// The surfaces. Errors: an index out of range.
     pub fn surfaces(&self) -> Result<Vec<HighSurface<'_>>, Error> {
         let mut surfaces = Vec::new();
-        for HighPart { name, primitive, map } in &self.parts {
+        for HighPart { name, primitive, map, content, labels } in &self.parts {
             let normals = primitive.normals.as_deref().map(Into::into);
             let surface = HighSurface::new(&*primitive.positions, normals, &*primitive.indices);
             let surface = surface.and_then(|surface| match map {
@@ -102,6 +172,8 @@ impl<'a> HighModel<'a> {
                 }
                 None => Ok(surface),
             });
+            let surface = surface.and_then(|surface| content.on(surface, &self.color_textures));
+            let surface = surface.map(|surface| surface.with_labels(*labels));
             surfaces.push(surface.map_err(|error| self.mesh_error(name, error))?);
         }
         Ok(surfaces)
@@ -112,7 +184,7 @@ impl<'a> HighModel<'a> {
         self.parts.iter().filter(|part| part.map.is_some()).count()
     }
 
-    /// Why normal maps were left out, one sentence each.
+    /// Why normal maps and textures were left out, one sentence each.
     pub fn warnings(&self) -> &[String] {
         &self.textures.warnings
     }
@@ -134,4 +206,11 @@ impl<'a> HighModel<'a> {
     pub fn flat_count(&self) -> usize {
         self.parts.iter().filter(|part| part.primitive.normals.is_none()).count()
     }
+}
+
+/// The names of a document's materials, and one for primitives without a material.
+fn material_names(document: &Document) -> Vec<String> {
+    let materials = document.json()["materials"].as_array().map_or(&[][..], Vec::as_slice);
+    let name = |index: usize| materials[index]["name"].as_str().unwrap_or_default().to_owned();
+    (0..materials.len()).map(name).chain(["without a material".to_owned()]).collect()
 }

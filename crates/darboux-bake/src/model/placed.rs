@@ -15,15 +15,20 @@ pub struct Place {
     pub matrix: Matrix,
     /// The name of the node.
     pub node_name: Option<String>,
+    /// The number of the place in the scene.
+    pub number: usize,
 }
 
 /// The places of every mesh, by the index of the mesh. A skinned mesh has the pose in which it is stored.
 pub fn places(document: &Document) -> Result<Vec<Vec<Place>>, Error> {
     let mut places = vec![Vec::new(); document.meshes().len()];
+    let mut number = 0;
     for mesh in document.mesh_instances()?.meshes {
-        if let Some(places) = places.get_mut(mesh.mesh) {
-            let place = |matrix| Place { matrix, node_name: mesh.node_name.clone() };
-            places.extend(mesh.matrices.iter().copied().map(place));
+        for matrix in mesh.matrices {
+            if let Some(places) = places.get_mut(mesh.mesh) {
+                places.push(Place { matrix, node_name: mesh.node_name.clone(), number });
+                number += 1;
+            }
         }
     }
     Ok(places)

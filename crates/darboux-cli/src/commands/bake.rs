@@ -2,8 +2,11 @@
 
 pub mod arguments;
 mod cage;
+mod encode;
+mod legend;
 mod model;
 mod open;
+mod outputs;
 mod pictures;
 mod report;
 mod run;

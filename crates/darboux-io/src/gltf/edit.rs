@@ -11,7 +11,7 @@
 
 mod checkpoint;
 mod images;
-mod materials;
+pub mod materials;
 mod primitives;
 mod vertices;
 
@@ -196,6 +196,16 @@ impl Document {
         *stored = edited;
         self.is_changed = true;
         Ok(true)
+    }
+
+    /// Declares an extension that readers may ignore, unless it is declared already.
+    pub(super) fn use_extension(&mut self, name: &str) {
+        let is_declared = self.json["extensionsUsed"]
+            .as_array()
+            .is_some_and(|names| names.iter().any(|known| known == name));
+        if !is_declared {
+            self.push_element("extensionsUsed", name.into());
+        }
     }
 
     /// Declares extensions that readers must support, unless they are declared already.

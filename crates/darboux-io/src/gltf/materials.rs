@@ -6,6 +6,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use super::Document;
+use super::json;
 use super::objects_only::read_from_objects;
 use super::resources::{UriTarget, decode_data_uri};
 use super::schema::{Image, TextureInfoExtensions};
@@ -280,6 +281,24 @@ impl Document {
             let all: StoredMaterials = self.read()?;
             let material = |(index, stored)| self.material(&all, index, stored);
             all.materials.iter().enumerate().map(material).collect()
+        };
+        read().map_err(|error| error.in_file(self.name()))
+    }
+
+    /// The texture of a material at a place in its JSON, such as `emissiveTexture` or
+    /// `extensions.KHR_materials_clearcoat.clearcoatTexture`; none if it does not have it.
+    ///
+    /// Errors: a texture, sampler or image that does not exist; a member that is no texture.
+    pub fn texture_of_material(&self, material: usize, member: &str) -> Result<Option<TextureUse>, Error> {
+        let read = || -> Result<Option<TextureUse>, ContentError> {
+            let stored =
+                member.split('.').fold(self.element("materials", material), |json, name| &json[name]);
+            if stored.is_null() {
+                return Ok(None);
+            }
+            let at = format!("materials[{material}].{member}");
+            let used: StoredTextureUse = json::read(stored, &at)?;
+            self.texture_use(&self.read()?, &used, &at).map(Some)
         };
         read().map_err(|error| error.in_file(self.name()))
     }

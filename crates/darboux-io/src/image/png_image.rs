@@ -1,6 +1,6 @@
 //! PNG files whose texels can be changed. Every other chunk is kept as it was read.
 
-use std::io::{Cursor, Write};
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
@@ -95,6 +95,42 @@ impl PngImage {
     /// An image of grey texels, as [`PngImage::from_rgb`].
     pub fn from_grey<S: Sample>(name: &str, size: [u32; 2], texels: &[S]) -> Result<Self, Error> {
         Self::from_channels(name, size, ColorType::Grayscale, S::texels(texels))
+    }
+
+    /// An image of RGBA texels, as [`PngImage::from_rgb`].
+    pub fn from_rgba<S: Sample>(name: &str, size: [u32; 2], texels: &[[S; 4]]) -> Result<Self, Error> {
+        Self::from_channels(name, size, ColorType::Rgba, S::texels(texels.as_flattened()))
+    }
+
+    /// This image with texts in its file, by their keywords. Errors: a keyword or text that PNG cannot hold.
+    pub fn with_texts(mut self, texts: &[(&str, String)]) -> Result<Self, Error> {
+        // An image of one texel with these texts has their chunks.
+        let encode = || -> Result<Vec<u8>, png::EncodingError> {
+            let mut file = Vec::new();
+            let mut encoder = Encoder::new(&mut file, 1, 1);
+            for (keyword, text) in texts {
+                encoder.add_text_chunk((*keyword).to_owned(), text.clone())?;
+            }
+            encoder.write_header()?.write_image_data(&[0])?;
+            Ok(file)
+        };
+        let splice = |file: &[u8]| -> Result<Vec<u8>, ContentError> {
+            let (ours, texts) = (Chunks::split(&self.file)?, Chunks::split(file)?);
+            let mut out = chunks::SIGNATURE.to_vec();
+            for chunk in &ours.chunks {
+                out.extend(chunk.bytes);
+                if chunk.kind == b"IHDR" {
+                    texts.of(b"tEXt").for_each(|text| out.extend(text.bytes));
+                }
+            }
+            Ok(out)
+        };
+        let refused = |error: png::EncodingError| {
+            ContentError::unsupported("", format!("cannot hold its texts: {error}; choose others"))
+        };
+        let spliced = encode().map_err(refused).and_then(|file| splice(&file));
+        self.file = spliced.map_err(|error| error.in_file(&self.name))?;
+        Ok(self)
     }
 
     fn from_channels(
@@ -254,9 +290,7 @@ impl PngImage {
 
     /// Stages the image as one of several outputs. Errors as of [`PngImage::save`].
     pub fn stage(&self, path: &Path, options: &SaveOptions, outputs: &mut Outputs) -> Result<(), Error> {
-        let target = paths::resolve_output(path, options.force, |_| None)?;
-        let bytes = self.to_bytes()?;
-        outputs.staging().stage(&target, options.force, |file| file.write_all(&bytes))
+        outputs.stage_bytes(path, &self.to_bytes()?, options)
     }
 }
 

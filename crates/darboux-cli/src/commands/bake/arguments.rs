@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, ValueEnum};
 use darboux::{Convention, Method};
-use darboux_bake::{Bitangent, MapKind};
+use darboux_bake::{Bitangent, CurvatureRadius, IdSource, MapKind, OcclusionFalloff, OcclusionWeights};
 
 use crate::heat_scale::HeatRange;
 use crate::options::choice::choice;
@@ -37,7 +37,8 @@ Examples:
   darboux bake low.glb --high high.glb -o n.png --convention unreal   green down
   darboux bake low.glb --high high.glb -o n.png --write-model baked.glb --verify
   darboux bake model.glb --high model.glb -o n.png --uv-set 1         from one UV layout to another
-  darboux bake low.glb --high high.glb -o height.png --map height --json";
+  darboux bake low.glb --high high.glb -o height.png --map height --json
+  darboux bake low.glb --high high.glb -o crate.png --map normal,ao,base-color,roughness,metalness --write-model crate.glb";
 
 /// What is baked, and how.
 #[derive(Debug, Args)]
@@ -47,7 +48,7 @@ pub struct BakeArguments {
     #[arg(value_name = "LOW")]
     pub low: PathBuf,
 
-    /// The high models, which have the detail (.gltf, .glb, .vrm, .obj); the normal maps of their materials count
+    /// The high models, which have the detail (.gltf, .glb, .vrm, .obj); their materials count, with normal maps and textures
     #[arg(long, value_name = "HIGH", required = true, num_args = 1..)]
     pub high: Vec<PathBuf>,
 
@@ -58,19 +59,19 @@ pub struct BakeArguments {
     /// The maps to bake; several at once share their rays
     #[arg(
         long,
-        value_enum,
+        value_parser = choice::<MapKind>(),
         value_name = "MAPS",
         value_delimiter = ',',
         default_value = "normal",
         help_heading = "Maps"
     )]
-    pub map: Vec<MapChoice>,
+    pub map: Vec<MapKind>,
 
     /// Texels per side, or width and height
     #[arg(long, value_name = "N|WxH", default_value = "1024", value_parser = size, help_heading = "Maps")]
     pub size: [u32; 2],
 
-    /// Bits per channel; by default 16 for heights and positions, 8 for the others
+    /// Bits per channel; by default 16 for heights, positions and thickness, 8 for the others
     #[arg(long, value_name = "8|16", value_parser = bits, help_heading = "Maps")]
     pub bits: Option<u8>,
 
@@ -86,13 +87,8 @@ pub struct BakeArguments {
     #[arg(long, value_name = "TEXELS", help_heading = "Maps")]
     pub padding: Option<u32>,
 
-    /// Rays of ambient occlusion per sample
-    #[arg(long, value_name = "NUMBER", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=65536), help_heading = "Maps")]
-    pub ao_rays: u32,
-
-    /// How far surfaces occlude each other, in the models' unit; without it any distance
-    #[arg(long, value_name = "DISTANCE", value_parser = distance, help_heading = "Maps")]
-    pub ao_distance: Option<f32>,
+    #[command(flatten)]
+    pub content: ContentOptions,
 
     /// Rays along the interpolated normals: how far outside they begin, and how far inside they end
     #[arg(long, value_name = "OUT,IN", value_parser = two_distances, help_heading = "Rays")]
@@ -145,7 +141,9 @@ pub struct BakeArguments {
     #[arg(long, value_name = "SHADING", default_value = "keep", value_parser = normals_choice, help_heading = "Frames")]
     pub normals: NormalsChoice,
 
-    /// Write the low model with the normal map in its materials and the tangents in its vertices
+    /// Write the low model with the maps that its materials can have, and with the tangents in its vertices
+    ///
+    /// These are normal, ao, base-color, opacity, roughness, metalness and emission.
     #[arg(long, value_name = "GLB", help_heading = "Results")]
     pub write_model: Option<PathBuf>,
 
@@ -182,46 +180,54 @@ pub struct BakeArguments {
     pub messages: MessageOptions,
 }
 
-/// `--map`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum MapChoice {
-    /// Normals in tangent space
-    Normal,
-    /// Normals in the space of the scene
-    ObjectNormal,
-    /// The distance of the high surface from the low one; half grey is none
-    Height,
-    /// Ambient occlusion: white is open
-    Ao,
-    /// Positions, from 0 to 1 in the box around the high model
-    Position,
+/// What single maps show.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Single maps")]
+pub struct ContentOptions {
+    /// Rays per sample of occlusion, bent normals and thickness
+    #[arg(long, value_name = "NUMBER", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=65536))]
+    pub ao_rays: u32,
+
+    /// How far surfaces occlude each other, in the models' unit; without it any distance
+    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
+    pub ao_distance: Option<f32>,
+
+    /// How occlusion fades up to --ao-distance
+    #[arg(long, value_parser = choice::<OcclusionFalloff>(), value_name = "HOW", default_value = "none", requires = "ao_distance")]
+    pub ao_falloff: OcclusionFalloff,
+
+    /// How the directions of occlusion and bent normals are weighted
+    #[arg(long, value_parser = choice::<OcclusionWeights>(), value_name = "HOW", default_value = "cosine")]
+    pub ao_weights: OcclusionWeights,
+
+    /// Let parts of the high models be occluded by themselves only, not by each other
+    #[arg(long)]
+    pub ao_own_part: bool,
+
+    /// How far the other side is looked for by thickness, in the models' unit; without it at any distance
+    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
+    pub thickness_distance: Option<f32>,
+
+    /// The radius in which curvature is measured: texels, as in 4texels, or a distance in the models' unit
+    #[arg(long, value_name = "RADIUS", default_value = "4texels", value_parser = curvature_radius)]
+    pub curvature_radius: CurvatureRadius,
+
+    /// What the colours of an id map stand for
+    #[arg(long, value_parser = choice::<IdSource>(), value_name = "WHAT", default_value = "material")]
+    pub id_from: IdSource,
+
+    /// The texture of the map texture: its place in the JSON of the high models' materials
+    #[arg(long, value_name = "PLACE")]
+    pub texture: Option<String>,
+
+    /// The direction of the map world-direction, along the axes of glTF, where y is up
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,1,0", value_parser = direction, allow_hyphen_values = true)]
+    pub world_direction: Direction,
 }
 
-impl MapChoice {
-    /// The name on the command line.
-    pub fn name(self) -> String {
-        self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
-    }
-
-    /// The kind of the library.
-    pub fn kind(self) -> MapKind {
-        match self {
-            Self::Normal => MapKind::Normal,
-            Self::ObjectNormal => MapKind::ObjectNormal,
-            Self::Height => MapKind::Height,
-            Self::Ao => MapKind::Occlusion,
-            Self::Position => MapKind::Position,
-        }
-    }
-
-    /// Bits per channel without `--bits`.
-    pub fn default_bits(self) -> u8 {
-        match self {
-            Self::Height | Self::Position => 16,
-            Self::Normal | Self::ObjectNormal | Self::Ao => 8,
-        }
-    }
-}
+/// A direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Direction(pub [f32; 3]);
 
 /// `--match`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -290,6 +296,24 @@ fn samples_per_axis(text: &str) -> Result<SamplesPerAxis, String> {
 fn distance(text: &str) -> Result<f32, String> {
     let number = text.parse().ok().filter(|x: &f32| x.is_finite() && *x > 0.0);
     number.ok_or_else(|| "expected a number above 0".to_owned())
+}
+
+fn curvature_radius(text: &str) -> Result<CurvatureRadius, String> {
+    let radius = match text.strip_suffix("texels") {
+        Some(texels) => distance(texels.trim()).map(CurvatureRadius::Texels),
+        None => distance(text).map(CurvatureRadius::Distance),
+    };
+    radius.map_err(|_| "expected a number above 0 such as 0.05, or texels such as 4texels".to_owned())
+}
+
+fn direction(text: &str) -> Result<Direction, String> {
+    let numbers: Option<Vec<f32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    let vector = numbers.and_then(|numbers| <[f32; 3]>::try_from(numbers).ok());
+    let usable = |vector: &[f32; 3]| vector.iter().all(|x| x.is_finite()) && *vector != [0.0; 3];
+    vector
+        .filter(usable)
+        .map(Direction)
+        .ok_or_else(|| "expected three numbers such as 0,1,0, of which one is not 0".to_owned())
 }
 
 fn two_distances(text: &str) -> Result<[f32; 2], String> {

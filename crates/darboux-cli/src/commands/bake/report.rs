@@ -20,6 +20,8 @@ pub struct BakeReport {
     pub samples: u32,
     pub rays: Rays,
     pub maps: Vec<WrittenMap>,
+    /// The files that name the colours of maps.
+    pub legends: Vec<String>,
     /// The model that was written.
     pub model: Option<String>,
     /// The picture of texels without a hit.
@@ -34,8 +36,12 @@ pub fn summary(report: &BakeReport) -> Vec<String> {
     let [width, height] = report.size;
     let map = |map: &WrittenMap| {
         let bits = map.bits;
-        let range = map.range.iter().map(|[from, to]| format!(", black is {from}, white {to}"));
-        let range: String = if map.map == "ao" { String::new() } else { range.collect() };
+        let range = map
+            .range
+            .iter()
+            .filter(|range| **range != [0.0, 1.0])
+            .map(|[from, to]| format!(", black is {from}, white {to}"));
+        let range: String = range.collect();
         format!("{}: {}, {width} x {height}, {bits} bits{range}", map.file, map.map)
     };
     let counts = &report.counts;
@@ -58,8 +64,8 @@ pub fn summary(report: &BakeReport) -> Vec<String> {
             (as_count(counts.below_horizon_texels), "normal below the surface", "normals below the surface"),
         ])
     );
-    let model =
-        report.model.iter().map(|path| format!("{path}: the low model with this map and its tangents"));
+    let model = report.model.iter().map(|path| format!("{path}: the low model with its maps and tangents"));
     let verified = report.verification.iter().flat_map(Verified::lines);
-    report.maps.iter().map(map).chain(model).chain([of_run]).chain(verified).collect()
+    let legends = report.legends.iter().map(|path| format!("{path}: what the colours stand for"));
+    report.maps.iter().map(map).chain(legends).chain(model).chain([of_run]).chain(verified).collect()
 }

@@ -13,12 +13,14 @@ use darboux_io::gltf::{Document, PrimitiveCorners};
 
 use super::arguments::{BakeArguments, MatchChoice};
 use super::cage::{Cages, Rays};
+use super::legend::stage_legends;
 use super::model::{refuse_model, stage_model};
 use super::open::open_low;
+use super::outputs::{all_outputs, refuse_outputs};
 use super::pictures;
 use super::report::{BakeReport, advice, summary};
 use super::verified::{PROGRESS_UNITS, Verified};
-use super::write::{all_outputs, commit, refuse_outputs, stage_maps};
+use super::write::{commit, stage_maps};
 use crate::documents::load_with_obj;
 use crate::json::{VERSION, print_report};
 use crate::memory;
@@ -82,8 +84,8 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
     let mut outputs = Outputs::new(None);
     let written = stage_maps(arguments, &baked.images, &options, &mut outputs)?;
     let misses = pictures::misses(arguments, &baked, &mut warnings, &mut outputs)?;
-    let normal = written.normal.as_ref();
-    let model = stage_model(arguments, &models.low, normal, &mut warnings, &mut outputs)?;
+    let legends = stage_legends(arguments, &baked.legends, &models.highs, &mut outputs)?;
+    let model = stage_model(arguments, &models.low, &baked.images, &written, &mut warnings, &mut outputs)?;
     let verification = match &written.normal {
         Some(normal) if arguments.verify => {
             let surfaces = (&surfaces[..], &high_surfaces[..]);
@@ -106,6 +108,7 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
         samples: arguments.samples.0 * arguments.samples.0,
         rays,
         maps: written.maps,
+        legends,
         model,
         misses,
         counts: baked.report,
@@ -163,7 +166,10 @@ impl<'a> Models<'a> {
         corners: &'a Corners<'a>,
     ) -> Result<Self, String> {
         let low = LowModel::read(&documents.low, &corners.low, &low_options(arguments)).map_err(sentence)?;
-        let high_options = HighModelOptions::default().with_normal_maps(!arguments.no_high_maps);
+        let high_options = HighModelOptions::default()
+            .with_normal_maps(!arguments.no_high_maps)
+            .with_maps(MapSet::of(&arguments.map))
+            .with_texture(arguments.content.texture.clone());
         let highs = HighModel::read_all(&documents.highs, &corners.highs, &high_options);
         Ok(Self { low, highs: highs.map_err(sentence)? })
     }
@@ -214,15 +220,23 @@ fn refuse_used<'a>(
 }
 
 fn options(arguments: &BakeArguments, rays: &Rays) -> BakeOptions {
-    let kinds: Vec<_> = arguments.map.iter().map(|map| map.kind()).collect();
+    let content = &arguments.content;
+    let world_direction = content.world_direction.0;
     BakeOptions::new(arguments.size, rays.distance())
-        .with_maps(MapSet::of(&kinds))
+        .with_maps(MapSet::of(&arguments.map))
         .with_samples_per_axis(arguments.samples.0)
         .with_back_faces(arguments.back_faces)
         .with_bitangent(arguments.bitangent.into())
         .with_map_convention(arguments.convention.convention)
         .with_padding(arguments.padding)
-        .with_occlusion(arguments.ao_rays, arguments.ao_distance.unwrap_or(f32::INFINITY))
+        .with_occlusion(content.ao_rays, content.ao_distance.unwrap_or(f32::INFINITY))
+        .with_occlusion_falloff(content.ao_falloff)
+        .with_occlusion_weights(content.ao_weights)
+        .with_own_part_only(content.ao_own_part)
+        .with_thickness_distance(content.thickness_distance.unwrap_or(f32::INFINITY))
+        .with_curvature_radius(content.curvature_radius)
+        .with_id_source(content.id_from)
+        .with_world_direction(world_direction)
         .with_memory_limit(memory::available())
 }
 

@@ -12,7 +12,8 @@ use serde::Serialize;
 use super::arguments::BakeArguments;
 use super::model::stage_painted;
 use super::pictures;
-use super::write::{scale_of, stage};
+use super::outputs::scale_of;
+use super::write::stage;
 use crate::heat_scale::HeatRange;
 use crate::terminal::Messages;
 

@@ -1,4 +1,4 @@
-//! Gives materials a normal map, and paints them.
+//! Gives materials textures, and paints them.
 
 use std::collections::BTreeMap;
 
@@ -9,36 +9,78 @@ use crate::error::ContentError;
 use crate::gltf::schema::{Image, Material, Primitive};
 use crate::gltf::{Document, PrimitiveName, json};
 
-/// A primitive that gets a normal map, and the UV set n of `TEXCOORD_n` that the map uses.
+/// A primitive that gets a map, and the UV set n of `TEXCOORD_n` that the map uses.
 type MappedPrimitive = (PrimitiveName, usize);
 
+/// A texture of a material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum MaterialTexture {
+    /// The normal map. The scale of an existing one is dropped.
+    Normal,
+    /// Ambient occlusion in red.
+    Occlusion,
+    /// Roughness in green and metalness in blue. The factors of those that the texture has become 1.
+    MetallicRoughness {
+        /// Whether the texture has roughness.
+        roughness: bool,
+        /// Whether the texture has metalness.
+        metalness: bool,
+    },
+    /// The base colour. Its factor becomes 1, but for alpha where the texture has none. A material without a mode of alpha blends where it has.
+    BaseColor {
+        /// Whether the texture has alpha.
+        alpha: bool,
+    },
+    /// The emitted light, times a strength (`KHR_materials_emissive_strength` where it is not 1).
+    Emissive {
+        /// The light of white texels.
+        strength: f32,
+    },
+}
+
 impl Document {
-    /// Gives the materials of primitives one new normal map, embedded as a PNG. Primitives without a material get a new one.
-    ///
-    /// The scale of an existing normal map is dropped. Its texture transform is kept where the UV set stays. A material that other primitives
-    /// have, too, changes for all of them. Errors: a primitive that does not exist; a material that cannot be edited.
+    /// Gives the materials of primitives one new normal map, as [`Document::set_texture`].
     pub fn set_normal_map(
         &mut self,
         png: Vec<u8>,
         name: &str,
         primitives: &[MappedPrimitive],
     ) -> Result<(), Error> {
+        self.set_texture(&[MaterialTexture::Normal], png, name, primitives)
+    }
+
+    /// Gives the materials of primitives one new texture, embedded as a PNG, which can have several uses. Primitives without a material get a new one.
+    ///
+    /// The texture transform of the material's normal map is kept where the UV set stays. A material that other primitives have, too, changes
+    /// for all of them. Errors: a primitive that does not exist; a material that cannot be edited.
+    pub fn set_texture(
+        &mut self,
+        uses: &[MaterialTexture],
+        png: Vec<u8>,
+        name: &str,
+        primitives: &[MappedPrimitive],
+    ) -> Result<(), Error> {
         let texture = self.push_texture(png, name);
+        if uses.iter().any(|&used| matches!(used, MaterialTexture::Emissive { strength } if strength != 1.0))
+        {
+            self.use_extension(EMISSIVE_STRENGTH);
+        }
         let mut without_material = BTreeMap::new();
         for (primitive, uv_set) in primitives {
-            match self.primitive(primitive)?.material {
-                Some(material) => {
-                    let edited = self.set_normal_texture(material, texture, *uv_set);
-                    edited.map_err(|error| error.in_file(self.name()))?;
-                }
+            let material = match self.primitive(primitive)?.material {
+                Some(material) => material,
                 None => {
-                    let new = *without_material
-                        .entry(*uv_set)
-                        .or_insert_with(|| self.push_material(texture, *uv_set));
+                    let new = *without_material.entry(*uv_set).or_insert_with(|| self.push_material());
                     self.edit_primitive(primitive.mesh, primitive.primitive, |json| {
                         json.insert("material".to_owned(), new.into());
                     })?;
+                    new
                 }
+            };
+            for &used in uses {
+                let edited = self.set_texture_of_material(material, used, texture, *uv_set);
+                edited.map_err(|error| error.in_file(self.name()))?;
             }
         }
         Ok(())
@@ -79,29 +121,69 @@ impl Document {
         self.push_element("textures", json!({ "source": image }))
     }
 
-    /// Appends a material with a normal map. Returns its index.
-    fn push_material(&mut self, texture: usize, uv_set: usize) -> usize {
-        let material = json!({ "normalTexture": { "index": texture, "texCoord": uv_set } });
-        self.root.materials.push(json::read(&material, "").unwrap_or_default());
-        self.push_element("materials", material)
+    /// Appends a material without members. Returns its index.
+    fn push_material(&mut self) -> usize {
+        self.root.materials.push(json::read(&json!({}), "").unwrap_or_default());
+        self.push_element("materials", json!({}))
     }
 
-    fn set_normal_texture(
+    fn set_texture_of_material(
         &mut self,
         material: usize,
+        used: MaterialTexture,
         texture: usize,
         uv_set: usize,
     ) -> Result<bool, ContentError> {
         let keeps_transform =
             self.root.materials.get(material).is_some_and(|stored| uses_set(stored, uv_set));
         self.edit_element("materials", material, |material| {
-            let old = material["normalTexture"].take();
+            let extensions = material["normalTexture"].get("extensions").filter(|_| keeps_transform).cloned();
             let mut new = json!({ "index": texture, "texCoord": uv_set });
-            if let Some(extensions) = old.get("extensions").filter(|_| keeps_transform) {
-                new["extensions"] = extensions.clone();
+            if let Some(extensions) = extensions {
+                new["extensions"] = extensions;
             }
-            material["normalTexture"] = new;
+            put_texture(material, used, new);
         })
+    }
+}
+
+const EMISSIVE_STRENGTH: &str = "KHR_materials_emissive_strength";
+
+/// Puts a texture into the JSON of a material, with the factors that show it as it is.
+fn put_texture(material: &mut Value, used: MaterialTexture, texture: Value) {
+    match used {
+        MaterialTexture::Normal => material["normalTexture"] = texture,
+        MaterialTexture::Occlusion => material["occlusionTexture"] = texture,
+        MaterialTexture::MetallicRoughness { roughness, metalness } => {
+            let metallic = &mut material["pbrMetallicRoughness"];
+            metallic["metallicRoughnessTexture"] = texture;
+            if roughness {
+                metallic["roughnessFactor"] = 1.into();
+            }
+            if metalness {
+                metallic["metallicFactor"] = 1.into();
+            }
+        }
+        MaterialTexture::BaseColor { alpha } => {
+            let metallic = &mut material["pbrMetallicRoughness"];
+            metallic["baseColorTexture"] = texture;
+            let old = metallic["baseColorFactor"].get(3).filter(|_| !alpha).cloned();
+            metallic["baseColorFactor"] = json!([1, 1, 1, old.unwrap_or_else(|| 1.into())]);
+            if alpha && material.get("alphaMode").is_none() {
+                material["alphaMode"] = "BLEND".into();
+            }
+        }
+        MaterialTexture::Emissive { strength } => {
+            material["emissiveTexture"] = texture;
+            material["emissiveFactor"] = json!([1, 1, 1]);
+            if strength != 1.0 {
+                material["extensions"][EMISSIVE_STRENGTH] = json!({ "emissiveStrength": strength });
+            } else if let Some(extensions) = material["extensions"].as_object_mut() {
+                extensions.shift_remove(EMISSIVE_STRENGTH);
+            } else if let Some(members) = material.as_object_mut() {
+                members.shift_remove("extensions");
+            }
+        }
     }
 }
 

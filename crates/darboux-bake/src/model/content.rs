@@ -1,0 +1,201 @@
+//! What the primitives of high models show beside their shape: colours of vertices, materials, and the names of what they belong to.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use darboux_io::Error;
+use darboux_io::gltf::{Document, PrimitiveCorners, TextureUse};
+use darboux_io::image::{DecodeLimits, RgbaImage};
+
+use super::placed::vertices;
+use crate::{BakeError, ColorTexture, HighSurface, MapKind, MapSet, MaterialProperty};
+
+/// The colours and properties of a primitive.
+#[derive(Debug, Default)]
+pub struct PartContent<'a> {
+    colors: Option<Cow<'a, [[f32; 4]]>>,
+    properties: Vec<PartProperty<'a>>,
+}
+
+#[derive(Debug)]
+struct PartProperty<'a> {
+    property: MaterialProperty,
+    factor: [f32; 4],
+    texture: Option<PlacedTexture<'a>>,
+}
+
+/// The index of a texture in [`ColorTextures`], and the UVs at which it is read.
+type PlacedTexture<'a> = (usize, Cow<'a, [[f32; 2]]>);
+
+/// The textures of a document that maps need, decoded once each.
+#[derive(Debug, Default)]
+pub struct ColorTextures {
+    list: Vec<ColorTexture>,
+    /// By the image and whether it is in sRGB, with the modes in which it is wrapped; none where it cannot be used.
+    known: HashMap<(Option<usize>, bool, String), Option<usize>>,
+    pub warnings: Vec<String>,
+}
+
+/// Whether the texture of a material holds colours in sRGB, judged by its name in the material, as `baseColorTexture` does.
+pub fn is_color_texture(member: &str) -> bool {
+    let name = member.rsplit('.').next().unwrap_or(member).to_lowercase();
+    ["color", "emissive", "diffuse"].iter().any(|part| name.contains(part))
+}
+
+impl<'a> PartContent<'a> {
+    /// Reads what maps need of a primitive. `texture`: the name of the texture of [`MapKind::Texture`] in the material. Errors: invalid data.
+    pub fn read(
+        document: &'a Document,
+        corners: &'a PrimitiveCorners<'a>,
+        (maps, texture): (MapSet, Option<&str>),
+        textures: &mut ColorTextures,
+    ) -> Result<Self, Error> {
+        let has_any = |kinds: &[MapKind]| kinds.iter().any(|&kind| maps.has(kind));
+        let mut content = Self::default();
+        if has_any(&[MapKind::VertexColor, MapKind::Id, MapKind::BaseColor, MapKind::Opacity]) {
+            content.colors = colors(document, corners)?;
+        }
+        let Some(material) = corners.material() else { return Ok(content) };
+        let stored = Stored { document, corners, material };
+        let mut add = |property, factor, member: &str| -> Result<(), Error> {
+            let texture = stored.texture(member, textures)?;
+            content.properties.push(PartProperty { property, factor, texture });
+            Ok(())
+        };
+        if has_any(&[MapKind::BaseColor, MapKind::Opacity]) {
+            let factor = stored.numbers("pbrMetallicRoughness.baseColorFactor", [1.0; 4]);
+            add(MaterialProperty::BaseColor, factor, "pbrMetallicRoughness.baseColorTexture")?;
+        }
+        if has_any(&[MapKind::Roughness, MapKind::Metalness]) {
+            let [roughness] = stored.numbers("pbrMetallicRoughness.roughnessFactor", [1.0]);
+            let [metalness] = stored.numbers("pbrMetallicRoughness.metallicFactor", [1.0]);
+            let factor = [1.0, roughness, metalness, 1.0];
+            add(
+                MaterialProperty::MetallicRoughness,
+                factor,
+                "pbrMetallicRoughness.metallicRoughnessTexture",
+            )?;
+        }
+        if maps.has(MapKind::Emission) {
+            let [red, green, blue] = stored.numbers("emissiveFactor", [0.0; 3]);
+            let strength = "extensions.KHR_materials_emissive_strength.emissiveStrength";
+            let [strength] = stored.numbers(strength, [1.0]);
+            let factor = [strength * red, strength * green, strength * blue, 1.0];
+            add(MaterialProperty::Emission, factor, "emissiveTexture")?;
+        }
+        if let Some(member) = texture.filter(|_| maps.has(MapKind::Texture)) {
+            let has_it = document.texture_of_material(material, member)?.is_some();
+            add(MaterialProperty::Texture, [f32::from(u8::from(has_it)); 4], member)?;
+        }
+        Ok(content)
+    }
+
+    /// A surface with this content.
+    pub fn on<'s>(
+        &'s self,
+        surface: HighSurface<'s>,
+        textures: &'s ColorTextures,
+    ) -> Result<HighSurface<'s>, BakeError> {
+        let mut surface = surface;
+        if let Some(colors) = &self.colors {
+            surface = surface.with_colors(&**colors)?;
+        }
+        for PartProperty { property, factor, texture } in &self.properties {
+            let texture = texture.as_ref().map(|(index, uvs)| (&textures.list[*index], (&**uvs).into()));
+            surface = surface.with_property(*property, *factor, texture)?;
+        }
+        Ok(surface)
+    }
+}
+
+/// A material as the document has it.
+struct Stored<'a> {
+    document: &'a Document,
+    corners: &'a PrimitiveCorners<'a>,
+    material: usize,
+}
+
+impl<'a> Stored<'a> {
+    /// Numbers of the material at a place in its JSON: one, or an array of them.
+    fn numbers<const N: usize>(&self, member: &str, default: [f32; N]) -> [f32; N] {
+        let material = &self.document.json()["materials"][self.material];
+        let found = member.split('.').fold(material, |json, name| &json[name]);
+        let number = |i: usize| if found.is_array() { &found[i] } else { found };
+        std::array::from_fn(|i| number(i).as_f64().map_or(default[i], |x| x as f32))
+    }
+
+    /// The texture at a place in the material's JSON, and where the primitive reads it; none if it has none or it cannot be used.
+    fn texture(
+        &self,
+        member: &str,
+        textures: &mut ColorTextures,
+    ) -> Result<Option<PlacedTexture<'a>>, Error> {
+        let Some(used) = self.document.texture_of_material(self.material, member)? else { return Ok(None) };
+        let at = format!("{} of materials[{}]", member, self.material);
+        let set = format!("TEXCOORD_{}", used.uv_set);
+        let Some(mut uvs) = vertices(self.document, self.corners.name(), &set)? else {
+            let path = self.corners.name().path();
+            textures.warn(self.document, format!("{at} is not used, because {path} has no {set}"));
+            return Ok(None);
+        };
+        let Some(index) = textures.index(self.document, &used, is_color_texture(member), &at) else {
+            return Ok(None);
+        };
+        uvs.to_mut().iter_mut().for_each(|uv| *uv = used.transform_uv(*uv));
+        Ok(Some((index, uvs)))
+    }
+}
+
+impl ColorTextures {
+    fn warn(&mut self, document: &Document, clause: String) {
+        let sentence = format!("{}: {clause}", document.name());
+        if !self.warnings.contains(&sentence) {
+            self.warnings.push(sentence);
+        }
+    }
+
+    fn index(&mut self, document: &Document, used: &TextureUse, is_srgb: bool, at: &str) -> Option<usize> {
+        let key = (used.image, is_srgb, format!("{:?}", used.wrap));
+        if let Some(&known) = self.known.get(&key) {
+            return known;
+        }
+        let index = match decode(document, used, is_srgb) {
+            Ok(texture) => {
+                self.list.push(texture.with_wrap(used.wrap));
+                Some(self.list.len() - 1)
+            }
+            Err(why) => {
+                self.warn(document, format!("{at} is not used: {why}"));
+                None
+            }
+        };
+        self.known.insert(key, index);
+        index
+    }
+}
+
+/// The error is a clause.
+fn decode(document: &Document, used: &TextureUse, is_srgb: bool) -> Result<ColorTexture, String> {
+    let image = used.image.ok_or("its texture has no image; export it again with one")?;
+    let bytes = document.image_bytes(image).map_err(|error| error.to_string())?;
+    // Four bytes per texel, and for the levels above a third of sixteen.
+    let limits = DecodeLimits::default().with_max_texels(document.memory_limit_of(bytes.len()) / 10);
+    let image = RgbaImage::decode(&bytes, &limits).map_err(|error| format!("the image {error}"))?;
+    ColorTexture::new([image.width, image.height], image.texels, is_srgb).map_err(|error| error.to_string())
+}
+
+/// The colours of a primitive's vertices, opaque where they have no alpha. Errors: invalid data.
+fn colors<'a>(
+    document: &'a Document,
+    corners: &PrimitiveCorners<'_>,
+) -> Result<Option<Cow<'a, [[f32; 4]]>>, Error> {
+    let name = corners.name();
+    let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
+    let accessor = attributes.get("COLOR_0").and_then(|&index| document.accessors().get(index));
+    if accessor.is_some_and(|accessor| accessor.element_type.components() == 3) {
+        let colors = vertices::<3>(document, name, "COLOR_0")?.unwrap_or_default();
+        let opaque = colors.iter().map(|&[red, green, blue]| [red, green, blue, 1.0]).collect();
+        return Ok(Some(Cow::Owned(opaque)));
+    }
+    vertices::<4>(document, name, "COLOR_0")
+}

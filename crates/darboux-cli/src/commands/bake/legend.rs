@@ -1,0 +1,53 @@
+//! What the colours of maps stand for, as a JSON file beside the map.
+
+use darboux_bake::{HighModel, IdColor, MapKind};
+use darboux_io::{Outputs, SaveOptions};
+use serde::Serialize;
+
+use super::arguments::BakeArguments;
+use super::outputs::maps_with_legends;
+
+/// A colour, and what it stands for. json.txt documents the fields.
+#[derive(Debug, Serialize)]
+struct LegendEntry<'a> {
+    /// `#rrggbb`.
+    color: String,
+    /// The number of the material, mesh, part or chart.
+    id: u32,
+    /// The name, if it has one.
+    name: Option<&'a str>,
+    texels: u64,
+}
+
+/// Stages the legends; returns their paths. Errors are one sentence each.
+pub fn stage_legends(
+    arguments: &BakeArguments,
+    legends: &[(MapKind, Vec<IdColor>)],
+    highs: &[HighModel<'_>],
+    outputs: &mut Outputs,
+) -> Result<Vec<String>, String> {
+    let names = HighModel::names_of_all(highs, arguments.content.id_from);
+    let mut staged = Vec::new();
+    for (map, path) in maps_with_legends(arguments) {
+        let legend_path = path.with_extension("json");
+        let colors = legends.iter().find(|(kind, _)| *kind == map).map(|(_, colors)| &colors[..]);
+        let entry = |color: &IdColor| {
+            let [red, green, blue] = color.color;
+            let name = (map == MapKind::Id).then(|| names.get(color.id as usize).copied()).flatten();
+            LegendEntry {
+                color: format!("#{red:02x}{green:02x}{blue:02x}"),
+                id: color.id,
+                name: name.filter(|name| !name.is_empty()),
+                texels: color.texels,
+            }
+        };
+        let entries: Vec<_> = colors.unwrap_or_default().iter().map(entry).collect();
+        let text =
+            serde_json::to_string_pretty(&entries).map_err(|error| format!("{}: {error}", path.display()))?;
+        let options = SaveOptions::default().with_force(arguments.force);
+        let staged_legend = outputs.stage_bytes(&legend_path, format!("{text}\n").as_bytes(), &options);
+        staged_legend.map_err(|error| error.to_string())?;
+        staged.push(legend_path.display().to_string());
+    }
+    Ok(staged)
+}

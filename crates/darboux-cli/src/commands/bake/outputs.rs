@@ -1,0 +1,130 @@
+//! The files that a run writes: their names, and why some are refused.
+
+use std::path::{Path, PathBuf};
+
+use darboux::{Choice, Convention};
+use darboux_bake::{IdSource, MapKind};
+
+use super::arguments::BakeArguments;
+use crate::paths::{is_png, refuse_missing_folder};
+
+/// The chosen maps, each once, with their files.
+pub fn maps_of(arguments: &BakeArguments) -> Vec<(MapKind, PathBuf)> {
+    let mut maps: Vec<MapKind> = Vec::new();
+    for &map in &arguments.map {
+        if !maps.contains(&map) {
+            maps.push(map);
+        }
+    }
+    let output = &arguments.output;
+    match maps[..] {
+        [map] => vec![(map, output.clone())],
+        _ => maps.iter().map(|&map| (map, output.with_extension(format!("{}.png", map.name())))).collect(),
+    }
+}
+
+/// Refuses outputs that are not PNGs, exist, or lie in no folder.
+pub fn refuse_outputs(arguments: &BakeArguments) -> Result<(), String> {
+    refuse_missing_folder(&arguments.output)?;
+    if !is_png(&arguments.output) {
+        let shown = arguments.output.display();
+        return Err(format!("{shown}: the map is a PNG; its name must end in .png"));
+    }
+    refuse_other_results(arguments)?;
+    for path in all_outputs(arguments) {
+        if path.is_dir() {
+            return Err(format!("{} is a folder; choose a file in it", path.display()));
+        }
+        if path.exists() && !arguments.force {
+            return Err(format!(
+                "{}: exists; use --force to replace it, or choose another name",
+                path.display()
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a model and a heat map that cannot be what was asked for.
+fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
+    let BakeArguments { map, write_model, heat_map, heat_model, verify, .. } = arguments;
+    if *verify && !map.contains(&MapKind::Normal) {
+        return Err("--verify needs a normal map; add normal to --map".to_owned());
+    }
+    if write_model.is_some() && !map.iter().any(|&map| is_of_gltf(map)) {
+        return Err("--write-model needs a map that materials have; add normal to --map".to_owned());
+    }
+    if map.contains(&MapKind::Texture) != arguments.content.texture.is_some() {
+        return Err(
+            "the map texture and --texture go together: --texture names the place of a texture in the high models' materials, such as occlusionTexture"
+                .to_owned(),
+        );
+    }
+    for model in write_model.iter().chain(heat_model) {
+        refuse_missing_folder(model)?;
+        if !model.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("glb")) {
+            return Err(format!("{}: the model is a GLB; its name must end in .glb", model.display()));
+        }
+    }
+    if write_model.is_some() {
+        let conversion = arguments.map_convention().to(Convention::GLTF);
+        if conversion.inverts_red() || conversion.inverts_green() {
+            return Err(
+                "--write-model needs a map in glTF's convention; leave --convention out, or convert the map afterwards"
+                    .to_owned(),
+            );
+        }
+    }
+    if let Some(picture) = heat_map {
+        refuse_missing_folder(picture)?;
+        if !is_png(picture) {
+            return Err(format!("{}: the heat map is a PNG; its name must end in .png", picture.display()));
+        }
+    }
+    let all = all_outputs(arguments);
+    match (1..all.len()).find(|&i| all[..i].contains(&all[i])) {
+        Some(twice) => Err(format!("{}: is named twice; choose another name", all[twice].display())),
+        None => Ok(()),
+    }
+}
+
+/// Every file that the arguments name for writing.
+pub fn all_outputs(arguments: &BakeArguments) -> Vec<PathBuf> {
+    let maps = maps_of(arguments).into_iter().map(|(_, path)| path).chain(legends_of(arguments));
+    let BakeArguments { write_model, heat_map, heat_model, .. } = arguments;
+    let scale = heat_model.as_deref().map(scale_of);
+    maps.chain([write_model, heat_map, heat_model].into_iter().flatten().cloned()).chain(scale).collect()
+}
+
+/// The picture of the scale beside a painted model.
+pub fn scale_of(heat_model: &Path) -> PathBuf {
+    heat_model.with_extension("scale.png")
+}
+
+/// The legends that a run writes: beside each map whose colours stand for something.
+pub fn legends_of(arguments: &BakeArguments) -> Vec<PathBuf> {
+    maps_with_legends(arguments).into_iter().map(|(_, path)| path.with_extension("json")).collect()
+}
+
+/// The maps with legends, and their files.
+pub fn maps_with_legends(arguments: &BakeArguments) -> Vec<(MapKind, PathBuf)> {
+    let has_legend = |map: MapKind| match map {
+        MapKind::Id => arguments.content.id_from != IdSource::VertexColor,
+        _ => map == MapKind::UvIslands,
+    };
+    maps_of(arguments).into_iter().filter(|(map, _)| has_legend(*map)).collect()
+}
+
+/// Whether materials of glTF can have a map.
+pub fn is_of_gltf(map: MapKind) -> bool {
+    matches!(
+        map,
+        MapKind::Normal
+            | MapKind::Occlusion
+            | MapKind::BaseColor
+            | MapKind::Opacity
+            | MapKind::Roughness
+            | MapKind::Metalness
+            | MapKind::Emission
+    )
+}
