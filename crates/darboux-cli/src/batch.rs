@@ -5,7 +5,7 @@
 
 pub mod command;
 pub mod distributed;
-mod journal;
+pub mod journal;
 mod one_file;
 pub mod plan;
 pub mod report;

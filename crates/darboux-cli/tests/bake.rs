@@ -859,3 +859,186 @@ fn materials_are_transferred_and_put_where_gltf_wants_them() {
         assert_eq!(first.expect("a map"), second.expect("a map"), "{map}");
     }
 }
+
+#[test]
+fn exr_and_tiff_hold_numbers_as_they_are() {
+    use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
+    let pair = Pair::new();
+    let to = |name: &str, more: &[&str]| {
+        let [low, high, map] = ["low.glb", "high.glb", name].map(|name| pair.path(name));
+        let line = [
+            "bake",
+            text(&low),
+            "--high",
+            text(&high),
+            "-o",
+            text(&map),
+            "--size",
+            "16",
+            "--cage-offset",
+            "1",
+        ];
+        darboux(&[&line[..], more].concat())
+    };
+    to("height.exr", &["--map", "height"]).exits(0);
+    let image = read_first_flat_layer_from_file(pair.path("height.exr")).expect("an EXR");
+    let layer = &image.layer_data;
+    let FlatSamples::F32(heights) = &layer.channel_data.list[0].sample_data else { panic!("not 32 bits") };
+    assert!(heights[..16].iter().enumerate().all(|(x, h)| (h - (x as f32 + 0.5) / 32.0).abs() < 1e-6));
+    let comments = layer.attributes.comments.as_ref().expect("comments").to_string();
+    assert!(comments.contains("Scale: [2.0]") && comments.contains("Middle: [0.0]"), "{comments}");
+    to("normal.exr", &[]).exits(0);
+    let image = read_first_flat_layer_from_file(pair.path("normal.exr")).expect("an EXR");
+    let names: Vec<String> =
+        image.layer_data.channel_data.list.iter().map(|channel| channel.name.to_string()).collect();
+    assert_eq!(names, ["B", "G", "R"]);
+    assert!(matches!(image.layer_data.channel_data.list[0].sample_data, FlatSamples::F16(_)));
+
+    to("normal.tif", &[]).exits(0);
+    to("normal.png", &["--bits", "16"]).exits(0);
+    let file = std::io::BufReader::new(fs::File::open(pair.path("normal.tif")).expect("a TIFF"));
+    let decoded = tiff::decoder::Decoder::new(file).and_then(|mut decoder| decoder.read_image());
+    let tiff::decoder::DecodingResult::U16(codes) = decoded.expect("a TIFF") else { panic!("not 16 bits") };
+    let shares: Vec<f64> = codes[..3].iter().map(|&code| f64::from(code) / 65535.0).collect();
+    assert_eq!(shares, pair.texel("normal.png").0);
+    assert!(to("other.exr", &["--bits", "8"]).exits(2).stderr.contains("choose 16 or 32"));
+    assert!(to("other.exr", &["--verify"]).exits(2).stderr.contains("choose a PNG"));
+}
+
+#[test]
+fn maps_are_packed_into_channels() {
+    let pair = Pair::new();
+    painted_high(&pair);
+    let line = ["--pack", "orm=ao,roughness,metalness", "--map", "normal"];
+    let report = pair.bake(&[&line[..], &["--json"]].concat()).exits(0).json();
+    assert_eq!(report["maps"][1]["map"], "orm");
+    assert_eq!(pair.texel("map.orm.png").0, [1.0, 64.0 / 255.0, 191.0 / 255.0]);
+    assert!(pair.path("map.normal.png").exists() && !pair.path("map.ao.png").exists());
+    let refused = |pack: &str| pair.bake(&["--force", "--pack", pack]).exits(2).stderr;
+    assert!(refused("orm=ao,normal").contains("normal has 3 channels"));
+    assert!(refused("orm=ao").contains("two to four maps") && refused("ao,height").contains("such as orm="));
+}
+
+/// The codes of a grey PNG of 8 bits.
+fn grey(path: &Path) -> Vec<u8> {
+    let file = std::io::BufReader::new(fs::File::open(path).expect("a map"));
+    let mut reader = png::Decoder::new(file).read_info().expect("a PNG");
+    let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
+    reader.next_frame(&mut bytes).expect("texels");
+    bytes
+}
+
+#[test]
+fn dithering_keeps_means_that_rounding_loses() {
+    let pair = Pair::new();
+    // Roughness 0.251 is code 64.005: one of 200 texels is 65.
+    painted_high(&pair);
+    let high = fs::read(pair.path("high.glb")).expect("a model");
+    let high = edited(&high, |json| {
+        json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = json!(0.2525);
+    });
+    fs::write(pair.path("high.glb"), high).expect("a file");
+    let mean = |more: &[&str]| {
+        pair.bake(&[&["--map", "roughness", "--force", "--size", "64"], more].concat()).exits(0);
+        let codes = grey(&pair.path("map.png"));
+        (codes.iter().map(|&code| f64::from(code)).sum::<f64>() / codes.len() as f64, codes)
+    };
+    let exact = 255.0 * 0.2525;
+    let (rounded, _) = mean(&[]);
+    let (dithered, codes) = mean(&["--dither"]);
+    assert!((rounded - 64.0).abs() < 1e-9 && (dithered - exact).abs() < 1e-3, "{rounded} {dithered}");
+    let (_, one) = mean(&["--dither", "--jobs", "1"]);
+    let (_, moved) = mean(&["--dither=7"]);
+    assert!(one == codes && moved != codes);
+}
+
+#[test]
+fn a_job_bakes_what_has_changed() {
+    let pair = Pair::new();
+    let job = pair.path("job.toml");
+    let write = |size: u32| {
+        let text = format!(
+            "[defaults]\nsize = 16\ncage-offset = 1\n\n[[bake]]\nlow = \"low.glb\"\nhigh = [\"high.glb\"]\noutput = \"a.png\"\nmap = [\"normal\", \"ao\"]\n\n[[bake]]\nlow = \"low.glb\"\nhigh = \"high.glb\"\noutput = \"b.png\"\nsize = {size}\nback-faces = true\n"
+        );
+        fs::write(&job, text).expect("a file");
+    };
+    write(8);
+    let run = |more: &[&str]| darboux(&[&["bake", text(&job), "--json"], more].concat());
+    let report = run(&["--resume"]).exits(0).json();
+    assert_eq!((report["bakes"].as_array().map(Vec::len), &report["up_to_date"]), (Some(2), &json!(0)));
+    assert_eq!(report["bakes"][1]["size"], json!([8, 8]));
+    let first = fs::read(pair.path("a.normal.png")).expect("a map");
+    // Of a second run nothing remains; a changed option or output is baked again, and a lost journal costs nothing but time.
+    assert_eq!(run(&["--resume"]).exits(0).json()["up_to_date"], 2);
+    write(4);
+    fs::remove_file(pair.path("a.ao.png")).expect("a map");
+    let report = run(&["--resume"]).exits(0).json();
+    assert_eq!((report["bakes"].as_array().map(Vec::len), &report["up_to_date"]), (Some(2), &json!(0)));
+    assert_eq!(fs::read(pair.path("a.normal.png")).expect("a map"), first);
+    fs::write(pair.path("high.glb"), plate([0.0, 0.25], &["POSITION"], 1.0)).expect("a file");
+    assert_eq!(run(&["--resume"]).exits(0).json()["bakes"].as_array().map(Vec::len), Some(2));
+    // Without --resume nothing is replaced unasked.
+    assert!(run(&[]).exits(2).stderr.contains("exists; use --force"));
+    run(&["--force"]).exits(0);
+}
+
+#[test]
+fn jobs_that_cannot_be_right_are_refused() {
+    let pair = Pair::new();
+    let job = pair.path("job.toml");
+    let refused = |toml: &str, what: &str| {
+        fs::write(&job, toml).expect("a file");
+        let stderr = darboux(&["bake", text(&job)]).exits(2).stderr;
+        assert!(stderr.contains(what), "{stderr}");
+    };
+    let entry = "[[bake]]\nlow = \"low.glb\"\nhigh = \"high.glb\"\noutput = \"a.png\"\n";
+    refused("", "has no [[bake]]");
+    refused("[[bake]\n", "line 1");
+    refused("[[bakes]]\n", "has bakes");
+    refused("[[bake]]\nhigh = \"high.glb\"\n", "bake[0]: has no low");
+    refused(&format!("{entry}sise = 3\n"), "bake[0]: unexpected argument '--sise'");
+    refused(&format!("{entry}{entry}"), "is written by two bakes");
+    refused(&format!("{entry}when = 1979-05-27\n"), "neither text nor a number");
+    // One bad model does not stop the other.
+    fs::write(pair.path("bad.glb"), "no model").expect("a file");
+    fs::write(&job, format!("{entry}[[bake]]\nlow = \"bad.glb\"\nhigh = \"high.glb\"\noutput = \"b.png\"\n"))
+        .expect("a file");
+    let run = darboux(&["bake", text(&job), "--json"]).exits(1);
+    assert_eq!(
+        (run.json()["bakes"].as_array().map(Vec::len), run.json()["errors"].as_array().map(Vec::len)),
+        (Some(1), Some(1))
+    );
+    assert!(pair.path("a.png").exists() && !pair.path("b.png").exists());
+    assert!(
+        darboux(&["bake", text(&pair.path("low.glb")), "--resume", "-o", "x.png"])
+            .exits(2)
+            .stderr
+            .contains("belongs to jobs")
+    );
+}
+
+#[test]
+fn a_folder_is_baked_by_suffixes() {
+    let pair = Pair::new();
+    let [low, high] = ["low.glb", "high.glb"].map(|name| fs::read(pair.path(name)).expect("a model"));
+    for (name, model) in [
+        ("Crate_Low.glb", &low),
+        ("crate_high.glb", &high),
+        ("crate_high_bolts.glb", &high),
+        ("lid_low.glb", &low),
+        ("lid_high.glb", &high),
+        ("lid_cage.glb", &low),
+        ("alone_low.glb", &low),
+    ] {
+        fs::write(pair.path(name), model).expect("a file");
+    }
+    let folder = pair.folder.path();
+    let run = darboux(&["bake", text(folder), "--suffixes", "--size", "8", "--cage-offset", "1", "--json"])
+        .exits(0);
+    let report = run.json();
+    assert_eq!(report["bakes"].as_array().map(Vec::len), Some(2));
+    assert_eq!(report["bakes"][0]["high"].as_array().map(Vec::len), Some(2));
+    assert_eq!(report["bakes"][1]["rays"]["kind"], "cage_file");
+    assert!(run.stderr.contains("crate_high_bolts.glb") && pair.path("crate.png").exists());
+    assert!(darboux(&["bake", text(folder)]).exits(2).stderr.contains("add --suffixes"));
+}

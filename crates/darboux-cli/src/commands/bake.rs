@@ -2,7 +2,10 @@
 
 pub mod arguments;
 mod cage;
+mod dither;
 mod encode;
+mod files;
+mod job;
 mod legend;
 mod model;
 mod open;
@@ -10,6 +13,7 @@ mod outputs;
 mod pictures;
 mod report;
 mod run;
+mod single;
 mod verified;
 mod write;
 

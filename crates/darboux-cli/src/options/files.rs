@@ -66,7 +66,7 @@ pub struct FileOptions {
 }
 
 /// A random number, which no other run has.
-fn new_run() -> RunId {
+pub fn new_run() -> RunId {
     // The hashers of the standard library start with random keys.
     RunId(RandomState::new().build_hasher().finish())
 }

@@ -3,7 +3,7 @@
 use clap::Args;
 
 /// What a command prints.
-#[derive(Debug, Args)]
+#[derive(Args, Clone, Copy, Debug, Default)]
 pub struct MessageOptions {
     /// Write a report as JSON to standard output
     #[arg(long, help_heading = "Messages")]

@@ -4,8 +4,10 @@ use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, ValueEnum};
-use darboux::{Convention, Method};
-use darboux_bake::{Bitangent, CurvatureRadius, IdSource, MapKind, OcclusionFalloff, OcclusionWeights};
+use darboux::{Choice, Convention, Method};
+use darboux_bake::{
+    Bitangent, CurvatureRadius, IdSource, MapKind, MapSet, OcclusionFalloff, OcclusionWeights,
+};
 
 use crate::heat_scale::HeatRange;
 use crate::options::choice::choice;
@@ -37,23 +39,26 @@ Examples:
   darboux bake low.glb --high high.glb -o n.png --convention unreal   green down
   darboux bake low.glb --high high.glb -o n.png --write-model baked.glb --verify
   darboux bake model.glb --high model.glb -o n.png --uv-set 1         from one UV layout to another
-  darboux bake low.glb --high high.glb -o height.png --map height --json
+  darboux bake low.glb --high high.glb -o height.exr --map height --json
+  darboux bake models --suffixes --map normal,ao --size 2048          each NAME_low from NAME_high
+  darboux bake job.toml --resume                                      what has changed since the last run
+  darboux bake low.glb --high high.glb -o crate.png --pack orm=ao,roughness,metalness
   darboux bake low.glb --high high.glb -o crate.png --map normal,ao,base-color,roughness,metalness --write-model crate.glb";
 
 /// What is baked, and how.
-#[derive(Debug, Args)]
+#[derive(Args, Clone, Debug)]
 #[command(group = ArgGroup::new("rays").args(["distance", "cage_offset", "cage"]))]
 pub struct BakeArguments {
-    /// The low model (.gltf, .glb, .vrm, .obj), which gets the maps
+    /// The low model (.gltf, .glb, .vrm, .obj), which gets the maps; or a job: a TOML file, or a folder with --suffixes
     #[arg(value_name = "LOW")]
     pub low: PathBuf,
 
     /// The high models, which have the detail (.gltf, .glb, .vrm, .obj); their materials count, with normal maps and textures
-    #[arg(long, value_name = "HIGH", required = true, num_args = 1..)]
+    #[arg(long, value_name = "HIGH", num_args = 1..)]
     pub high: Vec<PathBuf>,
 
-    /// The map, in an existing folder; with several maps the name of each is added, as in crate.ao.png
-    #[arg(short, long, value_name = "PNG")]
+    /// The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png
+    #[arg(short, long, value_name = "IMAGE", default_value = "", hide_default_value = true)]
     pub output: PathBuf,
 
     /// The maps to bake; several at once share their rays
@@ -71,9 +76,19 @@ pub struct BakeArguments {
     #[arg(long, value_name = "N|WxH", default_value = "1024", value_parser = size, help_heading = "Maps")]
     pub size: [u32; 2],
 
-    /// Bits per channel; by default 16 for heights, positions and thickness, 8 for the others
-    #[arg(long, value_name = "8|16", value_parser = bits, help_heading = "Maps")]
+    /// Bits per channel: 8 or 16 (PNG), 16 or 32 (EXR, TIFF); by default the more for heights, positions and thickness, the fewer for the others
+    ///
+    /// EXR, and TIFF of 32 bits, hold numbers as they are: distances in the models' unit, light in linear light, directions from 0 to 1.
+    #[arg(long, value_name = "8|16|32", value_parser = bits, help_heading = "Maps")]
     pub bits: Option<u8>,
+
+    /// Round to 8 bits with blue noise, so that smooth surfaces show no bands; SEED moves the noise
+    #[arg(long, value_name = "SEED", num_args = 0..=1, default_missing_value = "0", require_equals = true, help_heading = "Maps")]
+    pub dither: Option<u32>,
+
+    /// Write an image whose channels are maps of one channel each, such as orm=ao,roughness,metalness: OUTPUT with NAME before its ending
+    #[arg(long, value_name = "NAME=MAPS", value_parser = pack, help_heading = "Maps")]
+    pub pack: Vec<Pack>,
 
     /// Samples per texel: 1, 4, 9, 16 and so on up to 256
     #[arg(long, value_name = "NUMBER", default_value = "1", value_parser = samples_per_axis, help_heading = "Maps")]
@@ -165,6 +180,16 @@ pub struct BakeArguments {
     #[arg(long, value_name = "MIN,MAX", requires = "verify", help_heading = "Results")]
     pub heat_range: Option<HeatRange>,
 
+    /// Bake each NAME_low in the folder LOW from NAME_high, with the cage NAME_cage if there is one, into NAME.png in the folder of -o, or in LOW
+    #[arg(long, help_heading = "Jobs")]
+    pub suffixes: bool,
+
+    /// Skip bakes of a job whose models, options and outputs have not changed since an earlier run; a killed run is continued
+    ///
+    /// The journal of earlier runs is darboux-journal.jsonl in the folder of the job.
+    #[arg(long, help_heading = "Jobs")]
+    pub resume: bool,
+
     /// How many threads work; by default one per processor core
     #[arg(long, value_name = "NUMBER", value_parser = jobs)]
     pub jobs: Option<NonZero<u16>>,
@@ -181,7 +206,7 @@ pub struct BakeArguments {
 }
 
 /// What single maps show.
-#[derive(Debug, Args)]
+#[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Single maps")]
 pub struct ContentOptions {
     /// Rays per sample of occlusion, bent normals and thickness
@@ -225,6 +250,13 @@ pub struct ContentOptions {
     pub world_direction: Direction,
 }
 
+/// `--pack`: an image whose channels are maps.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pack {
+    pub name: String,
+    pub maps: Vec<MapKind>,
+}
+
 /// A direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Direction(pub [f32; 3]);
@@ -263,6 +295,12 @@ impl From<BitangentChoice> for Bitangent {
 pub struct SamplesPerAxis(pub u32);
 
 impl BakeArguments {
+    /// The maps that are baked: those of `--map`, and those that are packed.
+    pub fn baked_maps(&self) -> MapSet {
+        let packed = self.pack.iter().flat_map(|pack| &pack.maps);
+        MapSet::of(&self.map.iter().chain(packed).copied().collect::<Vec<_>>())
+    }
+
     /// The convention of the maps.
     pub fn map_convention(&self) -> Convention {
         self.convention.convention
@@ -279,10 +317,27 @@ fn size(text: &str) -> Result<[u32; 2], String> {
 }
 
 fn bits(text: &str) -> Result<u8, String> {
-    match text {
-        "8" => Ok(8),
-        "16" => Ok(16),
-        _ => Err("expected 8 or 16".to_owned()),
+    let known = text.parse().ok().filter(|bits| [8, 16, 32].contains(bits));
+    known.ok_or_else(|| "expected 8 or 16, or 32 for EXR and TIFF".to_owned())
+}
+
+fn pack(text: &str) -> Result<Pack, String> {
+    let expected = || {
+        "expected a name and two to four maps of one channel, such as orm=ao,roughness,metalness".to_owned()
+    };
+    let (name, maps) = text.split_once('=').ok_or_else(expected)?;
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || letter == '-' || letter == '_';
+    if name.is_empty() || !name.chars().all(is_plain) {
+        return Err(expected());
+    }
+    let maps = maps.split(',').map(MapKind::from_name).collect::<Result<Vec<_>, _>>();
+    let maps = maps.map_err(|error| error.to_string())?;
+    match maps.iter().find(|map| map.channels() != 1) {
+        Some(map) => {
+            Err(format!("{} has {} channels; pack maps of one channel each", map.name(), map.channels()))
+        }
+        None if (2..=4).contains(&maps.len()) => Ok(Pack { name: name.to_owned(), maps }),
+        None => Err(expected()),
     }
 }
 

@@ -1,19 +1,52 @@
-//! The numbers of maps as images have them.
+//! The numbers of maps as the channels of files.
+
+use std::path::Path;
 
 use darboux::{Channel, TexelLayout};
 use darboux_bake::{BakeOptions, Images, MapContent, MapKind, is_color_texture};
-use darboux_io::image::{PngImage, Sample, linear_to_srgb};
+use darboux_io::image::{Sample, linear_to_srgb};
 
-/// Bits per channel without `--bits`.
-pub fn default_bits(map: MapKind) -> u8 {
-    if map.content() == MapContent::Lengths { 16 } else { 8 }
+use super::dither::BlueNoise;
+
+/// A format of image files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// 8 or 16 bits.
+    Png,
+    /// 16 or 32 bits, floating point.
+    Exr,
+    /// 16 bits, or 32 bits floating point.
+    Tiff,
+}
+
+impl FileKind {
+    /// The format that a name's ending asks for; none for other endings.
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?.to_lowercase();
+        match ending.as_str() {
+            "png" => Some(Self::Png),
+            "exr" => Some(Self::Exr),
+            "tif" | "tiff" => Some(Self::Tiff),
+            _ => None,
+        }
+    }
+
+    /// The bits per channel that the format can have.
+    pub fn bits(self) -> [u8; 2] {
+        if self == Self::Png { [8, 16] } else { [16, 32] }
+    }
+
+    /// Bits per channel without `--bits`: few, but more for distances and places.
+    pub fn default_bits(self, map: MapKind) -> u8 {
+        self.bits()[usize::from(map.content() == MapContent::Lengths)]
+    }
 }
 
 /// How the numbers of a map become those of a file.
 pub struct Encoding {
-    map: MapKind,
     content: MapContent,
-    channels: usize,
+    /// The channels that files have.
+    pub channels: usize,
     /// The values that black and white mean, one pair per channel; none where the map is a direction.
     pub range: Vec<[f32; 2]>,
 }
@@ -26,44 +59,7 @@ impl Encoding {
         let numbers = images.numbers(map).unwrap_or_default();
         let is_opaque = map.channels() == 4 && numbers.as_chunks::<4>().0.iter().all(|texel| texel[3] == 1.0);
         let channels = if is_opaque { 3 } else { map.channels() };
-        Self { map, content, channels, range: range(map, content, numbers, options) }
-    }
-
-    /// The image in 8 or 16 bits. Errors are one sentence each.
-    pub fn png(&self, name: &str, images: &Images, bits: u8) -> Result<PngImage, String> {
-        match bits {
-            8 => self.encoded::<u8>(name, images),
-            _ => self.encoded::<u16>(name, images),
-        }
-    }
-
-    fn encoded<C: Channel + Sample>(&self, name: &str, images: &Images) -> Result<PngImage, String> {
-        let numbers = images.numbers(self.map).unwrap_or_default();
-        let codes = |from: usize, texel: &[f32]| -> [C; 3] {
-            let signed = |i: usize| texel.get(i).map_or(0.0, |&x| self.signed(from + i, x));
-            TexelLayout::<3>::RGB.texel::<C>([0, 1, 2].map(signed))
-        };
-        let size = images.size;
-        let image = match self.channels {
-            1 => {
-                let grey: Vec<C> = numbers.iter().map(|x| codes(0, &[*x])[0]).collect();
-                PngImage::from_grey(name, size, &grey)
-            }
-            3 => {
-                let texels = numbers.chunks_exact(self.map.channels());
-                let rgb: Vec<[C; 3]> = texels.map(|texel| codes(0, &texel[..3])).collect();
-                PngImage::from_rgb(name, size, &rgb)
-            }
-            _ => {
-                let rgba = |texel: &[f32; 4]| {
-                    let [red, green, blue] = codes(0, &texel[..3]);
-                    [red, green, blue, codes(3, &texel[3..])[0]]
-                };
-                let rgba: Vec<[C; 4]> = numbers.as_chunks::<4>().0.iter().map(rgba).collect();
-                PngImage::from_rgba(name, size, &rgba)
-            }
-        };
-        image.map_err(|error| error.to_string())
+        Self { content, channels, range: range(map, content, numbers, options) }
     }
 
     /// A number of a channel, from -1 (black) to 1 (white).
@@ -76,6 +72,89 @@ impl Encoding {
         }
         signed
     }
+
+    /// A number of a channel of a file of floating-point numbers: as it is, but directions as shares, as every reader of normal maps expects.
+    fn float(&self, x: f32) -> f32 {
+        if self.content == MapContent::Directions { 0.5 + 0.5 * x } else { x }
+    }
+}
+
+/// The channels of a file: of one map, or of several that are packed.
+pub struct Channels<'a> {
+    pub size: [u32; 2],
+    sources: Vec<Source<'a>>,
+}
+
+/// Where a channel of a file comes from.
+struct Source<'a> {
+    encoding: &'a Encoding,
+    /// All numbers of the map.
+    numbers: &'a [f32],
+    /// The numbers per texel, and which of them is meant.
+    stride: usize,
+    channel: usize,
+}
+
+impl<'a> Channels<'a> {
+    /// All channels of a map.
+    pub fn of_map(map: MapKind, encoding: &'a Encoding, images: &'a Images) -> Self {
+        let numbers = images.numbers(map).unwrap_or_default();
+        let source = |channel| Source { encoding, numbers, stride: map.channels(), channel };
+        Self { size: images.size, sources: (0..encoding.channels).map(source).collect() }
+    }
+
+    /// The first channels of several maps.
+    pub fn packed(maps: &'a [(MapKind, Encoding)], images: &'a Images) -> Self {
+        let source = |(map, encoding): &'a (MapKind, Encoding)| Source {
+            encoding,
+            numbers: images.numbers(*map).unwrap_or_default(),
+            stride: map.channels(),
+            channel: 0,
+        };
+        Self { size: images.size, sources: maps.iter().map(source).collect() }
+    }
+
+    pub fn count(&self) -> usize {
+        self.sources.len()
+    }
+
+    /// The numbers as floating-point files have them.
+    pub fn floats(&self) -> Vec<f32> {
+        self.numbers(|source, _, x| source.encoding.float(x))
+    }
+
+    /// The codes of integers, with dithering if there is noise.
+    pub fn codes<C: Channel + Sample>(&self, noise: Option<&BlueNoise>) -> Vec<C> {
+        let width = self.size[0] as usize;
+        let signed = self.numbers(|source, [texel, place], x| {
+            let signed = source.encoding.signed(source.channel, x);
+            match noise {
+                Some(noise) => dithered(signed, noise.threshold([texel % width, texel / width], place)),
+                None => signed,
+            }
+        });
+        let code = |signed: f32| TexelLayout::<3>::RGB.texel::<C>([signed, 0.0, 0.0])[0];
+        signed.into_iter().map(code).collect()
+    }
+
+    /// `with`: gets a source, the texel, the place of the channel, and the number.
+    fn numbers(&self, with: impl Fn(&Source<'_>, [usize; 2], f32) -> f32) -> Vec<f32> {
+        let texels = self.size.map(|side| side as usize).iter().product();
+        let mut numbers = Vec::with_capacity(texels * self.count());
+        for texel in 0..texels {
+            for (place, source) in self.sources.iter().enumerate() {
+                let x = source.numbers[source.stride * texel + source.channel];
+                numbers.push(with(source, [texel, place], x));
+            }
+        }
+        numbers
+    }
+}
+
+/// A number from -1 to 1 that is an 8-bit code, with the threshold deciding between the two nearest.
+fn dithered(signed: f32, threshold: f32) -> f32 {
+    let code = (127.5 * (signed + 1.0) + threshold).floor().clamp(0.0, 255.0);
+    code / 127.5 - 1.0
 }
 
 /// What black and white mean: heights from as far inside to as far outside as rays can reach, positions the box around all of them, thickness and light up

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use darboux::{Choice, Convention};
 use darboux_bake::{IdSource, MapKind};
 
-use super::arguments::BakeArguments;
+use super::arguments::{BakeArguments, Pack};
+use super::encode::FileKind;
 use crate::paths::{is_png, refuse_missing_folder};
 
 /// The chosen maps, each once, with their files.
@@ -16,19 +17,35 @@ pub fn maps_of(arguments: &BakeArguments) -> Vec<(MapKind, PathBuf)> {
             maps.push(map);
         }
     }
-    let output = &arguments.output;
     match maps[..] {
-        [map] => vec![(map, output.clone())],
-        _ => maps.iter().map(|&map| (map, output.with_extension(format!("{}.png", map.name())))).collect(),
+        [map] if arguments.pack.is_empty() => vec![(map, arguments.output.clone())],
+        _ => maps.iter().map(|&map| (map, named(arguments, map.name()))).collect(),
     }
+}
+
+/// The output with a name before its ending.
+fn named(arguments: &BakeArguments, name: &str) -> PathBuf {
+    let ending = arguments.output.extension().unwrap_or_default().to_string_lossy();
+    arguments.output.with_extension(format!("{name}.{ending}"))
+}
+
+/// The packed images, with their files.
+pub fn packs_of(arguments: &BakeArguments) -> impl Iterator<Item = (&Pack, PathBuf)> {
+    arguments.pack.iter().map(|pack| (pack, named(arguments, &pack.name)))
 }
 
 /// Refuses outputs that are not PNGs, exist, or lie in no folder.
 pub fn refuse_outputs(arguments: &BakeArguments) -> Result<(), String> {
     refuse_missing_folder(&arguments.output)?;
-    if !is_png(&arguments.output) {
-        let shown = arguments.output.display();
-        return Err(format!("{shown}: the map is a PNG; its name must end in .png"));
+    let shown = arguments.output.display();
+    let kind = FileKind::of(&arguments.output)
+        .ok_or_else(|| format!("{shown}: the map is an image; its name must end in .png, .exr or .tif"))?;
+    if let Some(bits) = arguments.bits.filter(|bits| !kind.bits().contains(bits)) {
+        let [few, many] = kind.bits();
+        return Err(format!("{shown}: cannot have {bits} bits per channel; choose {few} or {many}"));
+    }
+    if arguments.verify && kind != FileKind::Png {
+        return Err(format!("{shown}: --verify reads the map as renderers do; choose a PNG"));
     }
     refuse_other_results(arguments)?;
     for path in all_outputs(arguments) {
@@ -51,7 +68,7 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
     if *verify && !map.contains(&MapKind::Normal) {
         return Err("--verify needs a normal map; add normal to --map".to_owned());
     }
-    if write_model.is_some() && !map.iter().any(|&map| is_of_gltf(map)) {
+    if write_model.is_some() && !arguments.baked_maps().kinds().any(is_of_gltf) {
         return Err("--write-model needs a map that materials have; add normal to --map".to_owned());
     }
     if map.contains(&MapKind::Texture) != arguments.content.texture.is_some() {
@@ -91,6 +108,7 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
 /// Every file that the arguments name for writing.
 pub fn all_outputs(arguments: &BakeArguments) -> Vec<PathBuf> {
     let maps = maps_of(arguments).into_iter().map(|(_, path)| path).chain(legends_of(arguments));
+    let maps = maps.chain(packs_of(arguments).map(|(_, path)| path));
     let BakeArguments { write_model, heat_map, heat_model, .. } = arguments;
     let scale = heat_model.as_deref().map(scale_of);
     maps.chain([write_model, heat_map, heat_model].into_iter().flatten().cloned()).chain(scale).collect()

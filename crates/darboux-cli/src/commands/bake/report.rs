@@ -31,6 +31,15 @@ pub struct BakeReport {
     pub warnings: Vec<String>,
 }
 
+impl BakeReport {
+    /// All files that were written.
+    pub fn files(&self) -> Vec<String> {
+        let maps = self.maps.iter().map(|map| &map.file);
+        let pictures = self.verification.iter().flat_map(Verified::files);
+        maps.chain(&self.legends).chain(&self.model).chain(&self.misses).chain(pictures).cloned().collect()
+    }
+}
+
 /// What was done, one line per map, and one for the run.
 pub fn summary(report: &BakeReport) -> Vec<String> {
     let [width, height] = report.size;

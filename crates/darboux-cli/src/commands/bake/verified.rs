@@ -11,8 +11,8 @@ use serde::Serialize;
 
 use super::arguments::BakeArguments;
 use super::model::stage_painted;
-use super::pictures;
 use super::outputs::scale_of;
+use super::pictures;
 use super::write::stage;
 use crate::heat_scale::HeatRange;
 use crate::terminal::Messages;
@@ -76,6 +76,11 @@ impl Verified {
         stage(&pictures::scale(&scale.display().to_string(), self.range)?, &scale, arguments.force, outputs)?;
         self.heat_model = Some(stage_painted(arguments, low, &texture, path, outputs)?);
         Ok(())
+    }
+
+    /// The pictures and models that were written.
+    pub fn files(&self) -> impl Iterator<Item = &String> {
+        self.heat_map.iter().chain(&self.heat_model)
     }
 
     /// The statistics as a table.

@@ -9,8 +9,10 @@ use darboux_io::{Outputs, SaveOptions};
 use serde::Serialize;
 
 use super::arguments::BakeArguments;
-use super::encode::{self, Encoding};
-use super::outputs::maps_of;
+use super::dither::BlueNoise;
+use super::encode::{Channels, Encoding, FileKind};
+use super::files::{Notes, file_bytes, png};
+use super::outputs::{maps_of, packs_of};
 use crate::interrupt;
 
 /// A map that was written.
@@ -52,15 +54,53 @@ pub fn stage_maps(
     outputs: &mut Outputs,
 ) -> Result<WrittenMaps, String> {
     let mut written = WrittenMaps::default();
+    let kind = FileKind::of(&arguments.output).unwrap_or(FileKind::Png);
+    let noise = arguments.dither.map(BlueNoise::new);
+    let encoding = |map| Encoding::new(map, images, options, arguments.content.texture.as_deref());
+    let save = SaveOptions::default().with_force(arguments.force);
+    let mut stage_file =
+        |path: &Path, name: &str, bits: u8, channels: &Channels<'_>, range: Vec<[f32; 2]>| {
+            let notes = notes(name, &range);
+            let noise = noise.as_ref().filter(|_| bits == 8);
+            let shown = path.display().to_string();
+            let bytes = file_bytes(kind, &shown, channels, bits, &notes, noise)?;
+            outputs.stage_bytes(path, &bytes, &save).map_err(|error| error.to_string())?;
+            written.maps.push(WrittenMap { map: name.to_owned(), file: shown, bits, range });
+            Ok::<_, String>(())
+        };
     for (map, path) in maps_of(arguments) {
-        let bits = arguments.bits.unwrap_or_else(|| encode::default_bits(map));
-        let encoding = Encoding::new(map, images, options, arguments.content.texture.as_deref());
-        let image = encoding.png(&path.display().to_string(), images, bits)?;
-        let file = stage(&image, &path, arguments.force, outputs)?;
-        written.maps.push(WrittenMap { map: map.name().to_owned(), file, bits, range: encoding.range });
-        if map == MapKind::Normal {
-            written.normal = Some(image);
-        }
+        let bits = arguments.bits.unwrap_or_else(|| kind.default_bits(map));
+        let encoding = encoding(map);
+        let channels = Channels::of_map(map, &encoding, images);
+        stage_file(&path, map.name(), bits, &channels, encoding.range.clone())?;
+    }
+    for (pack, path) in packs_of(arguments) {
+        let encodings: Vec<_> = pack.maps.iter().map(|&map| (map, encoding(map))).collect();
+        let bits = arguments.bits.unwrap_or(kind.bits()[0]);
+        let range = encodings.iter().flat_map(|(_, encoding)| encoding.range.clone()).collect();
+        stage_file(&path, &pack.name, bits, &Channels::packed(&encodings, images), range)?;
+    }
+    if arguments.map.contains(&MapKind::Normal) && (arguments.verify || arguments.write_model.is_some()) {
+        let encoding = encoding(MapKind::Normal);
+        let channels = Channels::of_map(MapKind::Normal, &encoding, images);
+        let bits = if kind == FileKind::Png { arguments.bits.unwrap_or(8) } else { 16 };
+        let noise = noise.as_ref().filter(|_| bits == 8);
+        written.normal = Some(png("the normal map", &channels, bits, &Vec::new(), noise)?);
     }
     Ok(written)
+}
+
+/// What the file of a map says about its numbers: the values of black and white, where they are no shares.
+fn notes(name: &str, range: &[[f32; 2]]) -> Notes {
+    if range.iter().all(|range| *range == [0.0, 1.0]) {
+        return Notes::new();
+    }
+    let list = |numbers: Vec<f32>| format!("{numbers:?}");
+    vec![
+        ("Map", name.to_owned()),
+        ("Black", list(range.iter().map(|range| range[0]).collect())),
+        ("White", list(range.iter().map(|range| range[1]).collect())),
+        ("Scale", list(range.iter().map(|range| range[1] - range[0]).collect())),
+        ("Middle", list(range.iter().map(|range| 0.5 * range[0] + 0.5 * range[1]).collect())),
+    ]
 }
