@@ -198,16 +198,6 @@ impl Document {
         Ok(true)
     }
 
-    /// Declares an extension that readers may ignore, unless it is declared already.
-    pub(super) fn use_extension(&mut self, name: &str) {
-        let is_declared = self.json["extensionsUsed"]
-            .as_array()
-            .is_some_and(|names| names.iter().any(|known| known == name));
-        if !is_declared {
-            self.push_element("extensionsUsed", name.into());
-        }
-    }
-
     /// Declares extensions that readers must support, unless they are declared already.
     pub(super) fn require_extensions(&mut self, names: impl IntoIterator<Item = &'static str>) {
         for name in names {

@@ -13,10 +13,10 @@ use super::entry::Entry;
 use crate::commands::bake::arguments::BakeArguments;
 
 /// The keys whose values are paths.
-const PATHS: [&str; 6] = ["low", "high", "output", "cage", "write-model", "heat-map"];
+const PATHS: [&str; 7] = ["low", "high", "output", "cage", "write-model", "heat-map", "heat-model"];
 
 /// Options whose value is one text of several elements, with commas.
-const LISTS: [&str; 4] = ["map", "size", "distance", "world-direction"];
+const LISTS: [&str; 5] = ["map", "size", "distance", "world-direction", "heat-range"];
 
 #[derive(Parser)]
 #[command(name = "darboux bake", no_binary_name = true, disable_help_flag = true)]
