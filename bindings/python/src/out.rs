@@ -10,7 +10,7 @@ use crate::arrays::{shape_text, wrong_type};
 /// The destination of the tangents, one per corner.
 pub enum Target<'py> {
     /// Written in place.
-    Direct(Bound<'py, PyArray2<f32>>),
+    Direct(PyReadwriteArray2<'py, f32>),
     /// Written into a new array first and copied, because the caller's array is not packed or overlaps the input.
     Copied { to: Bound<'py, PyUntypedArray>, from: Bound<'py, PyArray2<f32>> },
 }
@@ -18,7 +18,7 @@ pub enum Target<'py> {
 impl<'py> Target<'py> {
     /// The caller's array, or a new one. Errors: not an array of float32, not of shape (corners, 4), read-only.
     pub fn new(py: Python<'py>, out: Option<&Bound<'py, PyAny>>, corners: usize) -> PyResult<Self> {
-        let Some(out) = out else { return Ok(Self::Direct(fresh(py, corners, 4)?)) };
+        let Some(out) = out else { return Ok(Self::Direct(fresh(py, corners, 4)?.try_readwrite()?)) };
         let Ok(array) = out.cast::<PyUntypedArray>() else {
             let kind = out.get_type().name()?;
             return Err(PyTypeError::new_err(format!("out must be a numpy array, not {kind}")));
@@ -30,17 +30,18 @@ impl<'py> Target<'py> {
             let shape = shape_text(array.shape());
             return Err(PyValueError::new_err(format!("out must have shape ({corners}, 4), not {shape}")));
         }
+        // Fails where the array is read-only, too. Python's own flags take several times as long to ask for.
+        if let Ok(floats) = array.cast::<PyArray2<f32>>()
+            && floats.is_c_contiguous()
+            && floats.is_aligned()
+            && let Ok(writable) = floats.try_readwrite()
+        {
+            return Ok(Self::Direct(writable));
+        }
         if !array.getattr("flags")?.getattr("writeable")?.extract::<bool>()? {
             return Err(PyValueError::new_err("out is read-only; give an array that may be written"));
         }
-        match array.cast::<PyArray2<f32>>() {
-            Ok(floats)
-                if floats.is_c_contiguous() && floats.is_aligned() && floats.try_readwrite().is_ok() =>
-            {
-                Ok(Self::Direct(floats.clone()))
-            }
-            _ => Ok(Self::Copied { to: array.clone(), from: fresh(py, corners, 4)? }),
-        }
+        Ok(Self::Copied { to: array.clone(), from: fresh(py, corners, 4)? })
     }
 
     /// Calls `write` with a slice of one tangent per corner, and returns the caller's array or the new one.
@@ -49,17 +50,17 @@ impl<'py> Target<'py> {
         py: Python<'py>,
         write: impl FnOnce(&mut [[f32; 4]]) -> PyResult<R>,
     ) -> PyResult<(Bound<'py, PyAny>, R)> {
-        let (Self::Direct(array) | Self::Copied { from: array, .. }) = &self;
-        let mut guard: PyReadwriteArray2<'_, f32> = array.try_readwrite()?;
-        let written = write(guard.as_slice_mut()?.as_chunks_mut().0)?;
-        drop(guard);
-        Ok(match self {
-            Self::Direct(array) => (array.into_any(), written),
-            Self::Copied { to, from } => {
-                py.import("numpy")?.call_method1("copyto", (&to, from))?;
-                (to.into_any(), written)
+        match self {
+            Self::Direct(mut array) => {
+                let written = write(array.as_slice_mut()?.as_chunks_mut().0)?;
+                Ok(((**array).clone().into_any(), written))
             }
-        })
+            Self::Copied { to, from } => {
+                let written = write(from.try_readwrite()?.as_slice_mut()?.as_chunks_mut().0)?;
+                py.import("numpy")?.call_method1("copyto", (&to, from))?;
+                Ok((to.into_any(), written))
+            }
+        }
     }
 }
 

@@ -174,6 +174,9 @@ pub(crate) struct OpenRows {
     count: usize,
 }
 
+/// How many vertices are tested at once: few, because most blocks have few open rows.
+const LANES: usize = if cfg!(small_limits) { 1 } else { 8 };
+
 impl Default for OpenRows {
     fn default() -> Self {
         let zero = [0; BLOCK_SIZE];
@@ -204,10 +207,15 @@ impl OpenRows {
             return;
         }
         let key = fingerprint_key();
-        for i in 0..BLOCK_SIZE {
-            let sum = [0, 1, 2, 3].map(|lane| self.fingerprint[lane][i]);
-            let is_confirmed = is_difference_with(sum, first_candidate(sum), key);
-            self.is_confirmed[i] = if is_confirmed { 1 } else { 0 };
+        let chunks = self.fingerprint.each_ref().map(|lane| lane.as_chunks::<LANES>().0);
+        let confirmed = self.is_confirmed.as_chunks_mut::<LANES>().0.iter_mut();
+        for (at, confirmed) in confirmed.take(self.count.div_ceil(LANES)).enumerate() {
+            let chunk = chunks.map(|lane| lane[at]);
+            for (i, confirmed) in confirmed.iter_mut().enumerate() {
+                let sum = [chunk[0][i], chunk[1][i], chunk[2][i], chunk[3][i]];
+                let is_confirmed = is_difference_with(sum, first_candidate(sum), key);
+                *confirmed = if is_confirmed { 1 } else { 0 };
+            }
         }
         for i in 0..self.count.min(BLOCK_SIZE) {
             if self.is_confirmed[i] == 0 {
