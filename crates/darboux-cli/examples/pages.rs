@@ -255,6 +255,10 @@ const SAID: &[(Code, &str)] = &[
 /// Why a code has no picture.
 const NO_PICTURE: &[(Code, &str)] = &[
     (
+        Code::NormalMissing,
+        "renderers shade it flat, which is hardly seen on faces as small as those of the model in these pictures",
+    ),
+    (
         Code::TangentNotUnit,
         "the renderer of these pictures normalises tangents, so that nothing would be seen",
     ),

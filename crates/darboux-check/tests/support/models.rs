@@ -80,6 +80,9 @@ pub fn healthy_models() -> Vec<Model> {
     models.map(|(number, (name, mesh))| Model::new(number, name, mesh)).collect()
 }
 
+/// The name of the model of pictures.
+const SHOWN: &str = "shown";
+
 /// A curved, mirrored sheet with a map of dents, for pictures.
 pub fn shown_model() -> Model {
     let mut mesh = families::grid(24, 24, false, true);
@@ -89,7 +92,7 @@ pub fn shown_model() -> Model {
             [x - 0.5, y - 0.5, 0.25 * (1.0 - (2.0 * x - 1.0).powi(2)) * (1.0 - (2.0 * y - 1.0).powi(2))];
         *uv = [2.0 * uv[0], uv[1]];
     }
-    let mut model = Model::new(0, "shown", mesh);
+    let mut model = Model::new(0, SHOWN, mesh);
     model.map = dents();
     model
 }
@@ -300,7 +303,12 @@ impl Model {
         if let Some(scale) = self.transform {
             texture["extensions"] = json!({"KHR_texture_transform": {"scale": scale}});
         }
-        let material = if self.has_normal_map { json!({"normalTexture": texture}) } else { json!({}) };
+        let mut material = if self.has_normal_map { json!({"normalTexture": texture}) } else { json!({}) };
+        if self.name.contains(SHOWN) {
+            // Clay, on which anyone tells bumps from dents.
+            let clay = json!({"baseColorFactor": [0.45, 0.31, 0.23, 1], "metallicFactor": 0, "roughnessFactor": 0.6});
+            material["pbrMetallicRoughness"] = clay;
+        }
         let primitive = json!({"attributes": attributes, "indices": indices, "material": 0});
         let meshes: Vec<Value> = (0..self.copies).map(|_| json!({"primitives": [primitive]})).collect();
         let mut json = json!({

@@ -11,6 +11,17 @@ pub fn shown_mistake(healthy: &Model, code: Code) -> Option<Model> {
     let patch = patch(healthy);
     match code {
         Code::TangentNotFinite => set_tangents(&mut model, &patch, [f32::NAN, f32::NAN, f32::NAN, 1.0]),
+        Code::PositionNotFinite => {
+            patch.iter().step_by(3).for_each(|&at| model.positions[at] = [f32::NAN; 3])
+        }
+        Code::UvNotFinite => {
+            let set = model.uv_set;
+            patch.iter().step_by(3).for_each(|&vertex| model.uvs[set][vertex] = [f32::NAN; 2]);
+        }
+        Code::NormalNotFinite => {
+            let normals = model.normals.as_mut()?;
+            patch.iter().step_by(3).for_each(|&vertex| normals[vertex] = [f32::NAN; 3]);
+        }
         Code::TangentZero => set_tangents(&mut model, &patch, [0.0, 0.0, 0.0, 1.0]),
         Code::TangentNotPerpendicular => lean(&mut model, &patch),
         Code::TangentSignMixed => {
@@ -31,7 +42,7 @@ pub fn shown_mistake(healthy: &Model, code: Code) -> Option<Model> {
         Code::MapNegativeZ => {
             let mut texels = model.map.texels.clone();
             let side = texels.len().isqrt();
-            let is_speck = |i: usize| (i % side) % 40 < 6 && (i / side) % 40 < 6;
+            let is_speck = |i: usize| (i % side) % 40 < 12 && (i / side) % 40 < 12;
             (0..texels.len()).filter(|i| is_speck(*i)).for_each(|i| texels[i] = [150, 110, 40]);
             model.map = model.map.with_texels(texels);
         }
@@ -86,7 +97,7 @@ fn lean(model: &mut Model, vertices: &[usize]) {
     let normals = model.normals.clone().unwrap_or_default();
     for &vertex in vertices {
         let (tangent, normal) = (&mut model.tangents()[vertex], normals[vertex]);
-        (0..3).for_each(|i| tangent[i] = 0.5 * tangent[i] + 0.866 * normal[i]);
+        (0..3).for_each(|i| tangent[i] = 0.1 * tangent[i] + 0.995 * normal[i]);
     }
 }
 
