@@ -19,7 +19,7 @@
 //!         marks[v]       |= UV orientation, signs of the directions' components, rays in the corner's wedge
 //!         rays[v]        += 1 if the corner's wedge in UV space holds the ray +u
 //!         fingerprint[v] += f(next vertex of the triangle) - f(previous vertex)
-//! for each vertex v to which all its triangles have been added:               proof.rs
+//! for each vertex v to which all its triangles have been added:               proof.rs, open_rows.rs
 //!     if one orientation and nothing opposite and one fan and the tangent needs no repair:
 //!         tangent[v] = normalize(sum[v]), with the sign of the orientation
 //!     else if no triangle has UV area: tangent[v] = the default
@@ -70,8 +70,8 @@
 //!   unmatched ones all run one way. So a triangle has at most two neighbours around a vertex, and a group is a row or a loop of them.
 //! - **Groups.** A group is a flood fill around its vertex, from triangle to triangle across matched edges, where the orientation is equal.
 //!   Triangles without UV area take part in one more decision, which is not local: each adopts the orientation of the first group that
-//!   reaches it at any of its vertices. So where there is such a triangle, the fills run in the reference's order, by their first triangles. All vertices of such a triangle
-//!   are undecided, so no fill that could reach it is missing, but for those around which no triangle has UV area: no fill starts there, since
+//!   reaches it at any of its vertices. So where there is such a triangle, the fills run in the reference's order, by their first triangles. All
+//!   vertices of such a triangle are undecided, so no fill that could reach it is missing, but for those around which no triangle has UV area: no fill starts there, since
 //!   fills start from triangles with UV area alone. Their corners keep the default, which the first pass writes.
 //! - **Sums.** All members of a group join when nothing is opposite (the test above, on the marks of the members alone). The group's sum is
 //!   the sum of its triangles in their order, and the terms come from the same kernel. Triangles without UV area add nothing. Where the test
@@ -117,6 +117,7 @@ mod fans;
 mod full_frames;
 mod hash_table;
 mod kernel;
+mod open_rows;
 mod pairs;
 mod passes;
 mod planned_groups;

@@ -23,8 +23,9 @@ use crate::tangents::fast::accumulator::{
 use crate::tangents::fast::edge_tail::TailCells;
 use crate::tangents::fast::exceptions::Exceptions;
 use crate::tangents::fast::kernel::{BLOCK_SIZE, CornerVertices, TriangleBlock};
+use crate::tangents::fast::open_rows::OpenRows;
 use crate::tangents::fast::proof::{
-    Fan, OpenRows, UNDECIDED, fan, first_ray_count, marks as corner_marks, sign_of_marks,
+    Fan, UNDECIDED, fan, first_ray_count, marks as corner_marks, sign_of_marks,
 };
 use crate::tangents::fast::triangle_list::TriangleList;
 use crate::tangents::fast::vertex_quantity::{QuantityRange, VertexQuantity};
