@@ -5,7 +5,7 @@
 use std::fs;
 
 use darboux_io::gltf::Document;
-use darboux_io::{LoadOptions, obj};
+use darboux_io::LoadOptions;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -13,7 +13,7 @@ fuzz_target!(|bytes: &[u8]| {
     fs::create_dir_all(&folder).expect("a folder");
     let path = folder.join("input.obj");
     fs::write(&path, bytes).expect("a file");
-    let Ok(model) = obj::read(&path, &LoadOptions::default()) else { return };
-    let written = model.document.to_glb().expect("what was read can be written");
+    let Ok(document) = Document::open(&path, &LoadOptions::default()) else { return };
+    let written = document.to_glb().expect("what was read can be written");
     Document::from_bytes("written", written, None, &LoadOptions::default()).expect("and reads again");
 });

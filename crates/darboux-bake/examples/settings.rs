@@ -7,7 +7,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use darboux_io::{LoadOptions, SaveOptions, obj};
+use darboux_io::gltf::Document;
+use darboux_io::{LoadOptions, SaveOptions};
 
 type Vector = [f64; 3];
 
@@ -53,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let path = folder.join(name).with_extension("obj");
         fs::write(&path, text(name, cells)?)?;
         let options = SaveOptions::default().with_force(true);
-        obj::read(&path, &LoadOptions::default())?.document.save(&path.with_extension("glb"), &options)?;
+        Document::open(&path, &LoadOptions::default())?.save(&path.with_extension("glb"), &options)?;
     }
     Ok(())
 }

@@ -66,23 +66,15 @@ pub fn load(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
     in_gltf_convention(input, load_any(input, reading)?)
 }
 
-/// As [`load`], also from an OBJ file, which becomes a document. Warnings have the name of the file, which tells several models apart.
+/// As [`load`], with the warnings, which have the name of the file: that tells several models apart.
 #[cfg(feature = "bake")]
-pub fn load_with_obj(
+pub fn load_with_warnings(
     path: &Path,
     reading: &ReadOptions,
     warnings: &mut Vec<String>,
 ) -> Result<Document, String> {
-    let sentence = |error: darboux_io::Error| error.to_string();
-    let is_obj = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
-    let (document, of_obj) = if is_obj {
-        let model = darboux_io::obj::read(path, &reading.load_options()).map_err(sentence)?;
-        (model.document, model.warnings)
-    } else {
-        (load(&Input::File(path.to_owned()), reading)?, Vec::new())
-    };
-    let all = of_obj.iter().chain(document.warnings());
-    warnings.extend(all.map(|warning| format!("{}: {warning}", document.name())));
+    let document = load(&Input::File(path.to_owned()), reading)?;
+    warnings.extend(document.warnings().iter().map(|warning| format!("{}: {warning}", document.name())));
     Ok(document)
 }
 
@@ -101,9 +93,6 @@ fn in_gltf_convention(input: &Input, document: Document) -> Result<Document, Str
 /// Reads a document in any convention. Standard input has no folder, so its buffers must be embedded.
 pub fn load_any(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
     match input {
-        Input::File(path) if path.is_file() && is_other_format(path) => Err(format!(
-            "{input}: this command reads glTF files only; export the model as .glb (darboux bake, view and render also read OBJ)"
-        )),
         Input::File(path) if path.is_file() && is_other_image(path) => Err(format!(
             "{input}: is an image in a format that is not read here; save it as .png (8 or 16 bits), .jpg or .webp, and darboux check judges it as a normal map"
         )),
@@ -115,13 +104,6 @@ pub fn load_any(input: &Input, reading: &ReadOptions) -> Result<Document, String
 fn from_stdin(input: &Input, bytes: Vec<u8>, reading: &ReadOptions) -> Result<Document, String> {
     let document = Document::from_bytes(&input.to_string(), bytes, None, &reading.load_options());
     document.map_err(|error| error.to_string())
-}
-
-/// Whether the extension is that of a model format other than glTF.
-fn is_other_format(path: &Path) -> bool {
-    const OTHERS: [&str; 12] =
-        ["3ds", "abc", "blend", "dae", "fbx", "obj", "ply", "stl", "usd", "usda", "usdc", "usdz"];
-    has_extension(path, &OTHERS)
 }
 
 /// Whether the extension is that of an image without a decoder.

@@ -196,12 +196,12 @@ fn missing_files_and_empty_folders_are_bad_input() {
 #[test]
 fn another_format_is_called_so() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let model = folder.path().join("model.OBJ");
-    fs::write(&model, "v 0 0 0\n").expect("a file");
+    let model = folder.path().join("model.max");
+    fs::write(&model, b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1").expect("a file");
     for command in ["tangents", "inspect", "normals"] {
         let run = darboux(&[command, text(&model)]).exits(1);
         assert!(
-            run.stderr.contains("model.OBJ: this command reads glTF files only; export the model as .glb"),
+            run.stderr.contains("model.max: is a scene of 3ds Max or another file of that container; export"),
             "{}",
             run.stderr
         );

@@ -4,7 +4,8 @@
 //!   [tangents](gltf::add_tangents) and [normals](gltf::add_normals), [convert](gltf::convert_vertices) conventions,
 //!   [inspect](gltf::inspect) and [compare](gltf::pair_tangents) files.
 //! - [`image`]: normal maps in PNG; textures in PNG, JPEG and WebP (feature `textures`).
-//! - [`obj`]: Wavefront OBJ (feature `obj`).
+//! - [`source`]: models of other formats, which become documents: OBJ, PLY and STL, each with a feature of its name. [`gltf::Document::open`] reads
+//!   all of them; the content of a file decides.
 //!
 //! Files come from anywhere, so every number in them is checked, and a [`MemoryLimit`] bounds what a small file can ask for.
 //!
@@ -31,7 +32,13 @@ mod load_options;
 mod memory_limit;
 pub mod obj;
 mod paths;
+#[cfg(feature = "ply")]
+mod ply;
+mod readers;
+pub mod source;
 mod staging;
+#[cfg(feature = "stl")]
+mod stl;
 
 pub use error::{Error, system_reason};
 pub use files::Files;

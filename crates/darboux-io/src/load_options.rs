@@ -1,6 +1,7 @@
 //! The options of every reader: glTF, OBJ and PNG.
 
 use crate::memory_limit::{Budget, MemoryLimit};
+use crate::source::PolygonRule;
 
 /// How a file is read. The default reads files in the folder of the input or below only, with the default memory limit.
 #[derive(Clone, Copy, Debug, Default)]
@@ -10,6 +11,8 @@ pub struct LoadOptions {
     pub allow_outside: bool,
     /// The most memory that decoding the file, and computing from it, may take.
     pub memory_limit: MemoryLimit,
+    /// How faces of five and more corners are cut, in formats that have them.
+    pub polygon_rule: PolygonRule,
     /// How messages call the options that they advise to change.
     pub option_names: OptionNames,
 }
@@ -68,6 +71,12 @@ impl LoadOptions {
     #[must_use]
     pub const fn with_memory_limit(self, memory_limit: MemoryLimit) -> Self {
         Self { memory_limit, ..self }
+    }
+
+    /// These options with another rule for faces of five and more corners.
+    #[must_use]
+    pub const fn with_polygon_rule(self, polygon_rule: PolygonRule) -> Self {
+        Self { polygon_rule, ..self }
     }
 
     /// These options with other names of options in messages.

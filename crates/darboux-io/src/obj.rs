@@ -1,19 +1,19 @@
-//! Wavefront OBJ: reads a model with its material libraries and textures as a glTF document.
+//! Wavefront OBJ with its material libraries (MTL) and textures.
 //!
-//! [`companions`] lists the files that an OBJ refers to; `read` (feature `obj`) reads the model itself.
+//! [`companions`] lists the files that an OBJ refers to. The reader (feature `obj`) gives objects and groups as meshes, with faces of any size and smoothing
+//! groups.
 
 mod companions;
 #[cfg(feature = "obj")]
-mod corner_tree;
+mod materials;
 #[cfg(feature = "obj")]
-mod document;
+mod meshes;
 #[cfg(feature = "obj")]
-mod faces;
-#[cfg(feature = "obj")]
-mod libraries;
+mod mtl;
 #[cfg(feature = "obj")]
 mod read;
+mod statements;
 
 pub use companions::{Companion, companions};
 #[cfg(feature = "obj")]
-pub use read::{ObjModel, read};
+pub(crate) use read::read;

@@ -30,7 +30,7 @@ fn glb_of(words: &[u32], json: &str) -> Vec<u8> {
 fn containers() {
     const JSON: u32 = 0x4E4F_534A;
     refused(parse(""), "x.gltf: is empty; give a .gltf or .glb file");
-    refused(parse("PK\x03\x04"), "is neither glTF nor GLB");
+    refused(parse("PK\x03\x04"), "is a zip archive; unpack it and give the model in it");
     refused(parse("glTF, once upon a time"), "is neither glTF nor GLB");
     refused(parse("glTF\x02\0"), "is cut off within the GLB header");
     refused(parse(glb_of(&[1, 12], "")), "is a GLB of version 1; convert it to glTF 2.0");

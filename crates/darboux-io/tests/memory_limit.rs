@@ -124,7 +124,7 @@ fn objs_of_many_objects_are_refused() {
     let path = folder.path().join("many.obj");
     let objects: String = (0..1000).map(|i| format!("o {i}\nf 1 1 1\n")).collect();
     std::fs::write(&path, format!("v 0 0 0\n{objects}")).unwrap();
-    let read = |limit| darboux_io::obj::read(&path, &LoadOptions::default().with_memory_limit(limit));
+    let read = |limit| Document::open(&path, &LoadOptions::default().with_memory_limit(limit));
     assert!(read(MemoryLimit::default()).is_ok());
     refused(read(MemoryLimit::bytes(1 << 20)), "1 MiB");
 }

@@ -12,5 +12,10 @@ pub mod width_limit;
 pub use crate::measure::{DifferenceSums, triangle_area};
 pub use crate::recipe::recipe_tangents;
 
+/// Whether MikkTSpace cuts a quad from corner 1 to 3, rather than from 0 to 2.
+pub fn is_quad_cut_across(uvs: [[f32; 2]; 4], positions: [[f32; 3]; 4]) -> bool {
+    crate::topology::triangulate::is_cut_across(uvs, || positions)
+}
+
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 pub use crate::util::random::seed_random;

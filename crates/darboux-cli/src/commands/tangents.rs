@@ -25,7 +25,7 @@ use crate::terminal::FileProgress;
 use crate::text::{counted, nonzero_counts};
 use arguments::{Device, TangentsArguments};
 use device::{TangentDevice, may_use_gpu};
-use summary::{DeviceReport, TangentsFileSummary};
+use summary::{DeviceReport, SourceReport, TangentsFileSummary};
 
 impl FileCommand for TangentsArguments {
     type Summary = TangentsFileSummary;
@@ -101,12 +101,14 @@ impl FileCommand for TangentsArguments {
         let changed = document.is_changed() && (normals.is_some() || tangents.totals.written > 0);
         let device_report = Some(device.report(3 * tangents.totals.triangles));
         let (status, files_written) = save(&document, &job.output, &self.files, changed)?;
-        let summary = TangentsFileSummary { normals, device: device_report, tangents };
+        let source = SourceReport::of(&document);
+        let summary = TangentsFileSummary { normals, device: device_report, source, tangents };
         Ok(ProcessedFile { status, files_written, summary })
     }
 
     fn lines(summary: &TangentsFileSummary) -> Vec<String> {
-        let mut lines = describe_normals(summary.normals.as_deref().unwrap_or_default());
+        let mut lines: Vec<String> = summary.source.iter().map(SourceReport::line).collect();
+        lines.extend(describe_normals(summary.normals.as_deref().unwrap_or_default()));
         for primitive in &summary.tangents.primitives {
             let what = match &primitive.outcome {
                 TangentsOutcome::Written(written) => describe(written),

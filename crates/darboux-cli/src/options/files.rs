@@ -13,7 +13,7 @@ use super::reading::ReadOptions;
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("destination").args(["output", "out_dir", "in_place"]))]
 pub struct FileOptions {
-    /// Files (.gltf, .glb, .vrm) and folders; - is standard input
+    /// Files (.gltf, .glb, .vrm, .obj, .ply, .stl) and folders of glTF files; - is standard input
     #[arg(required = true, value_name = "INPUT")]
     pub inputs: Vec<PathBuf>,
 

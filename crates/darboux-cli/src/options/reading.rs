@@ -3,10 +3,13 @@
 use std::path::Path;
 
 use clap::Args;
+use darboux::Choice;
 use darboux_io::gltf::Document;
+use darboux_io::source::PolygonRule;
 use darboux_io::{Error, LoadOptions, MemoryLimit, OptionNames};
 
 use crate::memory;
+use crate::options::choice::choice;
 
 /// How a model is read.
 #[derive(Args, Clone, Copy, Debug, Default)]
@@ -18,6 +21,10 @@ pub struct ReadOptions {
     /// The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use
     #[arg(long, value_name = "MIB")]
     pub memory_limit: Option<u32>,
+
+    /// How faces of five and more corners are cut, in formats that have them
+    #[arg(long, value_name = "RULE", value_parser = choice::<PolygonRule>(), default_value = PolygonRule::default().name())]
+    pub polygons: PolygonRule,
 }
 
 impl ReadOptions {
@@ -28,6 +35,7 @@ impl ReadOptions {
         LoadOptions::default()
             .with_allow_outside(self.allow_outside)
             .with_memory_limit(limit)
+            .with_polygon_rule(self.polygons)
             .with_option_names(option_names())
     }
 

@@ -17,6 +17,7 @@ use super::resources::Resources;
 use super::schema::{self, Root};
 use crate::error::ContentError;
 use crate::memory_limit::Budget;
+use crate::source::Provenance;
 use crate::{Error, LoadOptions};
 
 /// A glTF document: read from a file, edited, and written to another file or in place.
@@ -57,6 +58,8 @@ pub struct Document {
     /// Whether a warning about unused data that stays has been given.
     pub(super) is_unused_data_reported: bool,
     pub(super) warnings: Vec<String>,
+    /// Where it came from, if the file has another format.
+    pub(super) provenance: Option<Provenance>,
 }
 
 impl Document {
@@ -91,6 +94,11 @@ impl Document {
     /// Problems that are not errors, such as missing images: one sentence each.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
+    }
+
+    /// Where the document came from, if it was read from another format than glTF.
+    pub fn provenance(&self) -> Option<&Provenance> {
+        self.provenance.as_ref()
     }
 
     /// The JSON, edits included.

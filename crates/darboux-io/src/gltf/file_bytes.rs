@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::paths;
+use crate::source::FileSource;
 use crate::{Files, files};
 
 /// The bytes of a file.
@@ -54,6 +55,15 @@ impl FileAccess {
             Self::Disk { .. } => path.canonicalize(),
             Self::Given(_) => files::normalised(path).ok_or_else(|| io::ErrorKind::NotFound.into()),
         }
+    }
+
+    /// Where a model in a folder, if it has one, finds its files. Errors: there is no such folder.
+    pub fn model_files(&self, folder: Option<&Path>) -> io::Result<FileSource> {
+        Ok(match (self, folder) {
+            (_, None) => FileSource::None,
+            (Self::Disk { .. }, Some(folder)) => FileSource::Folder(folder.canonicalize()?),
+            (Self::Given(given), Some(folder)) => FileSource::Given(Arc::clone(given), folder.to_owned()),
+        })
     }
 
     /// Whether a resolved path is that of a regular file.

@@ -60,9 +60,10 @@ pub fn inspect(document: &Document) -> Result<Vec<PrimitiveInfo>, Error> {
         let mut vertices = Vertices::read(document, group)?;
         let mut found = Vec::with_capacity(group.jobs.len());
         for job in &group.jobs {
-            let at = infos[job.first].name.path();
+            let name = infos[job.first].name.clone();
             let generate = (&mut Generate::OnCpu, &mut context);
-            let result = compute::compute_job(document, &at, &mut vertices, job, false, &options, generate)?;
+            let result =
+                compute::compute_job(document, &name, &mut vertices, job, false, &options, generate)?;
             found.push((result.report.into(), mirrored_triangles(&result.tangents)));
         }
         for member in &group.members {

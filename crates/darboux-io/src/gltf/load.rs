@@ -17,11 +17,12 @@ use super::resources::Resources;
 use super::schema::Root;
 use crate::error::{ContentError, shortened};
 use crate::memory_limit::{self, Budget};
-use crate::{Error, Files, LoadOptions, paths};
+use crate::source::{Built, ModelFiles};
+use crate::{Error, Files, LoadOptions, paths, readers};
 
 impl Document {
-    /// Reads a `.glb` or `.gltf` file and the buffers that it refers to, and decodes what is compressed with Draco or meshopt. The first bytes decide between
-    /// the two formats.
+    /// Reads a `.glb` or `.gltf` file and the buffers that it refers to, and decodes what is compressed with Draco or meshopt; or a model of another
+    /// format, which becomes a glTF document with [`Document::provenance`]. The content decides, not the name's ending.
     ///
     /// Errors: a file that cannot be read, or is not valid glTF; a mode of a primitive, or a reference to an element, that does not exist; a compressed stream that is broken.
     pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Error> {
@@ -85,9 +86,20 @@ impl Document {
         options: &LoadOptions,
         access: FileAccess,
     ) -> Result<Self, Error> {
-        let resources = Resources::new(base, *options, access)
-            .map_err(|source| Error::Read { file: base.unwrap_or(Path::new("")).to_owned(), source })?;
-        Self::parse(name, file, resources, *options).map_err(|error| error.in_file(name))
+        let failed = |source| Error::Read { file: base.unwrap_or(Path::new("")).to_owned(), source };
+        let files = ModelFiles::new(access.model_files(base).map_err(failed)?, options);
+        let read = readers::read(&file, &files, options).transpose().map_err(|error| error.in_file(name))?;
+        let Some(Built { glb, provenance, warnings }) = read else {
+            let resources = Resources::new(base, *options, access).map_err(failed)?;
+            return Self::parse(name, file, resources, *options).map_err(|error| error.in_file(name));
+        };
+        drop(file);
+        let resources = Resources::new(None, *options, access).map_err(failed)?;
+        let document = Self::parse(name, FileBytes::Read(glb), resources, *options);
+        let mut document = document.map_err(|error| error.in_file(name))?;
+        document.warnings.splice(0..0, warnings);
+        document.provenance = Some(provenance);
+        Ok(document)
     }
 
     fn parse(
@@ -137,6 +149,7 @@ impl Document {
             options,
             backed_count: OnceLock::new(),
             is_unused_data_reported: false,
+            provenance: None,
         };
         document.decompress()?;
         document.check_sizes()?;

@@ -54,12 +54,18 @@ impl Document {
 
     /// Replaces the input file, with the same container and permissions. Returns the files written, none without edits.
     ///
-    /// Errors: as [`Document::save`]; a document that was not read from a file; an input that no longer exists.
+    /// Errors: as [`Document::save`]; a document that was not read from a file, or from another format than glTF; an input that no longer exists.
     pub fn save_in_place(&self) -> Result<Vec<PathBuf>, Error> {
         let input = self.input.as_ref().ok_or_else(|| Error::Output {
             file: self.name().into(),
             problem: "was not read from a file; name an output".into(),
         })?;
+        if let Some(provenance) = self.provenance() {
+            let format = provenance.format.name();
+            let problem =
+                format!("is {format}, which cannot be edited in place; name an output that ends in .glb");
+            return Err(Error::Output { file: self.name().into(), problem });
+        }
         if !self.is_changed() {
             return Ok(Vec::new());
         }

@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::statements::statements;
 use crate::error::ContentError;
 use crate::{Error, paths};
 
@@ -43,7 +44,7 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, Error> {
     })?;
     let mut library_lines = Vec::new();
     let mut has_faces = false;
-    for (word, rest) in statements(&bytes) {
+    for (_, word, rest) in statements(&bytes) {
         has_faces |= word == b"f";
         if word == b"mtllib" {
             library_lines.push(rest);
@@ -59,8 +60,8 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, Error> {
             continue;
         }
         let text = library.read().unwrap_or_default();
-        let maps = statements(&text).filter(|(word, _)| is_texture(word));
-        let textures = maps.filter_map(|(_, line)| lookup.texture(&library.name, line));
+        let maps = statements(&text).filter(|(_, word, _)| is_texture(word));
+        let textures = maps.filter_map(|(_, _, line)| lookup.texture(&library.name, line));
         companions.extend(textures.filter(|texture| seen.insert(texture.path.clone())));
         companions.push(library);
     }
@@ -68,7 +69,7 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, Error> {
 }
 
 /// The folder of a file, links resolved.
-pub fn folder_of(path: &Path) -> Result<PathBuf, Error> {
+fn folder_of(path: &Path) -> Result<PathBuf, Error> {
     let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     parent.canonicalize().map_err(|source| Error::Read { file: parent.to_owned(), source })
 }
@@ -77,7 +78,7 @@ pub fn folder_of(path: &Path) -> Result<PathBuf, Error> {
 type TextureLine = (String, Vec<u8>);
 
 /// Looks up the files that lines refer to, each distinct line once.
-pub struct FileLookup {
+struct FileLookup {
     folder: PathBuf,
     libraries: RefCell<HashMap<Vec<u8>, Vec<Companion>>>,
     textures: RefCell<HashMap<TextureLine, Option<Companion>>>,
@@ -87,13 +88,13 @@ pub struct FileLookup {
 
 impl FileLookup {
     /// Files are looked up in `folder`, links resolved.
-    pub fn new(folder: PathBuf) -> Self {
+    fn new(folder: PathBuf) -> Self {
         let (libraries, textures) = Default::default();
         Self { folder, libraries, textures, left: Cell::new(MAX_LOOKUPS) }
     }
 
     /// The libraries that a `mtllib` line names: one whose name may contain spaces, or several.
-    pub fn libraries(&self, line: &[u8]) -> Vec<Companion> {
+    fn libraries(&self, line: &[u8]) -> Vec<Companion> {
         if line.len() > LONGEST_LINE {
             return Vec::new();
         }
@@ -107,7 +108,7 @@ impl FileLookup {
     /// The texture that a statement of a material library names.
     ///
     /// Options may stand before the name, and the name may contain spaces, so the longest end of the line that names a file is taken.
-    pub fn texture(&self, library: &str, line: &[u8]) -> Option<Companion> {
+    fn texture(&self, library: &str, line: &[u8]) -> Option<Companion> {
         if line.len() > LONGEST_LINE {
             return None;
         }
@@ -116,17 +117,6 @@ impl FileLookup {
             (0..line.len()).filter(is_start).find_map(|start| self.find(library, &line[start..]))
         };
         self.textures.borrow_mut().entry((library.to_owned(), line.to_owned())).or_insert_with(find).clone()
-    }
-
-    /// What is wrong with a reference that was not found: a sentence without its last part.
-    #[cfg(feature = "obj")]
-    pub fn problem(&self, reference: &str) -> String {
-        let shown = crate::error::shortened(reference);
-        if self.left.get() == 0 {
-            format!("{shown:?} was not looked up, because the model names more than {MAX_LOOKUPS} files")
-        } else {
-            format!("{shown:?} is not in the model's folder")
-        }
     }
 
     /// The file that `reference` names, relative to the file `base`; none unless it is a file in the folder or below, links followed.
@@ -139,15 +129,6 @@ impl FileLookup {
 fn is_texture(word: &[u8]) -> bool {
     let word = word.to_ascii_lowercase();
     word.starts_with(b"map_") || [&b"norm"[..], b"bump", b"disp", b"decal", b"refl"].contains(&&word[..])
-}
-
-/// The statements of an OBJ or MTL: the first word of every line, and the rest of the line.
-fn statements(text: &[u8]) -> impl Iterator<Item = (&[u8], &[u8])> {
-    text.split(|&byte| byte == b'\n' || byte == b'\r').map(|line| {
-        let line = line.trim_ascii();
-        let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
-        (&line[..end], line[end..].trim_ascii())
-    })
 }
 
 /// The file that `reference` names, relative to the file `base`; none unless it is a file in `folder` or below, links followed.

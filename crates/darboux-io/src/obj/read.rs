@@ -1,124 +1,192 @@
-//! Reads an OBJ: checks its indices, parses it, and hands meshes and materials to the document builder.
+//! Reads the text of an OBJ: lists of positions, UVs and normals, and faces that refer to them.
 
-use std::path::Path;
-
-use tobj::{LoadError, Mesh, Model};
-
-use super::companions::{self, folder_of};
-use super::document::DocumentBuilder;
-use super::faces::triangulate;
-use super::libraries::MaterialLibraries;
+use super::companions::NO_FACES;
+use super::materials::Materials;
+use super::meshes::{self, Corner, Run};
+use super::statements::{statements, words};
+use crate::LoadOptions;
 use crate::error::ContentError;
-use crate::gltf::Document;
-use crate::{Error, LoadOptions, paths};
-
-/// An OBJ as a document, and what the document lacks.
-#[derive(Debug)]
-pub struct ObjModel {
-    /// One mesh and one node per object or group with faces. Textures are embedded; `v` points down, as in glTF.
-    pub document: Document,
-    /// One sentence for each library, texture or attribute that was left out.
-    pub warnings: Vec<String>,
-}
-
-/// The estimate for an object or group: one mesh, one node, and up to four accessors and buffer views.
-const BYTES_PER_OBJECT: usize = 16 << 10;
+use crate::image::srgb_to_linear;
+use crate::source::{ModelFiles, SourceFormat, SourceScene};
 
 /// Reads an OBJ with the material libraries and textures in its folder or below.
 ///
-/// Polygons become triangles, concave ones too; points and lines are left out. Errors: a file that cannot be read, is not an OBJ, or has no faces; more
-/// objects than [`LoadOptions::memory_limit`] permits; a document larger than a GLB can be.
-pub fn read(path: &Path, options: &LoadOptions) -> Result<ObjModel, Error> {
-    let shown = path.display().to_string();
-    let invalid = |problem: String| ContentError::invalid("", problem).in_file(&shown);
-    let libraries = MaterialLibraries::new(folder_of(path)?);
-    let bytes = paths::resolve_input(path).and_then(|input| {
-        paths::read_resolved(&input).map_err(|source| Error::Read { file: path.to_owned(), source })
-    })?;
-    // Comments and names may be in any encoding.
-    let text = String::from_utf8_lossy(&bytes);
-    let parser_options =
-        tobj::LoadOptions { triangulate: false, single_index: true, ignore_points: true, ignore_lines: true };
-    let (models, folded_faces) = check_indices(&text)
-        .and_then(|()| {
-            let load = |line: &Path| Ok(libraries.load(line));
-            let (mut models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &parser_options, load)?;
-            let folded_faces = triangulate(&mut models)?;
-            Ok((models, folded_faces))
-        })
-        .map_err(|error| invalid(format!("is not a valid OBJ ({error}); export it again")))?;
-
-    let limit = options.budget(bytes.len(), 0);
-    if models.len().saturating_mul(BYTES_PER_OBJECT) > limit.bytes {
-        let what = format!("has {} objects and groups, which need", models.len());
-        return Err(ContentError::unsupported("", limit.exceeded(&what)).in_file(&shown));
+/// Errors: a number that is none; an index of nothing; no faces.
+pub fn read(bytes: &[u8], files: &ModelFiles, _: &LoadOptions) -> Result<SourceScene, ContentError> {
+    let mut scene = SourceScene::new(SourceFormat::Obj);
+    scene.generator = generator(bytes);
+    let mut text = ObjText::default();
+    let mut materials = Materials::new(files);
+    for (line, statement, rest) in statements(bytes) {
+        text.add(statement, rest, &mut materials).map_err(|problem| {
+            ContentError::invalid(format!("line {line}"), format!("{problem}; export the file again"))
+        })?;
     }
-    let (materials, mut warnings) = libraries.into_parts();
-    let mut builder = DocumentBuilder::default();
-    materials.iter().for_each(|material| builder.add_material(material));
-    models.iter().filter(|model| !model.mesh.indices.is_empty()).for_each(|model| builder.add_mesh(model));
-    if !builder.has_meshes() {
-        return Err(invalid(companions::NO_FACES.to_owned()));
+    text.end_run();
+    if text.corners.is_empty() {
+        return Err(ContentError::invalid("", NO_FACES));
     }
-    warnings.append(&mut builder.warnings);
-    warnings.extend(incomplete_attributes(&models));
-    warnings.extend(folded_warning(folded_faces));
-    let glb = builder.into_glb().map_err(|error| error.in_file(&shown))?;
-    let document = Document::from_bytes(&shown, glb, None, options)?;
-    Ok(ObjModel { document, warnings })
+    scene.meshes = meshes::build(&text)?;
+    materials.finish(&mut scene);
+    if text.lines_and_points > 0 {
+        scene.not_carried.push(format!("{} lines and points", text.lines_and_points));
+    }
+    if text.curves > 0 {
+        scene.not_carried.push(format!("{} statements of curves and surfaces", text.curves));
+    }
+    Ok(scene)
 }
 
-/// Rejects indices that overflow in the parser, which multiplies them without a check.
-///
-/// Errors: a negative index that points before the first element, or a positive one greater than the length of the text.
-fn check_indices(text: &str) -> Result<(), LoadError> {
-    const KINDS: [&str; 3] = ["v", "vt", "vn"];
-    let mut counts = [0; 3];
-    for line in text.lines() {
-        let mut words = line.split_whitespace();
-        let statement = words.next().unwrap_or_default();
-        if let Some(kind) = KINDS.iter().position(|kind| *kind == statement) {
-            counts[kind] += 1;
-        }
-        let corners = words.filter(|_| ["f", "l"].contains(&statement));
-        for (kind, index) in corners.flat_map(|corner| corner.split('/').take(3).enumerate()) {
-            let Ok(index) = index.parse::<isize>() else { continue };
-            let most = if index < 0 { counts[kind] } else { text.len() };
-            if index.unsigned_abs() > most {
-                let errors = [
-                    LoadError::FaceVertexOutOfBounds,
-                    LoadError::FaceTexCoordOutOfBounds,
-                    LoadError::FaceNormalOutOfBounds,
-                ];
-                return Err(errors[kind]);
+/// The program of the first comment, as in `# Blender 5.0.1`.
+fn generator(bytes: &[u8]) -> Option<String> {
+    let line = bytes.strip_prefix(b"#")?.split(|&byte| byte == b'\n' || byte == b'\r').next()?;
+    let line = String::from_utf8_lossy(&line[..line.len().min(200)]).trim().to_owned();
+    (!line.is_empty()).then_some(line)
+}
+
+/// The text as lists.
+#[derive(Debug, Default)]
+pub struct ObjText {
+    pub positions: Vec<[f32; 3]>,
+    /// Linear RGBA of positions with a colour, which follow without gaps where all have one.
+    pub colors: Vec<[f32; 4]>,
+    pub uvs: Vec<[f32; 2]>,
+    pub normals: Vec<[f32; 3]>,
+    pub corners: Vec<Corner>,
+    /// The faces: their sizes, materials and smoothing groups.
+    pub sizes: Vec<u32>,
+    pub materials: Vec<Option<u32>>,
+    pub smoothing: Vec<u32>,
+    /// The objects and groups with faces.
+    pub runs: Vec<Run>,
+    pub has_smoothing: bool,
+    lines_and_points: usize,
+    curves: usize,
+    /// What the next face belongs to.
+    name: String,
+    kind: &'static str,
+    material: Option<u32>,
+    group: u32,
+    /// The first corner and face of the current object or group.
+    start: (usize, usize),
+}
+
+impl ObjText {
+    /// Adds a statement. The error is a clause whose subject is the line.
+    fn add(&mut self, statement: &[u8], rest: &[u8], materials: &mut Materials<'_>) -> Result<(), String> {
+        match statement {
+            b"v" => self.add_position(rest)?,
+            b"vt" => {
+                let [u, v] = numbers(rest, 1)?;
+                self.uvs.push([u, v]);
             }
+            b"vn" => self.normals.push(numbers(rest, 3)?),
+            b"f" | b"fo" => self.add_face(rest)?,
+            b"o" | b"g" => {
+                self.end_run();
+                self.name = String::from_utf8_lossy(rest).into_owned();
+                self.kind = if statement == b"o" { "o" } else { "g" };
+            }
+            b"usemtl" => self.material = materials.index(rest),
+            b"mtllib" => materials.load(rest),
+            b"s" => {
+                self.has_smoothing = true;
+                self.group = str::from_utf8(rest).ok().and_then(|group| group.parse().ok()).unwrap_or(0);
+            }
+            b"l" | b"p" => self.lines_and_points += 1,
+            b"curv" | b"curv2" | b"surf" => self.curves += 1,
+            _ => {}
         }
+        Ok(())
     }
-    Ok(())
+
+    fn add_position(&mut self, rest: &[u8]) -> Result<(), String> {
+        let mut found = [0.0; 6];
+        let mut count = 0;
+        for word in words(rest).take(7) {
+            if count < 6 {
+                found[count] = number(word)?;
+            }
+            count += 1;
+        }
+        let [x, y, z, r, g, b] = found;
+        if count < 3 {
+            return Err("is a position with fewer than three numbers".to_owned());
+        }
+        if count == 6 && self.colors.len() == self.positions.len() {
+            let linear = [r, g, b].map(|x| srgb_to_linear(f64::from(x).clamp(0.0, 1.0)) as f32);
+            self.colors.push([linear[0], linear[1], linear[2], 1.0]);
+        }
+        self.positions.push([x, y, z]);
+        Ok(())
+    }
+
+    fn add_face(&mut self, rest: &[u8]) -> Result<(), String> {
+        let before = self.corners.len();
+        let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
+        for word in words(rest) {
+            self.corners.push(corner(word, counts)?);
+        }
+        let size = self.corners.len() - before;
+        if size < 3 {
+            self.corners.truncate(before);
+            self.lines_and_points += 1;
+            return Ok(());
+        }
+        self.sizes.push(size as u32);
+        self.materials.push(self.material);
+        self.smoothing.push(self.group);
+        Ok(())
+    }
+
+    /// Ends the current object or group.
+    fn end_run(&mut self) {
+        let end = (self.corners.len(), self.sizes.len());
+        if end.1 > self.start.1 {
+            let [corners, faces] = [self.start.0..end.0, self.start.1..end.1];
+            self.runs.push(Run { name: self.name.clone(), kind: self.kind, corners, faces });
+        }
+        self.start = end;
+    }
 }
 
-/// A sentence if there are faces that no triangles cover without folds.
-fn folded_warning(faces: usize) -> Option<String> {
-    let faces = match faces {
-        0 => return None,
-        1 => "1 face crosses itself or is too large to cut, and its".to_owned(),
-        count => format!("{count} faces cross themselves or are too large to cut, and their"),
-    };
-    Some(format!("{faces} triangles overlap; split such faces in a modelling program"))
+/// The numbers at the start of a statement; those after the first `least` may be missing, and are 0.
+fn numbers<const N: usize>(rest: &[u8], least: usize) -> Result<[f32; N], String> {
+    let mut found = [0.0; N];
+    let mut count = 0;
+    for (slot, word) in found.iter_mut().zip(words(rest)) {
+        *slot = number(word)?;
+        count += 1;
+    }
+    if count < least { Err(format!("has fewer than {least} numbers")) } else { Ok(found) }
 }
 
-/// One sentence per attribute that some meshes have at some of their corners only, and therefore lose.
-fn incomplete_attributes(models: &[Model]) -> impl Iterator<Item = String> {
-    let is_incomplete = |mesh: &Mesh, numbers: &[f32], components: usize| {
-        !numbers.is_empty() && numbers.len() / components < mesh.positions.len() / 3
+fn number(word: &[u8]) -> Result<f32, String> {
+    let text = str::from_utf8(word).ok();
+    text.and_then(|text| text.parse().ok()).ok_or_else(|| {
+        format!("has {:?}, which is no number", crate::error::shortened(&String::from_utf8_lossy(word)))
+    })
+}
+
+/// The indices of a corner, such as `1/2/3`, `1//3` or `-1`. `counts`: the positions, UVs and normals before the face.
+fn corner(word: &[u8], counts: [usize; 3]) -> Result<Corner, String> {
+    let wrong = || {
+        format!(
+            "has {:?}, which is no corner of a face",
+            crate::error::shortened(&String::from_utf8_lossy(word))
+        )
     };
-    let meshes = || models.iter().map(|model| &model.mesh);
-    let uvs = meshes().filter(|mesh| is_incomplete(mesh, &mesh.texcoords, 2)).count();
-    let normals = meshes().filter(|mesh| is_incomplete(mesh, &mesh.normals, 3)).count();
-    [(uvs, "UVs"), (normals, "normals")].into_iter().filter(|(meshes, _)| *meshes > 0).map(
-        |(meshes, attribute)| {
-            let meshes = if meshes == 1 { "1 mesh has".to_owned() } else { format!("{meshes} meshes have") };
-            format!("{meshes} {attribute} at some corners only; they are left out")
-        },
-    )
+    let mut corner = Corner::default();
+    for (kind, index) in word.split(|&byte| byte == b'/').enumerate() {
+        if kind == 3 {
+            return Err(wrong());
+        }
+        if index.is_empty() && kind > 0 {
+            continue;
+        }
+        let index: i64 = str::from_utf8(index).ok().and_then(|index| index.parse().ok()).ok_or_else(wrong)?;
+        let absolute = if index < 0 { counts[kind] as i64 + index } else { index - 1 };
+        corner[kind] = u32::try_from(absolute).map_err(|_| wrong())?;
+    }
+    Ok(corner)
 }

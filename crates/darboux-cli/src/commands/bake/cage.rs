@@ -5,7 +5,7 @@ use darboux_io::gltf::Document;
 use serde::Serialize;
 
 use super::arguments::BakeArguments;
-use crate::documents::load_with_obj;
+use crate::documents::load_with_warnings;
 
 /// How rays are chosen. In the models' unit.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -67,7 +67,7 @@ impl Cages {
         match (rays, &arguments.cage) {
             (Rays::Normals { .. }, _) => Ok(Self(Vec::new())),
             (Rays::CageFile { .. }, Some(path)) => {
-                let document = load_with_obj(path, &arguments.reading, &mut Vec::new())?;
+                let document = load_with_warnings(path, &arguments.reading, &mut Vec::new())?;
                 of_document(&document, low).map(Self)
             }
             _ => {

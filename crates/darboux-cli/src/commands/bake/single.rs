@@ -21,7 +21,7 @@ use super::pictures;
 use super::report::{BakeReport, advice, summary};
 use super::verified::{PROGRESS_UNITS, Verified};
 use super::write::{commit, stage_maps};
-use crate::documents::load_with_obj;
+use crate::documents::load_with_warnings;
 use crate::json::{VERSION, print_report};
 use crate::memory;
 use crate::terminal::Messages;
@@ -147,7 +147,7 @@ impl Documents {
         let low = open_low(arguments, warnings)?;
         let mut highs = Vec::new();
         for path in &arguments.high {
-            highs.push(load_with_obj(path, &arguments.reading, warnings)?);
+            highs.push(load_with_warnings(path, &arguments.reading, warnings)?);
         }
         refuse_used(arguments, highs.iter().chain([&low]))?;
         Ok(Self { low, highs })

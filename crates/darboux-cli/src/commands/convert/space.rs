@@ -6,7 +6,7 @@ use darboux_io::image::{PngImage, normal_vectors, set_normal_vectors};
 
 use super::arguments::{ConvertArguments, SpaceChoice};
 use super::{SpaceSummary, space_name};
-use crate::documents::load_with_obj;
+use crate::documents::load_with_warnings;
 
 impl ConvertArguments {
     /// Converts the vectors of an image to a space, with the frames of `--model`. Errors are one sentence each.
@@ -18,7 +18,7 @@ impl ConvertArguments {
     ) -> Result<SpaceSummary, String> {
         let sentence = |error: darboux_io::Error| error.to_string();
         let path = self.model.as_ref().ok_or("--space needs --model")?;
-        let document = load_with_obj(path, &self.files.reading, warnings)?;
+        let document = load_with_warnings(path, &self.files.reading, warnings)?;
         let corners = document.corners().map_err(sentence)?;
         let options = LowModelOptions::default().with_uv_set(self.uv_set);
         let low = LowModel::read(&document, &corners, &options).map_err(sentence)?;

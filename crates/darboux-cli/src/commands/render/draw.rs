@@ -197,15 +197,8 @@ struct LoadedModel {
 /// Reads the model with the tangents of a source. Triangles without normals get flat ones, as the glTF specification asks of renderers.
 fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<LoadedModel, String> {
     let sentence = |error: darboux_io::Error| error.to_string();
-    let is_obj = arguments.model.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
-    let (mut document, warnings) = match is_obj {
-        true => {
-            let model = darboux_io::obj::read(&arguments.model, &arguments.reading.load_options())
-                .map_err(sentence)?;
-            (model.document, model.warnings)
-        }
-        false => (load(&Input::File(arguments.model.clone()), &arguments.reading)?, Vec::new()),
-    };
+    let mut document = load(&Input::File(arguments.model.clone()), &arguments.reading)?;
+    let warnings = document.warnings().to_vec();
     let flat = NormalOptions::new().with_shading(Shading::Flat);
     let flat = AddNormalsOptions::default().with_normals(flat);
     add_normals(&mut document, &flat, &mut |_| {}).map_err(sentence)?;

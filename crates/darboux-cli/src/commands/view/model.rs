@@ -4,10 +4,9 @@ use std::fs::OpenOptions;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use darboux_io::LoadOptions;
 use darboux_io::gltf::{Document, inspect};
 use darboux_io::obj::{Companion, companions};
-use darboux_io::{resolve_input, system_reason};
+use darboux_io::{FileKind, LoadOptions, resolve_input, system_reason};
 
 use crate::regular_file::{Links, open_regular};
 
@@ -19,6 +18,7 @@ pub struct ServedModel {
 }
 
 enum ModelKind {
+    /// A glTF file, or what becomes one.
     Gltf,
     /// An OBJ with the material libraries and textures that it refers to.
     Obj(Vec<Companion>),
@@ -28,17 +28,11 @@ impl ServedModel {
     /// Reads the model once, so that a broken file is reported before the server starts. Errors: the file cannot be read, has another format or
     /// is broken.
     pub fn find(path: &Path, options: LoadOptions) -> Result<Self, String> {
-        let shown = path.display();
         resolve_input(path).map_err(|error| error.to_string())?;
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         let kind = match extension.to_str() {
-            Some("gltf" | "glb" | "vrm") => ModelKind::Gltf,
             Some("obj") => ModelKind::Obj(companions(path).map_err(|error| error.to_string())?),
-            _ => {
-                return Err(format!(
-                    "{shown}: the viewer cannot show this format; use a .gltf, .glb, .vrm or .obj file"
-                ));
-            }
+            _ => ModelKind::Gltf,
         };
         let model = Self { path: path.to_owned(), kind, options };
         if let ModelKind::Gltf = model.kind {
@@ -49,7 +43,11 @@ impl ServedModel {
 
     /// The names of the files that are sent: the model, then the companions of an OBJ.
     pub fn names(&self) -> Vec<String> {
-        let name = self.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let keeps_name = matches!(self.kind, ModelKind::Obj(_))
+            || FileKind::of(&self.path).is_some_and(FileKind::is_model);
+        // What becomes a GLB is called so, for the page goes by the name.
+        let path = if keeps_name { self.path.clone() } else { self.path.with_extension("glb") };
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let companions = match &self.kind {
             ModelKind::Gltf => &[][..],
             ModelKind::Obj(companions) => companions,

@@ -3,15 +3,16 @@
 use std::borrow::Cow;
 use std::{fmt, mem};
 
-use darboux::{Context, Mesh, Plan, Report, TangentOptions, Tangents, write_tangents};
+use darboux::{Context, Faces, Mesh, Plan, Report, TangentOptions, Tangents, write_tangents};
 
 use super::corner_memory::CornerMemory;
 use super::encoding::TangentEncoding;
 use super::groups::{Group, Job};
 use super::options::AddTangentsOptions;
 use crate::Error;
+use crate::gltf::primitives::quads::QuadFaces;
 use crate::gltf::primitives::triangles::TriangleMode;
-use crate::gltf::{Document, IndexList};
+use crate::gltf::{Document, IndexList, PrimitiveName};
 
 /// One vector per vertex.
 type Vectors<'a> = Cow<'a, [[f32; 3]]>;
@@ -49,7 +50,7 @@ impl<'a> Vertices<'a> {
         (mem::replace(&mut self.positions, positions), mem::replace(&mut self.normals, normals))
     }
 
-    /// The mesh of a job. Its texture transform is applied to the vertices that it uses only, so that many jobs over a large buffer take
+    /// The mesh of a job, of `quads` where its triangles were cut from these. Its texture transform is applied to the vertices that it uses only, so that many jobs over a large buffer take
     /// linear time.
     pub fn mesh<'m>(
         &'m mut self,
@@ -57,6 +58,7 @@ impl<'a> Vertices<'a> {
         at: &str,
         job: &Job,
         corners: &'m IndexList<'_>,
+        quads: Option<&'m QuadFaces>,
     ) -> Result<Mesh<'m>, Error> {
         if let Some(stored) = &self.stored_uvs {
             let uvs = self.uvs.to_mut();
@@ -65,8 +67,14 @@ impl<'a> Vertices<'a> {
                 uvs[corner as usize] = job.transform.map_or(stored, |transform| transform.apply(stored));
             }
         }
-        Mesh::triangles(&*self.positions, &*self.normals, &*self.uvs, corners.as_indices())
-            .map_err(|error| document.mesh_error(at, error))
+        let (positions, normals, uvs) = (&*self.positions, &*self.normals, &*self.uvs);
+        let mesh = match quads {
+            None => Mesh::triangles(positions, normals, uvs, corners.as_indices()),
+            Some(QuadFaces { vertices, sizes, .. }) => {
+                Mesh::with_faces(positions, normals, uvs, vertices, Faces::Mixed(sizes))
+            }
+        };
+        mesh.map_err(|error| document.mesh_error(at, error))
     }
 }
 
@@ -82,6 +90,8 @@ pub struct JobResult<'a> {
     pub report: Report,
     /// The plan that evaluates morph targets, if there are any.
     pub plan: Option<Plan>,
+    /// The faces that the triangles were cut from, where some are quads; the plan is over these.
+    pub quads: Option<QuadFaces>,
 }
 
 /// What computes the tangents of meshes without morph targets.
@@ -126,12 +136,12 @@ impl Generate<'_> {
     }
 }
 
-/// Computes a job. `at` is the JSON path of its first primitive. With `morphs`, the result has a plan for morph targets.
+/// Computes a job. `name` is that of its first primitive. With `morphs`, the result has a plan for morph targets.
 ///
 /// Errors: indices out of range, attributes of different lengths; with [`AddTangentsOptions::strict`], unusable data.
 pub fn compute_job<'a>(
     document: &'a Document,
-    at: &str,
+    name: &PrimitiveName,
     vertices: &mut Vertices<'_>,
     job: &Job,
     morphs: bool,
@@ -144,7 +154,10 @@ pub fn compute_job<'a>(
         TriangleMode::Triangles => corners,
         other => IndexList::U32(other.corners(corners.into_u32()).into()),
     };
-    let mesh = vertices.mesh(document, at, job, &corners)?;
+    let at = &*name.path();
+    // Given tangents are those of triangles.
+    let quads = if job.given.is_none() { QuadFaces::of(document, name, &corners) } else { None };
+    let mesh = vertices.mesh(document, at, job, &corners, quads.as_ref())?;
     let (mut tangents, report, plan) = if morphs {
         let plan = Plan::new_with(&mesh, &options.tangents, context)
             .map_err(|error| document.mesh_error(at, error))?;
@@ -155,13 +168,16 @@ pub fn compute_job<'a>(
         let (tangents, report) = tangents.map_err(|sentence| document.invalid(at, sentence))?;
         (tangents, report, None)
     };
+    if let Some(quads) = &quads {
+        tangents = CornerMemory::Vector(quads.of_triangles(&tangents));
+    }
     if options.strict {
         refuse_unusable(document, at, &report)?;
     }
     if options.encoding != TangentEncoding::F32x4 {
         tangents.iter_mut().for_each(|tangent| *tangent = options.encoding.rounded(*tangent));
     }
-    Ok(JobResult { corners, rest, tangents, report, plan })
+    Ok(JobResult { corners, rest, tangents, report, plan, quads })
 }
 
 fn indices<'a>(document: &'a Document, job: &Job, vertex_count: usize) -> Result<IndexList<'a>, Error> {

@@ -75,16 +75,16 @@ impl GroupComputation<'_> {
         let moved: HashSet<_> = morphs.iter().flat_map(|morph| &morph.jobs).copied().collect();
         let mut results = Vec::with_capacity(group.jobs.len());
         for (index, job) in group.jobs.iter().enumerate() {
-            let (at, moves) = (self.name(job).path(), moved.contains(&index));
+            let (name, moves) = (self.name(job), moved.contains(&index));
             let result = if job.given.is_none() {
                 let by = (&mut *generate, &mut *context);
-                compute::compute_job(self.document, &at, vertices, job, moves, self.options, by)
+                compute::compute_job(self.document, name, vertices, job, moves, self.options, by)
             } else {
                 let mut give = |mesh: &Mesh<'_>, _: &TangentOptions, _: &mut Context| {
                     self.given.tangents(job.given, mesh.corner_count())
                 };
                 let by = (&mut Generate::With(&mut give), &mut *context);
-                compute::compute_job(self.document, &at, vertices, job, moves, self.options, by)
+                compute::compute_job(self.document, name, vertices, job, moves, self.options, by)
             };
             results.push(result?);
             on_job(job.triangle_count);

@@ -131,12 +131,15 @@ pub fn offsets(
     let mut stale_corners = Vec::with_capacity(morph.jobs.len());
     for &job in &morph.jobs {
         let result = &results[job];
-        let mesh = vertices.mesh(document, &morph.at, &group.jobs[job], &result.corners)?;
+        let quads = result.quads.as_ref();
+        let mesh = vertices.mesh(document, &morph.at, &group.jobs[job], &result.corners, quads)?;
         let plan = result.plan.as_ref().expect("jobs with morph targets have a plan");
         let in_document = |error| document.mesh_error(&morph.at, error);
         let evaluated = plan.evaluate_with(&mesh, context).map_err(in_document)?;
         let regrouped = plan.count_regrouped_with(&mesh, context).map_err(in_document)?;
-        let tangents = evaluated.per_corner().iter().zip(result.tangents.iter());
+        let of_triangles = quads.map(|quads| quads.of_triangles(evaluated.per_corner()));
+        let evaluated = of_triangles.as_deref().unwrap_or(evaluated.per_corner());
+        let tangents = evaluated.iter().zip(result.tangents.iter());
         let corners = split.vertices(job, result).zip(tangents);
         let conflicting = corners.filter(|&(vertex, (moved, base))| !field.set(vertex, moved, base)).count();
         stale_corners.push(StaleCorners { regrouped, conflicting });

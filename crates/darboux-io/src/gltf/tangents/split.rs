@@ -37,7 +37,7 @@ pub fn split(
     let mut splitter = Splitter::new(vertices.positions.len());
     let mut corners = Vec::with_capacity(results.len());
     for (job, result) in group.jobs.iter().zip(results) {
-        let mesh = vertices.mesh(document, at, job, &result.corners)?;
+        let mesh = vertices.mesh(document, at, job, &result.corners, None)?;
         let added = splitter.add_or_keep(&mesh, CornerTangentsRef::from_per_corner(&result.tangents));
         corners.push(added.map_err(|error| document.mesh_error(at, error))?);
     }

@@ -1,89 +1,20 @@
-//! Cuts the faces of an OBJ into triangles.
+//! Cuts faces into ears (G. H. Meisters, "Polygons Have Ears", 1975).
 //!
-//! ```text
-//! plane   1  the axis along which the face looks largest, by its normal (M. E. Newell: the sum of the edges' areas per plane)
-//! fan     2  from the first corner; used where all its triangles face as the face does, as in convex faces
-//! ears    3  else ears are cut off (G. H. Meisters, "Polygons Have Ears", 1975), and used if fewer triangles are folded or empty
-//! ```
-//!
+//! The face is seen along the axis along which it looks largest, by its normal (M. E. Newell: the sum of the edges' areas per plane).
 //! Coordinates are compared without the one along the axis, not rotated: products of 32-bit numbers are then nearly exact in 64 bits. Whether a
 //! corner lies in an ear is asked of a tree of the corners ([`corner_tree`](super::corner_tree)), not of every corner.
 
-use tobj::{LoadError, Model};
-
+use super::Triangle;
 use super::corner_tree::{CornerTree, area};
 
-/// The most steps that the ears of one file may take: tries of a corner, and nodes of the tree that a try visits. A face of ordinary shape takes
-/// about a hundred per corner.
-const MAX_STEPS: u64 = 1 << 26;
-
-type Triangle = [usize; 3];
-
-/// Replaces the faces of all models by triangles. Returns the number of faces that are left with folded triangles, because they cross themselves.
-///
-/// Errors: a face without corners.
-pub fn triangulate(models: &mut [Model]) -> Result<usize, LoadError> {
-    let (mut folded, mut steps) = (0, MAX_STEPS);
-    for mesh in models.iter_mut().map(|model| &mut model.mesh) {
-        if mesh.face_arities.is_empty() {
-            continue;
-        }
-        let mut triangles = Vec::with_capacity(mesh.indices.len());
-        let mut rest = &mesh.indices[..];
-        for arity in std::mem::take(&mut mesh.face_arities) {
-            let (corners, after) = rest.split_at(arity as usize);
-            rest = after;
-            let cut = match corners {
-                [] => return Err(LoadError::InvalidPolygon),
-                [_, _, _] => fan(3).collect(),
-                _ => {
-                    let positions: Vec<[f64; 3]> =
-                        corners.iter().map(|&v| position(&mesh.positions, v)).collect();
-                    let cut = cut(&positions, &mut steps);
-                    folded += usize::from(cut.is_folded);
-                    cut.triangles
-                }
-            };
-            triangles.extend(cut.into_iter().flatten().map(|corner| corners[corner]));
-        }
-        mesh.indices = triangles;
-    }
-    Ok(folded)
-}
-
-fn position(positions: &[f32], vertex: u32) -> [f64; 3] {
-    [0, 1, 2].map(|i| f64::from(positions[3 * vertex as usize + i]))
-}
-
-/// The triangles of a face, as numbers of its corners.
-struct Cut {
-    triangles: Vec<Triangle>,
-    /// Whether a triangle faces the other way than the face.
-    is_folded: bool,
-}
-
-fn cut(positions: &[[f64; 3]], steps: &mut u64) -> Cut {
-    let fan: Vec<Triangle> = fan(positions.len()).collect();
-    let Some(polygon) = Polygon::of(positions) else { return Cut { triangles: fan, is_folded: false } };
-    let faults = polygon.faults(&fan);
-    let ears = if faults > 0 { polygon.ears(steps) } else { None };
-    let triangles = ears.filter(|ears| polygon.faults(ears) < faults).unwrap_or(fan);
-    let is_folded = triangles.iter().any(|&triangle| polygon.area(triangle) < 0.0);
-    Cut { triangles, is_folded }
-}
-
-fn fan(corners: usize) -> impl Iterator<Item = Triangle> {
-    (2..corners).map(|corner| [0, corner - 1, corner])
-}
-
 /// A face as seen along an axis, counter-clockwise.
-struct Polygon {
+pub struct Polygon {
     corners: Vec<[f64; 2]>,
 }
 
 impl Polygon {
     /// None: the face has no area, or coordinates that are not finite.
-    fn of(positions: &[[f64; 3]]) -> Option<Self> {
+    pub fn of(positions: &[[f64; 3]]) -> Option<Self> {
         let normal = newell_normal(positions);
         let axis = (0..3).max_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()))?;
         if normal[axis] == 0.0 || !normal.iter().all(|x| x.is_finite()) {
@@ -100,14 +31,26 @@ impl Polygon {
     }
 
     /// The number of triangles that are folded or empty.
-    fn faults(&self, triangles: &[Triangle]) -> usize {
+    pub fn faults(&self, triangles: &[Triangle]) -> usize {
         triangles.iter().filter(|&&triangle| self.area(triangle) <= 0.0).count()
+    }
+
+    /// Whether a triangle faces the other way than the face.
+    pub fn is_folded(&self, triangles: &[Triangle]) -> bool {
+        triangles.iter().any(|&triangle| self.area(triangle) < 0.0)
+    }
+
+    /// The fan if all its triangles face as the face does, as in convex faces; else ears, if fewer of them are folded or empty.
+    pub fn cut(&self, fan: Vec<Triangle>, steps: &mut u64) -> Vec<Triangle> {
+        let faults = self.faults(&fan);
+        let ears = if faults > 0 { self.ears(steps) } else { None };
+        ears.filter(|ears| self.faults(ears) < faults).unwrap_or(fan)
     }
 
     /// Cuts off ears: triangles of neighbours that contain no other corner. Corners on a straight line are kept for other ears while there are any.
     ///
     /// None: no ear is left, because the face crosses itself, or the steps are used up.
-    fn ears(&self, steps: &mut u64) -> Option<Vec<Triangle>> {
+    pub fn ears(&self, steps: &mut u64) -> Option<Vec<Triangle>> {
         let count = self.corners.len();
         let mut ring = Ring::new(count);
         let mut tree = CornerTree::new(&self.corners);
@@ -190,7 +133,25 @@ impl Ring {
 
 #[cfg(test)]
 mod tests {
+    use super::super::MAX_STEPS;
     use super::*;
+
+    /// The triangles of a face, as the rule `fan` makes them.
+    struct Cut {
+        triangles: Vec<Triangle>,
+        is_folded: bool,
+    }
+
+    fn fan(corners: usize) -> impl Iterator<Item = Triangle> {
+        (2..corners).map(|corner| [0, corner - 1, corner])
+    }
+
+    fn cut(positions: &[[f64; 3]], steps: &mut u64) -> Cut {
+        let fan: Vec<Triangle> = fan(positions.len()).collect();
+        let Some(polygon) = Polygon::of(positions) else { return Cut { triangles: fan, is_folded: false } };
+        let triangles = polygon.cut(fan, steps);
+        Cut { is_folded: polygon.is_folded(&triangles), triangles }
+    }
 
     fn flat(corners: &[[f64; 2]]) -> Vec<[f64; 3]> {
         corners.iter().map(|&[x, y]| [x, y, 0.0]).collect()

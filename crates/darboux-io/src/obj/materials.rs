@@ -1,0 +1,233 @@
+//! The materials of an OBJ: loads the libraries that it names, and finds their textures.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::path::PathBuf;
+
+use super::mtl::{self, MtlMap, MtlMaterial};
+use super::statements::words;
+use crate::error::shortened;
+use crate::image::{DecodeLimits, RgbaImage, srgb_to_linear};
+use crate::source::{
+    FoundFile, ModelFiles, NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture,
+};
+
+/// Paths of more bytes are not looked up.
+const LONGEST_PATH: usize = 4096;
+
+/// The libraries that an OBJ names, loaded while their names are met. Each library is loaded once.
+pub struct Materials<'a> {
+    files: &'a ModelFiles,
+    loaded: HashSet<PathBuf>,
+    lines: HashSet<Vec<u8>>,
+    index_of_name: HashMap<Vec<u8>, u32>,
+    materials: Vec<SourceMaterial>,
+    images: Vec<SourceImage>,
+    image_of_file: HashMap<PathBuf, Option<usize>>,
+    image_of_statement: HashMap<(String, String), Option<usize>>,
+    unknown: HashSet<Vec<u8>>,
+    /// The materials that lose a statement, by the statement.
+    lost: BTreeMap<String, usize>,
+    warnings: Vec<String>,
+}
+
+impl<'a> Materials<'a> {
+    pub fn new(files: &'a ModelFiles) -> Self {
+        Self {
+            files,
+            loaded: HashSet::new(),
+            lines: HashSet::new(),
+            index_of_name: HashMap::new(),
+            materials: Vec::new(),
+            images: Vec::new(),
+            image_of_file: HashMap::new(),
+            image_of_statement: HashMap::new(),
+            unknown: HashSet::new(),
+            lost: BTreeMap::new(),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// The material of a `usemtl` statement; none for a name that no library has.
+    pub fn index(&mut self, name: &[u8]) -> Option<u32> {
+        let index = self.index_of_name.get(name).copied();
+        if index.is_none() && !name.is_empty() && !self.unknown.contains(name) {
+            self.unknown.insert(name.to_owned());
+        }
+        index
+    }
+
+    /// Loads the libraries of a `mtllib` statement: one whose name may contain spaces, or several.
+    pub fn load(&mut self, line: &[u8]) {
+        if line.len() > LONGEST_PATH || !self.lines.insert(line.to_owned()) {
+            return;
+        }
+        let text = String::from_utf8_lossy(line);
+        let found = match self.files.find("", &text) {
+            Some(library) => vec![(text.into_owned(), library)],
+            None => {
+                let names = words(line).map(|word| String::from_utf8_lossy(word).into_owned());
+                names.filter_map(|name| Some((name.clone(), self.files.find("", &name)?))).collect()
+            }
+        };
+        if found.is_empty() {
+            let problem = self.files.problem(&String::from_utf8_lossy(line));
+            self.warnings.push(format!("{problem}; its materials are left out"));
+        }
+        for (reference, library) in found {
+            if !self.loaded.insert(library.path.clone()) {
+                continue;
+            }
+            self.warnings.extend(ModelFiles::by_name_warning(&reference, &library));
+            match self.files.read(&library) {
+                Ok(text) => {
+                    mtl::parse(&text).into_iter().for_each(|material| self.add(&library.name, &material))
+                }
+                Err(error) => self
+                    .warnings
+                    .push(format!("{}: cannot be read: {error}; its materials are left out", library.name)),
+            }
+        }
+    }
+
+    fn add(&mut self, library: &str, material: &MtlMaterial) {
+        let made = self.material(library, material);
+        self.index_of_name.insert(material.name.clone().into_bytes(), self.materials.len() as u32);
+        self.materials.push(made);
+    }
+
+    fn material(&mut self, library: &str, material: &MtlMaterial) -> SourceMaterial {
+        let linear = |color: [f32; 3]| color.map(|x| srgb_to_linear(finite(x)) as f32);
+        let [r, g, b] = linear(material.diffuse.unwrap_or([1.0; 3]));
+        let alpha = material.opacity.filter(|opacity| *opacity > 0.0 && *opacity < 1.0);
+        for statement in &material.other_maps {
+            *self.lost.entry(statement.clone()).or_default() += 1;
+        }
+        let is_packed = material.roughness_map.is_some() && material.roughness_map == material.metallic_map;
+        for (statement, map) in [("map_Pr", &material.roughness_map), ("map_Pm", &material.metallic_map)] {
+            if map.is_some() && !is_packed {
+                *self.lost.entry(statement.to_owned()).or_default() += 1;
+            }
+        }
+        let packed = material.roughness_map.as_ref().filter(|_| is_packed);
+        SourceMaterial {
+            name: material.name.clone(),
+            base_color: Some([r, g, b, alpha.unwrap_or(1.0)]),
+            base_color_texture: self.texture(library, material.diffuse_map.as_ref()),
+            metallic: Some(material.metallic.unwrap_or(if is_packed { 1.0 } else { 0.0 })),
+            roughness: material.roughness.or_else(|| material.shininess.map(roughness)),
+            metallic_roughness_texture: self.texture(library, packed),
+            normal_map: self.normal_map(library, material),
+            emissive: material.emissive.map(linear).filter(|color| *color != [0.0; 3]),
+            emissive_texture: self.texture(library, material.emissive_map.as_ref()),
+            is_transparent: alpha.is_some(),
+            ..SourceMaterial::default()
+        }
+    }
+
+    /// The map of `norm`, or of the bump statements, unless its texels are grey, as those of height maps are.
+    fn normal_map(&mut self, library: &str, material: &MtlMaterial) -> Option<NormalMap> {
+        if let Some(map) = &material.normal_map {
+            let texture = self.texture(library, Some(map))?;
+            return Some(NormalMap { texture, scale: map.multiplier, green: None });
+        }
+        let map = material.bump_map.as_ref()?;
+        let texture = self.texture(library, Some(map))?;
+        let image = RgbaImage::decode(&self.images[texture.image].bytes, &DecodeLimits::default()).ok();
+        if image.is_some_and(|image| !image.is_colored()) {
+            self.warnings.push(format!(
+                "the bump map of {} is grey, so it holds heights and is left out; normal maps are coloured",
+                material.name
+            ));
+            return None;
+        }
+        Some(NormalMap { texture, scale: map.multiplier, green: None })
+    }
+
+    fn texture(&mut self, library: &str, map: Option<&MtlMap>) -> Option<SourceTexture> {
+        let map = map?;
+        if map.has_options {
+            *self.lost.entry("options of textures".to_owned()).or_default() += 1;
+        }
+        let key = (library.to_owned(), map.statement.clone());
+        let image = match self.image_of_statement.get(&key) {
+            Some(image) => *image,
+            None => {
+                let image = self.find_image(library, map);
+                self.image_of_statement.insert(key, image);
+                image
+            }
+        };
+        Some(SourceTexture { image: image?, ..SourceTexture::default() })
+    }
+
+    /// The image of a statement. Its options may be unknown, and its name may contain spaces, so the longest end of the line that names a file is taken.
+    fn find_image(&mut self, library: &str, map: &MtlMap) -> Option<usize> {
+        let found = self.files.find(library, &map.file).map(|file| (&*map.file, file)).or_else(|| {
+            let line = &*map.statement;
+            let starts = line
+                .char_indices()
+                .filter(|&(i, c)| i > 0 && !c.is_whitespace() && line[..i].ends_with(char::is_whitespace));
+            let mut ends = starts.filter(|(i, _)| line.len() - i <= LONGEST_PATH).map(|(i, _)| &line[i..]);
+            ends.find_map(|end| Some((end, self.files.find(library, end)?)))
+        });
+        let Some((reference, file)) = found else {
+            let problem = self.files.problem(&map.file);
+            self.warnings.push(format!("{library}: {problem}; the texture is left out"));
+            return None;
+        };
+        self.warnings.extend(ModelFiles::by_name_warning(reference, &file));
+        self.image(file)
+    }
+
+    fn image(&mut self, file: FoundFile) -> Option<usize> {
+        if let Some(&image) = self.image_of_file.get(&file.path) {
+            return image;
+        }
+        let image = match self.files.read(&file) {
+            Ok(bytes) => {
+                self.images.push(SourceImage { name: file.name, bytes });
+                Some(self.images.len() - 1)
+            }
+            Err(error) => {
+                self.warnings
+                    .push(format!("{}: cannot be read: {error}; the texture is left out", file.name));
+                None
+            }
+        };
+        self.image_of_file.insert(file.path, image);
+        image
+    }
+
+    /// Moves everything into a scene.
+    pub fn finish(self, scene: &mut SourceScene) {
+        scene.warnings.extend(self.warnings);
+        if !self.materials.is_empty() {
+            let mut unknown: Vec<String> =
+                self.unknown.iter().map(|name| shortened(&String::from_utf8_lossy(name))).collect();
+            unknown.sort_unstable();
+            unknown.truncate(5);
+            if !unknown.is_empty() {
+                let names = unknown.join(", ");
+                scene.warnings.push(format!("no library has the material {names}; its faces have none"));
+            }
+        }
+        let lost = self.lost.into_iter().map(|(statement, materials)| {
+            let materials =
+                if materials == 1 { "1 material".to_owned() } else { format!("{materials} materials") };
+            format!("{statement} of {materials}")
+        });
+        scene.not_carried.extend(lost);
+        scene.materials = self.materials;
+        scene.images = self.images;
+    }
+}
+
+/// A channel from 0 to 1; numbers that are not finite count as 1.
+fn finite(channel: f32) -> f64 {
+    if channel.is_finite() { f64::from(channel.clamp(0.0, 1.0)) } else { 1.0 }
+}
+
+/// The roughness of a shininess, as Blender relates them.
+fn roughness(shininess: f32) -> f32 {
+    1.0 - (shininess.clamp(0.0, 1000.0) / 1000.0).sqrt()
+}

@@ -1,0 +1,128 @@
+//! Parses material libraries (MTL), with the metallic-roughness statements that Blender and other programs write.
+
+use super::statements::{statements, words};
+
+/// A material of a library.
+#[derive(Clone, Debug, Default)]
+pub struct MtlMaterial {
+    pub name: String,
+    /// `Kd` and `Ke`, in sRGB.
+    pub diffuse: Option<[f32; 3]>,
+    pub emissive: Option<[f32; 3]>,
+    /// `Ns`, from 0 to 1000.
+    pub shininess: Option<f32>,
+    /// `Pr` and `Pm`.
+    pub roughness: Option<f32>,
+    pub metallic: Option<f32>,
+    /// `d`, or 1 - `Tr`.
+    pub opacity: Option<f32>,
+    pub diffuse_map: Option<MtlMap>,
+    pub emissive_map: Option<MtlMap>,
+    pub roughness_map: Option<MtlMap>,
+    pub metallic_map: Option<MtlMap>,
+    /// `norm`.
+    pub normal_map: Option<MtlMap>,
+    /// The statements for heights, where many programs write normal maps.
+    pub bump_map: Option<MtlMap>,
+    /// Statements of textures that have no place in glTF.
+    pub other_maps: Vec<String>,
+}
+
+/// A texture of a material.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MtlMap {
+    /// The name of the file. It may contain spaces.
+    pub file: String,
+    /// The whole statement, whose options this crate may not know.
+    pub statement: String,
+    /// The option `-bm`.
+    pub multiplier: Option<f32>,
+    /// Whether an option has no place in glTF: it moves, scales or clamps the texture.
+    pub has_options: bool,
+}
+
+/// The materials of a library. Statements before the first `newmtl`, and unknown ones, are ignored.
+pub fn parse(text: &[u8]) -> Vec<MtlMaterial> {
+    let mut materials: Vec<MtlMaterial> = Vec::new();
+    for (_, statement, rest) in statements(text) {
+        if statement == b"newmtl" {
+            let name = String::from_utf8_lossy(rest).into_owned();
+            materials.push(MtlMaterial { name, ..MtlMaterial::default() });
+        } else if let Some(material) = materials.last_mut() {
+            material.add(statement, rest);
+        }
+    }
+    materials
+}
+
+impl MtlMaterial {
+    fn add(&mut self, statement: &[u8], rest: &[u8]) {
+        let lower = statement.to_ascii_lowercase();
+        match &lower[..] {
+            b"kd" => self.diffuse = color(rest),
+            b"ke" => self.emissive = color(rest),
+            b"ns" => self.shininess = number(rest),
+            b"pr" => self.roughness = number(rest),
+            b"pm" => self.metallic = number(rest),
+            b"d" => self.opacity = number(rest),
+            b"tr" => self.opacity = number(rest).map(|transparency| 1.0 - transparency),
+            b"map_kd" => self.diffuse_map = Some(map(rest)),
+            b"map_ke" => self.emissive_map = Some(map(rest)),
+            b"map_pr" => self.roughness_map = Some(map(rest)),
+            b"map_pm" => self.metallic_map = Some(map(rest)),
+            b"norm" | b"map_norm" | b"map_kn" => self.normal_map = Some(map(rest)),
+            b"bump" | b"map_bump" => self.bump_map = Some(map(rest)),
+            b"disp" | b"decal" | b"refl" => {
+                self.other_maps.push(String::from_utf8_lossy(statement).into_owned())
+            }
+            other if other.starts_with(b"map_") && other != b"map_aat" => {
+                self.other_maps.push(String::from_utf8_lossy(statement).into_owned());
+            }
+            _ => {}
+        }
+    }
+}
+
+fn number(rest: &[u8]) -> Option<f32> {
+    words(rest).filter_map(|word| str::from_utf8(word).ok()?.parse().ok()).next()
+}
+
+/// A colour of three numbers, or of one for all channels. None for `spectral` and `xyz`.
+fn color(rest: &[u8]) -> Option<[f32; 3]> {
+    let mut numbers = words(rest).map_while(|word| str::from_utf8(word).ok()?.parse::<f32>().ok());
+    let r = numbers.next()?;
+    let g = numbers.next().unwrap_or(r);
+    Some([r, g, numbers.next().unwrap_or(g)])
+}
+
+/// A texture: its options, and the name after them.
+fn map(rest: &[u8]) -> MtlMap {
+    let statement = String::from_utf8_lossy(rest).into_owned();
+    let mut found = MtlMap { file: statement.clone(), statement: statement.clone(), ..MtlMap::default() };
+    let mut left = statement.trim();
+    while left.starts_with('-') {
+        let (option, after) = left.split_once(char::is_whitespace).unwrap_or((left, ""));
+        let (least, most) = match option {
+            "-bm" | "-boost" | "-texres" | "-blendu" | "-blendv" | "-cc" | "-clamp" | "-imfchan"
+            | "-type" => (1, 1),
+            "-mm" => (2, 2),
+            "-o" | "-s" | "-t" => (1, 3),
+            _ => break,
+        };
+        left = after.trim_start();
+        for place in 0..most {
+            let (word, after) = left.split_once(char::is_whitespace).unwrap_or((left, ""));
+            let number = word.parse::<f32>().ok();
+            if place >= least && number.is_none() {
+                break;
+            }
+            if option == "-bm" {
+                found.multiplier = number;
+            }
+            left = after.trim_start();
+        }
+        found.has_options |= ["-mm", "-o", "-s", "-t", "-clamp", "-imfchan"].contains(&option);
+    }
+    found.file = left.to_owned();
+    found
+}

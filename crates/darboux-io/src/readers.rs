@@ -1,0 +1,44 @@
+//! Chooses the reader of a format by the content of a file, and turns its scene into a document.
+
+use crate::LoadOptions;
+use crate::error::ContentError;
+use crate::source::{self, Built, ModelFiles, SourceFormat, SourceScene};
+
+/// Reads a file of another format than glTF as a GLB. None: the file is glTF, or may be.
+///
+/// Errors: the file is broken; it is of a format without a reader, which the error names.
+pub fn read(bytes: &[u8], files: &ModelFiles, options: &LoadOptions) -> Option<Result<Built, ContentError>> {
+    let first = bytes.iter().find(|byte| !byte.is_ascii_whitespace());
+    if bytes.starts_with(b"glTF") || first == Some(&b'{') || bytes.starts_with(b"\xEF\xBB\xBF{") {
+        return None;
+    }
+    let Some(format) = source::detect(bytes) else {
+        return source::name_of_other(bytes).map(|problem| Err(ContentError::invalid("", problem)));
+    };
+    let scene = scene(format, bytes, files, options);
+    Some(scene.and_then(|scene| source::build(scene, bytes.len(), options)))
+}
+
+/// The scene of a file in a format.
+fn scene(
+    format: SourceFormat,
+    bytes: &[u8],
+    files: &ModelFiles,
+    options: &LoadOptions,
+) -> Result<SourceScene, ContentError> {
+    match format {
+        #[cfg(feature = "obj")]
+        SourceFormat::Obj => crate::obj::read(bytes, files, options),
+        #[cfg(feature = "ply")]
+        SourceFormat::Ply => crate::ply::read(bytes, files),
+        #[cfg(feature = "stl")]
+        SourceFormat::Stl => crate::stl::read(bytes),
+        #[allow(unreachable_patterns, reason = "with all readers, no format is left")]
+        other => {
+            _ = (files, options);
+            let problem =
+                format!("is {}, whose reader is not in this build; convert the file to .glb", other.name());
+            Err(ContentError::unsupported("", problem))
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Models of other formats: what their readers return, and the glTF document that it becomes.
+//!
+//! ```text
+//! format      which format a file has, by its content
+//! scene       what a reader returns: nodes, meshes of polygons, materials, skins, as the file has them
+//! files       the textures and libraries that a model refers to, under the rules of glTF
+//! polygons/   faces of more than three corners are cut
+//! vertices    corners with the same attributes become one vertex
+//! build/      the glTF, and its provenance
+//! provenance  where the parts of a document came from, and which triangles were quads
+//! ```
+//!
+//! Every reader is a function from bytes to a `SourceScene`; `readers.rs` chooses among them.
+
+mod build;
+mod files;
+mod format;
+mod polygons;
+mod provenance;
+pub(crate) mod scene;
+mod vertices;
+
+pub use format::SourceFormat;
+pub use polygons::PolygonRule;
+pub use provenance::{FaceCounts, PrimitiveSource, Provenance};
+
+pub(crate) use build::{Built, build};
+pub(crate) use files::{FileSource, FoundFile, ModelFiles};
+pub(crate) use format::{detect, name_of_other};
+pub(crate) use scene::{
+    CornerValues, FaceSizes, NormalMap, SourceImage, SourceMaterial, SourceMesh, SourceScene, SourceTexture,
+    SourceUvSet,
+};

@@ -1,0 +1,101 @@
+//! Builds a glTF document from a scene: its faces cut, its corners joined to vertices, everything else as JSON.
+//!
+//! ```text
+//! meshes      primitives by material: faces cut, vertices, accessors
+//! materials   materials, textures, images
+//! nodes       the hierarchy, with a root that turns axes and units; skins
+//! data        the binary chunk: buffer views and accessors
+//! ```
+
+mod data;
+mod materials;
+mod meshes;
+mod nodes;
+
+use serde_json::{Value, json};
+
+use super::polygons::Cutter;
+use super::provenance::Provenance;
+use super::scene::SourceScene;
+use crate::LoadOptions;
+use crate::error::ContentError;
+use crate::gltf::{container, segments};
+use data::DataBuilder;
+
+/// A scene as a GLB.
+#[derive(Debug)]
+pub struct Built {
+    pub glb: Vec<u8>,
+    pub provenance: Provenance,
+    /// What is wrong, and what was not carried over: one sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// Builds the document of a scene. `size`: the length of the file, for the memory limit.
+///
+/// Errors: a scene without faces; indices out of range; more primitives than the memory limit permits; more than the 4 GiB that a GLB can hold.
+pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Result<Built, ContentError> {
+    let mut warnings = std::mem::take(&mut scene.warnings);
+    let mut data = DataBuilder::default();
+    let mut cutter = Cutter::new(options.polygon_rule);
+    let limit = options.budget(size, 0);
+    let meshes = meshes::build(&scene, &mut cutter, &mut data, limit)?;
+    let materials = materials::build(&scene, &mut data, &mut warnings);
+    let nodes = nodes::build(&scene, &meshes.of_source, &mut data);
+    warnings.extend(meshes.warnings);
+    warnings.extend(folded_warning(cutter.folded));
+    warnings.extend(not_carried_warning(&scene));
+    let mut faces = meshes.faces;
+    (faces.outside_diagonals, faces.folded) = (cutter.outside_diagonals, cutter.folded);
+    let provenance = Provenance {
+        format: scene.format,
+        generator: scene.generator,
+        faces,
+        polygon_rule: options.polygon_rule,
+        not_carried: scene.not_carried,
+        primitives: meshes.sources,
+    };
+    let mut root = json!({
+        "asset": {"version": "2.0", "generator": concat!("darboux ", env!("CARGO_PKG_VERSION")), "extras": {"darboux_source": {
+            "format": provenance.format.name(),
+            "generator": provenance.generator,
+        }}},
+        "scene": 0,
+        "scenes": [{"nodes": nodes.roots}],
+        "nodes": nodes.nodes,
+        "meshes": meshes.json,
+    });
+    let lists = [
+        ("materials", materials.materials),
+        ("textures", materials.textures),
+        ("images", materials.images),
+        ("skins", nodes.skins),
+    ];
+    for (name, list) in lists {
+        if !list.is_empty() {
+            root[name] = list.into();
+        }
+    }
+    let extensions: Vec<Value> = materials.extensions.into_iter().map(Value::from).collect();
+    if !extensions.is_empty() {
+        root["extensionsUsed"] = extensions.into();
+    }
+    let bytes = data.finish(&mut root);
+    let chunk = vec![segments::Segment::Owned(bytes)];
+    let glb = container::glb(root.to_string().into_bytes(), Some(chunk), Vec::new())?;
+    Ok(Built { glb: segments::joined(&glb), provenance, warnings })
+}
+
+/// A sentence if there are faces that no triangles cover without folds.
+fn folded_warning(faces: usize) -> Option<String> {
+    let faces = match faces {
+        0 => return None,
+        1 => "1 face crosses itself or is too large to cut, and its".to_owned(),
+        count => format!("{count} faces cross themselves or are too large to cut, and their"),
+    };
+    Some(format!("{faces} triangles overlap; split such faces in a modelling program"))
+}
+
+fn not_carried_warning(scene: &SourceScene) -> Option<String> {
+    (!scene.not_carried.is_empty()).then(|| format!("not carried over: {}", scene.not_carried.join(", ")))
+}

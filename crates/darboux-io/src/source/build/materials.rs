@@ -1,0 +1,169 @@
+//! Materials, textures and images of a document.
+
+use std::collections::{BTreeSet, HashMap};
+
+use darboux::{BitangentDirection, Convention};
+use serde_json::{Value, json};
+
+use super::data::DataBuilder;
+use crate::LoadOptions;
+use crate::image::{Channels, PngImage, convert_normal_map};
+use crate::source::scene::{NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture};
+
+/// The lists of materials, textures and images, and the extensions that they use.
+#[derive(Debug, Default)]
+pub struct Materials {
+    pub materials: Vec<Value>,
+    pub textures: Vec<Value>,
+    pub images: Vec<Value>,
+    pub extensions: BTreeSet<&'static str>,
+}
+
+const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
+const WEBP: &str = "EXT_texture_webp";
+
+/// Builds all materials of a scene.
+pub fn build(scene: &SourceScene, data: &mut DataBuilder, warnings: &mut Vec<String>) -> Materials {
+    let texture_of_image = HashMap::new();
+    let mut builder =
+        MaterialBuilder { scene, data, warnings, built: Materials::default(), texture_of_image };
+    for material in &scene.materials {
+        let json = builder.material(material);
+        builder.built.materials.push(json);
+    }
+    builder.built
+}
+
+struct MaterialBuilder<'a> {
+    scene: &'a SourceScene,
+    data: &'a mut DataBuilder,
+    warnings: &'a mut Vec<String>,
+    built: Materials,
+    /// The texture of an image, as it is or with green inverted; none for images that glTF cannot hold.
+    texture_of_image: HashMap<(usize, bool), Option<usize>>,
+}
+
+impl MaterialBuilder<'_> {
+    fn material(&mut self, material: &SourceMaterial) -> Value {
+        let mut shading = json!({});
+        if let Some(color) = material.base_color {
+            shading["baseColorFactor"] = json!(color.map(unit));
+        }
+        if let Some(metallic) = material.metallic {
+            shading["metallicFactor"] = json!(unit(metallic));
+        }
+        if let Some(roughness) = material.roughness {
+            shading["roughnessFactor"] = json!(unit(roughness));
+        }
+        self.set(&mut shading, "baseColorTexture", material.base_color_texture.as_ref());
+        self.set(&mut shading, "metallicRoughnessTexture", material.metallic_roughness_texture.as_ref());
+        let mut json = json!({"name": material.name, "pbrMetallicRoughness": shading});
+        if let Some(map) = &material.normal_map {
+            self.set_normal_map(&mut json, map);
+        }
+        self.set(&mut json, "occlusionTexture", material.occlusion_texture.as_ref());
+        self.set(&mut json, "emissiveTexture", material.emissive_texture.as_ref());
+        if let Some(emissive) = material.emissive {
+            json["emissiveFactor"] = json!(emissive.map(unit));
+        }
+        if material.is_double_sided {
+            json["doubleSided"] = true.into();
+        }
+        if material.is_transparent {
+            json["alphaMode"] = "BLEND".into();
+        }
+        json
+    }
+
+    fn set(&mut self, json: &mut Value, key: &str, texture: Option<&SourceTexture>) {
+        if let Some(info) = texture.and_then(|texture| self.texture_info(texture, false)) {
+            json[key] = info;
+        }
+    }
+
+    fn set_normal_map(&mut self, json: &mut Value, map: &NormalMap) {
+        let is_inverted = map.green == Some(BitangentDirection::Down);
+        let Some(mut info) = self.texture_info(&map.texture, is_inverted) else { return };
+        if let Some(scale) = map.scale.filter(|&scale| scale.is_finite() && scale != 1.0) {
+            info["scale"] = json!(scale);
+        }
+        json["normalTexture"] = info;
+    }
+
+    fn texture_info(&mut self, texture: &SourceTexture, is_inverted: bool) -> Option<Value> {
+        let index = self.texture(texture.image, is_inverted)?;
+        let mut info = json!({"index": index});
+        if texture.uv_set > 0 {
+            info["texCoord"] = texture.uv_set.into();
+        }
+        if let Some((offset, rotation, scale)) = texture.transform {
+            let transform = json!({"offset": offset, "rotation": rotation, "scale": scale});
+            info["extensions"] = json!({TEXTURE_TRANSFORM: transform});
+            self.built.extensions.insert(TEXTURE_TRANSFORM);
+        }
+        Some(info)
+    }
+
+    fn texture(&mut self, image: usize, is_inverted: bool) -> Option<usize> {
+        if let Some(&texture) = self.texture_of_image.get(&(image, is_inverted)) {
+            return texture;
+        }
+        let made = self.scene.images.get(image).and_then(|source| self.add_texture(source, is_inverted));
+        self.texture_of_image.insert((image, is_inverted), made);
+        made
+    }
+
+    fn add_texture(&mut self, image: &SourceImage, is_inverted: bool) -> Option<usize> {
+        let Some(mime) = mime_type(&image.bytes) else {
+            let name = &image.name;
+            let problem =
+                "is neither PNG, JPEG nor WebP, which glTF needs; save it as PNG; the texture is left out";
+            self.warnings.push(format!("{name}: {problem}"));
+            return None;
+        };
+        let turned = if is_inverted { self.inverted(image) } else { None };
+        let view = self.data.view(turned.as_deref().unwrap_or(&image.bytes));
+        self.built.images.push(json!({"name": image.name, "mimeType": mime, "bufferView": view}));
+        let source = self.built.images.len() - 1;
+        self.built.textures.push(if mime == "image/webp" {
+            self.built.extensions.insert(WEBP);
+            json!({"extensions": {WEBP: {"source": source}}})
+        } else {
+            json!({"source": source})
+        });
+        Some(self.built.textures.len() - 1)
+    }
+
+    /// A normal map with green inverted; none, with a warning, where it cannot be.
+    fn inverted(&mut self, image: &SourceImage) -> Option<Vec<u8>> {
+        let down = Convention { bitangent: BitangentDirection::Down, ..Convention::GLTF };
+        let turned = PngImage::from_bytes(&image.name, image.bytes.clone(), &LoadOptions::default())
+            .and_then(|mut png| {
+                convert_normal_map(&mut png, &down.to(Convention::GLTF), Channels::RGB, Channels::RGB)?;
+                png.to_bytes()
+            });
+        let name = &image.name;
+        self.warnings.push(match &turned {
+            Ok(_) => {
+                format!("{name}: its green points down in the source; it was inverted, as glTF has it up")
+            }
+            Err(error) => format!("{error}; its green points down, and is not inverted: save the map as PNG"),
+        });
+        turned.ok()
+    }
+}
+
+/// A factor of glTF: from 0 to 1; numbers that are not finite count as 1.
+fn unit(x: f32) -> f32 {
+    if x.is_finite() { x.clamp(0.0, 1.0) } else { 1.0 }
+}
+
+/// The type of an image that glTF can hold.
+fn mime_type(bytes: &[u8]) -> Option<&'static str> {
+    match bytes {
+        [0x89, b'P', b'N', b'G', ..] => Some("image/png"),
+        [0xFF, 0xD8, 0xFF, ..] => Some("image/jpeg"),
+        [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => Some("image/webp"),
+        _ => None,
+    }
+}

@@ -1,0 +1,410 @@
+//! Meshes of a document: each mesh of polygons becomes one mesh with a primitive per material.
+
+use std::collections::HashMap;
+
+use darboux::UvOrigin;
+use serde_json::{Value, json};
+
+use super::data::DataBuilder;
+use crate::error::ContentError;
+use crate::memory_limit::Budget;
+use crate::source::polygons::{Cutter, Triangle};
+use crate::source::provenance::{FaceCounts, PrimitiveSource};
+use crate::source::scene::{CornerValues, FaceSizes, SourceMesh, SourceScene};
+use crate::source::vertices::{FoundVertices, Used, VertexFinder};
+
+/// The estimate for a primitive: its part of a mesh and a node, and up to four accessors and buffer views.
+const BYTES_PER_PRIMITIVE: usize = 16 << 10;
+
+/// The meshes of a document.
+#[derive(Debug, Default)]
+pub struct Meshes {
+    pub json: Vec<Value>,
+    /// The index of each mesh of the scene; none for those without faces.
+    pub of_source: Vec<Option<usize>>,
+    pub sources: HashMap<(usize, usize), PrimitiveSource>,
+    pub faces: FaceCounts,
+    pub warnings: Vec<String>,
+}
+
+/// Builds all meshes of a scene.
+pub fn build(
+    scene: &SourceScene,
+    cutter: &mut Cutter,
+    data: &mut DataBuilder,
+    limit: Budget,
+) -> Result<Meshes, ContentError> {
+    let mut meshes = Meshes::default();
+    let mut incomplete = Incomplete::default();
+    let mut primitives = 0;
+    for mesh in &scene.meshes {
+        check(mesh)?;
+        let parts = parts(mesh);
+        primitives += parts.len();
+        if primitives.saturating_mul(BYTES_PER_PRIMITIVE) > limit.bytes {
+            let what = format!("has {} or more objects, groups and materials, which need", primitives);
+            return Err(ContentError::unsupported("", limit.exceeded(&what)));
+        }
+        if parts.is_empty() {
+            meshes.of_source.push(None);
+            continue;
+        }
+        let index = meshes.json.len();
+        meshes.of_source.push(Some(index));
+        let mut finder = VertexFinder::new(mesh);
+        let mut builder = PrimitiveBuilder { scene, mesh, cutter: &mut *cutter, data: &mut *data };
+        let mut list = Vec::with_capacity(parts.len());
+        let is_single = parts.len() == 1;
+        for part in parts {
+            let used = part.used(mesh, &mut incomplete);
+            let (json, source) = builder.primitive(&part, &used, is_single, &mut finder, &mut meshes.faces);
+            meshes.sources.insert((index, list.len()), source);
+            list.push(json);
+        }
+        let mut json = json!({"name": mesh.name, "primitives": list});
+        if !mesh.morphs.is_empty() {
+            let names: Vec<&str> = mesh.morphs.iter().map(|morph| &*morph.name).collect();
+            let weights: Vec<f32> = mesh.morphs.iter().map(|morph| morph.weight).collect();
+            json["extras"]["targetNames"] = json!(names);
+            json["weights"] = json!(weights);
+        }
+        if mesh.uv_sets.iter().any(|set| !set.name.is_empty()) {
+            let names: Vec<&str> = mesh.uv_sets.iter().map(|set| &*set.name).collect();
+            json["extras"]["uvSetNames"] = json!(names);
+        }
+        meshes.json.push(json);
+    }
+    meshes.warnings.extend(incomplete.warnings());
+    Ok(meshes)
+}
+
+/// Errors: a face refers to a position that does not exist; the faces have more corners than there are.
+fn check(mesh: &SourceMesh) -> Result<(), ContentError> {
+    let invalid =
+        |problem: String| ContentError::invalid(&*mesh.path, format!("{problem}; export the file again"));
+    let positions = mesh.positions.len();
+    if let Some(corner) = mesh.corners.iter().find(|&&corner| corner as usize >= positions) {
+        return Err(invalid(format!("a face refers to position {corner}, but there are {positions}")));
+    }
+    let corners = match &mesh.faces {
+        FaceSizes::Triangles => mesh.corners.len().next_multiple_of(3),
+        FaceSizes::Sizes(sizes) => sizes.iter().map(|&size| size as usize).sum(),
+    };
+    if corners != mesh.corners.len() {
+        return Err(invalid(format!(
+            "the faces have {corners} corners, but there are {}",
+            mesh.corners.len()
+        )));
+    }
+    let of_positions = mesh.weights.iter().flat_map(|set| [set.joints.len(), set.weights.len()]);
+    let of_positions = of_positions.chain(mesh.morphs.iter().map(|morph| morph.positions.len()));
+    if let Some(count) = of_positions.into_iter().find(|&count| count != positions) {
+        return Err(invalid(format!("has {count} weights or offsets for {positions} positions")));
+    }
+    Ok(())
+}
+
+/// The faces of one material.
+struct Part {
+    material: Option<u32>,
+    faces: PartFaces,
+}
+
+enum PartFaces {
+    /// All triangles of a mesh of triangles.
+    Triangles,
+    /// The first corner and the number of corners of each face.
+    Listed(Vec<(u32, u32)>),
+}
+
+/// The faces of at least three corners by material, in the order of their first faces.
+fn parts(mesh: &SourceMesh) -> Vec<Part> {
+    if mesh.material_of_face.is_empty() && matches!(mesh.faces, FaceSizes::Triangles) {
+        let part = Part { material: mesh.material, faces: PartFaces::Triangles };
+        return if mesh.corners.is_empty() { Vec::new() } else { vec![part] };
+    }
+    let triangles = vec![3; mesh.corners.len() / 3];
+    let sizes = match &mesh.faces {
+        FaceSizes::Triangles => &triangles,
+        FaceSizes::Sizes(sizes) => sizes,
+    };
+    let (mut of_material, mut parts) = (HashMap::new(), Vec::<(Option<u32>, Vec<(u32, u32)>)>::new());
+    let mut last: Option<(Option<u32>, usize)> = None;
+    let mut first = 0;
+    for (face, &size) in sizes.iter().enumerate() {
+        let start = first;
+        first += size;
+        if size < 3 {
+            continue;
+        }
+        let material = mesh.material_of_face.get(face).copied().unwrap_or(mesh.material);
+        let place = match last {
+            Some((of, place)) if of == material => place,
+            _ => *of_material.entry(material).or_insert_with(|| {
+                parts.push((material, Vec::new()));
+                parts.len() - 1
+            }),
+        };
+        last = Some((material, place));
+        parts[place].1.push((start, size));
+    }
+    parts.into_iter().map(|(material, faces)| Part { material, faces: PartFaces::Listed(faces) }).collect()
+}
+
+/// The number of primitives that lose an attribute, which some of their corners lack.
+#[derive(Debug, Default)]
+struct Incomplete {
+    uvs: usize,
+    normals: usize,
+    colors: usize,
+}
+
+impl Incomplete {
+    fn warnings(&self) -> impl Iterator<Item = String> + use<> {
+        let counts = [(self.uvs, "UVs"), (self.normals, "normals"), (self.colors, "colours")];
+        counts.into_iter().filter(|(meshes, _)| *meshes > 0).map(|(meshes, attribute)| {
+            let meshes = if meshes == 1 { "1 mesh has".to_owned() } else { format!("{meshes} meshes have") };
+            format!("{meshes} {attribute} at some corners only; they are left out")
+        })
+    }
+}
+
+impl Part {
+    /// The corners of all faces.
+    fn corners(&self, mesh: &SourceMesh) -> Box<dyn Iterator<Item = u32> + '_> {
+        match &self.faces {
+            PartFaces::Triangles => Box::new(0..mesh.corners.len() as u32),
+            PartFaces::Listed(faces) => Box::new(faces.iter().flat_map(|&(first, size)| first..first + size)),
+        }
+    }
+
+    /// How many corners have a value.
+    fn count<const N: usize>(&self, mesh: &SourceMesh, values: &CornerValues<N>) -> Coverage {
+        if values.is_by_position() && values.values.len() == mesh.positions.len() {
+            return Coverage::All;
+        }
+        let (mut some, mut all) = (false, true);
+        for corner in self.corners(mesh) {
+            let has = values.get(corner as usize, mesh.corners[corner as usize]).is_some();
+            (some, all) = (some | has, all & has);
+        }
+        match (some, all) {
+            (_, true) => Coverage::All,
+            (true, false) => Coverage::Some,
+            (false, false) => Coverage::None,
+        }
+    }
+
+    /// The values that all corners have. Others are counted.
+    fn used(&self, mesh: &SourceMesh, incomplete: &mut Incomplete) -> Used {
+        let mut used = Used::default();
+        if let Some(normals) = &mesh.normals {
+            let coverage = self.count(mesh, normals);
+            used.normals = coverage == Coverage::All;
+            incomplete.normals += usize::from(coverage == Coverage::Some);
+        }
+        if let Some(tangents) = mesh.tangents.as_ref().filter(|_| used.normals) {
+            used.tangents = self.count(mesh, tangents) == Coverage::All;
+        }
+        for (set, uvs) in mesh.uv_sets.iter().enumerate() {
+            let coverage = self.count(mesh, &uvs.uvs);
+            incomplete.uvs += usize::from(coverage == Coverage::Some);
+            if coverage == Coverage::All {
+                used.uv_sets.push(set);
+            }
+        }
+        for (set, colors) in mesh.colors.iter().enumerate() {
+            let coverage = self.count(mesh, colors);
+            incomplete.colors += usize::from(coverage == Coverage::Some);
+            if coverage == Coverage::All {
+                used.colors.push(set);
+            }
+        }
+        used
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Coverage {
+    None,
+    Some,
+    All,
+}
+
+struct PrimitiveBuilder<'a> {
+    scene: &'a SourceScene,
+    mesh: &'a SourceMesh,
+    cutter: &'a mut Cutter,
+    data: &'a mut DataBuilder,
+}
+
+impl<'a> PrimitiveBuilder<'a> {
+    /// The JSON of a primitive, and where it came from. `is_single`: all faces of the mesh belong to it.
+    fn primitive(
+        &mut self,
+        part: &Part,
+        used: &Used,
+        is_single: bool,
+        finder: &mut VertexFinder<'a>,
+        counts: &mut FaceCounts,
+    ) -> (Value, PrimitiveSource) {
+        let mesh = self.mesh;
+        let mut source = PrimitiveSource { path: mesh.path.clone(), ..PrimitiveSource::default() };
+        let found = if is_single && used.is_by_position(mesh) {
+            None
+        } else {
+            Some(finder.find(used, part.corners(mesh)))
+        };
+        let indices = match (&part.faces, &found) {
+            (PartFaces::Triangles, None) => self.data.indices(&mesh.corners),
+            (PartFaces::Triangles, Some(found)) => self.data.indices(&found.of_corner),
+            (PartFaces::Listed(faces), _) => {
+                let triangles = self.cut(faces, used, found.as_ref(), &mut source, counts);
+                self.data.indices(&triangles)
+            }
+        };
+        if let PartFaces::Triangles = part.faces {
+            source.triangles = mesh.corners.len() / 3;
+            counts.triangles += source.triangles;
+        }
+        let mut json = json!({"attributes": self.attributes(used, found.as_ref()), "indices": indices});
+        if !mesh.morphs.is_empty() {
+            json["targets"] = self.targets(found.as_ref());
+        }
+        if let Some(material) =
+            part.material.filter(|&material| (material as usize) < self.scene.materials.len())
+        {
+            json["material"] = material.into();
+        }
+        (json, source)
+    }
+
+    /// Cuts faces into triangles of vertices.
+    fn cut(
+        &mut self,
+        faces: &[(u32, u32)],
+        used: &Used,
+        found: Option<&FoundVertices>,
+        source: &mut PrimitiveSource,
+        counts: &mut FaceCounts,
+    ) -> Vec<u32> {
+        let mesh = self.mesh;
+        let uvs = used.uv_sets.first().map(|&set| &mesh.uv_sets[set].uvs);
+        let flips_v = self.scene.uv_origin == UvOrigin::BottomLeft;
+        let mut indices = Vec::with_capacity(3 * faces.len());
+        let (mut listed, mut positions) = (0, Vec::new());
+        for &(first, size) in faces {
+            let (first, size) = (first as usize, size as usize);
+            let corners = &mesh.corners[first..first + size];
+            let vertices = match found {
+                Some(found) => &found.of_corner[listed..listed + size],
+                None => corners,
+            };
+            listed += size;
+            let position = |corner: usize| mesh.positions[corners[corner] as usize];
+            let mut push = |triangles: &[Triangle]| {
+                indices.extend(triangles.iter().flatten().map(|&corner| vertices[corner]));
+            };
+            match size {
+                3 => {
+                    counts.triangles += 1;
+                    push(&[[0, 1, 2]]);
+                }
+                4 => {
+                    counts.quads += 1;
+                    source.quads.push(source.triangles as u32);
+                    let uv = |corner: usize| {
+                        let uv = uvs?.get(first + corner, corners[corner])?;
+                        Some(if flips_v { flipped(uv) } else { uv })
+                    };
+                    let uvs = uv(0).zip(uv(1)).zip(uv(2)).zip(uv(3)).map(|(((a, b), c), d)| [a, b, c, d]);
+                    push(&self.cutter.quad(&[0, 1, 2, 3].map(position), uvs));
+                }
+                _ => {
+                    counts.polygons += 1;
+                    positions.clear();
+                    positions.extend((0..size).map(position));
+                    push(&self.cutter.polygon(&positions));
+                }
+            }
+            source.triangles += size - 2;
+        }
+        indices
+    }
+
+    fn attributes(&mut self, used: &Used, found: Option<&FoundVertices>) -> Value {
+        let mesh = self.mesh;
+        let positions = self.of_positions(&mesh.positions, found);
+        let mut attributes = json!({"POSITION": self.data.positions(&positions)});
+        if let Some(normals) = mesh.normals.as_ref().filter(|_| used.normals) {
+            attributes["NORMAL"] = self.push(normals, found, |normal| normal).into();
+        }
+        if let Some(tangents) = mesh.tangents.as_ref().filter(|_| used.tangents) {
+            attributes["TANGENT"] = self.push(tangents, found, |tangent| tangent).into();
+        }
+        let flips_v = self.scene.uv_origin == UvOrigin::BottomLeft;
+        for (place, &set) in used.uv_sets.iter().enumerate() {
+            let flip = if flips_v { flipped } else { |uv| uv };
+            attributes[format!("TEXCOORD_{place}")] = self.push(&mesh.uv_sets[set].uvs, found, flip).into();
+        }
+        for (place, &set) in used.colors.iter().enumerate() {
+            attributes[format!("COLOR_{place}")] = self.push(&mesh.colors[set], found, |color| color).into();
+        }
+        for (place, set) in mesh.weights.iter().enumerate() {
+            let joints = self.of_positions(&set.joints, found);
+            attributes[format!("JOINTS_{place}")] = self.data.joints(&joints).into();
+            let weights = self.of_positions(&set.weights, found);
+            attributes[format!("WEIGHTS_{place}")] = self.data.vectors(&weights).into();
+        }
+        attributes
+    }
+
+    fn targets(&mut self, found: Option<&FoundVertices>) -> Value {
+        let mesh = self.mesh;
+        let mut targets = Vec::with_capacity(mesh.morphs.len());
+        for morph in &mesh.morphs {
+            let offsets = self.of_positions(&morph.positions, found);
+            let mut target = json!({"POSITION": self.data.positions(&offsets)});
+            if let Some(normals) = &morph.normals {
+                target["NORMAL"] = self.push(normals, found, |normal| normal).into();
+            }
+            targets.push(target);
+        }
+        targets.into()
+    }
+
+    /// Adds the values of all vertices. Returns the accessor.
+    fn push<const N: usize>(
+        &mut self,
+        values: &CornerValues<N>,
+        found: Option<&FoundVertices>,
+        change: fn([f32; N]) -> [f32; N],
+    ) -> usize {
+        let mesh = self.mesh;
+        let of_vertex: Vec<[f32; N]> = match found {
+            None => values.values.iter().map(|&value| change(value)).collect(),
+            Some(found) => {
+                let value = |&corner: &u32| values.get(corner as usize, mesh.corners[corner as usize]);
+                found.corners.iter().map(|corner| change(value(corner).unwrap_or([0.0; N]))).collect()
+            }
+        };
+        self.data.vectors(&of_vertex)
+    }
+
+    /// The values of all vertices, from those of positions.
+    fn of_positions<T: Copy + Default>(
+        &self,
+        values: &'a [T],
+        found: Option<&FoundVertices>,
+    ) -> std::borrow::Cow<'a, [T]> {
+        let Some(found) = found else { return values.into() };
+        let position = |&corner: &u32| self.mesh.corners[corner as usize] as usize;
+        let value = |corner: &u32| values.get(position(corner)).copied().unwrap_or_default();
+        found.corners.iter().map(value).collect::<Vec<T>>().into()
+    }
+}
+
+/// UVs whose v points up, as glTF has them.
+fn flipped([u, v]: [f32; 2]) -> [f32; 2] {
+    [u, 1.0 - v]
+}

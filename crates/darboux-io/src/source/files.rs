@@ -1,0 +1,148 @@
+//! The files that a model refers to: textures, material libraries. The rules are those of glTF: nothing outside the model's folder, unless the caller
+//! allows it.
+//!
+//! Other formats often hold absolute paths of another machine, or paths of Windows. Such a file is looked up by its name in the model's folder.
+
+use std::cell::Cell;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::error::shortened;
+use crate::{Files, LoadOptions, files, paths};
+
+/// The most paths that are looked up for one model. Each lookup asks the operating system.
+const MAX_LOOKUPS: usize = 100_000;
+
+/// No path has more bytes.
+const LONGEST_PATH: usize = 4096;
+
+/// Where a model's files are.
+#[derive(Clone, Debug)]
+pub enum FileSource {
+    /// A folder on this machine, links resolved.
+    Folder(PathBuf),
+    /// Files that a program gives, and the model's folder among them.
+    Given(Arc<dyn Files>, PathBuf),
+    /// The model came without a folder.
+    None,
+}
+
+/// Looks up the files that a model refers to.
+#[derive(Debug)]
+pub struct ModelFiles {
+    source: FileSource,
+    allow_outside: bool,
+    allow_outside_name: &'static str,
+    lookups_left: Cell<usize>,
+}
+
+/// A file that exists and may be read.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct FoundFile {
+    /// The path relative to the model's folder, its parts separated by `/`.
+    pub name: String,
+    /// The path on this machine, links resolved; the name among given files.
+    pub path: PathBuf,
+    /// Whether it was found by its name alone.
+    pub is_by_name: bool,
+}
+
+impl ModelFiles {
+    pub fn new(source: FileSource, options: &LoadOptions) -> Self {
+        Self {
+            source,
+            allow_outside: options.allow_outside,
+            allow_outside_name: options.option_names.allow_outside,
+            lookups_left: Cell::new(MAX_LOOKUPS),
+        }
+    }
+
+    /// The file that a reference names, relative to the folder of the file `base`; empty is the model itself. `\` separates folders as `/` does.
+    pub fn find(&self, base: &str, reference: &str) -> Option<FoundFile> {
+        let reference = reference.trim().replace('\\', "/");
+        if reference.is_empty() || reference.len() > LONGEST_PATH {
+            return None;
+        }
+        let is_absolute = reference.starts_with('/') || reference.as_bytes().get(1) == Some(&b':');
+        if is_absolute && self.allow_outside && self.may_look_up() {
+            let path = PathBuf::from(&reference);
+            if let (FileSource::Folder(_), Ok(path), true) =
+                (&self.source, path.canonicalize(), path.is_file())
+            {
+                return Some(FoundFile { name: reference, path, is_by_name: false });
+            }
+        }
+        let folder = base.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let relative = Path::new(folder).join(reference.trim_start_matches('/'));
+        let as_written = (!is_absolute).then(|| self.inside(&relative, false)).flatten();
+        as_written.or_else(|| {
+            let name = reference.rsplit('/').next()?;
+            let beside = self.inside(&Path::new(folder).join(name), true);
+            beside.or_else(|| self.inside(Path::new(name), true))
+        })
+    }
+
+    /// The file at a path relative to the model's folder.
+    fn inside(&self, relative: &Path, is_by_name: bool) -> Option<FoundFile> {
+        if !self.may_look_up() {
+            return None;
+        }
+        match &self.source {
+            FileSource::None => None,
+            FileSource::Given(given, folder) => {
+                let path = files::normalised(&folder.join(relative))?;
+                let name = files::name(&path);
+                given.has(&name).then_some(FoundFile { name, path, is_by_name })
+            }
+            FileSource::Folder(folder) => {
+                let normalised = files::normalised(relative);
+                if normalised.is_none() && !self.allow_outside {
+                    return None;
+                }
+                let path = folder.join(relative).canonicalize().ok()?;
+                let may_read = self.allow_outside || path.starts_with(folder);
+                let name = files::name(normalised.as_deref().unwrap_or(relative));
+                (may_read && path.is_file()).then_some(FoundFile { name, path, is_by_name })
+            }
+        }
+    }
+
+    fn may_look_up(&self) -> bool {
+        let left = self.lookups_left.get();
+        self.lookups_left.set(left.saturating_sub(1));
+        left > 0
+    }
+
+    /// The content of a file. Errors: it cannot be read, or was replaced since it was found.
+    pub fn read(&self, file: &FoundFile) -> io::Result<Vec<u8>> {
+        match &self.source {
+            FileSource::Given(given, _) => given.read(&file.name),
+            FileSource::Folder(_) | FileSource::None => paths::read_resolved(&file.path),
+        }
+    }
+
+    /// What is wrong with a reference that was not found: a sentence without its last part.
+    pub fn problem(&self, reference: &str) -> String {
+        let shown = shortened(reference);
+        match &self.source {
+            _ if self.lookups_left.get() == 0 => {
+                format!("{shown:?} was not looked up, because the model names more than {MAX_LOOKUPS} files")
+            }
+            FileSource::None => {
+                format!("{shown:?} was not looked up, because the model came without a folder")
+            }
+            FileSource::Given(..) => format!("{shown:?} is not among the files"),
+            FileSource::Folder(_) if self.allow_outside => format!("{shown:?} does not exist"),
+            FileSource::Folder(_) => {
+                let option = self.allow_outside_name;
+                format!("{shown:?} is not in the model's folder ({option} allows files outside)")
+            }
+        }
+    }
+
+    /// A sentence about a file that was found by its name only.
+    pub fn by_name_warning(reference: &str, file: &FoundFile) -> Option<String> {
+        file.is_by_name.then(|| format!("{:?} was found as {}, by its name", shortened(reference), file.name))
+    }
+}

@@ -1,0 +1,131 @@
+//! Which format a file has. The content decides, not the name's ending.
+
+/// A format of models other than glTF.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum SourceFormat {
+    /// Wavefront OBJ.
+    Obj,
+    /// Stanford PLY.
+    Ply,
+    /// STL, ASCII or binary.
+    Stl,
+    /// Autodesk FBX.
+    Fbx,
+    /// Universal Scene Description: USDA, USDC, USDZ.
+    Usd,
+}
+
+impl SourceFormat {
+    /// The name, such as `OBJ`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Obj => "OBJ",
+            Self::Ply => "PLY",
+            Self::Stl => "STL",
+            Self::Fbx => "FBX",
+            Self::Usd => "USD",
+        }
+    }
+}
+
+/// The start of a file that is enough to recognise its format.
+const HEAD: usize = 4096;
+
+/// The format of a file; none for glTF and for what is not recognised.
+pub fn detect(bytes: &[u8]) -> Option<SourceFormat> {
+    let head = &bytes[..bytes.len().min(HEAD)];
+    let text = head.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(head).trim_ascii_start();
+    if head.starts_with(b"Kaydara FBX Binary") || is_ascii_fbx(text) {
+        return Some(SourceFormat::Fbx);
+    }
+    if head.starts_with(b"PXR-USDC") || text.starts_with(b"#usda") || is_usdz(head) {
+        return Some(SourceFormat::Usd);
+    }
+    if head.starts_with(b"ply\n") || head.starts_with(b"ply\r") {
+        return Some(SourceFormat::Ply);
+    }
+    if is_stl(bytes, text) {
+        return Some(SourceFormat::Stl);
+    }
+    is_obj(bytes).then_some(SourceFormat::Obj)
+}
+
+fn is_ascii_fbx(text: &[u8]) -> bool {
+    text.starts_with(b"; FBX") || text.starts_with(b"FBXHeaderExtension")
+}
+
+/// A zip archive whose first member is a stage of USD.
+fn is_usdz(head: &[u8]) -> bool {
+    let length = head.get(26..28).map_or(0, |bytes| usize::from(u16::from_le_bytes([bytes[0], bytes[1]])));
+    let name = head.get(30..30 + length).unwrap_or_default().to_ascii_lowercase();
+    head.starts_with(b"PK\x03\x04")
+        && [&b".usdc"[..], b".usda", b".usd"].iter().any(|end| name.ends_with(end))
+}
+
+/// The length of a binary STL follows from its number of triangles. An ASCII STL begins with `solid` and has a `facet`.
+fn is_stl(bytes: &[u8], text: &[u8]) -> bool {
+    let count = bytes.get(80..84).and_then(|bytes| bytes.first_chunk());
+    let is_binary = count.is_some_and(|count| {
+        let length = 84 + 50 * u64::from(u32::from_le_bytes(*count));
+        length == bytes.len() as u64
+    });
+    let has_word = |word: &[u8]| text.windows(word.len()).any(|window| window == word);
+    is_binary || (text.starts_with(b"solid") && (has_word(b"facet") || has_word(b"endsolid")))
+}
+
+/// The first words of statements that only an OBJ has.
+const STATEMENTS: [&[u8]; 12] =
+    [b"v", b"vt", b"vn", b"vp", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"l", b"p"];
+
+/// A text whose first statement that is not a comment is one of OBJ.
+fn is_obj(bytes: &[u8]) -> bool {
+    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let lines = text.split(|&byte| byte == b'\n' || byte == b'\r').map(<[u8]>::trim_ascii);
+    let mut statements = lines.filter(|line| !line.is_empty() && !line.starts_with(b"#"));
+    let first = statements.next().and_then(|line| line.split(u8::is_ascii_whitespace).next());
+    first.is_some_and(|word| STATEMENTS.contains(&word))
+}
+
+/// What a file is that no reader takes: a clause whose subject is the file, with what to do.
+pub fn name_of_other(bytes: &[u8]) -> Option<&'static str> {
+    let text = bytes[..bytes.len().min(HEAD)].trim_ascii_start();
+    let lower = text[..text.len().min(256)].to_ascii_lowercase();
+    let at = |offset: usize, magic: &[u8]| bytes.get(offset..).is_some_and(|rest| rest.starts_with(magic));
+    let starts = |start: &[u8]| lower.starts_with(start);
+    Some(match () {
+        () if at(0, b"BLENDER") || at(0, b"\x28\xB5\x2F\xFD") => {
+            "is a Blender file; export the model from Blender as .glb"
+        }
+        () if at(0, b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1") => {
+            "is a scene of 3ds Max or another file of that container; export the model as .fbx or .glb"
+        }
+        () if at(0, b"\x4D\x4D") && bytes.len() > 6 && !at(2, b"\x00\x2A") => {
+            "is a 3DS file, which is not read; convert it to .glb"
+        }
+        () if at(0, b"PK\x03\x04") => "is a zip archive; unpack it and give the model in it",
+        () if at(0, b"\x1F\x8B") => "is compressed with gzip; unpack it first",
+        () if at(0, b"Rar!") || at(0, b"7z\xBC\xAF\x27\x1C") => {
+            "is an archive; unpack it and give the model in it"
+        }
+        () if starts(b"<!doctype html") || starts(b"<html") => {
+            "is a web page, so the download failed; download the model again"
+        }
+        () if starts(b"<?xml") && lower.windows(7).any(|window| window == b"collada") => {
+            "is a COLLADA file, which is not read; convert it to .glb"
+        }
+        () if starts(b"version https://git-lfs") => {
+            "is a pointer of Git LFS, not the model; run: git lfs pull"
+        }
+        () if starts(b"//maya ascii") || at(0, b"FOR4") || at(0, b"FOR8") => {
+            "is a scene of Maya; export the model as .fbx or .glb"
+        }
+        () if at(0, b"Ogawa") => "is an Alembic file, which is not read; export the model as .glb",
+        () if starts(b"newmtl") => "is a material library of an OBJ; give the .obj file",
+        () if at(0, b"\x89PNG") || at(0, b"\xFF\xD8\xFF") || (at(0, b"RIFF") && at(8, b"WEBP")) => {
+            "is an image, not a model; give the model"
+        }
+        () if at(0, b"%PDF") => "is a PDF, not a model; give the model",
+        () => return None,
+    })
+}

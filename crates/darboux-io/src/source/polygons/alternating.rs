@@ -1,0 +1,197 @@
+//! Cuts a face as Blender does (its `BLI_polyfill_calc`), so that n-gons have the triangles that its exporters write.
+//!
+//! Facts about that program, found in its source and confirmed with Blender 5.0 (docs/formats.md):
+//!
+//! - The face is seen along its normal (M. E. Newell's), with the first axis at right angles to it and to z. All of this is in single precision.
+//! - Ears are cut off as long as more than three corners remain. The search for an ear begins two corners after the last one, so that a round face
+//!   does not become a fan. Where that corner is not convex, the search begins one further, and its direction is reversed from then on.
+//! - While no corner is reflex or straight, every corner is an ear. Else an ear is convex and holds no corner that is not convex, on its border
+//!   included. If there is none, straight corners are taken, then any that is not reflex, then the corner where the search begins.
+
+use super::Triangle;
+
+/// The side to which the face turns at a corner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Turn {
+    Convex,
+    Straight,
+    Reflex,
+}
+
+/// The triangles of a face. None: the steps are used up.
+pub fn cut(positions: &[[f32; 3]], steps: &mut u64) -> Option<Vec<Triangle>> {
+    let mut outline = Outline::new(projected(positions));
+    let mut triangles = Vec::with_capacity(positions.len() - 2);
+    let (mut start, mut backwards) = (0, false);
+    while outline.remaining > 3 {
+        let ear = outline.find_ear(start, backwards, steps)?;
+        let [previous, next] = [outline.previous[ear], outline.next[ear]];
+        triangles.push([previous, ear, next]);
+        outline.remove(ear);
+        outline.renew(previous);
+        outline.renew(next);
+        start = outline.step(if backwards { previous } else { next }, backwards);
+        if outline.turns[start] != Turn::Convex {
+            start = outline.step(start, backwards);
+            backwards = !backwards;
+        }
+    }
+    let first = outline.first;
+    let second = outline.next[first];
+    triangles.push([first, second, outline.next[second]]);
+    Some(triangles)
+}
+
+/// The corners that are left, in a ring.
+struct Outline {
+    corners: Vec<[f32; 2]>,
+    next: Vec<usize>,
+    previous: Vec<usize>,
+    turns: Vec<Turn>,
+    /// The corners that were not convex at first. Those that were removed or became convex are skipped.
+    obstacles: Vec<usize>,
+    is_removed: Vec<bool>,
+    /// The number of corners left that are not convex.
+    not_convex: usize,
+    remaining: usize,
+    first: usize,
+}
+
+impl Outline {
+    fn new(corners: Vec<[f32; 2]>) -> Self {
+        let count = corners.len();
+        let mut outline = Self {
+            corners,
+            next: (0..count).map(|corner| (corner + 1) % count).collect(),
+            previous: (0..count).map(|corner| (corner + count - 1) % count).collect(),
+            turns: vec![Turn::Convex; count],
+            obstacles: Vec::new(),
+            is_removed: vec![false; count],
+            not_convex: 0,
+            remaining: count,
+            first: 0,
+        };
+        for corner in 0..count {
+            outline.turns[corner] = outline.turn(corner);
+        }
+        outline.obstacles = (0..count).filter(|&corner| outline.turns[corner] != Turn::Convex).collect();
+        outline.not_convex = outline.obstacles.len();
+        outline
+    }
+
+    fn turn(&self, corner: usize) -> Turn {
+        side([self.previous[corner], corner, self.next[corner]].map(|corner| self.corners[corner]))
+    }
+
+    fn step(&self, corner: usize, backwards: bool) -> usize {
+        if backwards { self.previous[corner] } else { self.next[corner] }
+    }
+
+    fn remove(&mut self, corner: usize) {
+        let [previous, next] = [self.previous[corner], self.next[corner]];
+        self.next[previous] = next;
+        self.previous[next] = previous;
+        self.is_removed[corner] = true;
+        self.not_convex -= usize::from(self.turns[corner] != Turn::Convex);
+        self.remaining -= 1;
+        if self.first == corner {
+            self.first = next;
+        }
+    }
+
+    /// Recomputes the turn of a neighbour of a removed corner. Convex ones stay as they are.
+    fn renew(&mut self, corner: usize) {
+        if self.turns[corner] != Turn::Convex {
+            self.turns[corner] = self.turn(corner);
+            self.not_convex -= usize::from(self.turns[corner] == Turn::Convex);
+        }
+    }
+
+    /// The next ear from a corner on. None: the steps are used up.
+    fn find_ear(&mut self, start: usize, backwards: bool, steps: &mut u64) -> Option<usize> {
+        for accepted in [Turn::Convex, Turn::Straight] {
+            let mut corner = start;
+            for _ in 0..self.remaining {
+                *steps = steps.checked_sub(1)?;
+                if self.is_ear(corner, accepted, steps)? {
+                    return Some(corner);
+                }
+                corner = self.step(corner, backwards);
+            }
+        }
+        let mut corner = start;
+        for _ in 0..self.remaining {
+            if self.turns[corner] != Turn::Reflex {
+                return Some(corner);
+            }
+            corner = self.next[corner];
+        }
+        Some(corner)
+    }
+
+    fn is_ear(&mut self, corner: usize, accepted: Turn, steps: &mut u64) -> Option<bool> {
+        if self.not_convex == 0 {
+            return Some(true);
+        }
+        if self.turns[corner] != accepted {
+            return Some(false);
+        }
+        if self.obstacles.len() > 2 * self.not_convex {
+            let (is_removed, turns) = (&self.is_removed, &self.turns);
+            self.obstacles.retain(|&corner| !is_removed[corner] && turns[corner] != Turn::Convex);
+        }
+        let triangle = [corner, self.next[corner], self.previous[corner]];
+        let [a, b, c] = triangle.map(|corner| self.corners[corner]);
+        *steps = steps.checked_sub(self.obstacles.len() as u64)?;
+        let lies_inside = |&obstacle: &usize| {
+            let place = self.corners[obstacle];
+            self.turns[obstacle] != Turn::Convex
+                && !self.is_removed[obstacle]
+                && !triangle.contains(&obstacle)
+                && [[a, b], [b, c], [c, a]].iter().all(|&[from, to]| side([from, to, place]) != Turn::Reflex)
+        };
+        Some(!self.obstacles.iter().any(lies_inside))
+    }
+}
+
+/// The side of the line from a to b on which c lies: convex is to the right, as the projection mirrors the face.
+fn side([a, b, c]: [[f32; 2]; 3]) -> Turn {
+    let [to_b, to_a] = [b, a].map(|p| [p[0] - c[0], p[1] - c[1]]);
+    let area = to_b[0] * to_a[1] - to_a[0] * to_b[1];
+    if area > 0.0 {
+        Turn::Convex
+    } else if area == 0.0 {
+        Turn::Straight
+    } else {
+        Turn::Reflex
+    }
+}
+
+/// The corners as seen against the normal of the face.
+fn projected(positions: &[[f32; 3]]) -> Vec<[f32; 2]> {
+    let [x, y, z] = normal(positions).map(|component| -component);
+    let flat = x * x + y * y;
+    let (first, second) = if flat > f32::EPSILON {
+        let d = 1.0 / flat.sqrt();
+        let first = [y * d, -x * d, 0.0];
+        (first, [-z * first[1], z * first[0], x * first[1] - y * first[0]])
+    } else {
+        ([if z < 0.0 { -1.0 } else { 1.0 }, 0.0, 0.0], [0.0, 1.0, 0.0])
+    };
+    let along = |axis: [f32; 3], p: [f32; 3]| axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2];
+    positions.iter().map(|&position| [along(first, position), along(second, position)]).collect()
+}
+
+/// The unit normal of a face; z where it has no area.
+fn normal(positions: &[[f32; 3]]) -> [f32; 3] {
+    let last = positions[positions.len() - 1];
+    let (sum, _) = positions.iter().fold(([0.0f32; 3], last), |(sum, before), &at| {
+        let next = [0, 1, 2].map(|i| {
+            let [j, k] = [(i + 1) % 3, (i + 2) % 3];
+            sum[i] + (before[j] - at[j]) * (before[k] + at[k])
+        });
+        (next, at)
+    });
+    let squared = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
+    if squared > 1.0e-35 { sum.map(|x| x * (1.0 / squared.sqrt())) } else { [0.0, 0.0, 1.0] }
+}

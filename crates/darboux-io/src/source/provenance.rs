@@ -1,0 +1,60 @@
+//! Where a document came from: its format, the places of its primitives in that file, and the faces before they were cut.
+
+use std::collections::HashMap;
+
+use serde::Serialize;
+
+use super::format::SourceFormat;
+use super::polygons::PolygonRule;
+
+/// Where a document came from that was read from another format than glTF.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Provenance {
+    /// The format of the file.
+    pub format: SourceFormat,
+    /// The program that wrote the file, where the file says so.
+    pub generator: Option<String>,
+    /// The faces of the whole file.
+    pub faces: FaceCounts,
+    /// How faces of five and more corners were cut.
+    pub polygon_rule: PolygonRule,
+    /// What was not carried over: a noun phrase each, such as `2 cameras`.
+    pub not_carried: Vec<String>,
+    pub(crate) primitives: HashMap<(usize, usize), PrimitiveSource>,
+}
+
+impl Provenance {
+    /// Where a primitive of a mesh came from.
+    pub fn primitive(&self, mesh: usize, primitive: usize) -> Option<&PrimitiveSource> {
+        self.primitives.get(&(mesh, primitive))
+    }
+}
+
+/// Where a primitive came from.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct PrimitiveSource {
+    /// The place in the source file, in its own words: a node's path in FBX, `o Body` in OBJ.
+    pub path: String,
+    /// The triangles that are the first half of a quad, ascending; the next triangle is the other half.
+    pub quads: Vec<u32>,
+    /// The number of triangles.
+    pub triangles: usize,
+}
+
+/// Numbers of faces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct FaceCounts {
+    /// Faces of three corners.
+    pub triangles: usize,
+    /// Faces of four corners, which MikkTSpace takes as they are.
+    pub quads: usize,
+    /// Faces of five and more corners, which are cut before tangents are computed.
+    pub polygons: usize,
+    /// Concave quads that are not cut along the diagonal of MikkTSpace, because it lies outside them.
+    pub outside_diagonals: usize,
+    /// Faces that no triangles cover without folds.
+    pub folded: usize,
+}
