@@ -218,7 +218,7 @@ fn what_is_no_model_is_refused_in_a_sentence() {
     let cases = [
         ("no-such.glb", "cannot be read"),
         (".", "it is a folder; name a file in it"),
-        ("index.html", "cannot show this format"),
+        ("index.html", "is neither glTF nor GLB"),
         ("empty.glb", "empty.glb: "),
         ("start.glb", "start.glb: "),
         ("cut.glb", "cut.glb: "),

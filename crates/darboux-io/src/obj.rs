@@ -13,6 +13,8 @@ mod mtl;
 #[cfg(feature = "obj")]
 mod read;
 mod statements;
+#[cfg(feature = "obj")]
+mod text;
 
 pub use companions::{Companion, companions};
 #[cfg(feature = "obj")]

@@ -44,6 +44,7 @@ const PARTS: [(&str, &[&str]); 4] = [
             "docs/functions.md",
             "docs/rust.md",
             "docs/io.md",
+            "docs/formats.md",
             "docs/c.md",
             "docs/python.md",
             "bindings/js/README.md",

@@ -1,47 +1,8 @@
 //! Makes a mesh of each object and group: its positions, UVs and normals are those that its faces use, in the order of use.
 
-use std::ops::{Index, IndexMut, Range};
-
-use super::read::ObjText;
+use super::text::{NONE, ObjText, Run};
 use crate::error::ContentError;
 use crate::source::{CornerValues, FaceSizes, SourceMesh, SourceUvSet};
-
-/// The indices of a corner's position, UV and normal, [`NONE`] for those it lacks.
-#[derive(Clone, Copy, Debug)]
-pub struct Corner([u32; 3]);
-
-/// No UV or normal.
-const NONE: u32 = u32::MAX;
-
-impl Default for Corner {
-    fn default() -> Self {
-        Self([NONE; 3])
-    }
-}
-
-impl Index<usize> for Corner {
-    type Output = u32;
-
-    fn index(&self, kind: usize) -> &u32 {
-        &self.0[kind]
-    }
-}
-
-impl IndexMut<usize> for Corner {
-    fn index_mut(&mut self, kind: usize) -> &mut u32 {
-        &mut self.0[kind]
-    }
-}
-
-/// An object or group with faces.
-#[derive(Clone, Debug)]
-pub struct Run {
-    pub name: String,
-    /// The statement: `o`, `g`, or nothing before the first.
-    pub kind: &'static str,
-    pub corners: Range<usize>,
-    pub faces: Range<usize>,
-}
 
 /// The meshes of all objects and groups. Errors: a corner refers to an element that does not exist.
 pub fn build(text: &ObjText) -> Result<Vec<SourceMesh>, ContentError> {

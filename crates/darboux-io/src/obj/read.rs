@@ -2,8 +2,9 @@
 
 use super::companions::NO_FACES;
 use super::materials::Materials;
-use super::meshes::{self, Corner, Run};
+use super::meshes;
 use super::statements::{statements, words};
+use super::text::{Corner, ObjText, Run};
 use crate::LoadOptions;
 use crate::error::ContentError;
 use crate::image::srgb_to_linear;
@@ -42,33 +43,6 @@ fn generator(bytes: &[u8]) -> Option<String> {
     let line = bytes.strip_prefix(b"#")?.split(|&byte| byte == b'\n' || byte == b'\r').next()?;
     let line = String::from_utf8_lossy(&line[..line.len().min(200)]).trim().to_owned();
     (!line.is_empty()).then_some(line)
-}
-
-/// The text as lists.
-#[derive(Debug, Default)]
-pub struct ObjText {
-    pub positions: Vec<[f32; 3]>,
-    /// Linear RGBA of positions with a colour, which follow without gaps where all have one.
-    pub colors: Vec<[f32; 4]>,
-    pub uvs: Vec<[f32; 2]>,
-    pub normals: Vec<[f32; 3]>,
-    pub corners: Vec<Corner>,
-    /// The faces: their sizes, materials and smoothing groups.
-    pub sizes: Vec<u32>,
-    pub materials: Vec<Option<u32>>,
-    pub smoothing: Vec<u32>,
-    /// The objects and groups with faces.
-    pub runs: Vec<Run>,
-    pub has_smoothing: bool,
-    lines_and_points: usize,
-    curves: usize,
-    /// What the next face belongs to.
-    name: String,
-    kind: &'static str,
-    material: Option<u32>,
-    group: u32,
-    /// The first corner and face of the current object or group.
-    start: (usize, usize),
 }
 
 impl ObjText {

@@ -29,6 +29,7 @@ pub fn statements(text: &[u8]) -> impl Iterator<Item = (usize, &[u8], &[u8])> {
 }
 
 /// The words of the rest of a statement, without the marks of continued lines.
+#[cfg(feature = "obj")]
 pub fn words(rest: &[u8]) -> impl Iterator<Item = &[u8]> {
     rest.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty() && *word != b"\\")
 }

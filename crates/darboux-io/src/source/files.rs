@@ -134,10 +134,11 @@ impl ModelFiles {
             }
             FileSource::Given(..) => format!("{shown:?} is not among the files"),
             FileSource::Folder(_) if self.allow_outside => format!("{shown:?} does not exist"),
-            FileSource::Folder(_) => {
+            FileSource::Folder(_) if reference.contains("..") => {
                 let option = self.allow_outside_name;
                 format!("{shown:?} is not in the model's folder ({option} allows files outside)")
             }
+            FileSource::Folder(_) => format!("{shown:?} is not in the model's folder"),
         }
     }
 

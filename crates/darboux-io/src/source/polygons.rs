@@ -6,18 +6,17 @@
 mod alternating;
 mod corner_tree;
 mod ears;
+mod triangle;
 
 use darboux::Choice;
 use darboux::internal::is_quad_cut_across;
 
 use ears::Polygon;
+pub use triangle::Triangle;
 
 /// The most steps that the cuts of one file may take: tries of a corner, and nodes of the tree that a try visits. A face of ordinary shape takes
 /// about a hundred per corner.
 const MAX_STEPS: u64 = 1 << 26;
-
-/// Three places in the list of a face's corners.
-pub type Triangle = [usize; 3];
 
 /// How faces of five and more corners are cut into triangles, which MikkTSpace needs. Quads are not affected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -198,7 +198,7 @@ struct LoadedModel {
 fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<LoadedModel, String> {
     let sentence = |error: darboux_io::Error| error.to_string();
     let mut document = load(&Input::File(arguments.model.clone()), &arguments.reading)?;
-    let warnings = document.warnings().to_vec();
+    let warnings = if document.provenance().is_some() { document.warnings().to_vec() } else { Vec::new() };
     let flat = NormalOptions::new().with_shading(Shading::Flat);
     let flat = AddNormalsOptions::default().with_normals(flat);
     add_normals(&mut document, &flat, &mut |_| {}).map_err(sentence)?;

@@ -36,13 +36,17 @@ pub fn build(
 ) -> Result<Meshes, ContentError> {
     let mut meshes = Meshes::default();
     let mut incomplete = Incomplete::default();
+    if scene.meshes.len().saturating_mul(BYTES_PER_PRIMITIVE) > limit.bytes {
+        let what = format!("has {} objects and groups, which need", scene.meshes.len());
+        return Err(ContentError::unsupported("", limit.exceeded(&what)));
+    }
     let mut primitives = 0;
     for mesh in &scene.meshes {
         check(mesh)?;
         let parts = parts(mesh);
         primitives += parts.len();
         if primitives.saturating_mul(BYTES_PER_PRIMITIVE) > limit.bytes {
-            let what = format!("has {} or more objects, groups and materials, which need", primitives);
+            let what = format!("has {primitives} or more objects with materials of their own, which need");
             return Err(ContentError::unsupported("", limit.exceeded(&what)));
         }
         if parts.is_empty() {

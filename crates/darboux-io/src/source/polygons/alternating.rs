@@ -8,7 +8,7 @@
 //! - While no corner is reflex or straight, every corner is an ear. Else an ear is convex and holds no corner that is not convex, on its border
 //!   included. If there is none, straight corners are taken, then any that is not reflex, then the corner where the search begins.
 
-use super::Triangle;
+use super::triangle::Triangle;
 
 /// The side to which the face turns at a corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,8 @@
 //! Coordinates are compared without the one along the axis, not rotated: products of 32-bit numbers are then nearly exact in 64 bits. Whether a
 //! corner lies in an ear is asked of a tree of the corners ([`corner_tree`](super::corner_tree)), not of every corner.
 
-use super::Triangle;
 use super::corner_tree::{CornerTree, area};
+use super::triangle::Triangle;
 
 /// A face as seen along an axis, counter-clockwise.
 pub struct Polygon {

@@ -1,0 +1,300 @@
+//! OBJ, PLY and STL: what Blender wrote gives the tangents of its glTF, faces of any size are cut, and other files are named for what they are.
+#![cfg(all(feature = "obj", feature = "ply", feature = "stl"))]
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents};
+use darboux_io::source::{FaceCounts, PolygonRule};
+use darboux_io::{LoadOptions, SaveOptions};
+
+fn blender(name: &str) -> PathBuf {
+    Path::new("../../assets/blender").join(name)
+}
+
+fn open(path: &Path) -> Document {
+    Document::open(path, &LoadOptions::default()).unwrap()
+}
+
+fn read(bytes: impl Into<Vec<u8>>) -> Document {
+    Document::from_bytes("model", bytes.into(), None, &LoadOptions::default()).unwrap()
+}
+
+fn refusal(bytes: impl Into<Vec<u8>>) -> String {
+    Document::from_bytes("model", bytes.into(), None, &LoadOptions::default()).unwrap_err().to_string()
+}
+
+/// The bits of a corner's position and UV, and its normal in units of four decimals, which are all that OBJ has.
+type CornerKey = ([u32; 5], [i32; 3]);
+
+/// The normal and the tangent of all corners, by their keys.
+fn corners_of(mut document: Document) -> HashMap<CornerKey, ([f32; 3], [f32; 4])> {
+    add_tangents(&mut document, &AddTangentsOptions::default(), &mut |_| {}).unwrap();
+    let mut found = HashMap::new();
+    for corners in document.corners().unwrap() {
+        let positions = corners.vectors::<3>("POSITION").unwrap().unwrap();
+        let normals = corners.vectors::<3>("NORMAL").unwrap().unwrap();
+        let uvs = corners.vectors::<2>("TEXCOORD_0").unwrap().unwrap();
+        let tangents = corners.vectors::<4>("TANGENT").unwrap().unwrap();
+        for corner in 0..corners.len() {
+            // Zeros of both signs are the same number.
+            let [x, y, z] = positions[corner].map(|x| (x + 0.0).to_bits());
+            let [u, v] = uvs[corner].map(|x| (x + 0.0).to_bits());
+            let normal = normals[corner].map(|x| (1e4 * x).round() as i32);
+            // The middle of the sheet is mirrored: its corners have two tangents, which the sign tells apart.
+            if positions[corner][0] != 0.0 {
+                found.insert(([x, y, z, u, v], normal), (normals[corner], tangents[corner]));
+            }
+        }
+    }
+    found
+}
+
+/// The corners of the sheet that both documents have: their number, how many have the same normals by bits, how many of those the same tangents, and the
+/// largest difference between tangents.
+fn compared(a: &str, b: &str) -> (usize, usize, usize, f32) {
+    let [a, b] = [a, b].map(|name| corners_of(open(&blender(name))));
+    let (mut common, mut same_normals, mut same_tangents, mut largest) = (0, 0, 0, 0.0f32);
+    for (key, (normal, tangent)) in &a {
+        let Some((other_normal, other)) = b.get(key) else { continue };
+        common += 1;
+        same_normals += usize::from(normal == other_normal);
+        same_tangents += usize::from(normal == other_normal && tangent == other);
+        largest = tangent.iter().zip(other).fold(largest, |largest, (a, b)| largest.max((a - b).abs()));
+    }
+    (common, same_normals, same_tangents, largest)
+}
+
+#[test]
+fn the_formats_of_a_scene_have_the_same_tangents() {
+    let obj = compared("scene.obj", "scene.glb");
+    assert!(obj.0 > 40 && obj.3 < 2e-4, "OBJ: {obj:?}");
+    let ply = compared("scene.ply", "scene.z-up.glb");
+    assert!(ply.0 > 40 && ply.3 < 1e-6, "PLY: {ply:?}");
+    assert!(ply.1 > 0 && ply.1 == ply.2, "PLY: {ply:?}");
+}
+
+/// A glTF whose triangles are written as a PLY with the same bits.
+#[test]
+fn the_same_bits_give_the_same_tangents() {
+    let mut document = open(&blender("scene.z-up.glb"));
+    add_tangents(&mut document, &AddTangentsOptions::default(), &mut |_| {}).unwrap();
+    for corners in document.corners().unwrap() {
+        let positions = corners.vectors::<3>("POSITION").unwrap().unwrap();
+        let normals = corners.vectors::<3>("NORMAL").unwrap().unwrap();
+        let uvs = corners.vectors::<2>("TEXCOORD_0").unwrap().unwrap();
+        let count = corners.len();
+        let properties: String = ["x", "y", "z", "nx", "ny", "nz", "s", "t"]
+            .map(|name| format!("property float {name}\n"))
+            .concat();
+        let mut ply = format!(
+            "ply\nformat binary_little_endian 1.0\nelement vertex {count}\n{properties}element face {}\n\
+            property list uchar int vertex_indices\nend_header\n",
+            count / 3
+        )
+        .into_bytes();
+        for corner in 0..count {
+            let [u, v] = uvs[corner];
+            let numbers = [&positions[corner][..], &normals[corner], &[u, 1.0 - v]].concat();
+            ply.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
+        }
+        for triangle in 0..count as i32 / 3 {
+            ply.push(3);
+            ply.extend([0, 1, 2].iter().flat_map(|corner| (3 * triangle + corner).to_le_bytes()));
+        }
+        let mut read = read(ply);
+        add_tangents(&mut read, &AddTangentsOptions::default(), &mut |_| {}).unwrap();
+        let found = read.corners().unwrap()[0].vectors::<4>("TANGENT").unwrap().unwrap();
+        let bits = |tangents: &[[f32; 4]]| tangents.iter().map(|t| t.map(f32::to_bits)).collect::<Vec<_>>();
+        assert_eq!(bits(&found), bits(&corners.vectors::<4>("TANGENT").unwrap().unwrap()));
+    }
+}
+
+#[test]
+fn a_scene_keeps_its_faces_and_materials() {
+    let document = open(&blender("scene.obj"));
+    assert_eq!(document.warnings(), [""; 0]);
+    let provenance = document.provenance().unwrap();
+    let FaceCounts { triangles, quads, polygons, folded, .. } = provenance.faces;
+    assert!(triangles > 0 && quads > 0 && polygons == 4 && folded == 0, "{:?}", provenance.faces);
+    assert_eq!(provenance.generator.as_deref(), Some("Blender 5.0.1"));
+    assert_eq!(provenance.primitive(0, 0).unwrap().path, "o Body");
+    let materials = document.materials().unwrap();
+    assert_eq!(materials.len(), 1);
+    assert!(document.json()["materials"][0]["normalTexture"].is_object());
+    assert_eq!(document.json()["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"], 0.75);
+}
+
+#[test]
+fn stl_has_the_triangles_of_the_scene() {
+    let document = open(&blender("scene.stl"));
+    let triangles: usize = document.corners().unwrap().iter().map(|corners| corners.len() / 3).sum();
+    assert_eq!(triangles, 100);
+}
+
+const SQUARE: [[f32; 5]; 4] = [
+    [0.0, 0.0, 0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0, 1.0, 0.0],
+    [1.0, 1.0, 0.0, 1.0, 1.0],
+    [0.0, 1.0, 0.0, 0.0, 1.0],
+];
+
+const VERTICES: &str = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float s\nproperty float t\n";
+
+/// A square of one face as a PLY in an encoding.
+fn square(encoding: &str) -> Vec<u8> {
+    let faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    let mut ply = format!("ply\nformat {encoding} 1.0\n{VERTICES}{faces}").into_bytes();
+    match encoding {
+        "ascii" => ply.extend(b"0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n4 0 1 2 3\n"),
+        _ => {
+            let is_little = encoding == "binary_little_endian";
+            ply.extend(
+                SQUARE
+                    .iter()
+                    .flatten()
+                    .flat_map(|x| if is_little { x.to_le_bytes() } else { x.to_be_bytes() }),
+            );
+            ply.push(4);
+            ply.extend((0..4i32).flat_map(|i| if is_little { i.to_le_bytes() } else { i.to_be_bytes() }));
+        }
+    }
+    ply
+}
+
+#[test]
+fn all_encodings_of_ply_are_one_model() {
+    let glbs = ["ascii", "binary_little_endian", "binary_big_endian"].map(|encoding| {
+        let document = read(square(encoding));
+        assert_eq!(document.provenance().unwrap().faces.quads, 1);
+        document.to_glb().unwrap()
+    });
+    assert!(glbs[0] == glbs[1] && glbs[1] == glbs[2]);
+}
+
+#[test]
+fn cut_off_and_untrue_counts_are_errors() {
+    for encoding in ["ascii", "binary_little_endian", "binary_big_endian"] {
+        let whole = square(encoding);
+        for length in 0..whole.len() - 1 {
+            let cut = Document::from_bytes("model", whole[..length].to_vec(), None, &LoadOptions::default());
+            assert!(cut.is_err(), "{encoding}: {length} bytes");
+        }
+    }
+    let huge = String::from_utf8(square("ascii")).unwrap().replace("vertex 4", "vertex 4000000000");
+    assert!(refusal(huge).contains("vertex 0: is missing or no number, of 4000000000"));
+    let outside = String::from_utf8(square("ascii")).unwrap().replace("4 0 1 2 3", "4 0 1 2 9");
+    assert!(refusal(outside).contains("a face refers to position 9, but there are 4"));
+}
+
+#[test]
+fn ascii_and_binary_stl_are_one_model() {
+    let ascii = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+    let mut binary = vec![0; 80];
+    binary.extend(1u32.to_le_bytes());
+    let numbers = [0.0f32, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+    binary.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
+    binary.extend([0, 0]);
+    let positions = |document: &Document| document.corners().unwrap()[0].vectors::<3>("POSITION").unwrap();
+    assert_eq!(positions(&read(ascii)), positions(&read(binary.clone())));
+    // A header that begins with "solid" is no ASCII file.
+    binary[..5].copy_from_slice(b"solid");
+    assert_eq!(positions(&read(ascii)), positions(&read(binary)));
+    assert!(refusal(&ascii[..ascii.len() - 12]).contains("cut off before endsolid"));
+}
+
+#[test]
+fn other_files_are_named_for_what_they_are() {
+    for (bytes, words) in [
+        (&b"BLENDER-v405"[..], "is a Blender file"),
+        (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "is a scene of 3ds Max"),
+        (b"\x4D\x4D\x10\x00\x00\x00\x3D\x3D", "is a 3DS file"),
+        (b"PK\x03\x04", "is a zip archive"),
+        (b"<!DOCTYPE html><html>", "is a web page"),
+        (b"newmtl a\nKd 1 1 1\n", "is a material library of an OBJ"),
+        (b"version https://git-lfs.github.com/spec/v1", "is a pointer of Git LFS"),
+        (b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n", "without faces"),
+        (b"hello", "is neither glTF nor GLB"),
+    ] {
+        let sentence = refusal(bytes);
+        assert!(sentence.contains(words) && !sentence.contains('\n'), "{sentence}");
+    }
+}
+
+#[test]
+fn textures_with_paths_of_windows_are_found_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(
+        folder.path().join("a.obj"),
+        "mtllib C:\\work\\a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n",
+    )
+    .unwrap();
+    fs::write(
+        folder.path().join("a.mtl"),
+        "newmtl a\nnorm -bm 0.5 D:\\maps\\a map.png\nmap_Kd ../outside.png\n",
+    )
+    .unwrap();
+    fs::copy(blender("scene_normal.png"), folder.path().join("a map.png")).unwrap();
+    let document = open(&folder.path().join("a.obj"));
+    assert_eq!(document.json()["materials"][0]["normalTexture"]["scale"], 0.5);
+    let warnings = document.warnings();
+    assert_eq!(warnings.len(), 3, "{warnings:?}");
+    assert!(warnings.iter().filter(|warning| warning.contains("by its name")).count() == 2, "{warnings:?}");
+    assert!(
+        warnings.iter().any(|warning| warning.contains("\"../outside.png\" is not in the model's folder"))
+    );
+}
+
+/// The rules cut the same faces into other triangles, all of which cover them.
+#[test]
+fn polygons_are_cut_by_the_rule_that_is_asked_for() {
+    // An L with six corners.
+    let obj = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n";
+    for rule in [PolygonRule::Blender, PolygonRule::Fan, PolygonRule::Ears] {
+        let options = LoadOptions::default().with_polygon_rule(rule);
+        let document = Document::from_bytes("model", obj.into(), None, &options).unwrap();
+        let corners = document.corners().unwrap();
+        let positions = corners[0].vectors::<3>("POSITION").unwrap().unwrap();
+        let area = |t: &[[f32; 3]; 3]| {
+            let [a, b, c] = *t;
+            0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+        };
+        let areas: Vec<f32> = positions.as_chunks::<3>().0.iter().map(area).collect();
+        assert!(areas.len() == 4 && areas.iter().all(|&area| area > 0.0), "{rule:?}: {areas:?}");
+        assert_eq!(areas.iter().sum::<f32>(), 3.0, "{rule:?}");
+        assert_eq!(document.provenance().unwrap().faces.polygons, 1);
+    }
+}
+
+#[test]
+fn other_formats_are_not_written_in_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.ply");
+    fs::write(&path, square("ascii")).unwrap();
+    let document = open(&path);
+    assert!(
+        document.save_in_place().unwrap_err().to_string().contains("is PLY, which cannot be edited in place")
+    );
+    document.save(&folder.path().join("a.gltf"), &SaveOptions::default()).unwrap();
+    assert!(open(&folder.path().join("a.gltf")).provenance().is_none());
+}
+
+/// 120 faces of up to 40 corners, most of them concave, have the triangles that Blender made.
+#[test]
+fn polygons_are_cut_as_blender_cuts_them() {
+    let document = open(&blender("polygons.obj"));
+    let found = document.corners().unwrap()[0].vertices().to_vec();
+    let expected = fs::read_to_string(blender("polygons.txt")).unwrap();
+    let (mut first, mut at, mut different) = (0, 0, Vec::new());
+    for (face, line) in expected.lines().enumerate() {
+        let expected: Vec<u32> =
+            line.split(' ').map(|corner| first + corner.parse::<u32>().unwrap()).collect();
+        if found[at..at + expected.len()] != expected {
+            different.push(face);
+        }
+        (first, at) = (first + expected.len() as u32 / 3 + 2, at + expected.len());
+    }
+    assert_eq!(at, found.len());
+    assert_eq!(different, [0; 0]);
+}
