@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::mtl::{self, MtlMap, MtlMaterial};
 use super::statements::words;
-use crate::error::shortened;
+use crate::error::{shortened, system_reason};
 use crate::image::{DecodeLimits, RgbaImage, srgb_to_linear};
 use crate::source::{
     FoundFile, ModelFiles, NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture,
@@ -82,9 +82,11 @@ impl<'a> Materials<'a> {
                 Ok(text) => {
                     mtl::parse(&text).into_iter().for_each(|material| self.add(&library.name, &material))
                 }
-                Err(error) => self
-                    .warnings
-                    .push(format!("{}: cannot be read: {error}; its materials are left out", library.name)),
+                Err(error) => self.warnings.push(format!(
+                    "{}: cannot be read: {}; its materials are left out",
+                    library.name,
+                    system_reason(&error)
+                )),
             }
         }
     }
@@ -189,8 +191,11 @@ impl<'a> Materials<'a> {
                 Some(self.images.len() - 1)
             }
             Err(error) => {
-                self.warnings
-                    .push(format!("{}: cannot be read: {error}; the texture is left out", file.name));
+                self.warnings.push(format!(
+                    "{}: cannot be read: {}; the texture is left out",
+                    file.name,
+                    system_reason(&error)
+                ));
                 None
             }
         };

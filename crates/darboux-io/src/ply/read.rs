@@ -2,7 +2,7 @@
 
 use super::header::{self, Element, Encoding, Header, NumberType, Property};
 use super::values::{Values, decode};
-use crate::error::ContentError;
+use crate::error::{ContentError, system_reason};
 use crate::image::srgb_to_linear;
 use crate::source::{
     CornerValues, FaceSizes, ModelFiles, SourceFormat, SourceImage, SourceMaterial, SourceMesh, SourceScene,
@@ -388,8 +388,10 @@ fn add_texture(header: &Header, files: &ModelFiles, mesh: &mut SourceMesh, scene
             });
             mesh.material = Some(0);
         }
-        Err(error) => {
-            scene.warnings.push(format!("{}: cannot be read: {error}; the texture is left out", file.name))
-        }
+        Err(error) => scene.warnings.push(format!(
+            "{}: cannot be read: {}; the texture is left out",
+            file.name,
+            system_reason(&error)
+        )),
     }
 }
