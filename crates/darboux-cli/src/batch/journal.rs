@@ -16,6 +16,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use darboux_io::source::PolygonRule;
 use darboux_io::{RunId, system_reason};
 use same_file::Handle;
 use serde::{Deserialize, Serialize};
@@ -102,6 +103,9 @@ impl OutputInputs {
     /// What the output of `input` depends on now. Errors: a file cannot be read.
     pub fn new(command: &str, options: String, input: &Path, reading: &ReadOptions) -> Result<Self, String> {
         let content = content_of(input, reading)?;
+        let rule = reading.polygons;
+        let is_default = rule == PolygonRule::default();
+        let options = if is_default { options } else { format!("{options}, polygons {rule:?}") };
         Ok(Self { command: command.into(), version: VERSION.into(), options, content, common_content: None })
     }
 
