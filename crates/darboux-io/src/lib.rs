@@ -4,7 +4,7 @@
 //!   [tangents](gltf::add_tangents) and [normals](gltf::add_normals), [convert](gltf::convert_vertices) conventions,
 //!   [inspect](gltf::inspect) and [compare](gltf::pair_tangents) files.
 //! - [`image`]: normal maps in PNG; textures in PNG, JPEG and WebP (feature `textures`).
-//! - [`source`]: models of other formats, which become documents: OBJ, PLY and STL, each with a feature of its name. [`gltf::Document::open`] reads
+//! - [`source`]: models of other formats, which become documents: OBJ, PLY, STL and FBX, each with a feature of its name. [`gltf::Document::open`] reads
 //!   all of them; the content of a file decides.
 //!
 //! Files come from anywhere, so every number in them is checked, and a [`MemoryLimit`] bounds what a small file can ask for.
@@ -25,6 +25,8 @@
 //! ```
 
 mod error;
+#[cfg(feature = "fbx")]
+mod fbx;
 mod files;
 pub mod gltf;
 pub mod image;

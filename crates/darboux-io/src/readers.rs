@@ -27,6 +27,8 @@ fn scene(
     options: &LoadOptions,
 ) -> Result<SourceScene, ContentError> {
     match format {
+        #[cfg(feature = "fbx")]
+        SourceFormat::Fbx => crate::fbx::read(bytes, files, options),
         #[cfg(feature = "obj")]
         SourceFormat::Obj => crate::obj::read(bytes, files, options),
         #[cfg(feature = "ply")]

@@ -31,3 +31,5 @@ pub(crate) use scene::{
     CornerValues, FaceSizes, NormalMap, SourceImage, SourceMaterial, SourceMesh, SourceScene, SourceTexture,
     SourceUvSet,
 };
+#[cfg(feature = "fbx")]
+pub(crate) use scene::{SourceMorph, SourceNode, SourceSkin, VertexWeights};
