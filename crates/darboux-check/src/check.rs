@@ -9,6 +9,7 @@ use darboux_io::gltf::Document;
 use crate::check_options::CheckOptions;
 use crate::defect::Defect;
 use crate::finding::Finding;
+use crate::model_area::ModelArea;
 use crate::words;
 
 pub use maps::{
@@ -27,7 +28,7 @@ pub fn check_document(document: &Document, options: &CheckOptions) -> Result<Vec
 
 /// The defects of a document.
 pub fn defects_of(document: &Document, options: &CheckOptions) -> Result<Vec<Defect>, Error> {
-    let mut defects = defects_of_surfaces(document, &|_| true)?;
+    let mut defects = defects_of_surfaces(document, &ModelArea::of(document)?, &|_| true)?;
     let of_materials = maps::defects_of_materials(document, options, &mut defects)?;
     defects.extend(of_materials);
     Ok(defects)

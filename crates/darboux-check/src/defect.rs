@@ -32,6 +32,8 @@ pub struct Defect {
     pub obstacle: Option<Obstacle>,
     /// The mistake elsewhere that cancels it, so that bumps look right now.
     pub cancelled: Option<Cancelled>,
+    /// In percent of the model's area: what it spoils, weighted by the angle; none where its severity does not depend on that.
+    pub spoiled: Option<f64>,
 }
 
 /// What is wrong.
@@ -91,8 +93,13 @@ pub enum Fault {
     },
     /// The number of vertices without tangents.
     TangentMissing(usize),
-    /// The size of tangents that nothing reads, in bytes.
-    TangentUnused(usize),
+    /// Tangents that nothing reads.
+    TangentUnused {
+        /// Their size.
+        bytes: usize,
+        /// What is wrong with them, each code once.
+        also: Vec<Code>,
+    },
     TangentNotFinite(Part),
     TangentZero(Part),
     TangentNotUnit(Part),
@@ -193,7 +200,7 @@ impl Fault {
             Self::UvMirrored(_) => Code::UvMirrored,
             Self::UvOverlapping { .. } => Code::UvOverlapping,
             Self::TangentMissing(_) => Code::TangentMissing,
-            Self::TangentUnused(_) => Code::TangentUnused,
+            Self::TangentUnused { .. } => Code::TangentUnused,
             Self::TangentNotFinite(_) => Code::TangentNotFinite,
             Self::TangentZero(_) => Code::TangentZero,
             Self::TangentNotUnit(_) => Code::TangentNotUnit,
@@ -254,7 +261,8 @@ impl Defect {
     pub fn new(fault: Fault) -> Self {
         let code = fault.code();
         let obstacle = code.left_because().map(|_| Obstacle::NoRepair(code));
-        Self { place: Place::default(), severity: code.severity(), fault, obstacle, cancelled: None }
+        let (place, severity) = (Place::default(), code.severity());
+        Self { place, severity, fault, obstacle, cancelled: None, spoiled: None }
     }
 
     pub fn code(&self) -> Code {

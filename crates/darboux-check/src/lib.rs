@@ -36,12 +36,14 @@ mod indices;
 mod instances;
 mod map_users;
 mod measure;
+mod model_area;
 mod obstacles;
 mod place;
 mod repair;
 mod report;
 mod rules;
 mod severity;
+mod spoiled;
 mod surface;
 mod words;
 

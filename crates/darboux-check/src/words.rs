@@ -21,7 +21,7 @@ const FIRST: usize = 8;
 /// The finding that says a defect.
 pub fn finding(defect: Defect) -> Finding {
     let (code, fault) = (defect.code(), &defect.fault);
-    let Said { mut text, evidence, cure } = said(fault, defect.severity);
+    let Said { mut text, evidence, cure } = said(fault, defect.severity).with_spoiled(defect.spoiled);
     if let Some(Obstacle::RedLikelier { image }) = defect.obstacle {
         text += &format!("; the red of images[{image}] is inverted, so that this may be likelier");
     }

@@ -18,6 +18,7 @@ use crate::map_users::{MapSurfaces, MapUsers};
 use crate::measure::directions::{directions_by_mesh, is_convention_known};
 use crate::measure::facets::{FacetVotes, MapUse};
 use crate::measure::map::{Map, MapDirections, Vote};
+use crate::model_area::ModelArea;
 use crate::obstacles;
 use crate::place::Place;
 use crate::rules::{MAP_RULES, MATERIAL_RULES};
@@ -103,9 +104,10 @@ impl ModelOfMaps {
 /// document.
 pub fn check_model_of_maps(document: &Document) -> Result<ModelOfMaps, Error> {
     let (mut surfaces, mut defects) = (Vec::new(), Vec::new());
+    let area = ModelArea::of(document)?;
     for_each_surface(document, &|_| true, |mut surface| {
         surface.needs_tangents = true;
-        defects.extend(defects_of_surface(&surface));
+        defects.extend(defects_of_surface(&surface, &area));
         surfaces.push(surface);
     })?;
     Ok(ModelOfMaps { surfaces, findings: words::findings(defects.clone()), defects })

@@ -15,6 +15,7 @@ use crate::code::{Code, Family};
 use crate::defect::Defect;
 use crate::defect::Obstacle;
 use crate::instances::{Key, key, primitives_at};
+use crate::model_area::ModelArea;
 use crate::severity::Severity;
 
 /// A repair that has not ended after so many rounds is taken as it is. Each round leaves fewer defects than the one before.
@@ -27,7 +28,7 @@ pub fn fix_surfaces(
     left: &LeftPairs,
     options: &FixOptions,
 ) -> Result<FixedDocument, Error> {
-    let mut work = Work { groups: BTreeMap::new(), left, options };
+    let mut work = Work { groups: BTreeMap::new(), area: ModelArea::of(document)?, left, options };
     let mut repair = Repair { after: defects.clone(), ..Repair::default() };
     if defects.iter().any(|defect| options.repairs(defect)) {
         work.name_groups(document, &defects);
@@ -68,6 +69,8 @@ struct Attempt {
 struct Work<'a> {
     /// Primitives with the same data, each with the one that defects name.
     groups: BTreeMap<Key, PrimitiveName>,
+    /// Repairs do not change it.
+    area: ModelArea,
     left: &'a LeftPairs,
     options: &'a FixOptions,
 }
@@ -149,7 +152,7 @@ impl Work<'_> {
         edited: &BTreeMap<Key, Stage>,
     ) -> Result<(), Error> {
         let is_edited = |at: Key| edited.contains_key(&self.first_of(at));
-        let mut found = defects_of_surfaces(document, &|name| is_edited(key(name)))?;
+        let mut found = defects_of_surfaces(document, &self.area, &|name| is_edited(key(name)))?;
         // The defects of a group are named by the primitive that named them before the repair.
         for named in found.iter_mut().filter_map(|defect| defect.place.primitive.as_mut()) {
             if let Some(first) = self.groups.get(&key(named)) {

@@ -7,6 +7,7 @@ use crate::indices::Part;
 use crate::measure::reversed::Reversed;
 use crate::measure::values::{is_finite, is_unit};
 use crate::severity::Severity;
+use crate::spoiled::NO_LENGTH;
 use crate::surface::length;
 
 pub const RULES: &[SurfaceRule] = &[missing, not_finite, not_unit, other_axes, against_winding];
@@ -22,9 +23,6 @@ fn not_finite(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let vertices = facts.surface.vertices_where(normals, |normal| !is_finite(*normal));
     vertices.map(Fault::NormalNotFinite).map(Defect::new).into_iter().collect()
 }
-
-/// The length below which a normal has no direction.
-const NO_LENGTH: f64 = 0.1;
 
 fn not_unit(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let Some(normals) = &facts.surface.normals else { return Vec::new() };
@@ -43,9 +41,6 @@ fn other_axes(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     fault.map(Defect::new).into_iter().collect()
 }
 
-/// The share in percent above which reversed normals of a part of the surface are an error. Fewer may be creases that a modelling program made.
-const MAX_PERCENT_OF_PART: f64 = 1.0;
-
 /// Most faces have normals that point to their back, or some vertices have such normals for all their faces.
 fn against_winding(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let all = facts.surface.vertex_of_corner.len() / 3;
@@ -60,7 +55,6 @@ fn against_winding(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     either.sort_unstable();
     either.dedup();
     let Some(part) = Part::new(&either, all) else { return Vec::new() };
-    let severity = if part.percent() > MAX_PERCENT_OF_PART { Severity::Error } else { Severity::Warning };
     let fault = Fault::NormalsPartlyReversed {
         triangles: part,
         whole: triangles.len(),
@@ -68,5 +62,5 @@ fn against_winding(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
         vertices: vertices.len(),
         parts: [*parts, *all_parts],
     };
-    vec![Defect::new(fault).with_severity(severity)]
+    vec![Defect::new(fault)]
 }

@@ -9,6 +9,7 @@ use crate::measure::leaning::leaning;
 use crate::measure::reversal::Reversal;
 use crate::measure::values::{has_length, is_finite, is_sign, is_unit};
 use crate::severity::Severity;
+use crate::spoiled::SEEN;
 use crate::surface::{Surface, indices_where, xyz};
 
 pub const RULES: &[SurfaceRule] = &[
@@ -24,14 +25,6 @@ pub const RULES: &[SurfaceRule] = &[
     direction_or_sign,
 ];
 
-/// The share in percent above which flipped signs of some triangles, or turned tangents of some vertices, are an error: each shows dents for
-/// bumps, and one in a hundred is seen on a model that fills the screen. Fewer may be slivers, whose UV area is rounding, so that programs
-/// differ in their sign.
-const MAX_PERCENT_OF_PART: f64 = 1.0;
-
-/// Degrees from the plane of the normal above which leaning tangents are an error.
-const MAX_DEGREES_FROM_PLANE: f64 = 15.0;
-
 fn missing(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let surface = facts.surface;
     let is_missing = surface.needs_tangents && surface.tangents.is_none();
@@ -42,7 +35,8 @@ fn missing(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
 fn unused(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let Surface { needs_tangents, tangents, tangent_size, positions, .. } = facts.surface;
     let is_unused = !needs_tangents && tangents.is_some();
-    let defect = || Defect::new(Fault::TangentUnused(tangent_size * positions.len()));
+    let bytes = tangent_size * positions.len();
+    let defect = || Defect::new(Fault::TangentUnused { bytes, also: Vec::new() });
     is_unused.then(defect).into_iter().collect()
 }
 
@@ -79,7 +73,7 @@ fn not_perpendicular(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
         return Vec::new();
     }
     let worst = angles.into_iter().fold(0.0, f64::max);
-    let severity = if worst > MAX_DEGREES_FROM_PLANE { Severity::Error } else { Severity::Warning };
+    let severity = if worst > SEEN { Severity::Error } else { Severity::Warning };
     let fault = Fault::TangentLeaning { vertices: found.as_slice().into(), worst };
     vec![Defect::new(fault).with_severity(severity)]
 }
@@ -124,8 +118,7 @@ fn different(facts: &SurfaceFacts<'_>, fit: &Fit) -> Option<Defect> {
         follows_from_normals: *difference == Difference::SignFlipped
             && facts.reversal == Some(Reversal::NormalsByTangents),
     };
-    let is_small = difference.is_partial() && difference.percent() <= MAX_PERCENT_OF_PART;
-    let is_warning = is_small || difference.follows_from_normals;
+    let is_warning = difference.follows_from_normals;
     let defect = Defect::new(Fault::TangentDiffers(difference));
     Some(if is_warning { defect.with_severity(Severity::Warning) } else { defect })
 }

@@ -23,6 +23,14 @@ impl Said {
         self
     }
 
+    /// `percent`: of the area of the model.
+    pub fn with_spoiled(self, percent: Option<f64>) -> Self {
+        match percent {
+            Some(percent) => self.with("part of the model's area that looks wrong, by the angle", percent, "%"),
+            None => self,
+        }
+    }
+
     pub fn with_cure(self, cure: impl Into<Cow<'static, str>>) -> Self {
         Self { cure: Some(cure.into()), ..self }
     }

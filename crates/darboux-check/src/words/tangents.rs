@@ -15,10 +15,16 @@ pub fn said(fault: &Fault, severity: Severity) -> Said {
     match fault {
         Fault::TangentMissing(vertices) => Said::new("its material has a normal map, and it has no tangents")
             .with("without tangents", *vertices as f64, "vertices"),
-        Fault::TangentUnused(bytes) => Said::new(
-            "it has tangents, and its material has nothing that reads them",
-        )
-        .with("size", *bytes as f64, "bytes"),
+        Fault::TangentUnused { bytes, also } => {
+            let also: Vec<&str> = also.iter().map(|code| code.name()).collect();
+            let also = if also.is_empty() {
+                String::new()
+            } else {
+                format!("; if something did, they would be {}", also.join(", "))
+            };
+            Said::new(format!("it has tangents, and its material has nothing that reads them{also}"))
+                .with("size", *bytes as f64, "bytes")
+        }
         Fault::TangentNotFinite(part) => {
             vertices(part, ["tangent contains NaN or infinity", "tangents contain NaN or infinity"])
         }

@@ -1,0 +1,80 @@
+//! [`ModelArea`]: the area of all surfaces of a model in its scene, which the area that a defect spoils is compared with.
+
+use std::collections::BTreeMap;
+
+use darboux_io::Error;
+use darboux_io::gltf::{Document, MeshInstances};
+
+use crate::place::Place;
+use crate::surface::{cross, length, sub};
+
+/// The area of the surfaces of a model.
+#[derive(Clone, Debug, Default)]
+pub struct ModelArea {
+    /// That of all surfaces, in the units of the scene.
+    total: f64,
+    /// By the index of a mesh: how many times its area is in the scene, scaled as its nodes are. 1 for a mesh that no node has.
+    scale_of_mesh: BTreeMap<usize, f64>,
+}
+
+impl ModelArea {
+    /// Errors: invalid data of primitives.
+    pub fn of(document: &Document) -> Result<Self, Error> {
+        // Where the nodes are broken, every mesh counts once.
+        let instances = document.mesh_instances().unwrap_or_default();
+        let mut area = Self { total: 0.0, scale_of_mesh: scales(&instances) };
+        for corners in document.corners()? {
+            let name = corners.name();
+            let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
+            let Some(&accessor) = attributes.get("POSITION") else { continue };
+            let positions = document.vectors::<3>(accessor)?;
+            let at = |vertex: u32| positions.get(vertex as usize).copied().unwrap_or_default();
+            let triangles = corners.vertices().as_chunks::<3>().0.iter();
+            let own: f64 =
+                triangles.map(|triangle| area_of(triangle.map(at))).filter(|area| area.is_finite()).sum();
+            area.total += own * area.scale(name.mesh);
+        }
+        Ok(area)
+    }
+
+    /// The area of a part of the primitive at a place in percent of the model's; none for a model without an area. `own`: in the units of its
+    /// positions.
+    pub fn percent(&self, place: &Place, own: f64) -> Option<f64> {
+        let mesh = place.primitive.as_ref()?.mesh;
+        let share = own * self.scale(mesh) * (1 + place.same_as) as f64 / self.total;
+        (self.total > 0.0 && share.is_finite()).then_some(100.0 * share.min(1.0))
+    }
+
+    fn scale(&self, mesh: usize) -> f64 {
+        self.scale_of_mesh.get(&mesh).copied().unwrap_or(1.0)
+    }
+}
+
+/// By mesh, the sum of the area scales of its places in the scene.
+fn scales(instances: &MeshInstances) -> BTreeMap<usize, f64> {
+    let mut scales = BTreeMap::new();
+    for mesh in &instances.meshes {
+        let joints = mesh.skin.and_then(|skin| instances.skins.get(skin)).filter(|joints| !joints.is_empty());
+        let scale = match joints {
+            // Most joints of a skin have one scale.
+            Some(joints) => joints.iter().map(area_scale).sum::<f64>() / joints.len() as f64,
+            None => mesh.matrices.iter().map(area_scale).sum(),
+        };
+        if scale.is_finite() {
+            *scales.entry(mesh.mesh).or_default() += scale;
+        }
+    }
+    scales
+}
+
+/// The factor by which a transform changes areas, averaged over their directions where it stretches: the determinant to the power of 2/3.
+fn area_scale([x, y, z, _]: &[[f64; 4]; 4]) -> f64 {
+    let determinant = x[0] * (y[1] * z[2] - y[2] * z[1]) - y[0] * (x[1] * z[2] - x[2] * z[1])
+        + z[0] * (x[1] * y[2] - x[2] * y[1]);
+    determinant.abs().cbrt().powi(2)
+}
+
+/// The area of a triangle.
+pub fn area_of([a, b, c]: [[f32; 3]; 3]) -> f64 {
+    length(cross(sub(b, a), sub(c, a))) / 2.0
+}

@@ -1,0 +1,96 @@
+//! How much of a picture of the surface a defect spoils: the area of the faces that show it, each weighted by how far it turns the light.
+//!
+//! A face whose tangent frame is turned by a right angle or more, or mirrored, counts whole; one that is turned less counts by its angle over 90
+//! degrees, and one that is turned by less than [`SEEN`] does not count.
+
+use crate::defect::{Fault, TangentDifference};
+use crate::facts::SurfaceFacts;
+use crate::indices::Indices;
+use crate::measure::fit::Difference;
+use crate::measure::leaning::leaning;
+use crate::model_area::area_of;
+use crate::surface::{Surface, length};
+
+/// The degrees from which on turned tangents are seen.
+pub const SEEN: f64 = 15.0;
+
+/// The length below which a normal has no direction.
+pub const NO_LENGTH: f64 = 0.1;
+
+/// The area that a defect spoils, in the units of the positions; none where its severity does not depend on that.
+pub fn spoiled(fault: &Fault, facts: &SurfaceFacts<'_>) -> Option<f64> {
+    let surface = facts.surface;
+    let at = |vertices: &Indices| Some(area_at(surface, vertices, |_| 1.0));
+    match fault {
+        Fault::NormalNotUnit { vertices, smallest } if *smallest < NO_LENGTH => {
+            let normals = surface.normals.as_ref()?;
+            let has_none = |vertex: usize| if length(normals[vertex]) < NO_LENGTH { 1.0 } else { 0.0 };
+            Some(area_at(surface, &vertices.items, has_none))
+        }
+        Fault::NormalsReversed { triangles, .. } | Fault::NormalsPartlyReversed { triangles, .. } => {
+            Some(area_of_triangles(surface, &triangles.items))
+        }
+        Fault::TangentSignMixed(triangles) => Some(area_of_triangles(surface, &triangles.items)),
+        Fault::TangentSharedAcrossMirror(_) => Some(area_with_other_sign(facts)),
+        Fault::TangentSignNotOne(part) | Fault::TangentNotUnit(part) => at(&part.items),
+        Fault::TangentOutliers { vertices, .. } => at(&vertices.items),
+        Fault::TangentLeaning { .. } => {
+            let leaning = leaning(facts);
+            let vertices: Vec<usize> = leaning.iter().map(|(vertex, _)| *vertex).collect();
+            let weight = |vertex: usize| {
+                let found = leaning.binary_search_by_key(&vertex, |(leaning, _)| *leaning);
+                let degrees = found.map_or(0.0, |index| leaning[index].1);
+                if degrees > SEEN { (degrees / 90.0).min(1.0) } else { 0.0 }
+            };
+            Some(area_at(surface, &vertices.as_slice().into(), weight))
+        }
+        Fault::TangentDiffers(found) => Some(of_difference(surface, found)),
+        _ => None,
+    }
+}
+
+fn of_difference(surface: &Surface, found: &TangentDifference) -> f64 {
+    match found.difference {
+        Difference::SignPartlyFlipped => area_of_triangles(surface, &found.items),
+        Difference::PartlyNegated | Difference::PartlyRotated => area_at(surface, &found.items, |_| 1.0),
+        _ => {
+            let all = surface.triangles().map(|triangle| area(surface, triangle)).sum::<f64>();
+            all * found.percent() / 100.0
+        }
+    }
+}
+
+/// The area of a triangle; 0 where that is not finite.
+fn area(surface: &Surface, triangle: [usize; 3]) -> f64 {
+    let area = area_of(triangle.map(|vertex| surface.positions[vertex]));
+    if area.is_finite() { area } else { 0.0 }
+}
+
+fn area_of_triangles(surface: &Surface, triangles: &Indices) -> f64 {
+    let numbered = surface.triangles().enumerate();
+    let found = numbered.filter(|(number, _)| triangles.contains(*number));
+    found.map(|(_, triangle)| area(surface, triangle)).sum()
+}
+
+/// A third of the area of each triangle at a vertex, times the weight of that vertex.
+fn area_at(surface: &Surface, vertices: &Indices, weight: impl Fn(usize) -> f64) -> f64 {
+    let of_triangle = |triangle: [usize; 3]| {
+        let found = triangle.into_iter().filter(|&vertex| vertices.contains(vertex));
+        let weights: f64 = found.map(&weight).sum();
+        if weights > 0.0 { area(surface, triangle) * weights / 3.0 } else { 0.0 }
+    };
+    surface.triangles().map(of_triangle).sum()
+}
+
+/// The area of the corners on mirrored seams whose tangent has the sign of the other side.
+fn area_with_other_sign(facts: &SurfaceFacts<'_>) -> f64 {
+    let (Some(tangents), Some(expected)) = (&facts.surface.tangents, &facts.expected) else { return 0.0 };
+    let of_triangle = |(triangle, expected): ([usize; 3], &[[f32; 4]; 3])| {
+        let corners = triangle.into_iter().zip(expected);
+        let wrong = corners.filter(|(vertex, expected)| {
+            facts.is_on_mirrored_seam[*vertex] && (expected[3] < 0.0) != (tangents[*vertex][3] < 0.0)
+        });
+        area(facts.surface, triangle) * wrong.count() as f64 / 3.0
+    };
+    facts.surface.triangles().zip(expected.as_chunks::<3>().0).map(of_triangle).sum()
+}
