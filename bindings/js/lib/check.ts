@@ -10,7 +10,7 @@ import simd from './wasm/check.simd.wasm';
 interface CheckExports extends Exports {
   file_bytes(bytes: number): number;
   tangents_to_recognise(corners: number): number;
-  check_file(isMap: number, isGreenDown: number, judgesMaps: number, repairs: number): number;
+  check_file(isMap: number, isGreenDown: number, judgesMaps: number, assumedMap: number, repairs: number): number;
   judge_normal_map(isWide: number, channels: number, width: number, height: number): number;
   recognise_recipe(): number;
   json_length(): number;
@@ -26,6 +26,8 @@ export interface CheckOptions {
   green?: 'up' | 'down' | null;
   /** Whether the normal maps of a model are decoded and judged; otherwise they are taken to be right. Default: true. */
   maps?: boolean | null;
+  /** What normal maps are where neither their texels nor the faces decide it. Default: nothing is assumed. */
+  assume?: 'opengl' | 'directx' | 'red-inverted' | null;
 }
 
 /** A number that supports a finding. */
@@ -68,6 +70,9 @@ export interface Finding {
   /** What {@link fix} did to the tangents of the primitive: some were corrected, `count` of them, or all computed again; absent for other findings. */
   change?: { kind: 'corrected_tangents'; count: number } | { kind: 'recomputed_tangents' };
 }
+
+/** The findings of a file, and what happened to it, what it looks like and what to do, in one to three sentences. */
+export type Findings = Finding[] & { diagnosis: string };
 
 /** The verdict on a normal map. Counts leave out black, white and middle grey texels. */
 export interface MapJudgement {
@@ -134,7 +139,7 @@ export const ready: Promise<void> = checkModule.ready;
  * @returns The findings, grouped by place; empty for a healthy file.
  * @throws TypeError for another type. Error for a file that cannot be read; an image that cannot be decoded is a finding.
  */
-export function check(file: Uint8Array, options?: CheckOptions | null): Finding[] {
+export function check(file: Uint8Array, options?: CheckOptions | null): Findings {
   return checkModule.call((exports) => findings(exports, file, isImage(file), options, false));
 }
 
@@ -148,7 +153,7 @@ export function check(file: Uint8Array, options?: CheckOptions | null): Finding[
 export function fix(
   file: Uint8Array,
   options?: CheckOptions | null,
-): { file: Uint8Array<ArrayBuffer> | null; findings: Finding[] } {
+): { file: Uint8Array<ArrayBuffer> | null; findings: Findings } {
   return checkModule.call((exports) => {
     const found = findings(exports, file, false, options, true);
     const repaired = newFile(exports);
@@ -198,16 +203,21 @@ function newFile(exports: CheckExports): Uint8Array<ArrayBuffer> {
   return new Uint8Array(exports.memory.buffer, exports.repaired_file() >>> 0, exports.repaired_length() >>> 0).slice();
 }
 
-function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, options: CheckOptions | null | undefined, repairs: boolean): Finding[] {
+function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, options: CheckOptions | null | undefined, repairs: boolean): Findings {
   checkType('file', file, ['Uint8Array']);
-  const { green, maps } = optionsOf(options);
+  const { green, maps, assume } = optionsOf(options);
   if (green != null && green !== 'up' && green !== 'down') throw new RangeError(`green is '${green}'; it must be 'up' or 'down'`);
+  const assumed = assume == null ? 0 : ASSUMPTIONS.indexOf(assume) + 1;
+  if (assume != null && !assumed) throw new RangeError(`assume is '${assume}'; it must be 'opengl', 'directx' or 'red-inverted'`);
   writeBytes(exports, file);
-  const address = exports.check_file(Number(isMap), Number(green === 'down'), Number(maps ?? true), Number(repairs));
-  const checked = readJson<{ findings?: Record<string, unknown>[]; error?: string }>(exports, address);
+  const address = exports.check_file(Number(isMap), Number(green === 'down'), Number(maps ?? true), assumed, Number(repairs));
+  const checked = readJson<{ findings?: Record<string, unknown>[]; diagnosis?: string; error?: string }>(exports, address);
   if (checked.error !== undefined) throw new Error(checked.error);
-  return checked.findings!.map(finding);
+  return Object.assign(checked.findings!.map(finding), { diagnosis: checked.diagnosis! });
 }
+
+/** The assumptions in the order of the module. */
+const ASSUMPTIONS = ['opengl', 'directx', 'red-inverted'] as const;
 
 /** A finding as the module writes it, with the names of `darboux check --json`, in which words are separated by underscores. */
 function finding(stored: Record<string, unknown>): Finding {

@@ -4,7 +4,9 @@ use darboux::{
     BitangentDirection, Channel, Choice, MapJudgement, MapTiles, Method, NormalMapJudge, RecipeMatch,
     RecipeRounding, RecipeWriting, TexelLayout,
 };
-use darboux_check::{CheckOptions, FixOptions, ReportedFinding, check_document, check_map, fix_document};
+use darboux_check::{
+    AssumedMap, CheckOptions, FixOptions, ReportedFinding, check_document, check_map, diagnosis, fix_document,
+};
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
 use serde::Serialize;
@@ -44,23 +46,28 @@ pub extern "C" fn repaired_length() -> usize {
 
 /// The result of a check: findings, or why the file cannot be read.
 #[derive(Serialize)]
+#[serde(untagged)]
 enum Checked {
-    #[serde(rename = "findings")]
-    Findings(Vec<ReportedFinding>),
-    #[serde(rename = "error")]
-    Error(String),
+    Findings { findings: Vec<ReportedFinding>, diagnosis: String },
+    Error { error: String },
 }
 
-/// Checks the file of a model or, with `is_map`, of a normal map; with `repairs`, repairs the model. Returns the address of the JSON.
+/// Checks the file of a model or, with `is_map`, of a normal map; with `repairs`, repairs the model. `assumed_map`: 0 for no assumption, otherwise 1 more than
+/// its index among all. Returns the address of the JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn check_file(
     is_map: bool,
     is_green_down: bool,
     judges_maps: bool,
+    assumed_map: usize,
     repairs: bool,
 ) -> *const u8 {
     let green = if is_green_down { BitangentDirection::Down } else { BitangentDirection::Up };
-    let options = CheckOptions::default().with_green(green).with_maps(judges_maps);
+    let assumed = assumed_map.checked_sub(1).and_then(|index| AssumedMap::ALL.get(index));
+    let options = CheckOptions::default()
+        .with_green(green)
+        .with_maps(judges_maps)
+        .with_assumed_map(assumed.map(|(_, map)| *map));
     with_arena(|arena| {
         let arrays = &mut arena.check;
         arrays.repaired.clear();
@@ -70,8 +77,8 @@ pub extern "C" fn check_file(
             check_model(&arrays.bytes, options, repairs, &mut arrays.repaired)
         };
         let checked = match checked {
-            Ok(findings) => Checked::Findings(findings),
-            Err(error) => Checked::Error(error.to_string()),
+            Ok(findings) => Checked::Findings { diagnosis: diagnosis(&findings), findings },
+            Err(error) => Checked::Error { error: error.to_string() },
         };
         arrays.put_json(&checked)
     })

@@ -59,7 +59,10 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
       const named = Object.entries(finding).map(([word, value]) => [word.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`), value]);
       return Object.fromEntries(named);
     };
-    assert.deepEqual(check(asset('made/shield.glb')).map(underscored), JSON.parse(stdout).files[0].findings);
+    const found = check(asset('made/shield.glb'));
+    const reported = JSON.parse(stdout).files[0];
+    assert.deepEqual(found.map(underscored), reported.findings);
+    assert.equal(found.diagnosis, reported.diagnosis);
     assert.ok(fix(asset('made/shield.glb')).findings.some(({ change }) => change));
   });
 
@@ -116,6 +119,7 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
     assert.throws(() => check('model.glb'), TypeError);
     assert.throws(() => check(undefined), /^TypeError: file must be a Uint8Array, not Undefined/);
     assert.throws(() => check(asset('made/shield.glb'), { green: 'left' }), RangeError);
+    assert.throws(() => check(asset('made/shield.glb'), { assume: 'left' }), RangeError);
     assert.deepEqual(errors(check(new Uint8Array([0x89, 0x50, 0x4e, 0x47]))), ['map-unreadable']);
     assert.throws(() => convertFile(asset('made/shield.glb'), 'metal', 'gltf'), /^Error: source: "metal" is not a convention/);
     assert.throws(() => convertFile(asset('made/shield.glb'), 'gltf', 'gltf', { layout: 'xyz' }), /^Error: layout: /);

@@ -7,7 +7,8 @@ use darboux::{
     TexelLayout, recognise_recipe_with,
 };
 use darboux_check::{
-    Change, CheckOptions, Code, FixOptions, ReportedFinding, check_document, check_map, fix_document,
+    AssumedMap, Change, CheckOptions, Code, FixOptions, ReportedFinding, check_document, check_map,
+    diagnosis, fix_document,
 };
 use darboux_io::{FileKind, LoadOptions, gltf};
 use numpy::prelude::*;
@@ -36,29 +37,32 @@ const CONVENTIONS: &[(&str, BitangentDirection)] =
 ///     Where the green of normal maps should point: 'opengl' (up, as in glTF) or 'directx' (down).
 /// maps : bool
 ///     Decode and judge the normal maps of a model. Without it they are taken to be right.
+/// assume : str, optional
+///     What normal maps are where neither their texels nor the faces decide it: 'opengl', 'directx' or 'red-inverted'.
 /// allow_outside, memory_limit
 ///     As in load; for files.
 ///
 /// Returns
 /// -------
-/// list of Finding
-///     Empty for a healthy file.
+/// Findings
+///     A list of Finding, empty for a healthy file. Its `diagnosis` says what happened, what it looks like and what to do.
 ///
 /// Raises
 /// ------
 /// OSError, ValueError
 ///     As load. An image that cannot be decoded is a finding.
 #[pyfunction]
-#[pyo3(signature = (source, *, convention="opengl", maps=true, allow_outside=false, memory_limit=None))]
+#[pyo3(signature = (source, *, convention="opengl", maps=true, assume=None, allow_outside=false, memory_limit=None))]
 pub fn check<'py>(
     py: Python<'py>,
     source: CheckSource<'py>,
     convention: &str,
     maps: bool,
+    assume: Option<&str>,
     allow_outside: bool,
     memory_limit: Option<Natural>,
-) -> PyResult<Vec<Bound<'py, PyAny>>> {
-    let options = check_options(convention, maps)?;
+) -> PyResult<Bound<'py, PyAny>> {
+    let options = check_options(convention, maps, assume)?;
     let found = match source {
         CheckSource::Document(document) => {
             let document = document.whole()?;
@@ -69,7 +73,7 @@ pub fn check<'py>(
             py.detach(|| check_path(&path, &loading, &options)).map_err(file_error)?
         }
     };
-    found.into_iter().map(|found| finding(py, found.into())).collect()
+    findings(py, found.into_iter().map(Into::into).collect())
 }
 
 /// What `check` checks.
@@ -104,9 +108,10 @@ fn check_path(
     }
 }
 
-fn check_options(convention: &str, maps: bool) -> PyResult<CheckOptions> {
+fn check_options(convention: &str, maps: bool, assume: Option<&str>) -> PyResult<CheckOptions> {
     let green = choice("convention", convention, CONVENTIONS)?;
-    Ok(CheckOptions::default().with_green(green).with_maps(maps))
+    let assumed = assume.map(|name| choice("assume", name, &AssumedMap::ALL)).transpose()?;
+    Ok(CheckOptions::default().with_green(green).with_maps(maps).with_assumed_map(assumed))
 }
 
 /// Repair what can be repaired without guessing: tangents, normals, and the texels of PNG and JPEG normal maps, as `darboux check --fix` does.
@@ -118,7 +123,7 @@ fn check_options(convention: &str, maps: bool) -> PyResult<CheckOptions> {
 /// ----------
 /// document : Document
 ///     Changed in memory; save writes it. Its is_changed is False if nothing was repaired.
-/// convention, maps
+/// convention, maps, assume
 ///     As in check.
 /// method : str
 ///     How tangents are made again: as the normal map was baked, so nearly always 'mikktspace'.
@@ -127,7 +132,7 @@ fn check_options(convention: &str, maps: bool) -> PyResult<CheckOptions> {
 ///
 /// Returns
 /// -------
-/// list of Finding
+/// Findings
 ///     What check finds, each with `repaired`, and with `left_because` where it is still there.
 ///
 /// Raises
@@ -135,17 +140,19 @@ fn check_options(convention: &str, maps: bool) -> PyResult<CheckOptions> {
 /// ValueError
 ///     The data of the document is broken; an unknown code or choice.
 #[pyfunction]
-#[pyo3(signature = (document, *, convention="opengl", maps=true, method="mikktspace", only=None))]
+#[pyo3(signature = (document, *, convention="opengl", maps=true, assume=None, method="mikktspace", only=None))]
 pub fn fix<'py>(
     py: Python<'py>,
     mut document: PyRefMut<'py, Document>,
     convention: &str,
     maps: bool,
+    assume: Option<&str>,
     method: &str,
     only: Option<Vec<String>>,
-) -> PyResult<Vec<Bound<'py, PyAny>>> {
+) -> PyResult<Bound<'py, PyAny>> {
     let tangents = tangent_options(method, Mode::default().name(), 180.0)?;
-    let options = FixOptions::default().with_check(check_options(convention, maps)?).with_tangents(tangents);
+    let options =
+        FixOptions::default().with_check(check_options(convention, maps, assume)?).with_tangents(tangents);
     let codes: Option<Result<Vec<Code>, String>> =
         only.map(|names| names.iter().map(|name| name.parse()).collect());
     let options = match codes.transpose().map_err(PyValueError::new_err)? {
@@ -156,7 +163,14 @@ pub fn fix<'py>(
         let findings = check_document(document, &options.check)?;
         fix_document(document, findings, &options)
     })?;
-    fixed.findings.into_iter().map(|fixed| finding(py, fixed.into())).collect()
+    findings(py, fixed.findings.into_iter().map(Into::into).collect())
+}
+
+/// The findings as a list with the diagnosis.
+fn findings(py: Python<'_>, found: Vec<ReportedFinding>) -> PyResult<Bound<'_, PyAny>> {
+    let diagnosis = diagnosis(&found);
+    let listed: PyResult<Vec<_>> = found.into_iter().map(|found| finding(py, found)).collect();
+    results_class(py, "Findings")?.call1((listed?, diagnosis))
 }
 
 fn finding<'py>(py: Python<'py>, finding: ReportedFinding) -> PyResult<Bound<'py, PyAny>> {

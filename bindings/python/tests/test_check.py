@@ -52,10 +52,11 @@ def test_models_are_repaired(tmp_path: Path) -> None:
 
 
 def test_findings_are_those_of_the_command(tmp_path: Path) -> None:
-    def reported(*words: object) -> List[Dict[str, Any]]:
+    def reported(*words: object) -> Dict[str, Any]:
         command = [sys.executable, "-m", "darboux", "check", *map(str, words), "--json"]
         done = subprocess.run(command, capture_output=True, check=False)
-        return json.loads(done.stdout)["files"][0]["findings"]
+        report: Dict[str, Any] = json.loads(done.stdout)["files"][0]
+        return report
 
     def rows(findings: List[darboux.Finding]) -> List[Dict[str, Any]]:
         """As the report writes them, without what it leaves out."""
@@ -69,10 +70,12 @@ def test_findings_are_those_of_the_command(tmp_path: Path) -> None:
         return found
 
     model = ASSETS / "made/shield.glb"
-    assert rows(darboux.check(model)) == reported(model)
-    fixed = rows(darboux.fix(darboux.load(model)))
+    found, report = darboux.check(model), reported(model)
+    assert (rows(found), found.diagnosis) == (report["findings"], report["diagnosis"])
+    repaired, report = darboux.fix(darboux.load(model)), reported(model, "--fix", "-o", tmp_path / "fixed.glb")
+    fixed = rows(repaired)
     assert any("change" in row for row in fixed)
-    assert fixed == reported(model, "--fix", "-o", tmp_path / "fixed.glb")
+    assert (fixed, repaired.diagnosis) == (report["findings"], report["diagnosis"])
 
 
 def test_repairs_can_be_chosen() -> None:

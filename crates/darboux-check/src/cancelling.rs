@@ -1,7 +1,7 @@
 //! Mistakes in a map and in the tangents of a surface that cancel each other: bumps look right, and would be inverted if one were repaired alone.
 
 use crate::code::Code;
-use crate::defect::{Cancelled, Defect, Fault, MapFault, Obstacle, PAIRS, Pair};
+use crate::defect::{Cancelled, Defect, Fault, MapFault, PAIRS, Pair};
 use crate::severity::Severity;
 
 /// All codes of the pairs.
@@ -24,14 +24,18 @@ pub fn pair_of<'a>(
 }
 
 /// Marks which defects of a map and of the surfaces that use it cancel. The map's are marked where they cancel on all surfaces, and their codes are
-/// returned. What cancels makes no picture wrong: it is a warning, and one is enough where the map is marked.
-pub fn mark(on_map: &mut [Defect], surfaces: &mut [Vec<&mut Defect>]) -> &'static [Code] {
+/// returned. What cancels makes no picture wrong: it is a warning, and one finding says all where the map is marked. `image`: that of the map.
+pub fn mark(
+    on_map: &mut [Defect],
+    surfaces: &mut [Vec<&mut Defect>],
+    image: Option<usize>,
+) -> &'static [Code] {
     let pairs: Vec<Option<&Pair>> =
         surfaces.iter().map(|surface| pair_of(&*on_map, surface.iter().map(|defect| &**defect))).collect();
     for (pair, surface) in pairs.iter().zip(&mut *surfaces) {
         let Some(pair) = *pair else { continue };
         for defect in surface.iter_mut().filter(|defect| pair.contains(defect.code())) {
-            defect.cancelled.get_or_insert(Cancelled::ByMap(pair));
+            defect.cancelled.get_or_insert(Cancelled::ByMap { pair, image, is_whole: false });
             defect.severity = defect.severity.min(Severity::Warning);
         }
     }
@@ -46,25 +50,11 @@ pub fn mark(on_map: &mut [Defect], surfaces: &mut [Vec<&mut Defect>]) -> &'stati
         defect.severity = defect.severity.min(Severity::Warning);
     }
     for defect in surfaces.iter_mut().flatten().filter(|defect| pair.contains(defect.code())) {
-        defect.severity = Severity::Info;
-    }
-    pair.on_map
-}
-
-/// Whether all signs of a surface are flipped.
-pub fn has_flipped_signs(defect: &Defect) -> bool {
-    defect.code() == Code::TangentSignFlipped && !defect.lists_items()
-}
-
-/// Leaves flipped signs of whole surfaces on which a map has an unknown convention: inverted green there would cancel them, and a repair of one alone
-/// would turn a right picture into a wrong one. `image`: that of the map.
-pub fn leave_what_a_map_may_cancel(image: usize, surfaces: &mut [Vec<&mut Defect>]) {
-    for defect in surfaces.iter_mut().flatten() {
-        if has_flipped_signs(defect) {
-            defect.obstacle.get_or_insert(Obstacle::MapMayCancel { image });
-            defect.severity = defect.severity.min(Severity::Warning);
+        if let Some(Cancelled::ByMap { image: of, is_whole, .. }) = &mut defect.cancelled {
+            *is_whole = *of == image;
         }
     }
+    pair.on_map
 }
 
 /// Whether these codes of the pairs are among others, and no other ones of the pairs.

@@ -13,8 +13,8 @@ use crate::model_area::ModelArea;
 use crate::words;
 
 pub use maps::{
-    CheckedMap, MapDefects, ModelOfMaps, check_map, check_map_on_model, check_model_of_maps, map_defects,
-    map_defects_on_model, map_defects_on_surfaces,
+    CheckedMap, MapDefects, ModelOfMaps, check_map, check_map_on_model, check_model_of_maps,
+    identified_defects, map_defects, map_defects_on_model,
 };
 pub use surfaces::{defects_of_surfaces, for_each_surface};
 

@@ -1,5 +1,7 @@
 //! [`CheckOptions`]: what is checked.
 
+use std::str::FromStr;
+
 use darboux::BitangentDirection;
 
 /// What is checked.
@@ -10,11 +12,40 @@ pub struct CheckOptions {
     pub green: BitangentDirection,
     /// Whether the images of normal maps are decoded and judged. Default: true.
     pub maps: bool,
+    /// What the normal maps are taken to be where their texels and the faces leave it open. Default: none.
+    pub assumed_map: Option<AssumedMap>,
+}
+
+/// The channels of normal maps, as the user knows them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum AssumedMap {
+    /// Red to the right, green up.
+    OpenGl,
+    /// Red to the right, green down.
+    DirectX,
+    /// Red to the left, green up.
+    RedInverted,
+}
+
+impl AssumedMap {
+    /// All, by name.
+    pub const ALL: [(&'static str, Self); 3] =
+        [("opengl", Self::OpenGl), ("directx", Self::DirectX), ("red-inverted", Self::RedInverted)];
+}
+
+impl FromStr for AssumedMap {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let found = Self::ALL.iter().find(|(known, _)| *known == name);
+        found.map(|(_, map)| *map).ok_or_else(|| format!("no assumption about maps is called {name:?}"))
+    }
 }
 
 impl Default for CheckOptions {
     fn default() -> Self {
-        Self { green: BitangentDirection::Up, maps: true }
+        Self { green: BitangentDirection::Up, maps: true, assumed_map: None }
     }
 }
 
@@ -23,6 +54,12 @@ impl CheckOptions {
     #[must_use]
     pub fn with_green(self, green: BitangentDirection) -> Self {
         Self { green, ..self }
+    }
+
+    /// These options with an assumption about maps.
+    #[must_use]
+    pub fn with_assumed_map(self, assumed_map: Option<AssumedMap>) -> Self {
+        Self { assumed_map, ..self }
     }
 
     /// These options with or without maps.

@@ -379,6 +379,20 @@ codes! {
         "Leave the map out."
         Leave "it makes no picture wrong"
     }
+    MapOtherLayout "map-other-layout" Error {
+        "The normal map was made for another UV layout."
+        "Details are at wrong places, and seams show; with UVs upside down, the whole texture is."
+        "The UVs or the image were mirrored or turned after the bake, as where one program counts v upwards and the next one downwards."
+        "Turn the UVs or the image back, or bake the map again for these UVs."
+        Leave "nothing says whether the UVs or the image should be turned back, and other textures may use the same UVs"
+    }
+    ConventionsCancel "conventions-cancel" Warning {
+        "The normal map and the tangents are both in the other convention, and the mistakes cancel."
+        "Bumps look right in renderers that read the tangents of the file, and like dents in those that compute them."
+        "A converter turned the UVs upside down, or wrote tangents for DirectX, and kept the map: from FBX or from Unreal, for example."
+        "`darboux check --fix`, which repairs both together, or export the model with the settings for glTF (OpenGL)."
+        Repair "the map and the tangents are repaired together"
+    }
     MapUnreadable "map-unreadable" Error {
         "The image of the normal map cannot be decoded."
         "The normal map is not shown, or the model does not load."

@@ -269,6 +269,20 @@ impl Defect {
         self.fault.code()
     }
 
+    /// The image of the map with which it is one finding, because two conventions cancel; none where it is a finding of its own.
+    pub fn joint(&self) -> Option<Option<usize>> {
+        match &self.cancelled {
+            Some(Cancelled::ByMap { image, is_whole: true, .. }) => Some(*image),
+            Some(Cancelled::BySurface { .. }) => Some(self.place.image),
+            _ => None,
+        }
+    }
+
+    /// The code under which it is reported.
+    pub fn reported_code(&self) -> Code {
+        if self.joint().is_some() { Code::ConventionsCancel } else { self.code() }
+    }
+
     pub(crate) fn family(&self) -> Family {
         self.code().family()
     }

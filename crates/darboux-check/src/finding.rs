@@ -45,13 +45,13 @@ pub struct Finding {
     pub cure: Cow<'static, str>,
     /// Why a repair leaves it, as a clause; none where [`fix_document`](crate::fix_document) or [`fix_map`](crate::fix_map) repairs it.
     pub left_because: Option<String>,
-    /// What it says.
-    pub(crate) defect: Defect,
+    /// What it says: one defect, or several that are one finding.
+    pub(crate) defects: Vec<Defect>,
 }
 
 impl Finding {
     /// Whether it can be repaired.
     pub fn is_fixable(&self) -> bool {
-        self.defect.is_fixable()
+        self.defects.iter().all(Defect::is_fixable)
     }
 }

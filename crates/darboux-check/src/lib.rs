@@ -30,8 +30,10 @@ mod check;
 mod check_options;
 mod code;
 mod defect;
+mod diagnosis;
 mod facts;
 mod finding;
+mod hypotheses;
 mod indices;
 mod instances;
 mod map_users;
@@ -50,8 +52,9 @@ mod words;
 pub use check::{
     CheckedMap, ModelOfMaps, check_document, check_map, check_map_on_model, check_model_of_maps,
 };
-pub use check_options::CheckOptions;
+pub use check_options::{AssumedMap, CheckOptions};
 pub use code::Code;
+pub use diagnosis::diagnosis;
 pub use finding::{Evidence, Finding};
 pub use measure::map::MapDirections;
 pub use place::Place;

@@ -7,7 +7,7 @@ use darboux_io::gltf::{Document, Material, PrimitiveCorners, PrimitiveName, Text
 use darboux_io::image::RgbaImage;
 
 use crate::instances::distinct;
-use crate::measure::facets::FacetVotes;
+use crate::measure::mesh_votes::MeshVotes;
 use crate::surface::Surface;
 
 /// The primitives that use the images of normal maps, in their own material or in one of their variants.
@@ -62,11 +62,11 @@ pub struct MapSurfaces(Vec<(Surface, Vec<TextureUse>)>);
 
 impl MapSurfaces {
     /// What their facets say about the image.
-    pub fn votes(&self, image: &RgbaImage) -> FacetVotes {
+    pub fn votes(&self, image: &RgbaImage) -> MeshVotes {
         let mut uses = Vec::new();
         for (surface, textures) in &self.0 {
             uses.extend(textures.iter().map(|texture| (surface, Some(texture))));
         }
-        FacetVotes::of(&uses, image)
+        MeshVotes::of(&uses, image)
     }
 }

@@ -51,7 +51,7 @@ pub fn plan_repair(
     findings: &[Finding],
     options: &FixOptions,
 ) -> Result<Vec<PlannedEdit>, Error> {
-    let defects: Vec<Defect> = findings.iter().map(|finding| finding.defect.clone()).collect();
+    let defects: Vec<Defect> = findings.iter().flat_map(|finding| finding.defects.clone()).collect();
     let (of_images, of_surfaces): (Vec<Defect>, Vec<Defect>) =
         defects.into_iter().partition(|defect| defect.place.image.is_some());
     let left = LeftPairs::new(document, &of_images, &of_surfaces, options)?;
@@ -76,7 +76,7 @@ pub fn fix_document(
     findings: Vec<Finding>,
     options: &FixOptions,
 ) -> Result<FixedDocument, Error> {
-    let before: Vec<Defect> = findings.into_iter().map(|finding| finding.defect).collect();
+    let before: Vec<Defect> = findings.into_iter().flat_map(|finding| finding.defects).collect();
     let promised: Vec<Defect> = before.iter().filter(|defect| defect.is_fixable()).cloned().collect();
     let (of_images, of_surfaces): (Vec<Defect>, Vec<Defect>) =
         before.into_iter().partition(|defect| defect.place.image.is_some());
@@ -86,7 +86,9 @@ pub fn fix_document(
     fixed.is_changed |= of_images.iter().any(|image| image.repaired);
     fixed.findings.extend(of_images);
     for fixed in &mut fixed.findings {
-        fixed.was_fixable |= promised.iter().any(|promised| promised.is_same(&fixed.finding.defect));
+        let is_promised = |defect: &Defect| promised.iter().any(|promised| promised.is_same(defect));
+        fixed.was_fixable |= fixed.finding.defects.iter().any(is_promised);
     }
+    fixed.findings = outcome::joined(fixed.findings);
     Ok(fixed)
 }

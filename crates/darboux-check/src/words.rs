@@ -2,6 +2,7 @@
 
 pub mod counts;
 pub mod edits;
+mod joint;
 mod maps;
 mod materials;
 mod normals;
@@ -10,6 +11,7 @@ mod said;
 mod tangents;
 mod uvs;
 
+use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Fault, Obstacle};
 use crate::finding::Finding;
 use crate::indices::Indices;
@@ -20,6 +22,42 @@ const FIRST: usize = 8;
 
 /// The finding that says a defect.
 pub fn finding(defect: Defect) -> Finding {
+    of_group(vec![defect])
+}
+
+/// The finding that says one defect, or several of two conventions that cancel.
+pub fn of_group(mut defects: Vec<Defect>) -> Finding {
+    match defects.iter().position(|defect| matches!(defect.cancelled, Some(Cancelled::BySurface { .. }))) {
+        Some(of_map) => {
+            defects.swap(0, of_map);
+            of_pair(defects)
+        }
+        None => single(defects.swap_remove(0)),
+    }
+}
+
+/// One finding for all defects of a pair that cancels. The first one is that of the map.
+fn of_pair(defects: Vec<Defect>) -> Finding {
+    let code = Code::ConventionsCancel;
+    let map = &defects[0];
+    let of_map = defects.iter().filter(|defect| defect.place.primitive.is_none());
+    let evidence = of_map.flat_map(|defect| said(&defect.fault, defect.severity).evidence);
+    let left = defects.iter().find_map(|defect| defect.obstacle.as_ref());
+    Finding {
+        code,
+        severity: code.severity(),
+        place: map.place.clone(),
+        count: 1,
+        first: Vec::new(),
+        evidence: evidence.collect(),
+        text: joint::text(map),
+        cure: code.cure().into(),
+        left_because: left.map(obstacles::reason),
+        defects,
+    }
+}
+
+fn single(defect: Defect) -> Finding {
     let (code, fault) = (defect.code(), &defect.fault);
     let Said { mut text, evidence, cure } = said(fault, defect.severity).with_spoiled(defect.spoiled);
     if let Some(Obstacle::RedLikelier { image }) = defect.obstacle {
@@ -41,13 +79,26 @@ pub fn finding(defect: Defect) -> Finding {
         text,
         cure: cure.unwrap_or(code.cure().into()),
         left_because: defect.obstacle.as_ref().map(obstacles::reason),
-        defect,
+        defects: vec![defect],
     }
 }
 
 /// The findings that say defects.
 pub fn findings(defects: Vec<Defect>) -> Vec<Finding> {
-    defects.into_iter().map(finding).collect()
+    grouped(defects, Defect::joint).into_iter().map(of_group).collect()
+}
+
+/// The elements in groups of one key, each at the place of its first element; those without a key are alone.
+pub fn grouped<T, K: PartialEq>(elements: Vec<T>, key: impl Fn(&T) -> Option<K>) -> Vec<Vec<T>> {
+    let mut groups: Vec<(Option<K>, Vec<T>)> = Vec::new();
+    for element in elements {
+        let own = key(&element);
+        match groups.iter_mut().find(|(known, _)| own.is_some() && *known == own) {
+            Some((_, group)) => group.push(element),
+            None => groups.push((own, vec![element])),
+        }
+    }
+    groups.into_iter().map(|(_, group)| group).collect()
 }
 
 fn said(fault: &Fault, severity: crate::severity::Severity) -> Said {
@@ -73,7 +124,7 @@ fn said(fault: &Fault, severity: crate::severity::Severity) -> Said {
 /// The mistake that cancels a defect, as a clause.
 fn cancels(cancelled: &Cancelled) -> String {
     match cancelled {
-        Cancelled::ByMap(pair) => {
+        Cancelled::ByMap { pair, .. } => {
             format!("the {} of the normal map cancels it", obstacles::names(pair)[0])
         }
         Cancelled::BySurface { pair, first, are_several } => {

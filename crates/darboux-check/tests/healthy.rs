@@ -35,16 +35,6 @@ const WRONG: &[Wrong] = &[
         reason: "made with a normal of length zero",
     },
     Wrong {
-        model: "FlightHelmet/FlightHelmet.gltf",
-        codes: &[Code::TangentSharedAcrossMirror],
-        reason: "10 vertices of the second mesh have triangles of both UV orientations, and one tangent",
-    },
-    Wrong {
-        model: "icosahedron/icosahedron.glb",
-        codes: &[Code::TangentSignFlipped, Code::MapGreenFlipped],
-        reason: "w cross(n, t) points down the image at all 60 corners; the green of its map is darker on the upper side of bumps. Both cancel",
-    },
-    Wrong {
         model: "assimp_bad/BoxBadNormals.glb",
         codes: &[Code::NormalNotUnit],
         reason: "a file of bad input: 8 normals are zero",

@@ -17,14 +17,14 @@ use serde_json::json;
 use support::baked::baked_models;
 use support::container::with_json;
 use support::models::{Model, healthy_models};
-use support::table::codes;
+use support::table::{assuming_directx, codes};
 
 fn read(glb: Vec<u8>) -> Document {
     Document::from_bytes("model", glb, None, &LoadOptions::default()).expect("a valid GLB")
 }
 
 fn fixed(document: &mut Document, findings_of: &mut Document, options: &FixOptions) -> Vec<FixedFinding> {
-    let findings = check_document(findings_of, &CheckOptions::default()).expect("a valid document");
+    let findings = check_document(findings_of, &options.check).expect("a valid document");
     fix_document(document, findings, options).expect("a valid document").findings
 }
 
@@ -55,7 +55,7 @@ fn untouched_images_keep_their_bytes_and_geometry_its_accessors() {
     let inverted = model.map.texels.iter().map(|[r, g, b]| [*r, 255 - g, *b]).collect();
     model.map = model.map.with_texels(inverted);
     let mut document = model.document();
-    let findings = fixed(&mut document, &mut model.document(), &FixOptions::default());
+    let findings = fixed(&mut document, &mut model.document(), &assuming_directx());
     assert!(findings.iter().any(|fixed| fixed.repaired && fixed.finding.code == Code::MapGreenFlipped));
     let glb = document.to_glb().expect("a GLB");
     // The old image is gone, and the new one is the healthy one again.
@@ -80,23 +80,29 @@ fn only_the_chosen_codes_are_repaired() {
     assert!(!document.is_changed());
 }
 
+/// Mistakes that cancel are one finding: a code of one of them alone repairs nothing.
+fn assert_repaired_together(model: &Model, codes: &[Code]) {
+    for &code in codes {
+        let mut document = model.document();
+        let options = FixOptions::default().with_codes([code]);
+        let findings = fixed(&mut document, &mut model.document(), &options);
+        assert!(findings.iter().all(|fixed| !fixed.repaired), "{code:?}: {findings:#?}");
+        assert!(!document.is_changed(), "{code:?}");
+    }
+    for options in [FixOptions::default(), FixOptions::default().with_codes([Code::ConventionsCancel])] {
+        let findings = fixed(&mut model.document(), &mut model.document(), &options);
+        let repaired = findings.iter().filter(|fixed| fixed.repaired).map(|fixed| fixed.finding.code);
+        assert_eq!(repaired.collect::<Vec<_>>(), [Code::ConventionsCancel], "{findings:#?}");
+    }
+}
+
 /// Flipped signs and flipped green look right together. One of them alone would be wrong.
 #[test]
 fn half_of_a_pair_that_cancels_is_left() {
     let mut model = damaged();
     let inverted = model.map.texels.iter().map(|[r, g, b]| [*r, 255 - g, *b]).collect();
     model.map = model.map.with_texels(inverted);
-    for code in [Code::TangentSignFlipped, Code::MapGreenFlipped] {
-        let mut document = model.document();
-        let options = FixOptions::default().with_codes([code]);
-        let findings = fixed(&mut document, &mut model.document(), &options);
-        let left = findings.iter().find(|fixed| fixed.finding.code == code).expect("the finding");
-        let reason = left.finding.left_because.as_deref().unwrap_or_default();
-        assert!(!left.repaired && reason.contains("both or none"), "{code:?}: {reason}");
-        assert!(!document.is_changed());
-    }
-    let findings = fixed(&mut model.document(), &mut model.document(), &FixOptions::default());
-    assert_eq!(findings.iter().filter(|fixed| fixed.repaired).count(), 2, "{findings:?}");
+    assert_repaired_together(&model, &[Code::TangentSignFlipped, Code::MapGreenFlipped]);
 }
 
 /// So do inverted red, negated tangents and flipped signs.
@@ -105,17 +111,8 @@ fn a_part_of_three_mistakes_that_cancel_is_left() {
     let mut model = baked_models().remove(0);
     model.map = model.map.through(|[r, g, b]| [1.0 - r, g, b]);
     model.tangents().iter_mut().for_each(|tangent| (0..4).for_each(|i| tangent[i] = -tangent[i]));
-    for code in [Code::TangentSignFlipped, Code::TangentNegated, Code::MapRedFlipped] {
-        let mut document = model.document();
-        let options = FixOptions::default().with_codes([code]);
-        let findings = fixed(&mut document, &mut model.document(), &options);
-        let left = findings.iter().find(|fixed| fixed.finding.code == code).expect("the finding");
-        let reason = left.finding.left_because.as_deref().unwrap_or_default();
-        assert!(!left.repaired && reason.contains("both or none"), "{code:?}: {reason}");
-        assert!(!document.is_changed(), "{code:?}");
-    }
-    let findings = fixed(&mut model.document(), &mut model.document(), &FixOptions::default());
-    assert_eq!(findings.iter().filter(|fixed| fixed.repaired).count(), 3, "{findings:?}");
+    let codes = [Code::TangentSignFlipped, Code::TangentNegated, Code::MapRedFlipped];
+    assert_repaired_together(&model, &codes);
 }
 
 /// A map with both channels inverted under a scale of -1 gives the right picture, which a repair of the map alone would flip.
@@ -176,7 +173,7 @@ fn image_files_get_new_files() {
 
     let open = |path: &std::path::Path| Document::open(path, &LoadOptions::default()).expect("a valid file");
     let mut document = open(&input);
-    let findings = fixed(&mut document, &mut open(&input), &FixOptions::default());
+    let findings = fixed(&mut document, &mut open(&input), &assuming_directx());
     assert!(findings.iter().any(|fixed| fixed.repaired), "{findings:?}");
     let elsewhere = folder.path().join("out/model.gltf");
     document.save(&elsewhere, &SaveOptions::default()).expect("written");
@@ -208,7 +205,7 @@ fn maps_keep_their_bit_depth() {
     let bytes: Vec<u8> = map.texels.iter().flat_map(|texel| words(*texel)).collect();
     encoder.write_header().and_then(|mut writer| writer.write_image_data(&bytes)).expect("a PNG");
     let on = check_model_of_maps(&model.document()).expect("a valid document");
-    let (loading, options) = (LoadOptions::default(), FixOptions::default());
+    let (loading, options) = (LoadOptions::default(), assuming_directx());
     let fixed = fix_map_on_model("map.png", &file, &on, &loading, &options).expect("a map");
     let fixed = fixed.image.expect("a repaired map");
     assert_eq!((fixed.bits(), fixed.size()), (16, [side; 2]));
@@ -234,7 +231,7 @@ fn a_repair_goes_on_with_what_it_reveals() {
         assert!(fixed.image.is_some());
         fixed.findings.iter().filter(|fixed| fixed.repaired).map(|fixed| fixed.finding.code).collect()
     };
-    let on_model = fix_map_on_model("map.png", &file, &on, &loading, &options).expect("a map");
+    let on_model = fix_map_on_model("map.png", &file, &on, &loading, &assuming_directx()).expect("a map");
     assert_eq!(repaired(on_model), BTreeSet::from([Code::MapTwoChannel, Code::MapGreenFlipped]));
     // Without the model, inverted green may as well be inverted red.
     let alone = fix_map("map.png", &file, &loading, &options).expect("a map");

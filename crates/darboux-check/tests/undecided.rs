@@ -2,7 +2,9 @@
 
 mod support;
 
-use darboux_check::{CheckOptions, Code, Finding, FixOptions, Severity, check_document, fix_document};
+use darboux_check::{
+    AssumedMap, CheckOptions, Code, Finding, FixOptions, Severity, check_document, fix_document,
+};
 use support::models::{Model, healthy_models};
 
 const KTX2: &[u8] = b"\xABKTX 20\xBB\r\n\x1A\n and more";
@@ -28,12 +30,13 @@ fn flipped_signs_under_a_map_of_unknown_convention_are_left() {
             findings.iter().find(|finding| finding.code == Code::TangentSignFlipped).expect("the finding");
         assert_eq!((flipped.severity, flipped.is_fixable()), (Severity::Warning, false), "{flipped:?}");
         let reason = flipped.left_because.as_deref().unwrap_or_default();
-        assert!(reason.contains("images[0]") && reason.contains("--no-maps"), "{reason}");
+        assert!(reason.contains("images[0]") && reason.contains("--assume map=opengl"), "{reason}");
         let mut document = model.document();
         let fixed = fix_document(&mut document, findings, &FixOptions::default()).expect("a repair");
         assert!(!fixed.is_changed && !document.is_changed(), "{fixed:?}");
-        // Without a check of maps they are taken to be right.
-        let options = FixOptions::default().with_check(CheckOptions::default().with_maps(false));
+        // The user says that they are right.
+        let assumed = CheckOptions::default().with_assumed_map(Some(AssumedMap::OpenGl));
+        let options = FixOptions::default().with_check(assumed);
         let findings = check_document(&document, &options.check).expect("a valid document");
         let fixed = fix_document(&mut document, findings, &options).expect("a repair");
         let flipped = fixed.findings.iter().find(|fixed| fixed.finding.code == Code::TangentSignFlipped);
@@ -65,6 +68,55 @@ fn mistakes_that_cancel_are_one_warning() {
     let severe: Vec<&Finding> = findings.iter().filter(|finding| finding.severity > Severity::Info).collect();
     let codes: Vec<(Code, Severity)> =
         severe.iter().map(|finding| (finding.code, finding.severity)).collect();
-    assert_eq!(codes, [(Code::MapGreenFlipped, Severity::Warning)], "{findings:#?}");
-    assert!(severe[0].text.contains("both or none") && severe[0].is_fixable(), "{}", severe[0].text);
+    assert_eq!(codes, [(Code::ConventionsCancel, Severity::Warning)], "{findings:#?}");
+    assert!(
+        severe[0].text.contains("two conventions cancel") && severe[0].is_fixable(),
+        "{}",
+        severe[0].text
+    );
+    // Without the texels, one of the two cannot be seen, and the other one is left.
+    let mut unread = model.clone();
+    unread.map.file = KTX2.to_vec();
+    let assumed = CheckOptions::default().with_assumed_map(Some(AssumedMap::DirectX));
+    let findings = check_document(&unread.document(), &assumed).expect("a valid document");
+    assert!(findings.iter().all(|finding| !finding.is_fixable()), "{findings:#?}");
+    // Both are repaired together.
+    let (mut document, options) = (model.document(), FixOptions::default());
+    let findings = check_document(&document, &options.check).expect("a valid document");
+    let fixed = fix_document(&mut document, findings, &options).expect("a repair").findings;
+    let [joint] = fixed.iter().filter(|fixed| fixed.repaired).collect::<Vec<_>>()[..] else {
+        panic!("{fixed:#?}");
+    };
+    assert_eq!(joint.finding.code, Code::ConventionsCancel);
+    let left = check_document(&document, &options.check).expect("a valid document");
+    assert!(left.iter().all(|finding| finding.severity <= Severity::Info), "{left:#?}");
+}
+
+/// Inverted red and inverted green of a map that was not baked for the mesh look alike. Inverting the wrong one would make the picture worse.
+#[test]
+fn a_channel_that_is_not_identified_is_left_unless_the_user_says_which() {
+    let healthy = healthy_models().remove(9);
+    for (inverts_red, assumed) in [(false, AssumedMap::DirectX), (true, AssumedMap::RedInverted)] {
+        let mut model = healthy.clone();
+        model.map =
+            model.map.through(|[r, g, b]| if inverts_red { [1.0 - r, g, b] } else { [r, 1.0 - g, b] });
+        let fix = |options: &FixOptions| {
+            let mut document = model.document();
+            let findings = check_document(&document, &options.check).expect("a valid document");
+            let fixed = fix_document(&mut document, findings, options).expect("a repair");
+            (document.image_bytes(0).expect("an image").into_owned(), fixed)
+        };
+        let (image, fixed) = fix(&FixOptions::default());
+        assert!(!fixed.is_changed && image == model.map.file, "{fixed:#?}");
+        let reasons: Vec<&str> =
+            fixed.findings.iter().filter_map(|fixed| fixed.finding.left_because.as_deref()).collect();
+        assert!(reasons.iter().any(|reason| reason.contains("--assume map=directx")), "{reasons:?}");
+        let check = CheckOptions::default().with_assumed_map(Some(assumed));
+        let (image, fixed) = fix(&FixOptions::default().with_check(check));
+        assert!(fixed.is_changed, "{fixed:#?}");
+        assert!(support::table::rgb(&image) == healthy.map.texels, "{assumed:?}");
+        // What the texels show is not overruled.
+        let findings = check_document(&healthy.document(), &check).expect("a valid document");
+        assert!(findings.iter().all(|finding| finding.severity <= Severity::Info), "{findings:#?}");
+    }
 }

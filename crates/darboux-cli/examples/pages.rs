@@ -89,6 +89,14 @@ fn reference(command: &mut Command) -> String {
 /// What people say when they see a finding, and where: the repository and the number of the issue.
 const SAID: &[(Code, &str)] = &[
     (
+        Code::ConventionsCancel,
+        "the normal map looks right in one program and inverted in the next, although the file is the same (mrdoob/three.js 11438, google/filament 528)",
+    ),
+    (
+        Code::MapOtherLayout,
+        "the texture is upside down after the export, and the bumps are at wrong places (mrdoob/three.js 25263)",
+    ),
+    (
         Code::TangentNotFinite,
         "triangles are black or full of noise, most often after compression made UVs equal (google/model-viewer PR 1078)",
     ),
@@ -259,6 +267,10 @@ const NO_PICTURE: &[(Code, &str)] = &[
         "renderers shade it flat, which is hardly seen on faces as small as those of the model in these pictures",
     ),
     (
+        Code::ConventionsCancel,
+        "it looks right in the renderer of these pictures, which reads the tangents of the file",
+    ),
+    (
         Code::TangentNotUnit,
         "the renderer of these pictures normalises tangents, so that nothing would be seen",
     ),
@@ -303,9 +315,14 @@ fn picture(code: Code, pictures: &Path) -> String {
         (true, false, None) => format!(
             "| healthy | {code} |\n|---|---|\n| ![healthy](check/healthy.png) | ![{code}](check/{code}.png) |\n\n"
         ),
-        (false, true, None) => format!(
-            "![{code}](check/{code}.svg)\n\nA UV layout; mirrored triangles are orange, and what lies below shows through.\n\n"
-        ),
+        (false, true, None) => {
+            let caption = if code == Code::MapOtherLayout {
+                "The UV layout of the mesh is blue, and the one that the map was baked for orange."
+            } else {
+                "A UV layout; mirrored triangles are orange, and what lies below shows through."
+            };
+            format!("![{code}](check/{code}.svg)\n\n{caption}\n\n")
+        }
         (false, false, Some(reason)) => format!("*No picture:* {reason}.\n\n"),
         found => panic!("{code} has either a PNG, an SVG or an entry in NO_PICTURE, not {found:?}"),
     }

@@ -145,10 +145,17 @@ fn maps_are_judged_alone() {
     // Without its model, the map may as well have inverted red.
     let before = fs::read(&down).expect("a file");
     let left = darboux(&["check", text(&down), "--fix", "--in-place"]).exits(1);
-    assert!(left.stderr.contains("--model") && left.stderr.contains("darboux convert"), "{}", left.stderr);
+    assert!(
+        left.stderr.contains("--model") && left.stderr.contains("--assume map=directx"),
+        "{}",
+        left.stderr
+    );
     assert_eq!(fs::read(&down).expect("a file"), before);
     let box_model = asset("made/strips-fans-lines-points.gltf");
-    let model = ["--model", text(&box_model)];
+    // Its faces do not decide that, and the user does.
+    let left = darboux(&["check", text(&down), "--model", text(&box_model), "--fix", "--in-place"]).exits(1);
+    assert!(left.stderr.contains("--assume map=directx"), "{}", left.stderr);
+    let model = ["--model", text(&box_model), "--assume", "map=directx"];
     let fixed = folder.path().join("fixed.png");
     let arguments = ["check", text(&down), "--fix", "-o", text(&fixed), "--json"];
     let repair = darboux(&[&arguments[..], &model].concat()).exits(0).json();
@@ -165,7 +172,7 @@ fn maps_are_judged_alone() {
     let down_again = map("down.png", -1.0);
     let arguments = ["check", text(&down_again), "--model", text(&plane)];
     let printed = darboux(&arguments).exits(0);
-    assert!(String::from_utf8_lossy(&printed.stdout).contains("repair both or none"));
+    assert!(String::from_utf8_lossy(&printed.stdout).contains("two conventions cancel"));
     darboux(&["check", text(&up), "--model", "nothing.glb"]).exits(1);
 
     let broken = folder.path().join("broken.png");
@@ -347,9 +354,8 @@ fn maps_with_a_palette_are_repaired() {
     encoder.set_color(png::ColorType::Indexed);
     encoder.set_palette(palette.concat());
     encoder.write_header().and_then(|mut writer| writer.write_image_data(&indices)).expect("a PNG");
-    let strip = asset("made/strips-fans-lines-points.gltf");
     let report =
-        darboux(&["check", text(&path), "--model", text(&strip), "--fix", "--json", "--fail-on", "never"])
+        darboux(&["check", text(&path), "--assume", "map=directx", "--fix", "--json", "--fail-on", "never"])
             .exits(0)
             .json();
     let repaired = codes(&report, |finding| finding["repaired"] == true);
@@ -420,7 +426,7 @@ fn images_that_are_no_png() {
     let [jpeg, webp] = ["down.jpg", "flipped.webp"].map(|name| save(name, -1.0));
     let strip = asset("made/strips-fans-lines-points.gltf");
     for (path, fixable, code) in [(&jpeg, true, 0), (&webp, false, 1)] {
-        let on_model = ["check", text(path), "--model", text(&strip), "--json"];
+        let on_model = ["check", text(path), "--model", text(&strip), "--assume", "map=directx", "--json"];
         let report = darboux(&on_model).exits(1).json();
         let named = |finding: &serde_json::Value| {
             finding["fixable"] == fixable && finding["code"] == "map-green-flipped"
@@ -436,7 +442,7 @@ fn images_that_are_no_png() {
     let fixed = folder.path().join("down.fixed.png");
     darboux(&["check", text(&fixed)]).exits(0);
     let before = fs::read(&jpeg).expect("a file");
-    let refused = darboux(&["check", text(&jpeg), "--model", text(&strip), "--fix", "--in-place"]).exits(1);
+    let refused = darboux(&["check", text(&jpeg), "--assume", "map=directx", "--fix", "--in-place"]).exits(1);
     assert!(refused.stderr.contains("use -o FILE.png"), "{}", refused.stderr);
     assert_eq!(fs::read(&jpeg).expect("a file"), before);
 

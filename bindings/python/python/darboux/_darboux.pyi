@@ -9,7 +9,7 @@ from ._choices import Method, Mode, NormalWeight, Shading, SmoothingSeams
 from ._results import (
     BakedMaps,
     Converted,
-    Finding,
+    Findings,
     Frames,
     MapJudgement,
     NormalReport,
@@ -327,17 +327,19 @@ def check(
     *,
     convention: Literal["opengl", "directx"] = "opengl",
     maps: bool = True,
+    assume: Optional[Literal["opengl", "directx", "red-inverted"]] = None,
     allow_outside: bool = False,
     memory_limit: Optional[int] = None,
-) -> List[Finding]: ...
+) -> Findings: ...
 def fix(
     document: Document,
     *,
     convention: Literal["opengl", "directx"] = "opengl",
     maps: bool = True,
+    assume: Optional[Literal["opengl", "directx", "red-inverted"]] = None,
     method: Method = "mikktspace",
     only: Optional[Iterable[str]] = None,
-) -> List[Finding]: ...
+) -> Findings: ...
 def judge_normal_map(texels: npt.ArrayLike) -> MapJudgement: ...
 def recognise_recipe(
     positions: npt.ArrayLike,

@@ -1,6 +1,6 @@
 """The named tuples that functions return. V: vertices before splitting, W: after splitting, C: corners."""
 
-from typing import List, NamedTuple, Optional, Tuple
+from typing import Iterable, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -181,6 +181,17 @@ class Finding(NamedTuple):
     """Whether fix repaired it; None from check."""
     change: Optional[Change]
     """What fix did to the tangents of the primitive; None for other findings, and where only signs were negated."""
+
+
+class Findings(List[Finding]):
+    """The findings of a file, with a diagnosis."""
+
+    diagnosis: str
+    """What happened to the file, what it looks like and what to do, in one to three sentences."""
+
+    def __init__(self, findings: Iterable[Finding] = (), diagnosis: str = "") -> None:
+        super().__init__(findings)
+        self.diagnosis = diagnosis
 
 
 class MapJudgement(NamedTuple):

@@ -11,13 +11,14 @@ use super::surfaces::{defects_of_surface, for_each_surface};
 use crate::cancelling;
 use crate::check_options::CheckOptions;
 use crate::code::Code;
-use crate::defect::Obstacle;
-use crate::defect::{Defect, Fault, MapFault};
+use crate::defect::{Defect, Obstacle};
 use crate::finding::Finding;
+use crate::hypotheses::{self, Inverted, MapWitness, inverted, is_about_channels};
 use crate::map_users::{MapSurfaces, MapUsers};
-use crate::measure::directions::{directions_by_mesh, is_convention_known};
-use crate::measure::facets::{FacetVotes, MapUse};
+use crate::measure::directions::{directions_by_mesh, witness};
+use crate::measure::facets::MapUse;
 use crate::measure::map::{Map, MapDirections, Vote};
+use crate::measure::mesh_votes::MeshVotes;
 use crate::model_area::ModelArea;
 use crate::obstacles;
 use crate::place::Place;
@@ -43,8 +44,8 @@ pub struct MapDefects {
     /// The transfer function that was applied once too often.
     pub srgb_mistake: Option<SrgbMistake>,
     pub directions: Option<MapDirections>,
-    /// Whether the convention is known, so that a repair of the tangents cannot turn a right picture into a wrong one.
-    pub is_convention_known: bool,
+    /// What the texels and the faces tell of the directions of the channels.
+    pub witness: MapWitness,
     pub defects: Vec<Defect>,
 }
 
@@ -61,13 +62,13 @@ pub fn check_map(file: &[u8], options: &CheckOptions) -> CheckedMap {
 
 /// The defects of the file of an image; `vote` gives the votes of the meshes that use the map.
 pub fn map_defects(file: &[u8], options: &CheckOptions, vote: Option<Vote<'_>>) -> MapDefects {
-    let map = Map::read(file, options.green, vote);
+    let map = Map { assumed: options.assumed_map, ..Map::read(file, options.green, vote) };
     let obstacle = obstacles::of_image(file);
     let defects = MAP_RULES.iter().filter_map(|rule| rule(&map));
     MapDefects {
         defects: defects.map(|defect| defect.with_obstacle(obstacle.clone())).collect(),
         directions: directions_by_mesh(&map),
-        is_convention_known: is_convention_known(&map),
+        witness: witness(&map),
         srgb_mistake: map.srgb_mistake,
         judgement: map.judgement.ok(),
     }
@@ -76,6 +77,13 @@ pub fn map_defects(file: &[u8], options: &CheckOptions, vote: Option<Vote<'_>>) 
 /// As [`map_defects`], for the surfaces of a document that use the map.
 pub fn map_defects_on_surfaces(file: &[u8], surfaces: &MapSurfaces, options: &CheckOptions) -> MapDefects {
     map_defects(file, options, Some(&|image| surfaces.votes(image)))
+}
+
+/// As [`map_defects_on_surfaces`], without what is not identified by the map and the faces alone: for a map of which repairs revealed more.
+pub fn identified_defects(file: &[u8], surfaces: &MapSurfaces, options: &CheckOptions) -> MapDefects {
+    let mut checked = map_defects_on_surfaces(file, surfaces, options);
+    hypotheses::leave_unidentified(&mut checked.defects, &checked.witness, &mut [], None, 0);
+    checked
 }
 
 /// A model that normal maps are to be put on, and what is wrong with it: the result of [`check_model_of_maps`].
@@ -96,7 +104,16 @@ impl ModelOfMaps {
     fn mark_cancelling(&self, on_map: &mut [Defect], on_model: &mut [Defect]) -> &'static [Code] {
         let places: Vec<&Place> = self.surfaces.iter().map(|surface| &surface.place).collect();
         let index_of = |defect: &Defect| places.iter().position(|place| **place == defect.place);
-        cancelling::mark(on_map, &mut by_surface(on_model, places.len(), index_of))
+        cancelling::mark(on_map, &mut by_surface(on_model, places.len(), index_of), None)
+    }
+
+    /// Leaves what is not identified of a map on these surfaces.
+    fn leave_unidentified(&self, on_map: &mut MapDefects, on_model: &mut [Defect]) {
+        let places: Vec<&Place> = self.surfaces.iter().map(|surface| &surface.place).collect();
+        let index_of = |defect: &Defect| places.iter().position(|place| **place == defect.place);
+        let mut surfaces = by_surface(on_model, places.len(), index_of);
+        let witness = on_map.witness;
+        hypotheses::leave_unidentified(&mut on_map.defects, &witness, &mut surfaces, None, 0);
     }
 }
 
@@ -128,8 +145,9 @@ pub fn check_map_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptio
 /// The defects of the map alone, on a model.
 pub fn map_defects_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptions) -> MapDefects {
     let uses: Vec<MapUse<'_>> = model.surfaces.iter().map(|surface| (surface, None)).collect();
-    let vote = |image: &RgbaImage| FacetVotes::of(&uses, image);
+    let vote = |image: &RgbaImage| MeshVotes::of(&uses, image);
     let mut checked = map_defects(file, options, Some(&vote));
+    model.leave_unidentified(&mut checked, &mut model.defects.clone());
     let cancelled = model.mark_cancelling(&mut checked.defects, &mut model.defects.clone());
     for defect in checked.defects.iter_mut().filter(|defect| cancelled.contains(&defect.code())) {
         defect.obstacle.get_or_insert(Obstacle::OnTheModelToo);
@@ -158,53 +176,47 @@ pub fn defects_of_materials(
         return Ok(defects);
     }
     let users = MapUsers::new(document, &materials)?;
-    let mut of_images = Vec::new();
+    let mut judged = Vec::new();
     for (image, material) in images {
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
-        let (mut found, is_convention_known) = defects_of_image(document, &users, image, options)?;
-        if materials.iter().any(|material| inverts(material, image)) {
-            found.iter_mut().filter(|defect| is_inverted(defect)).for_each(|defect| {
+        let (mut found, witness) = defects_of_image(document, &users, image, options)?;
+        for defect in &mut found {
+            defect.place = place.clone();
+            if is_about_channels(defect) && materials.iter().any(|material| inverts(material, image)) {
                 defect.obstacle.get_or_insert(Obstacle::NegativeScale);
-            });
+            }
         }
-        let names: Vec<&PrimitiveName> = users.names(image).collect();
+        judged.push((image, found, witness));
+    }
+    for number in 0..judged.len() {
+        let sibling = sibling(&judged, number);
+        let (image, found, witness) = &mut judged[number];
+        let names: Vec<&PrimitiveName> = users.names(*image).collect();
         let index_of = |defect: &Defect| {
             defect.place.primitive.as_ref().and_then(|own| names.iter().position(|name| *name == own))
         };
         let mut surfaces = by_surface(on_surfaces, names.len(), index_of);
-        cancelling::mark(&mut found, &mut surfaces);
-        if !is_convention_known {
-            cancelling::leave_what_a_map_may_cancel(image, &mut surfaces);
-        }
-        of_images.extend(found.into_iter().map(|defect| Defect { place: place.clone(), ..defect }));
+        hypotheses::leave_unidentified(found, witness, &mut surfaces, sibling, *image);
+        cancelling::mark(found, &mut surfaces, Some(*image));
     }
-    compare_maps(&mut of_images);
-    defects.extend(of_images);
+    defects.extend(judged.into_iter().flat_map(|(_, found, _)| found));
     Ok(defects)
+}
+
+/// Another image of the model of which the faces show that channels are inverted, and which. The maps of a model are mostly made by one program.
+fn sibling(judged: &[(usize, Vec<Defect>, MapWitness)], number: usize) -> Option<(usize, Inverted)> {
+    let others = judged.iter().enumerate().filter(|(other, _)| *other != number);
+    let shown = |(_, (image, found, witness)): (usize, &(usize, Vec<Defect>, MapWitness))| {
+        let inverted = inverted(found);
+        (witness.faces != 0.0 && inverted != Inverted::None).then_some((*image, inverted))
+    };
+    others.filter_map(shown).next()
 }
 
 /// Whether a material inverts the red and green of an image, which is its normal map.
 fn inverts(material: &Material, image: usize) -> bool {
     let texture = material.normal_texture.as_ref();
     material.normal_scale < 0.0 && texture.is_some_and(|texture| texture.image == Some(image))
-}
-
-fn is_inverted(defect: &Defect) -> bool {
-    matches!(defect.code(), Code::MapRedFlipped | Code::MapGreenFlipped)
-}
-
-/// The maps of a model are mostly made by one program. Where the faces show that the red of one map is inverted, and not those of another one
-/// which of its channels is, inverted red is as likely there as inverted green.
-fn compare_maps(of_images: &mut [Defect]) {
-    let with_inverted_red = of_images.iter().find(|defect| defect.code() == Code::MapRedFlipped);
-    let Some(image) = with_inverted_red.and_then(|defect| defect.place.image) else { return };
-    for defect in of_images.iter_mut().filter(|defect| defect.is_fixable()) {
-        if let Fault::Map(MapFault::GreenFlipped { evidence, .. }) = &defect.fault
-            && evidence.faces.is_none()
-        {
-            defect.obstacle = Some(Obstacle::RedLikelier { image });
-        }
-    }
 }
 
 /// The defects of each of `count` surfaces; `index_of` gives the index of that of a defect.
@@ -222,22 +234,23 @@ fn by_surface(
     surfaces
 }
 
-/// The defects of an image of a document as a normal map, and whether its convention is known. Errors: invalid data of the primitives that use it.
+/// The defects of an image of a document as a normal map, and what it tells of its channels. Errors: invalid data of the primitives that use it.
 fn defects_of_image(
     document: &Document,
     users: &MapUsers<'_>,
     image: usize,
     options: &CheckOptions,
-) -> Result<(Vec<Defect>, bool), Error> {
+) -> Result<(Vec<Defect>, MapWitness), Error> {
     let bytes = match document.image_bytes(image) {
         Ok(bytes) => bytes,
         Err(error) => {
             let map = Map::unreadable(format!("cannot be read ({error})"), options.green);
-            return Ok((MAP_RULES.iter().filter_map(|rule| rule(&map)).collect(), false));
+            let defects = MAP_RULES.iter().filter_map(|rule| rule(&map)).collect();
+            return Ok((defects, MapWitness::of_unread(options)));
         }
     };
     let checked = map_defects_on_surfaces(&bytes, &users.of(image)?, options);
     let obstacle = document.normal_map_obstacle(image).map(str::to_owned).map(Obstacle::NotRewritable);
     let defects = checked.defects.into_iter().map(|defect| defect.with_obstacle(obstacle.clone()));
-    Ok((defects.collect(), checked.is_convention_known))
+    Ok((defects.collect(), checked.witness))
 }

@@ -44,9 +44,9 @@ pub fn for_each_surface(
     Ok(())
 }
 
-/// In percent of the model's area: what a defect spoils at least to be an error. A thousandth of a model that fills a screen of 1920 x 1080 is about a
-/// thousand pixels.
-const MIN_SPOILED: f64 = 0.1;
+/// In percent of the model's area: what a defect spoils at least to be an error. Half a percent of a model that fills a screen of 1920 x 1080 is a square of a
+/// hundred pixels.
+const MIN_SPOILED: f64 = 0.5;
 
 /// The defects of one surface.
 pub fn defects_of_surface(surface: &Surface, area: &ModelArea) -> Vec<Defect> {

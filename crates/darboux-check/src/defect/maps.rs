@@ -5,6 +5,7 @@ use darboux::{BitangentDirection, SrgbMistake};
 use crate::code::Code;
 use crate::measure::contradiction::Contradiction;
 use crate::measure::reordered::Reordered;
+use crate::measure::seams::{Layout, SeamFit};
 
 /// A number of texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,6 +149,14 @@ pub enum MapFault {
     },
     /// In percent, the texels of the commonest colour.
     Flat(f64),
+    /// The map fits the seams of the meshes in another layout, and not as it is.
+    OtherLayout {
+        layout: Layout,
+        /// How it fits so, and as it is.
+        fits: [SeamFit; 2],
+        /// The points that were compared.
+        points: usize,
+    },
 }
 
 impl MapFault {
@@ -167,6 +176,7 @@ impl MapFault {
             Self::NegativeZ(_) => Code::MapNegativeZ,
             Self::FlatOff { .. } => Code::MapFlatOff,
             Self::Flat(_) => Code::MapFlat,
+            Self::OtherLayout { .. } => Code::MapOtherLayout,
         }
     }
 

@@ -30,6 +30,10 @@ pub enum Obstacle {
     Unsure(f64),
     OnlyAPartOfMap,
     FacesLeanToRed,
+    /// Inverted green and inverted red look alike; the one that is named is so likely.
+    NotIdentified {
+        percent: f64,
+    },
     OnlyTheModelTells,
     ExchangedAndInverted,
     VectorsLean,

@@ -2,6 +2,8 @@
 
 use darboux::{BitangentDirection, MapJudgement, MapVerdict, TangentDirection};
 
+use crate::check_options::AssumedMap;
+use crate::hypotheses::{MapWitness, relative};
 use crate::measure::facets::Arrangement;
 use crate::measure::map::{Map, MapDirections, TwoChannels};
 use crate::measure::map_kind::{Kind, kind};
@@ -26,15 +28,27 @@ pub fn arrangement(judgement: &MapJudgement) -> Option<Arrangement> {
     }
 }
 
-/// The derivatives tell whether one channel is inverted or none (or both); the facets of the mesh tell which, if they can. Otherwise red is taken to be
-/// right.
+/// The derivatives tell whether one channel is inverted or none (or both); the facets of the mesh tell which, if they can, or else the user. Otherwise
+/// red is taken to be right.
 pub fn directions(judgement: &MapJudgement, map: &Map) -> Option<MapDirections> {
     let arrangement = arrangement(judgement)?;
-    let is_left = map.decide(arrangement) == Some(false);
+    let is_left = match map.decide(arrangement) {
+        Some(is_right) => !is_right,
+        None => is_assumed(map) && map.assumed == Some(AssumedMap::RedInverted),
+    };
     let is_down = (arrangement == Arrangement::GreenInverted) != is_left;
     let red = if is_left { TangentDirection::Left } else { TangentDirection::Right };
     let green = if is_down { BitangentDirection::Down } else { BitangentDirection::Up };
     Some(MapDirections { red, green })
+}
+
+/// Whether the user says which of the possibilities that the derivatives leave is so.
+pub fn is_assumed(map: &Map) -> bool {
+    let shown = map.judged().and_then(arrangement);
+    let is_one_inverted = |assumed: AssumedMap| assumed != AssumedMap::OpenGl;
+    map.assumed.is_some_and(|assumed| {
+        shown.is_some_and(|shown| (shown == Arrangement::GreenInverted) == is_one_inverted(assumed))
+    })
 }
 
 /// The directions of the channels, if the faces of the mesh decide them.
@@ -70,15 +84,36 @@ pub fn facets_show_exchange(judgement: &MapJudgement, map: &Map) -> bool {
 /// The confidence in percent from which on a direction is sure.
 pub const SURE_PERCENT: f64 = 90.0;
 
-/// Whether the texels surely show a convention, as they are or once another mistake is undone, or are flat, so that none matters.
-pub fn is_convention_known(map: &Map) -> bool {
-    let is_sure = |judgement: &MapJudgement| match judgement.verdict {
-        MapVerdict::OpenGl | MapVerdict::DirectX => 100.0 * f64::from(judgement.confidence) >= SURE_PERCENT,
-        verdict => verdict == MapVerdict::Flat,
-    };
+/// The largest logarithm of the odds that faces give: a million to one.
+const MAX_LOG_ODDS: f64 = 14.0;
+
+/// The logarithm of the odds that a z score gives, as a normal distribution falls.
+fn log_odds(z_score: f64) -> f64 {
+    (z_score * z_score / 2.0).min(MAX_LOG_ODDS).copysign(z_score)
+}
+
+/// What the texels, as they are or once another mistake is undone, and the faces tell of the directions of the channels.
+pub fn witness(map: &Map) -> MapWitness {
     let of_two_channels = map.two_channels.map(|channels| match channels {
         TwoChannels::RedGreen(judgement) | TwoChannels::AlphaGreen(judgement) => judgement,
     });
     let judgements = [map.judged().copied(), map.before_srgb, map.scaled, of_two_channels];
-    map.contradiction.is_none() && judgements.iter().flatten().any(is_sure)
+    let judgements = || judgements.iter().flatten().filter(|_| map.contradiction.is_none());
+    let is_inverted = |judgement: &MapJudgement| {
+        let confidence = f64::from(judgement.confidence);
+        let is_shown = match judgement.verdict {
+            MapVerdict::OpenGl => map.wanted == BitangentDirection::Up,
+            MapVerdict::DirectX => map.wanted == BitangentDirection::Down,
+            _ => return None,
+        };
+        Some(if is_shown { 1.0 - confidence } else { confidence })
+    };
+    let is_clearer = |a: &f64, b: &f64| (a - 0.5).abs().total_cmp(&(b - 0.5).abs());
+    let decided = map.judged().and_then(arrangement).filter(|shown| map.decide(*shown).is_some());
+    MapWitness {
+        odd: judgements().filter_map(is_inverted).max_by(is_clearer),
+        faces: decided.map_or(0.0, |shown| log_odds(map.facet_score(shown))),
+        is_flat: judgements().any(|judgement| judgement.verdict == MapVerdict::Flat),
+        assumed: map.assumed.map(|assumed| relative(assumed, map.wanted)),
+    }
 }

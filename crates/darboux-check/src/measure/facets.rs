@@ -166,8 +166,8 @@ impl Sums {
 }
 
 /// The triangles of a surface.
-struct Facets<'a> {
-    surface: &'a Surface,
+pub struct Facets<'a> {
+    pub surface: &'a Surface,
     normals: &'a [[f32; 3]],
     uvs: &'a [[f32; 2]],
     texture: Option<&'a TextureUse>,
@@ -175,7 +175,7 @@ struct Facets<'a> {
 
 impl<'a> Facets<'a> {
     /// None where the surface has no votes: reversed normals lean the other way in both directions, as those of a map with red and green inverted.
-    fn new((surface, texture): MapUse<'a>) -> Option<Self> {
+    pub fn new((surface, texture): MapUse<'a>) -> Option<Self> {
         if Sides::of(surface).are_mostly_against() || OtherAxes::of(surface).is_some() {
             return None;
         }
@@ -185,9 +185,9 @@ impl<'a> Facets<'a> {
     }
 
     /// At most about `limit` of the facets.
-    fn iter(&self, limit: usize) -> impl Iterator<Item = Facet> {
+    pub fn iter(&self, limit: usize) -> impl Iterator<Item = Facet> {
         let place = |uv| self.texture.map_or(uv, |texture| texture.transform_uv(uv));
-        let step = 1 + self.surface.vertex_of_corner.len() / 3 / limit;
+        let step = 1 + (self.surface.vertex_of_corner.len() / 3) / limit;
         self.surface.triangles().step_by(step).filter_map(move |triangle| {
             Facet::new(triangle.map(|vertex| Corner {
                 position: self.surface.positions[vertex],
@@ -197,20 +197,21 @@ impl<'a> Facets<'a> {
         })
     }
 
-    fn wrap(&self) -> [Wrap; 2] {
+    pub fn wrap(&self) -> [Wrap; 2] {
         self.texture.map_or([Wrap::Repeat; 2], |texture| texture.wrap)
     }
 }
 
-struct Corner {
-    position: [f32; 3],
-    normal: [f32; 3],
-    uv: [f32; 2],
+/// A corner of a facet.
+pub struct Corner {
+    pub position: [f32; 3],
+    pub normal: [f32; 3],
+    pub uv: [f32; 2],
 }
 
 /// A triangle, the normal of its plane on the side of the corners' normals, and the directions of u and of v upwards in it.
-struct Facet {
-    corners: [Corner; 3],
+pub struct Facet {
+    pub corners: [Corner; 3],
     normal: [f32; 3],
     along_u: [f32; 3],
     along_v: [f32; 3],
@@ -290,20 +291,33 @@ impl Facet {
         let sample = |weights: [usize; 2]| {
             let [b, c] = weights.map(|i| (i as f32 + 1.0 / 3.0) / SAMPLES as f32);
             let weights = [1.0 - b - c, b, c];
-            let normal = unit(interpolated(weights, &self.corners, |corner| corner.normal))?;
-            let uv = interpolated(weights, &self.corners, |corner| corner.uv);
-            Some(Sample { tilt: self.tilt(normal)?, texel: texel_at(image, facets.wrap(), uv) })
+            let texel = texel_at(image, facets.wrap(), self.uv_at(weights));
+            Some(Sample { tilt: self.tilt(self.normal_at(weights)?)?, texel })
         };
         weights.filter_map(sample).collect()
     }
 
     /// x and y of the face normal in the tangent space of a smoothed normal.
     fn tilt(&self, normal: [f32; 3]) -> Option<[f64; 2]> {
+        Some(self.frame(normal)?.map(|direction| dot(self.normal, direction)))
+    }
+
+    /// The tangent and the bitangent at a smoothed normal.
+    pub fn frame(&self, normal: [f32; 3]) -> Option<[[f32; 3]; 2]> {
         let lean = dot(normal, self.along_u) as f32;
         let tangent = unit([0, 1, 2].map(|i| self.along_u[i] - normal[i] * lean))?;
         let bitangent = cross(normal, tangent);
-        let sign = dot(bitangent, self.along_v).signum();
-        Some([dot(self.normal, tangent), sign * dot(self.normal, bitangent)])
+        let sign = dot(bitangent, self.along_v).signum() as f32;
+        Some([tangent, bitangent.map(|x| sign * x)])
+    }
+
+    /// The smoothed normal at a point; none where it has no direction. `weights`: of the corners.
+    pub fn normal_at(&self, weights: [f32; 3]) -> Option<[f32; 3]> {
+        unit(interpolated(weights, &self.corners, |corner| corner.normal))
+    }
+
+    pub fn uv_at(&self, weights: [f32; 3]) -> [f32; 2] {
+        interpolated(weights, &self.corners, |corner| corner.uv)
     }
 }
 
@@ -322,7 +336,7 @@ fn unit(vector: [f32; 3]) -> Option<[f32; 3]> {
 }
 
 /// Column and row of the nearest texel. The first row is v = 0.
-fn texel_at(image: &RgbaImage, wrap: [Wrap; 2], uv: [f32; 2]) -> [usize; 2] {
+pub fn texel_at(image: &RgbaImage, wrap: [Wrap; 2], uv: [f32; 2]) -> [usize; 2] {
     let size = [image.width, image.height];
     [0, 1].map(|i| {
         let at = match wrap[i] {

@@ -6,8 +6,10 @@ use darboux::{
 };
 use darboux_io::image::{DecodeLimits, RgbaImage, linear_to_srgb, srgb_to_linear};
 
+use crate::check_options::AssumedMap;
 use crate::measure::contradiction::Contradiction;
-use crate::measure::facets::{Arrangement, FacetVotes};
+use crate::measure::facets::Arrangement;
+use crate::measure::mesh_votes::MeshVotes;
 use crate::measure::reordered::Reordered;
 
 /// The normal map of a material, or one that is checked alone.
@@ -37,7 +39,9 @@ pub struct Map {
     /// Where green should point.
     pub wanted: BitangentDirection,
     /// What the facets of the meshes that use the map say; none for a map that is checked alone.
-    pub facets: Option<FacetVotes>,
+    pub facets: Option<MeshVotes>,
+    /// What the user says about the channels.
+    pub assumed: Option<AssumedMap>,
 }
 
 /// The directions of a map's channels, as the texels and the faces of its model show them.
@@ -81,7 +85,7 @@ impl TwoChannels {
 }
 
 /// Gives the votes of the meshes that use a map.
-pub type Vote<'a> = &'a dyn Fn(&RgbaImage) -> FacetVotes;
+pub type Vote<'a> = &'a dyn Fn(&RgbaImage) -> MeshVotes;
 
 impl Map {
     /// Decodes and judges an image file. `vote`: none for a map that is checked alone.
@@ -119,6 +123,7 @@ impl Map {
                     is_picture,
                     wanted,
                     facets,
+                    assumed: None,
                 }
             }
             Err(error) => Self {
@@ -161,6 +166,7 @@ impl Map {
             is_picture: false,
             wanted,
             facets: None,
+            assumed: None,
         }
     }
 }

@@ -14,10 +14,11 @@ use darboux_io::{Error, LoadOptions};
 
 use super::options::FixOptions;
 use super::outcome::{FixedFinding, outcome};
-use crate::check::{MapDefects, ModelOfMaps, map_defects, map_defects_on_model, map_defects_on_surfaces};
+use crate::check::{MapDefects, ModelOfMaps, identified_defects, map_defects, map_defects_on_model};
 use crate::code::Code;
 use crate::defect::Defect;
 use crate::defect::Obstacle;
+use crate::hypotheses::is_about_channels;
 use crate::map_users::MapUsers;
 use crate::place::Place;
 use crate::severity::Severity;
@@ -116,8 +117,11 @@ fn fix_checked(
 /// What was known to be left is left for the same reason after other repairs: other images and surfaces may be that.
 fn keep_reasons(known: &[Defect], defects: &mut [Defect]) {
     for defect in defects {
-        let before = known.iter().find(|known| known.is_same(defect));
-        defect.obstacle = defect.obstacle.take().or(before.and_then(|known| known.obstacle.clone()));
+        let Some(before) = known.iter().find(|known| known.is_same(defect)) else { continue };
+        // What identifies inverted channels was all known before.
+        let own = defect.obstacle.take().filter(|_| !is_about_channels(defect));
+        defect.obstacle = own.or_else(|| before.obstacle.clone());
+        defect.cancelled.clone_from(&before.cancelled);
     }
 }
 
@@ -219,7 +223,7 @@ pub fn fix_images(
         let known = of_image.clone().map(without_place).collect();
         let checked = MapDefects { defects: known, ..map_defects(&file, &options.check, None) };
         let surfaces = users.of(index)?;
-        let check = |file: &[u8]| map_defects_on_surfaces(file, &surfaces, &options.check);
+        let check = |file: &[u8]| identified_defects(file, &surfaces, &options.check);
         let made = match fix_checked(&name, &file, checked, &check, document.load_options(), options) {
             Ok(made) => made,
             Err(error) => {

@@ -54,7 +54,7 @@ impl FixOptions {
             Fault::TangentOtherRecipe { recognised, .. } => self.is_other_method(recognised),
             _ => false,
         };
-        self.chooses(defect.code()) && defect.is_fixable() && !is_wanted_method()
+        self.chooses(defect.reported_code()) && defect.is_fixable() && !is_wanted_method()
     }
 
     /// Whether a code is among those to repair.

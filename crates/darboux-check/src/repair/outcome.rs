@@ -72,8 +72,9 @@ impl FixedFinding {
 
     /// The same at a place.
     pub(super) fn at(self, place: Place) -> Self {
-        let defect = Defect { place, ..self.finding.defect };
-        Self { finding: words::finding(defect), ..self }
+        let at = |defect: Defect| Defect { place: place.clone(), ..defect };
+        let defects = self.finding.defects.into_iter().map(at).collect();
+        Self { finding: words::of_group(defects), ..self }
     }
 
     /// A defect that is still there; `reason` is that of one that could have been repaired.
@@ -91,10 +92,30 @@ pub fn outcome(defect: Defect, remaining: &[Defect], options: &FixOptions) -> Fi
     };
     let is_other_method = defect.code() == Code::TangentOtherRecipe && options.asks_for_other_method();
     let reason = match &same.obstacle {
-        _ if !options.chooses(defect.code()) => Obstacle::NotChosen,
+        _ if !options.chooses(defect.reported_code()) => Obstacle::NotChosen,
         _ if is_other_method => Obstacle::OtherMethodWanted,
         Some(obstacle) => obstacle.clone(),
         None => Obstacle::NotRemoved,
     };
     FixedFinding::left(defect, reason)
+}
+
+/// The outcomes, of which those of defects that are one finding become one: repaired where all are.
+pub fn joined(outcomes: Vec<FixedFinding>) -> Vec<FixedFinding> {
+    let joint = |fixed: &FixedFinding| fixed.finding.defects.first().and_then(Defect::joint);
+    words::grouped(outcomes, joint).into_iter().map(one).collect()
+}
+
+/// One outcome of a group.
+fn one(mut group: Vec<FixedFinding>) -> FixedFinding {
+    if group.len() == 1 {
+        return group.remove(0);
+    }
+    let repaired = group.iter().all(|fixed| fixed.repaired);
+    let was_fixable = group.iter().all(|fixed| fixed.was_fixable);
+    let change = group.iter().find_map(|fixed| fixed.change);
+    // What is left gives the reason, and what is gone has none.
+    group.sort_by_key(|fixed| fixed.repaired);
+    let defects = group.into_iter().flat_map(|fixed| fixed.finding.defects).collect();
+    FixedFinding { finding: words::of_group(defects), repaired, change, was_fixable }
 }

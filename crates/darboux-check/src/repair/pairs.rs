@@ -6,10 +6,10 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, Material};
 
 use super::options::FixOptions;
-use crate::cancelling::{has_flipped_signs, pair_of};
-use crate::defect::Defect;
-use crate::defect::Obstacle;
-use crate::defect::Pair;
+use crate::cancelling::pair_of;
+use crate::code::Code;
+use crate::defect::{Cancelled, Defect, Obstacle, Pair};
+use crate::hypotheses::has_flipped_signs;
 use crate::instances::{Key, key};
 
 /// The primitives and images that are left because a part of such a pair is left, each with the pair, or may be one.
@@ -19,6 +19,8 @@ pub struct LeftPairs {
     images: BTreeMap<usize, &'static Pair>,
     /// The primitives whose flipped signs the map in an image may cancel.
     may_cancel: BTreeMap<Key, usize>,
+    /// What cancels the defects of a code of a primitive.
+    cancelled: BTreeMap<(Key, Code), Cancelled>,
 }
 
 impl LeftPairs {
@@ -34,7 +36,11 @@ impl LeftPairs {
             _ => None,
         };
         let may_cancel = on_surfaces.iter().filter_map(may_cancel).collect();
-        let mut left = Self { may_cancel, ..Self::default() };
+        let cancelled = |defect: &Defect| {
+            Some(((key(defect.place.primitive.as_ref()?), defect.code()), defect.cancelled.clone()?))
+        };
+        let cancelled = on_surfaces.iter().filter_map(cancelled).collect();
+        let mut left = Self { may_cancel, cancelled, ..Self::default() };
         let of_images = grouped(on_images, |defect| defect.place.image);
         if of_images.is_empty() {
             return Ok(left);
@@ -65,7 +71,12 @@ impl LeftPairs {
             let primitive = defect.place.primitive.as_ref().filter(|_| has_flipped_signs(defect))?;
             self.may_cancel.get(&key(primitive)).copied()
         };
-        let mark = |defect: Defect| {
+        let cancelled = |defect: &Defect| {
+            let primitive = defect.place.primitive.as_ref()?;
+            self.cancelled.get(&(key(primitive), defect.code())).cloned()
+        };
+        let mark = |mut defect: Defect| {
+            defect.cancelled = defect.cancelled.take().or_else(|| cancelled(&defect));
             let pair = pair_of(&defect).map(Obstacle::PairIsLeft);
             let map = map_of(&defect).map(|image| Obstacle::MapMayCancel { image });
             defect.with_obstacle(pair.or(map))

@@ -10,11 +10,12 @@ use crate::defect::{
 };
 use crate::measure::directions::{
     SURE_PERCENT, arrangement, candidates, directed, directions, directions_by_mesh, facets_show_exchange,
-    with_directed_channels,
+    is_assumed, with_directed_channels,
 };
-use crate::measure::facets::{Arrangement, FacetVotes};
+use crate::measure::facets::Arrangement;
 use crate::measure::map::{Map, TwoChannels, percent};
 use crate::measure::map_kind::{Kind, kind};
+use crate::measure::mesh_votes::MeshVotes;
 use crate::severity::Severity;
 
 pub const RULES: &[MapRule] = &[
@@ -28,6 +29,7 @@ pub const RULES: &[MapRule] = &[
     contradiction,
     red_flipped,
     green_flipped,
+    other_layout,
     channels_swapped,
     not_unit,
     negative_z,
@@ -133,7 +135,7 @@ fn certainty(judgement: &MapJudgement, map: &Map) -> Certainty {
 }
 
 fn faces_score(map: &Map, arrangement: Arrangement) -> FacesScore {
-    let faces = map.facets.as_ref().map_or(0, FacetVotes::count);
+    let faces = map.facets.as_ref().map_or(0, MeshVotes::count);
     FacesScore { z_score: map.facet_score(arrangement), faces }
 }
 
@@ -177,6 +179,7 @@ fn green_flipped(map: &Map) -> Option<Defect> {
         arrangement(judgement).is_some_and(|arrangement| map.facet_score(arrangement) <= LEANS_TO_RED);
     let doubt = match (directions_by_mesh(map), &map.facets) {
         (Some(_), _) => RedDoubt::None,
+        _ if is_assumed(map) => RedDoubt::None,
         (None, Some(_)) if leans_to_red => RedDoubt::FacesLeanToRed,
         (None, Some(_)) => RedDoubt::FacesUndecided,
         (None, None) => RedDoubt::NoModel,
@@ -196,6 +199,14 @@ fn red_flipped(map: &Map) -> Option<Defect> {
     let is_left = directions(judgement, map)?.red == TangentDirection::Left;
     let found = || defect(MapFault::RedFlipped(direction_evidence(judgement, map)));
     is_left.then(|| with_confidence(found(), judgement))
+}
+
+fn other_layout(map: &Map) -> Option<Defect> {
+    with_directed_channels(map)?;
+    let seams = map.facets.as_ref()?.seams?;
+    let (layout, fit) = seams.other_layout()?;
+    let fits = [fit, seams.as_it_is()];
+    Some(defect(MapFault::OtherLayout { layout, fits, points: seams.points }))
 }
 
 fn channels_swapped(map: &Map) -> Option<Defect> {
@@ -305,7 +316,7 @@ mod tests {
         let judgement =
             judge_normal_map(&texels, [128; 2], TexelLayout::RGB).map_err(|error| error.to_string());
         let arrangement = candidates(judgement.as_ref().expect("a judgement"))[1];
-        let facets = Some(FacetVotes::only(arrangement, 7.0));
+        let facets = Some(MeshVotes::only(arrangement, 7.0));
         Map {
             judgement,
             file_size: 0,
@@ -320,6 +331,7 @@ mod tests {
             is_picture: false,
             wanted: BitangentDirection::Up,
             facets,
+            assumed: None,
         }
     }
 

@@ -10,6 +10,7 @@ use crate::defect::{
 };
 use crate::measure::contradiction::{Contradiction, Part};
 use crate::measure::reordered::Reordered;
+use crate::measure::seams::Layout;
 
 pub fn said(fault: &MapFault) -> Said {
     match fault {
@@ -73,9 +74,28 @@ pub fn said(fault: &MapFault) -> Said {
         MapFault::FlatOff { commonest, colour, degrees, texels } => {
             flat_off(*commonest, colour.as_ref(), *degrees, texels)
         }
+        MapFault::OtherLayout { layout, fits: [fit, as_it_is], points } => {
+            Said::new(format!("it fits the seams of the mesh only {}, and not as it is", turned(*layout)))
+                .with("correlation of both sides of the seams so", fit.correlation, "")
+                .with("its distance from that of the map at other places", fit.z_score, "standard deviations")
+                .with("correlation as it is", as_it_is.correlation, "")
+                .with("points of seams that were compared", *points as f64, "points")
+        }
         MapFault::Flat(percent) => {
             Said::new("all its texels are the same").with("texels of the commonest colour", *percent, "%")
         }
+    }
+}
+
+/// How a map has to be read to fit the seams.
+fn turned(layout: Layout) -> &'static str {
+    match layout {
+        Layout::TurnedUvs([true, true]) => "if the UVs are turned by 180 degrees",
+        Layout::TurnedUvs([true, false]) => "if u of the UVs is turned to 1 - u",
+        Layout::TurnedUvs(_) => "if v of the UVs is turned to 1 - v",
+        Layout::TurnedImage([true, true]) => "if the image is turned by 180 degrees",
+        Layout::TurnedImage([true, false]) => "if the image is mirrored from left to right",
+        Layout::TurnedImage(_) | Layout::Same => "if the image is turned upside down",
     }
 }
 

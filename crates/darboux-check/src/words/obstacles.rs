@@ -10,12 +10,17 @@ pub fn reason(obstacle: &Obstacle) -> String {
     let clause = match obstacle {
         Obstacle::NoTangents(reason) => return format!("tangents cannot be computed: {reason}"),
         Obstacle::Unsure(percent) => return format!("this is only {percent:.0} % sure"),
+        Obstacle::NotIdentified { percent } => {
+            return format!(
+                "this is {percent:.0} % sure, because inverted red and inverted green look alike and no faces of the model tell them apart, so that inverting the wrong one would make it worse; look at one bump with a light beside it: if that is right, green is inverted, and `--assume map=directx` says so (`--assume map=red-inverted`: red is)"
+            );
+        }
         Obstacle::RedLikelier { image } => {
             return format!("red may be inverted instead of green, as in images[{image}]");
         }
         Obstacle::MapMayCancel { image } => {
             return format!(
-                "the convention of the normal map in images[{image}] is not known, and inverted green there would cancel the flipped signs; if the map is right, repair without checking maps (`--no-maps`)"
+                "the convention of the normal map in images[{image}] is not known, and inverted green there would cancel the flipped signs; `--assume map=opengl` says that the map is right, `--assume map=directx` that its green is inverted"
             );
         }
         Obstacle::NotRewritable(clause) => return format!("the image {clause}"),
@@ -53,10 +58,10 @@ pub fn reason(obstacle: &Obstacle) -> String {
         }
         Obstacle::OnlyAPartOfMap => "nothing says where one part ends and the other one begins",
         Obstacle::FacesLeanToRed => {
-            "the faces of the model lean towards inverted red without deciding it; look at one bump with a light beside it and one above it"
+            "the faces of the model lean towards inverted red without deciding it; look at one bump with a light beside it and one above it, and say which channel is inverted with `--assume map=red-inverted` or `--assume map=directx`"
         }
         Obstacle::OnlyTheModelTells => {
-            "only the faces of the model tell inverted green from inverted red; name the model with --model, or invert green with `darboux convert`"
+            "only the faces of the model tell inverted green from inverted red; name the model with --model, or say which it is with `--assume map=directx` or `--assume map=red-inverted`"
         }
         Obstacle::ExchangedAndInverted => {
             "one channel is inverted, too, and no faces of a model show which: once red and green are exchanged back, either green is inverted or red is"

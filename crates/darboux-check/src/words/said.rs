@@ -26,7 +26,9 @@ impl Said {
     /// `percent`: of the area of the model.
     pub fn with_spoiled(self, percent: Option<f64>) -> Self {
         match percent {
-            Some(percent) => self.with("part of the model's area that looks wrong, by the angle", percent, "%"),
+            Some(percent) => {
+                self.with("part of the model's area that looks wrong, by the angle", percent, "%")
+            }
             None => self,
         }
     }

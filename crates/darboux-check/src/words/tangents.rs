@@ -22,8 +22,11 @@ pub fn said(fault: &Fault, severity: Severity) -> Said {
             } else {
                 format!("; if something did, they would be {}", also.join(", "))
             };
-            Said::new(format!("it has tangents, and its material has nothing that reads them{also}"))
-                .with("size", *bytes as f64, "bytes")
+            Said::new(format!("it has tangents, and its material has nothing that reads them{also}")).with(
+                "size",
+                *bytes as f64,
+                "bytes",
+            )
         }
         Fault::TangentNotFinite(part) => {
             vertices(part, ["tangent contains NaN or infinity", "tangents contain NaN or infinity"])

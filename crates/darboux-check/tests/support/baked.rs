@@ -164,7 +164,7 @@ fn twice_area([a, b, c]: [[f32; 2]; 3]) -> f32 {
 }
 
 /// The texels inside a triangle of UVs in texels, and the weights of its corners there.
-fn texels_inside(uvs: [[f32; 2]; 3]) -> Vec<(i32, i32, [f32; 3])> {
+pub fn texels_inside(uvs: [[f32; 2]; 3]) -> Vec<(i32, i32, [f32; 3])> {
     let range = |i: usize| {
         let values = uvs.map(|uv| uv[i]);
         let low = values.into_iter().fold(f32::INFINITY, f32::min).ceil();

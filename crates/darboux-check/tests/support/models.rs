@@ -125,7 +125,7 @@ fn wavy(mut mesh: OwnedMesh) -> OwnedMesh {
 
 impl Model {
     /// The mesh with smooth normals, MikkTSpace's tangents and split vertices.
-    fn new(number: usize, name: &str, mut mesh: OwnedMesh) -> Self {
+    pub fn new(number: usize, name: &str, mut mesh: OwnedMesh) -> Self {
         let corners = 0..mesh.corner_count();
         mesh.indices = Some(corners.map(|corner| mesh.vertex_of_corner(corner) as u32).collect());
         // glTF's v points down.

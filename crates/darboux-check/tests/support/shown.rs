@@ -58,6 +58,8 @@ pub fn shown_mistake(healthy: &Model, code: Code) -> Option<Model> {
 pub fn shown_layout(code: Code) -> Option<String> {
     let triangles = match code {
         Code::UvMirrored => quads([10.0, 10.0], 80.0).chain(quads([190.0, 10.0], -80.0)).collect(),
+        // The charts of the map are orange, and those of the mesh lie elsewhere.
+        Code::MapOtherLayout => quads([30.0, 10.0], 80.0).chain(quads([155.0, 40.0], -80.0)).collect(),
         Code::UvOverlapping => quads([30.0, 10.0], 80.0).chain(quads([75.0, 40.0], 80.0)).collect(),
         _ => Vec::new(),
     };

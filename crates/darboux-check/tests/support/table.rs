@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use darboux_check::{
-    CheckOptions, Code, Finding, FixOptions, Severity, check_document, check_map, check_map_on_model,
-    check_model_of_maps, fix_document, fix_map_on_model,
+    AssumedMap, CheckOptions, Code, Finding, FixOptions, Severity, check_document, check_map,
+    check_map_on_model, check_model_of_maps, fix_document, fix_map_on_model,
 };
 use darboux_io::LoadOptions;
 use darboux_io::gltf::{Document, pair_tangents};
@@ -37,6 +37,11 @@ pub fn codes(findings: &[Finding], is_wanted: impl Fn(Severity) -> bool) -> BTre
 /// The check of everything but texels, which takes longest.
 pub fn without_maps() -> CheckOptions {
     CheckOptions::default().with_maps(false)
+}
+
+/// The user says that maps with one inverted channel are DirectX's: the faces say nothing about maps that were not baked for them.
+pub fn assuming_directx() -> FixOptions {
+    FixOptions::default().with_check(CheckOptions::default().with_assumed_map(Some(AssumedMap::DirectX)))
 }
 
 /// The table of all mistakes but those in baked maps.
@@ -137,12 +142,12 @@ fn map_row(mistake: &MapMistake, models: &[Model]) -> Row {
 /// Repairs a map on its model, and compares its texels with the healthy ones.
 fn repaired_map(map: &Map, healthy: &Model, tolerance: u8) -> Result<(), String> {
     let model = check_model_of_maps(&healthy.document()).expect("a valid document");
-    let (loading, options) = (LoadOptions::default(), FixOptions::default());
+    let (loading, options) = (LoadOptions::default(), assuming_directx());
     let fixed = fix_map_on_model("map.png", &map.file, &model, &loading, &options);
     let fixed = fixed.map_err(|error| error.to_string())?;
     let image = fixed.image.ok_or("nothing was repaired")?;
     let file = image.to_bytes().map_err(|error| error.to_string())?;
-    let left = check_map_on_model(&file, &model, &CheckOptions::default()).findings;
+    let left = check_map_on_model(&file, &model, &options.check).findings;
     if let Some(finding) = left.iter().find(|finding| finding.is_fixable()) {
         return Err(format!("{} is still there: {}", finding.code, finding.text));
     }

@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use darboux_check::{Finding, check_document};
+use darboux_check::{Finding, ReportedFinding, check_document, diagnosis};
 use darboux_io::system_reason;
 
 use crate::batch;
@@ -70,8 +70,10 @@ pub fn run(arguments: &CheckArguments) -> u8 {
     let text = match (arguments.messages.json, arguments.messages.quiet) {
         (true, _) => to_json(&report),
         (false, is_quiet) => {
-            let describe = |file| {
-                if is_quiet { text::failures(file, arguments.fail_on) } else { text::describe(file) }
+            let describe = |file| match (is_quiet, arguments.files.verbose) {
+                (true, _) => text::failures(file, arguments.fail_on),
+                (false, true) => text::describe(file),
+                (false, false) => text::describe_folded(file),
             };
             let good = report.files.iter().filter(|file| file.error.is_none());
             let total =
@@ -148,15 +150,10 @@ fn check_all(inputs: &[&Input], arguments: &CheckArguments, model: &Model) -> Ve
 fn check_file(input: &Input, arguments: &CheckArguments, model: &Model) -> CheckedFile {
     let options = arguments.check_options();
     let name = input.to_string();
-    let reported = |findings: Vec<Finding>, map: Option<ReportedMap>| CheckedFile {
-        input: name.clone(),
-        error: None,
-        map,
-        findings: findings
-            .into_iter()
-            .filter(|finding| arguments.reports(finding.code))
-            .map(Into::into)
-            .collect(),
+    let reported = |findings: Vec<Finding>, map: Option<ReportedMap>| {
+        let wanted = findings.into_iter().filter(|finding| arguments.reports(finding.code));
+        let findings: Vec<ReportedFinding> = wanted.map(Into::into).collect();
+        CheckedFile { input: name.clone(), error: None, map, diagnosis: diagnosis(&findings), findings }
     };
     let check = || {
         let source = Source::new(input)?;
@@ -177,5 +174,5 @@ fn check_file(input: &Input, arguments: &CheckArguments, model: &Model) -> Check
 }
 
 fn failed(input: String, sentence: String) -> CheckedFile {
-    CheckedFile { input, error: Some(sentence), map: None, findings: Vec::new() }
+    CheckedFile { input, error: Some(sentence), map: None, diagnosis: String::new(), findings: Vec::new() }
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use darboux::{BitangentDirection, Choice, Method};
-use darboux_check::{CheckOptions, Code, Severity};
+use darboux_check::{AssumedMap, CheckOptions, Code, Severity};
 
 use crate::options::choice::choice;
 use crate::options::files::FileOptions;
@@ -22,8 +22,9 @@ Without --fix no file is written. With --fix the repaired file is written beside
 --in-place says otherwise; what cannot be repaired without guessing is left, and the reason printed. Nothing is left to repair in the repaired file. \
 Where nothing is repaired, only -o and --out-dir write a copy, of models and of images that could be repaired (PNG and JPEG; \
 WebP images are read and never written). In a folder, files named like repaired ones (model.fixed.glb) are skipped, and one that an earlier run has written is kept if it is still what would be written.\n\n\
-The exit code is 1 if a file cannot be read, or if a finding that is not repaired is at least as severe as --fail-on says. docs/check.md lists all \
-codes.";
+The report begins with a diagnosis: what happened, what it looks like, and what to type. Findings of one kind are one entry; -v prints each of them.\n\n\
+Exit codes: 0: no finding is as severe as --fail-on says (by default error) or all that were are repaired; 1: one is, or a file cannot be read; 2: the \
+command line is wrong. Maps in a format that is not read are not checked, and fail nothing. docs/check.md lists all codes.";
 
 pub const INPUTS: &str =
     "Models (.gltf, .glb, .vrm), folders of models, and normal maps (.png, .jpg, .webp); - is standard input";
@@ -38,6 +39,7 @@ Examples:
   darboux check level.glb --allow tangent-other-recipe,map-flat
   darboux check --explain tangent-sign-flipped
   darboux check model.glb --fix                      writes model.fixed.glb
+  darboux check model.glb --fix --assume map=directx what the file does not decide
   darboux check model.glb --fix --dry-run            what would be edited?
   darboux check models/ --fix --in-place --only tangent-sign-flipped,map-green-flipped
   darboux check models/ --json | jq '.files[].findings[] | select(.severity == \"error\")'";
@@ -81,6 +83,12 @@ pub struct CheckArguments {
     /// Where the green of normal maps should point
     #[arg(long, value_enum, default_value_t, value_name = "CONVENTION", help_heading = "Findings")]
     pub convention: MapConvention,
+
+    /// What normal maps are where neither their texels nor the faces of the model decide it
+    ///
+    /// map=opengl: green points up; map=directx: green points down; map=red-inverted: red points to the left. What the texels show is not overruled.
+    #[arg(long, value_name = "WHAT", value_parser = assumption(), help_heading = "Findings")]
+    pub assume: Option<AssumedMap>,
 
     /// The model that the images are normal maps of: its faces tell inverted green from inverted red, and its tangents, normals and UVs are checked, too
     #[arg(long, value_name = "MODEL", help_heading = "Findings")]
@@ -133,10 +141,19 @@ fn code() -> impl TypedValueParser<Value = Code> {
     PossibleValuesParser::new(Code::ALL.iter().map(|code| code.name())).try_map(|name| name.parse())
 }
 
+/// Parses `map=NAME`.
+fn assumption() -> impl TypedValueParser<Value = AssumedMap> {
+    let names = ["map=opengl", "map=directx", "map=red-inverted"];
+    PossibleValuesParser::new(names).try_map(|name| name.trim_start_matches("map=").parse::<AssumedMap>())
+}
+
 impl CheckArguments {
     /// The options of the check.
     pub fn check_options(&self) -> CheckOptions {
-        CheckOptions::default().with_green(self.convention.into()).with_maps(!self.no_maps)
+        CheckOptions::default()
+            .with_green(self.convention.into())
+            .with_maps(!self.no_maps)
+            .with_assumed_map(self.assume)
     }
 
     /// Whether findings with a code are reported and repaired.

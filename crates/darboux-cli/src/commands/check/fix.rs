@@ -6,8 +6,8 @@ use std::path::Path;
 
 use darboux::TangentOptions;
 use darboux_check::{
-    Change, Code, Finding, FixOptions, FixedFinding, ReportedFinding, Severity, check_document, fix_document,
-    plan_repair,
+    Change, Code, Finding, FixOptions, FixedFinding, ReportedFinding, Severity, check_document, diagnosis,
+    fix_document, plan_repair,
 };
 use darboux_io::gltf::Document;
 use darboux_io::image::PngImage;
@@ -31,6 +31,8 @@ use crate::text::counted;
 /// The report of a file.
 #[derive(Default, Serialize)]
 pub struct FixSummary {
+    /// What happened, what it looks like and what to do about what is left.
+    pub diagnosis: String,
     pub findings: Vec<ReportedFinding>,
     /// The edits with which a repair would begin, with `--dry-run`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -283,8 +285,10 @@ impl Repair<'_> {
     ) -> Result<ProcessedFile<FixSummary>, darboux_io::Error> {
         let planned = plan_repair(document, &findings, options)?.into_iter().map(Into::into).collect();
         let reported = findings.into_iter().filter(|finding| self.arguments.reports(finding.code));
+        let findings: Vec<ReportedFinding> = reported.map(Into::into).collect();
         let summary = FixSummary {
-            findings: reported.map(Into::into).collect(),
+            diagnosis: diagnosis(&findings),
+            findings,
             planned: Some(planned),
             warnings: document.warnings().to_vec(),
         };
@@ -359,6 +363,7 @@ impl Repair<'_> {
 
     fn summary(&self, fixed: Vec<FixedFinding>, warnings: Vec<String>) -> FixSummary {
         let reported = fixed.into_iter().filter(|fixed| self.arguments.reports(fixed.finding.code));
-        FixSummary { findings: reported.map(Into::into).collect(), planned: None, warnings }
+        let findings: Vec<ReportedFinding> = reported.map(Into::into).collect();
+        FixSummary { diagnosis: diagnosis(&findings), findings, planned: None, warnings }
     }
 }

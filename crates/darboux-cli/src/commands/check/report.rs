@@ -77,6 +77,8 @@ pub struct CheckedFile {
     pub input: String,
     pub error: Option<String>,
     pub map: Option<ReportedMap>,
+    /// What happened, what it looks like and what to do; empty for a file that cannot be read.
+    pub diagnosis: String,
     pub findings: Vec<ReportedFinding>,
 }
 

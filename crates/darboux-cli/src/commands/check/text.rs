@@ -8,12 +8,9 @@ use super::arguments::FailOn;
 use super::report::{CheckTotals, CheckedFile, DirectionsByModel, ReportedMap};
 use crate::text::{counted, printable};
 
-/// The findings in a file.
+/// The findings in a file, each at its place.
 pub fn describe(file: &CheckedFile) -> String {
-    let mut text = format!("{}\n", printable(&file.input));
-    if let Some(map) = &file.map {
-        text += &format!("  {}\n", verdict(map));
-    }
+    let mut text = head(file);
     let mut places: Vec<(&str, Vec<&ReportedFinding>)> = Vec::new();
     for finding in by_severity(&file.findings) {
         match places.iter_mut().find(|(place, _)| *place == finding.place) {
@@ -25,6 +22,51 @@ pub fn describe(file: &CheckedFile) -> String {
         text += &format!("  {}\n", printable(place));
         text.extend(findings.into_iter().map(lines));
     }
+    text + &counts(file)
+}
+
+/// The findings in a file by severity and code, with the first place of each, and what is worth knowing in one line.
+pub fn describe_folded(file: &CheckedFile) -> String {
+    let mut groups: Vec<Vec<&ReportedFinding>> = Vec::new();
+    for finding in by_severity(&file.findings) {
+        let is_same =
+            |other: &ReportedFinding| (other.severity, other.code) == (finding.severity, finding.code);
+        match groups.iter_mut().find(|group| is_same(group[0])) {
+            Some(group) => group.push(finding),
+            None => groups.push(vec![finding]),
+        }
+    }
+    let (known, severe): (Vec<_>, Vec<_>) =
+        groups.into_iter().partition(|group| group[0].severity <= Severity::Info);
+    let mut text = head(file);
+    for group in severe {
+        let further = match group.len() {
+            1 => String::new(),
+            count => format!(" and {} more", count - 1),
+        };
+        text += &format!("  {}{further}\n{}", printable(&group[0].place), lines(group[0]));
+    }
+    if !known.is_empty() {
+        let codes = known.iter().map(|group| match group.len() {
+            1 => group[0].code.to_string(),
+            count => format!("{} ({count})", group[0].code),
+        });
+        text += &format!("  worth knowing (-v): {}\n", codes.collect::<Vec<_>>().join(", "));
+    }
+    text + &counts(file)
+}
+
+/// The name of a file, the diagnosis and the verdict on an image.
+fn head(file: &CheckedFile) -> String {
+    let mut text = format!("{}\n  {}\n", printable(&file.input), printable(&file.diagnosis));
+    if let Some(map) = &file.map {
+        text += &format!("  {}\n", verdict(map));
+    }
+    text
+}
+
+/// The number of findings by severity.
+fn counts(file: &CheckedFile) -> String {
     let count = |severity| file.findings.iter().filter(|finding| finding.severity == severity).count();
     let [errors, warnings, infos] = [Severity::Error, Severity::Warning, Severity::Info].map(count);
     let errors = counted(errors, "error", "errors");
@@ -33,10 +75,7 @@ pub fn describe(file: &CheckedFile) -> String {
         0 => String::new(),
         count => format!(", {} not checked", counted(count, "map", "maps")),
     };
-    text + &format!(
-        "  {errors}, {warnings}, {} worth knowing{not_checked}\n",
-        counted(infos, "thing", "things")
-    )
+    format!("  {errors}, {warnings}, {} worth knowing{not_checked}\n", counted(infos, "thing", "things"))
 }
 
 /// What was found in all files, by code.

@@ -1,0 +1,103 @@
+//! [`diagnosis`]: what happened to a file, what it looks like and what to do, in one to three sentences.
+
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+use crate::code::Code;
+use crate::report::ReportedFinding;
+use crate::severity::Severity;
+
+/// What happened to a file, what it looks like and what to do, in one to three sentences: the first thing that a report says.
+///
+/// `findings`: those of the file, before or after a repair.
+pub fn diagnosis(findings: &[ReportedFinding]) -> String {
+    let left = || findings.iter().filter(|finding| finding.repaired != Some(true));
+    let repaired = findings.len() - left().count();
+    let Some(worst) = left().map(|finding| finding.severity).max().filter(|worst| *worst > Severity::Info)
+    else {
+        return healthy(findings, repaired);
+    };
+    let of_severity: Vec<&ReportedFinding> = left().filter(|finding| finding.severity == worst).collect();
+    let main = main_code(&of_severity);
+    let of_main: Vec<&ReportedFinding> =
+        of_severity.iter().copied().filter(|finding| finding.code == main).collect();
+    let others = of_severity.len() - of_main.len();
+    let happened = happened(main, &of_main, others, worst);
+    let first = of_main[0];
+    format!("{happened} {} {}", first.looks_like, to_do(&of_severity))
+}
+
+/// The code that most findings have; of several, the first one, as causes come before what follows from them.
+fn main_code(findings: &[&ReportedFinding]) -> Code {
+    let mut counts: BTreeMap<Code, (usize, usize)> = BTreeMap::new();
+    for (number, finding) in findings.iter().enumerate() {
+        counts.entry(finding.code).or_insert((0, number)).0 += 1 + finding.same_as;
+    }
+    let most = counts.into_iter().max_by_key(|(_, (count, first))| (*count, Reverse(*first)));
+    most.map_or(findings[0].code, |(code, _)| code)
+}
+
+/// The sentence about what happened.
+fn happened(main: Code, of_main: &[&ReportedFinding], others: usize, worst: Severity) -> String {
+    let first = of_main[0];
+    let place = match of_main.len() {
+        1 => first.place.clone(),
+        count => format!("{} and {} more", first.place, count - 1),
+    };
+    let kind = if worst == Severity::Error { "error" } else { "warning" };
+    let others = match others {
+        0 => String::new(),
+        1 => format!(" There is 1 other {kind}."),
+        count => format!(" There are {count} other {kind}s."),
+    };
+    format!("{} ({place}): {}{others}", main.meaning().trim_end_matches('.'), lower_case(main.cause()))
+}
+
+/// A sentence after a colon.
+fn lower_case(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    let is_name = letters.clone().nth(1).is_none_or(|second| second.is_uppercase())
+        || ["DirectX", "Blender", "Unreal"].iter().any(|name| sentence.starts_with(name));
+    match letters.next() {
+        Some(first) if !is_name => first.to_lowercase().chain(letters).collect(),
+        _ => sentence.to_owned(),
+    }
+}
+
+/// What to do about findings.
+fn to_do(findings: &[&ReportedFinding]) -> String {
+    let fixable = findings.iter().filter(|finding| finding.left_because.is_none()).count();
+    if fixable == findings.len() {
+        return "Type `darboux check FILE --fix` to repair it.".to_owned();
+    }
+    if fixable > 0 {
+        let all = findings.len();
+        return format!(
+            "`darboux check FILE --fix` repairs {fixable} of these {all}; the others say why not."
+        );
+    }
+    let reason = findings.iter().find_map(|finding| finding.left_because.as_deref()).unwrap_or_default();
+    match ["directx", "opengl"].iter().find(|name| reason.contains(&format!("--assume map={name}"))) {
+        Some(name) => format!(
+            "Nothing in the file decides which of two repairs is right: look, and if it is so, type `darboux check FILE --fix --assume map={name}`."
+        ),
+        None => findings[0].cure.clone(),
+    }
+}
+
+/// The sentence about a file in which nothing is wrong.
+fn healthy(findings: &[ReportedFinding], repaired: usize) -> String {
+    let unchecked = findings.iter().filter(|finding| finding.severity == Severity::NotChecked).count();
+    let nothing = match repaired {
+        0 => "Nothing is wrong.".to_owned(),
+        1 => "1 finding was repaired, and nothing is wrong any more.".to_owned(),
+        count => format!("{count} findings were repaired, and nothing is wrong any more."),
+    };
+    match unchecked {
+        0 => nothing,
+        1 => format!("{nothing} 1 normal map was not checked, because its format is not read."),
+        count => {
+            format!("{nothing} {count} normal maps were not checked, because their formats are not read.")
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! Every mistake on real models with their own maps, and real meshes with maps that were not baked for them: what is named, and that no repair makes a
+//! picture worse. The picture is the normal that a shader computes in the middle of every triangle, and its error the angle to that of the healthy model.
+
+mod support;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::env;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use darboux::{MapVerdict, TexelLayout, judge_normal_map};
+use darboux_check::{CheckOptions, Code, FixOptions, Severity, check_document, fix_document};
+use darboux_io::LoadOptions;
+use darboux_io::gltf::Document;
+use darboux_io::image::RgbaImage;
+use support::baked::BAKED_MISTAKES;
+use support::maps::{MAP_MISTAKES, Map, healthy_map, png};
+use support::mistakes::MISTAKES;
+use support::models::{Model, healthy_models};
+use walkdir::WalkDir;
+
+/// The largest side of a map; larger ones are reduced.
+const SIDE: usize = 512;
+
+/// Larger primitives are left out, to bound the time.
+const TRIANGLES: usize = 20_000;
+
+/// The models that are asked for, and the pairs of a mesh and a map.
+const MODELS: usize = 26;
+const PAIRS: usize = 1000;
+
+/// The error in degrees that rounding makes.
+const ROUNDING: f64 = 0.5;
+
+fn print(line: &str) {
+    writeln!(std::io::stdout(), "{line}").expect("output");
+}
+
+/// A square map of a document, reduced by averages.
+fn map_of(document: &Document, image: usize) -> Option<Map> {
+    let file = document.image_bytes(image).ok()?;
+    let image = RgbaImage::decode(&file, &Default::default()).ok()?;
+    let side = image.width as usize;
+    let step = side.div_ceil(SIDE);
+    if image.width != image.height || side < 64 || side % step != 0 {
+        return None;
+    }
+    let reduced = side / step;
+    let texel = |at: usize| {
+        let (left, top) = (at % reduced * step, at / reduced * step);
+        let places = (0..step * step).map(|i| (top + i / step) * side + left + i % step);
+        let sum = places.fold([0.0; 3], |sum: [f32; 3], place| {
+            [0, 1, 2].map(|i| sum[i] + f32::from(image.texels[place][i]) / 127.5 - 1.0)
+        });
+        let length = sum.iter().map(|x| x * x).sum::<f32>().sqrt().max(f32::MIN_POSITIVE);
+        sum.map(|x| (127.5 + 127.5 * x / length).round() as u8)
+    };
+    let texels: Vec<[u8; 3]> = (0..reduced * reduced).map(texel).collect();
+    Some(Map { file: png(&texels), texels, ..healthy_map(0) })
+}
+
+/// The first primitive of a model with a normal map, alone, with MikkTSpace's tangents; none where it is not healthy.
+fn model_of(path: &Path) -> Option<Model> {
+    let document = Document::open(path, &LoadOptions::default()).ok()?;
+    let materials = document.materials().ok()?;
+    let texture = |material: Option<usize>| materials.get(material?)?.normal_texture.clone();
+    let all = document.corners().ok()?;
+    let corners = all.iter().find(|corners| {
+        texture(corners.material()).is_some_and(|texture| texture.uv_set == 0 && texture.image.is_some())
+    })?;
+    let image = texture(corners.material())?.image?;
+    let count = corners.vertices().len();
+    if count == 0 || count > 3 * TRIANGLES {
+        return None;
+    }
+    let mut model = healthy_models().remove(0);
+    model.name = path.file_name()?.to_string_lossy().into_owned();
+    model.positions = corners.vectors("POSITION").ok()??;
+    model.normals = Some(corners.vectors("NORMAL").ok()??);
+    model.uvs = vec![corners.vectors("TEXCOORD_0").ok()??];
+    model.indices = (0..count as u32).collect();
+    (model.unsplit, model.uv_set, model.copies, model.is_skinned) = (None, 0, 1, false);
+    model.map = map_of(&document, image)?;
+    model.tangents = Some(vec![[1.0, 0.0, 0.0, 1.0]; count]);
+    model.tangents = Some(model.computed(Default::default(), 0));
+    let findings = check_document(&model.document(), &CheckOptions::default()).ok()?;
+    findings.iter().all(|finding| finding.severity <= Severity::Info).then_some(model)
+}
+
+/// Real models, one per content of the map.
+fn models(limit: usize) -> Vec<Model> {
+    let Some(folder) = env::var_os("DARBOUX_MODELS").map(PathBuf::from) else { return Vec::new() };
+    let files = WalkDir::new(folder).sort_by_file_name().into_iter().filter_map(Result::ok);
+    let is_model = |path: &PathBuf| path.extension().is_some_and(|end| end == "glb" || end == "gltf");
+    let paths = files.map(walkdir::DirEntry::into_path).filter(is_model);
+    let mut seen = BTreeSet::new();
+    let read = paths.filter_map(|path| model_of(&path)).filter(|model| seen.insert(model.map.file.clone()));
+    read.take(limit).collect()
+}
+
+/// The normals that a shader computes in the middle of every triangle; none where a vector has no direction. Empty where an attribute is missing.
+fn shading(document: &Document, uv_set: usize) -> Vec<Option<[f64; 3]>> {
+    let corners = document.corners().expect("valid indices");
+    let corners = &corners[0];
+    let vectors = |name: &str| corners.vectors::<3>(name).ok().flatten();
+    let uvs = corners.vectors::<2>(&format!("TEXCOORD_{uv_set}")).ok().flatten();
+    let tangents = corners.vectors::<4>("TANGENT").ok().flatten();
+    let (Some(normals), Some(uvs), Some(tangents)) = (vectors("NORMAL"), uvs, tangents) else {
+        return Vec::new();
+    };
+    let image = document.image_bytes(0).expect("an image");
+    let Ok(image) = RgbaImage::decode(&image, &Default::default()) else { return Vec::new() };
+    let scale = document.materials().expect("materials")[0].normal_scale;
+    let middle = |first: usize| {
+        let mean = |of: &dyn Fn(usize) -> [f64; 3]| {
+            unit([0, 1, 2].map(|i| (first..first + 3).map(|corner| of(corner)[i]).sum()))
+        };
+        let normal = mean(&|corner| normals[corner].map(f64::from))?;
+        let tangent = mean(&|corner| [0, 1, 2].map(|i| f64::from(tangents[corner][i])))?;
+        let sign: f64 = (first..first + 3).map(|corner| f64::from(tangents[corner][3])).sum::<f64>() / 3.0;
+        let bitangent = cross(normal, tangent).map(|x| x * sign);
+        let at = [(0, image.width), (1, image.height)].map(|(i, side)| {
+            let uv = (first..first + 3).map(|corner| uvs[corner][i]).sum::<f32>() / 3.0;
+            ((uv.rem_euclid(1.0) * side as f32) as usize).min(side as usize - 1)
+        });
+        let texel = image.texels[at[1] * image.width as usize + at[0]];
+        let [x, y, z] = [0, 1, 2].map(|i| f64::from(texel[i]) / 127.5 - 1.0);
+        let [x, y] = [x, y].map(|x| x * f64::from(scale));
+        unit([0, 1, 2].map(|i| x * tangent[i] + y * bitangent[i] + z * normal[i]))
+    };
+    (0..uvs.len() / 3).map(|triangle| middle(3 * triangle)).collect()
+}
+
+fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (length.is_finite() && length > 0.0).then(|| v.map(|x| x / length))
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// The mean angle in degrees to the truth; a normal without a direction counts as 90. None where they cannot be compared.
+fn error(truth: &[Option<[f64; 3]>], document: &Document, uv_set: usize) -> Option<f64> {
+    let found = shading(document, uv_set);
+    let angle = |(a, b): (&Option<[f64; 3]>, &Option<[f64; 3]>)| match (a, b) {
+        (Some(a), Some(b)) => (0..3).map(|i| a[i] * b[i]).sum::<f64>().clamp(-1.0, 1.0).acos().to_degrees(),
+        (None, None) => 0.0,
+        _ => 90.0,
+    };
+    let is_comparable = !found.is_empty() && found.len() == truth.len();
+    is_comparable.then(|| truth.iter().zip(&found).map(angle).sum::<f64>() / truth.len() as f64)
+}
+
+/// The codes that a check names, and the error before and after the repair where both are known.
+fn outcome(model: &Model, truth: &[Option<[f64; 3]>]) -> (BTreeSet<Code>, bool, Option<[f64; 2]>) {
+    let mut document = model.document();
+    let findings = check_document(&document, &CheckOptions::default()).expect("a valid document");
+    let mut named: BTreeSet<Code> = findings.iter().map(|finding| finding.code).collect();
+    // Two conventions that cancel are both named by one finding.
+    if named.contains(&Code::ConventionsCancel) {
+        named.extend([Code::MapGreenFlipped, Code::TangentSignFlipped]);
+    }
+    let reasons = findings.iter().filter_map(|finding| finding.left_because.as_deref());
+    let is_open = reasons.into_iter().any(|reason| reason.contains("--assume"));
+    let before = error(truth, &document, model.uv_set);
+    fix_document(&mut document, findings, &FixOptions::default()).expect("a repair");
+    let after = error(truth, &document, model.uv_set);
+    (named, is_open, before.zip(after).map(|(before, after)| [before, after]))
+}
+
+/// Whether the texels show a convention.
+fn is_decided(map: &Map) -> bool {
+    let side = map.texels.len().isqrt();
+    let judged = judge_normal_map(&map.texels, [side; 2], TexelLayout::RGB);
+    judged.is_ok_and(|judgement| judgement.verdict == MapVerdict::OpenGl && judgement.confidence >= 0.99)
+}
+
+/// A mistake by its code and how it is made, and the models with it.
+type Made = (Code, &'static str, Model);
+
+/// All mistakes that can be made on a model and leave other bytes.
+fn mistakes(healthy: &Model) -> Vec<Made> {
+    let mut all = Vec::new();
+    for mistake in MISTAKES {
+        let mut model = healthy.clone();
+        if (mistake.make)(&mut model) {
+            all.push((mistake.code, mistake.how, model));
+        }
+    }
+    for mistake in MAP_MISTAKES {
+        all.push((mistake.code, mistake.how, Model { map: (mistake.make)(&healthy.map), ..healthy.clone() }));
+    }
+    for mistake in BAKED_MISTAKES {
+        let texels = healthy.map.texels.iter().copied().map(mistake.make).collect();
+        all.push((
+            mistake.code,
+            mistake.how,
+            Model { map: healthy.map.with_texels(texels), ..healthy.clone() },
+        ));
+    }
+    let bytes = healthy.glb();
+    all.retain(|(_, _, model)| model.glb() != bytes);
+    all
+}
+
+#[test]
+#[ignore = "makes every mistake on real models: cargo xtask ci --full runs it"]
+fn mistakes_on_real_models_are_named_and_no_repair_makes_them_worse() {
+    let models = models(MODELS);
+    if models.is_empty() {
+        return print("skipped: DARBOUX_MODELS names no folder of models");
+    }
+    let (mut shown, mut named, mut missed, mut worse) = (0, 0, BTreeMap::new(), Vec::new());
+    let mut all = 0;
+    for healthy in &models {
+        let truth = shading(&healthy.document(), healthy.uv_set);
+        let is_decided = is_decided(&healthy.map);
+        for (code, how, model) in mistakes(healthy) {
+            all += 1;
+            let (found, is_open, errors) = outcome(&model, &truth);
+            // Which channel is inverted shows in no file where the texels or the faces leave it open.
+            let is_about_channels =
+                [Code::MapGreenFlipped, Code::MapRedFlipped, Code::MapChannelsSwapped].contains(&code);
+            let can_show = !is_about_channels || is_decided && (code == Code::MapGreenFlipped || !is_open);
+            if can_show {
+                shown += 1;
+                let is_named = found.contains(&code);
+                named += usize::from(is_named);
+                if !is_named {
+                    missed.entry((code, how)).or_insert_with(Vec::new).push(healthy.name.clone());
+                }
+            }
+            if let Some([before, after]) = errors.filter(|[before, after]| *after > before + ROUNDING) {
+                worse.push(format!("{how} on {}: {before:.2} to {after:.2} degrees", healthy.name));
+            }
+        }
+    }
+    print(&format!(
+        "{} models, {all} mistakes: {named} of the {shown} that the file can show are named",
+        models.len()
+    ));
+    missed
+        .iter()
+        .for_each(|((code, how), models)| print(&format!("  missed {code} ({how}): {}", models.join(", "))));
+    worse.iter().for_each(|line| print(&format!("  worse: {line}")));
+    assert!(worse.is_empty(), "{worse:#?}");
+    assert!(named * 100 >= shown * 97, "{named} of {shown}");
+}
+
+#[test]
+#[ignore = "repairs 1,000 pairs: cargo xtask ci --full runs it"]
+fn no_repair_of_a_map_that_was_not_baked_for_the_mesh_makes_it_worse() {
+    let mut meshes = models(usize::MAX);
+    meshes.extend(healthy_models());
+    meshes.retain(|model| model.indices.len() < 3 * 5000);
+    let turns: [fn([u8; 3]) -> [u8; 3]; 4] = [
+        |texel| texel,
+        |[r, g, b]| [r, 255 - g, b],
+        |[r, g, b]| [255 - r, g, b],
+        |[r, g, b]| [255 - r, 255 - g, b],
+    ];
+    let (mut repaired, mut worse) = (0, Vec::new());
+    for pair in 0..PAIRS {
+        let mesh = &meshes[pair % meshes.len()];
+        let map = healthy_map(pair / meshes.len());
+        let mut model = Model { map, ..mesh.clone() };
+        let truth = shading(&model.document(), model.uv_set);
+        let texels = model.map.texels.iter().copied().map(turns[pair / 3 % 4]).collect();
+        model.map = model.map.with_texels(texels);
+        if pair % 5 == 0 {
+            model.negate_signs();
+        }
+        let (_, _, errors) = outcome(&model, &truth);
+        let Some([before, after]) = errors else { continue };
+        repaired += usize::from(after + ROUNDING < before);
+        if after > before + ROUNDING {
+            worse.push(format!(
+                "{} with map {}, turn {}: {before:.2} to {after:.2} degrees",
+                mesh.name,
+                pair / meshes.len(),
+                pair / 3 % 4
+            ));
+        }
+    }
+    print(&format!(
+        "{PAIRS} pairs on {} meshes: {repaired} better after the repair, {} worse",
+        meshes.len(),
+        worse.len()
+    ));
+    assert!(worse.is_empty(), "{worse:#?}");
+}
