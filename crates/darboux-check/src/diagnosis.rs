@@ -50,7 +50,24 @@ fn happened(main: Code, of_main: &[&ReportedFinding], others: usize, worst: Seve
         1 => format!(" There is 1 other {kind}."),
         count => format!(" There are {count} other {kind}s."),
     };
-    format!("{} ({place}): {}{others}", main.meaning().trim_end_matches('.'), lower_case(main.cause()))
+    format!(
+        "{} ({place}): {}{others}",
+        main.meaning().trim_end_matches('.'),
+        lower_case(&without_references(main.cause()))
+    )
+}
+
+/// A sentence without the numbers of issues, which are in parentheses.
+fn without_references(sentence: &str) -> String {
+    let mut parts = sentence.split(" (");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        match part.split_once(')') {
+            Some((inside, after)) if inside.contains(|letter: char| letter.is_ascii_digit()) => text += after,
+            _ => text += &format!(" ({part}"),
+        }
+    }
+    text
 }
 
 /// A sentence after a colon.
@@ -99,5 +116,21 @@ fn healthy(findings: &[ReportedFinding], repaired: usize) -> String {
         count => {
             format!("{nothing} {count} normal maps were not checked, because their formats are not read.")
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn references_are_left_out() {
+        let sentence = "A DirectX map (green down) was put into glTF (glTF 1637, filament 528), or so.";
+        assert_eq!(without_references(sentence), "A DirectX map (green down) was put into glTF, or so.");
+    }
+
+    #[test]
+    fn nothing_is_wrong_without_findings() {
+        assert_eq!(diagnosis(&[]), "Nothing is wrong.");
     }
 }

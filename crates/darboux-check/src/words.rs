@@ -63,7 +63,7 @@ fn single(defect: Defect) -> Finding {
     if let Some(Obstacle::RedLikelier { image }) = defect.obstacle {
         text += &format!("; the red of images[{image}] is inverted, so that this may be likelier");
     }
-    if let Some(Obstacle::MapMayCancel { .. }) = defect.obstacle {
+    if let (Some(Obstacle::MapMayCancel { .. }), None) = (&defect.obstacle, &defect.cancelled) {
         text += ", unless inverted green of the normal map cancels that";
     }
     if let Some(cancelled) = &defect.cancelled {

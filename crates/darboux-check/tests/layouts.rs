@@ -14,6 +14,9 @@ const SIDE: usize = 256;
 const QUADS: usize = 4;
 const CHARTS: usize = 4;
 
+/// Where each chart lies: in no order that a turned layout would have, too.
+const PLACES: [usize; CHARTS * CHARTS] = [5, 12, 0, 9, 14, 3, 10, 7, 1, 15, 6, 2, 11, 8, 4, 13];
+
 /// A sphere whose quads are cut into charts, every second of which is turned by a right angle, with the seams smooth.
 fn charted() -> OwnedMesh {
     let (rows, columns) = (CHARTS * QUADS, CHARTS * QUADS);
@@ -40,7 +43,8 @@ fn charted() -> OwnedMesh {
 
 /// The UV of a corner of a quad, in a chart with a border of empty texels.
 fn place([row, column]: [usize; 2], [i, j]: [usize; 2]) -> [f32; 2] {
-    let chart = [column / QUADS, row / QUADS];
+    let chart = PLACES[row / QUADS * CHARTS + column / QUADS];
+    let chart = [chart % CHARTS, chart / CHARTS];
     let own = [(column % QUADS + i) as f32 / QUADS as f32, (row % QUADS + j) as f32 / QUADS as f32];
     let own = if (chart[0] + chart[1]) % 2 == 1 { [1.0 - own[1], own[0]] } else { own };
     [0, 1].map(|axis| (chart[axis] as f32 + 0.08 + 0.84 * own[axis]) / CHARTS as f32)

@@ -11,7 +11,7 @@ use super::surfaces::{defects_of_surface, for_each_surface};
 use crate::cancelling;
 use crate::check_options::CheckOptions;
 use crate::code::Code;
-use crate::defect::{Defect, Obstacle};
+use crate::defect::{Defect, Fault, Obstacle};
 use crate::finding::Finding;
 use crate::hypotheses::{self, Inverted, MapWitness, inverted, is_about_channels};
 use crate::map_users::{MapSurfaces, MapUsers};
@@ -191,7 +191,8 @@ pub fn defects_of_materials(
     for number in 0..judged.len() {
         let sibling = sibling(&judged, number);
         let (image, found, witness) = &mut judged[number];
-        let names: Vec<&PrimitiveName> = users.names(*image).collect();
+        let names: Vec<&PrimitiveName> =
+            users.names(*image).filter(|name| !has_no_uv_area(on_surfaces, name)).collect();
         let index_of = |defect: &Defect| {
             defect.place.primitive.as_ref().and_then(|own| names.iter().position(|name| *name == own))
         };
@@ -201,6 +202,16 @@ pub fn defects_of_materials(
     }
     defects.extend(judged.into_iter().flat_map(|(_, found, _)| found));
     Ok(defects)
+}
+
+/// Whether no triangle of a primitive has an area in UV space, so that it shows one texel per triangle and no bumps.
+fn has_no_uv_area(on_surfaces: &[Defect], name: &PrimitiveName) -> bool {
+    on_surfaces.iter().any(|defect| match &defect.fault {
+        Fault::UvDegenerate { triangles, .. } => {
+            triangles.len() == triangles.of && defect.place.primitive.as_ref() == Some(name)
+        }
+        _ => false,
+    })
 }
 
 /// Another image of the model of which the faces show that channels are inverted, and which. The maps of a model are mostly made by one program.
