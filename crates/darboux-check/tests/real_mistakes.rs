@@ -42,7 +42,7 @@ fn map_of(document: &Document, image: usize) -> Option<Map> {
     let image = RgbaImage::decode(&file, &Default::default()).ok()?;
     let side = image.width as usize;
     let step = side.div_ceil(SIDE);
-    if image.width != image.height || side < 64 || side % step != 0 {
+    if image.width != image.height || side < 64 || !side.is_multiple_of(step) {
         return None;
     }
     let reduced = side / step;
