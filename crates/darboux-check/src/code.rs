@@ -302,6 +302,13 @@ codes! {
         "Export or bake the map with green up (OpenGL, +Y), or invert green of the map with `darboux convert --from directx --to opengl`."
         Repair "green is inverted"
     }
+    MapDetailFlipped "map-detail-flipped" Warning {
+        "The relief of the normal map is in one convention, and its fine detail in the other."
+        "Fine grain looks sunken where it should be raised when the light is above or below; the large shapes are right."
+        "A detail map of another convention was laid over the map, or a baked map was mixed with a scanned one."
+        "Invert green of the detail map (`darboux convert --from directx --to opengl`) and lay it over the map again."
+        Leave "relief and detail share their texels, so that no channel can be inverted for one of them"
+    }
     MapRedFlipped "map-red-flipped" Error {
         "The normal map's red points the wrong way, judged by the mesh that it was baked for."
         "Dents look like bumps when the light is from the side, and right when it is above or below."

@@ -206,6 +206,10 @@ const SAID: &[(Code, &str)] = &[
         "bumps are dents; hours went into debugging the shader (KhronosGroup/glTF-Sample-Models PR 336, BabylonJS/Exporters 940)",
     ),
     (
+        Code::MapDetailFlipped,
+        "maps from several sources are mixed, and each may need its green inverted (redeclipse/base 1331, boku-ilen/landscapelab 339)",
+    ),
+    (
         Code::MapRedFlipped,
         "up and down are right, left and right are exchanged (TombEngine/TombEngine 617, makehumancommunity/makehuman2 12)",
     ),
@@ -283,6 +287,7 @@ const NO_PICTURE: &[(Code, &str)] = &[
         "the renderer of these pictures normalises the vectors, so that nothing would be seen",
     ),
     (Code::MapScaleNegative, "it looks as if red and green were both inverted: dents for bumps"),
+    (Code::MapDetailFlipped, "the detail is finer than the pixels of these pictures"),
     (Code::MapFlatOff, "a lean of two degrees is seen in reflections only"),
 ];
 

@@ -1,6 +1,6 @@
 //! [`MapFault`]: what is wrong with the texels of a normal map.
 
-use darboux::{BitangentDirection, SrgbMistake};
+use darboux::{BitangentDirection, MapJudgement, SrgbMistake};
 
 use crate::code::Code;
 use crate::measure::contradiction::Contradiction;
@@ -38,8 +38,30 @@ pub struct DirectionEvidence {
     pub confidence: f32,
     pub correlation: f32,
     pub certainty: Certainty,
+    pub relief: ReliefEvidence,
     /// The faces' verdict, where they decide.
     pub faces: Option<FacesScore>,
+}
+
+/// The evidence for the convention of the relief.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReliefEvidence {
+    /// The mean correlation, weighted by the energy of slopes.
+    pub correlation: f64,
+    /// How much better a height field explains the slopes in that convention, in deviations of the same number for shifted channels.
+    pub shift_score: f64,
+    /// The shares of the slopes' energy that no height field explains, in OpenGL's and in DirectX's convention.
+    pub residuals: [f64; 2],
+}
+
+impl ReliefEvidence {
+    pub fn of(judgement: &MapJudgement) -> Self {
+        Self {
+            correlation: judgement.relief_correlation.into(),
+            shift_score: judgement.shift_score.into(),
+            residuals: judgement.residuals.map(f64::from),
+        }
+    }
 }
 
 /// Why inverted green may be inverted red.
@@ -127,6 +149,12 @@ pub enum MapFault {
         evidence: DirectionEvidence,
     },
     RedFlipped(DirectionEvidence),
+    /// The fine detail is in another convention than the relief.
+    DetailFlipped {
+        /// Whether the relief has green up.
+        is_relief_up: bool,
+        evidence: ReliefEvidence,
+    },
     ChannelsSwapped {
         /// Whether the derivatives show it; otherwise the faces do.
         by_derivatives: bool,
@@ -172,6 +200,7 @@ impl MapFault {
             Self::TwoChannel { .. } => Code::MapTwoChannel,
             Self::Contradiction { .. } | Self::GreenFlipped { .. } => Code::MapGreenFlipped,
             Self::RedFlipped(_) => Code::MapRedFlipped,
+            Self::DetailFlipped { .. } => Code::MapDetailFlipped,
             Self::NotUnit { .. } => Code::MapNotUnit,
             Self::NegativeZ(_) => Code::MapNegativeZ,
             Self::FlatOff { .. } => Code::MapFlatOff,

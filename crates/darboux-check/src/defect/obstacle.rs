@@ -29,6 +29,8 @@ pub enum Obstacle {
     /// The direction is sure by this percentage only.
     Unsure(f64),
     OnlyAPartOfMap,
+    /// The fine detail of the map is in the other convention.
+    DetailIsOpposed,
     FacesLeanToRed,
     /// Inverted green and inverted red look alike; the one that is named is so likely.
     NotIdentified {

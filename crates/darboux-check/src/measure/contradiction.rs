@@ -12,8 +12,14 @@ const MIN_SIDE: usize = 128;
 /// Larger maps have so many blocks along their shorter side.
 const BLOCKS: usize = 8;
 
-/// The smallest absolute z score of a block that counts.
-const CLEAR: f32 = 6.5;
+/// The smallest confidence of a block that counts.
+const CLEAR: f32 = 0.99;
+
+/// The smallest root of the mean squared deviation of red and green, in units of vectors, of a block that counts: two codes of 8 bits.
+const MIN_DEVIATION: f64 = 2.0 / 127.5;
+
+/// The smallest part of the energy of all clear blocks that contradicts the rest. Faint detail beside a strong relief is no other part.
+const MIN_SHARE: f64 = 0.02;
 
 /// Blocks of one convention.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,6 +28,8 @@ pub struct Part {
     pub blocks: usize,
     /// The largest absolute z score.
     pub z_score: f32,
+    /// The sum of the mean squared deviations of red and green.
+    pub energy: f64,
     /// The texels of the box around them, half open: left and right, top and bottom.
     pub columns: [usize; 2],
     pub rows: [usize; 2],
@@ -37,13 +45,14 @@ pub struct Contradiction {
 }
 
 impl Part {
-    fn add(&mut self, side: usize, [left, top]: [usize; 2], z_score: f32) {
+    fn add(&mut self, side: usize, [left, top]: [usize; 2], z_score: f32, energy: f64) {
         let grow = |range: [usize; 2], start: usize| [range[0].min(start), range[1].max(start + side)];
         (self.columns, self.rows) = match self.blocks {
             0 => ([left, left + side], [top, top + side]),
             _ => (grow(self.columns, left), grow(self.rows, top)),
         };
         self.blocks += 1;
+        self.energy += energy;
         self.z_score = self.z_score.max(z_score.abs());
     }
 }
@@ -73,10 +82,23 @@ impl Contradiction {
                 MapVerdict::DirectX => 1,
                 _ => continue,
             };
-            if judgement.z_score.abs() >= CLEAR {
-                found.parts[part].add(side, [left, top], judgement.z_score);
+            let energy = deviation(&block, layout);
+            if judgement.confidence >= CLEAR && energy >= MIN_DEVIATION * MIN_DEVIATION {
+                found.parts[part].add(side, [left, top], judgement.z_score, energy);
             }
         }
-        found.parts.iter().all(|part| part.blocks > 0).then_some(found)
+        let all = found.parts.iter().map(|part| part.energy).sum::<f64>();
+        found.parts.iter().all(|part| part.blocks > 0 && part.energy >= MIN_SHARE * all).then_some(found)
     }
+}
+
+/// The mean squared deviation of x and y from their means.
+fn deviation(block: &[[u8; 4]], layout: TexelLayout<4>) -> f64 {
+    let mut sums = [0.0f64; 4];
+    for texel in block {
+        let [x, y, _] = layout.vector(*texel).map(f64::from);
+        sums.iter_mut().zip([x, y, x * x, y * y]).for_each(|(sum, term)| *sum += term);
+    }
+    let [x, y, squared_x, squared_y] = sums.map(|sum| sum / block.len().max(1) as f64);
+    squared_x - x * x + squared_y - y * y
 }

@@ -6,7 +6,7 @@ use super::rule::MapRule;
 use crate::defect::Obstacle;
 use crate::defect::{
     Certainty, Defect, DirectionEvidence, FacesScore, Fault, LengthDoubt, MapFault, NoNormals, RedDoubt,
-    Texels,
+    ReliefEvidence, Texels,
 };
 use crate::measure::directions::{
     SURE_PERCENT, arrangement, candidates, directed, directions, directions_by_mesh, facets_show_exchange,
@@ -29,6 +29,7 @@ pub const RULES: &[MapRule] = &[
     contradiction,
     red_flipped,
     green_flipped,
+    detail_flipped,
     other_layout,
     channels_swapped,
     not_unit,
@@ -145,6 +146,7 @@ fn direction_evidence(judgement: &MapJudgement, map: &Map) -> DirectionEvidence 
         confidence: judgement.confidence,
         correlation: judgement.correlation,
         certainty: certainty(judgement, map),
+        relief: ReliefEvidence::of(judgement),
         faces: decided.map(|arrangement| faces_score(map, arrangement)),
     }
 }
@@ -189,9 +191,17 @@ fn green_flipped(map: &Map) -> Option<Defect> {
         RedDoubt::FacesLeanToRed => Some(Obstacle::FacesLeanToRed),
         RedDoubt::NoModel => Some(Obstacle::OnlyTheModelTells),
     };
+    let obstacle = obstacle.or(judgement.has_opposed_detail.then_some(Obstacle::DetailIsOpposed));
     let evidence = direction_evidence(judgement, map);
     let found = defect(MapFault::GreenFlipped { wanted: map.wanted, doubt, evidence });
     Some(with_confidence(found.with_obstacle(obstacle), judgement))
+}
+
+/// Most tiles are in another convention than the relief.
+fn detail_flipped(map: &Map) -> Option<Defect> {
+    let judgement = directed(map).filter(|judgement| judgement.has_opposed_detail)?;
+    let evidence = ReliefEvidence::of(judgement);
+    Some(defect(MapFault::DetailFlipped { is_relief_up: judgement.z_score > 0.0, evidence }))
 }
 
 fn red_flipped(map: &Map) -> Option<Defect> {

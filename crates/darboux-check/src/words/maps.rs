@@ -6,7 +6,8 @@ use super::counts::counted;
 use super::said::Said;
 use crate::code::Code;
 use crate::defect::{
-    Certainty, DirectionEvidence, FacesScore, LengthDoubt, MapFault, NoNormals, RedDoubt, Texels,
+    Certainty, DirectionEvidence, FacesScore, LengthDoubt, MapFault, NoNormals, RedDoubt, ReliefEvidence,
+    Texels,
 };
 use crate::measure::contradiction::{Contradiction, Part};
 use crate::measure::reordered::Reordered;
@@ -59,6 +60,7 @@ pub fn said(fault: &MapFault) -> Said {
             let text = "its red is inverted: its texels lean against the faces of the mesh";
             with_directions(Said::new(text), evidence)
         }
+        MapFault::DetailFlipped { is_relief_up, evidence } => detail_flipped(*is_relief_up, evidence),
         MapFault::ChannelsSwapped { by_derivatives, log_energy_ratio, certainty, faces } => {
             let text = if *by_derivatives {
                 "its red changes from texel to texel as green should, and its green as red should: they are exchanged"
@@ -101,7 +103,7 @@ fn turned(layout: Layout) -> &'static str {
 
 /// What the z score of the derivatives is called, and the number of tiles that it is from.
 const CERTAINTY: &str =
-    "distance of the tiles' mean agreement from zero (4 or more decide for OpenGL, -4 or less for DirectX)";
+    "distance of the tiles' mean agreement from zero (positive for OpenGL, negative for DirectX), each tile alike";
 const TILES: &str = "tiles that were compared";
 
 /// What the z score of the faces is called, and their number.
@@ -132,7 +134,24 @@ fn with_directions(said: Said, evidence: &DirectionEvidence) -> Said {
         evidence.correlation.into(),
         "",
     );
-    with_faces(with_certainty(said, &evidence.certainty), evidence.faces.as_ref())
+    let said = with_relief(with_certainty(said, &evidence.certainty), &evidence.relief);
+    with_faces(said, evidence.faces.as_ref())
+}
+
+fn with_relief(said: Said, ReliefEvidence { correlation, shift_score, residuals }: &ReliefEvidence) -> Said {
+    said.with("the same agreement, each tile weighted by its slopes", *correlation, "")
+        .with("how much better a height field fits with green up than with green down", *shift_score, "deviations of shifted channels")
+        .with("part of the slopes that no height field explains, with green up", 100.0 * residuals[0], "%")
+        .with("with green down", 100.0 * residuals[1], "%")
+}
+
+fn detail_flipped(is_relief_up: bool, evidence: &ReliefEvidence) -> Said {
+    let [relief, detail] = ["green up (OpenGL)", "green down (DirectX)"];
+    let [relief, detail] = if is_relief_up { [relief, detail] } else { [detail, relief] };
+    let text = format!(
+        "its relief is with {relief}, and its fine detail, which most of the map shows, with {detail}, as where a detail map was laid over it"
+    );
+    with_relief(Said::new(text), evidence)
 }
 
 fn along_other_axis(reordered: &Reordered) -> Said {

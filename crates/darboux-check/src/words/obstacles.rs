@@ -56,6 +56,9 @@ pub fn reason(obstacle: &Obstacle) -> String {
         Obstacle::UnclearChannels => {
             "its red and green are too few or too even to tell the slopes of a surface from other data"
         }
+        Obstacle::DetailIsOpposed => {
+            "its fine detail is in the other convention, and inverting green would turn that over"
+        }
         Obstacle::OnlyAPartOfMap => "nothing says where one part ends and the other one begins",
         Obstacle::FacesLeanToRed => {
             "the faces of the model lean towards inverted red without deciding it; look at one bump with a light beside it and one above it, and say which channel is inverted with `--assume map=red-inverted` or `--assume map=directx`"

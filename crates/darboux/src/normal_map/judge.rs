@@ -5,8 +5,17 @@
 //! sum (dq/du)^2), which does not depend on the scales of u and v: it is positive for OpenGL's maps (green up) and negative for DirectX's.
 //!
 //! Every tile of 16 x 16 texels has a correlation of its own, on the map and on the map halved again and again, because noise and rounding
-//! hide a gentle surface at full size. The mean over the tiles divided by its standard error is the z score of a level. The x and y of the
-//! vectors stand for the slopes: they are bounded, so a step at the border of a chart cannot outvote a surface.
+//! hide a gentle surface at full size. The x and y of the vectors stand for the slopes: they are bounded, so a step at the border of a chart
+//! cannot outvote a surface. Three numbers sum the evidence up, and `score.rs` weighs them:
+//!
+//! - the plain votes: the mean over the tiles divided by its standard error, the z score of a level. Each tile counts alike, so that faint noise of
+//!   many tiles can outvote the relief of a few;
+//! - the relief: the mean of the correlations, each weighted by the energy of the tile's slopes above that of rounding;
+//! - the second witness (`spectrum.rs`), which fails on other maps: how much more of the slopes' energy a height field explains in one convention than in
+//!   the other, against the same map with its green shifted by every offset.
+//!
+//! Where the plain votes contradict the other two, the relief is in one convention and the fine detail in the other, as in a map that was overlaid with
+//! a detail map. The verdict is that of the relief.
 //!
 //! Exchanged channels keep the sign of c, and show in the energies: for every gradient, dp/du dq/dv and dp/dv dq/du have the same mean
 //! (integrate by parts twice), while the Cauchy-Schwarz inequality bounds that mean by the unmixed derivatives. Mixed derivatives that are
@@ -15,13 +24,17 @@
 //! What the texels cannot show: green and red inverted together, or a map turned by 180 degrees, is the map of the surface with bumps for
 //! dents. Red inverted alone looks as green inverted alone.
 
+mod fourier;
 mod judgement;
 mod level;
+mod octaves;
 mod score;
+mod spectrum;
 mod texel_counts;
 
 pub use self::judgement::{MapJudgement, MapTiles, MapVerdict, SrgbMistake};
 use self::level::Level;
+use self::spectrum::Spectrum;
 use self::texel_counts::TexelCounts;
 use super::texels::{Channel, TexelLayout};
 use crate::Error;
@@ -75,12 +88,13 @@ impl<const N: usize> NormalMapJudge<N> {
     /// A judge of a map of this width.
     pub fn new(width: usize, layout: TexelLayout<N>) -> Self {
         let widths = std::iter::successors(Some(width), |width| Some(width / 2));
-        let levels = widths.take_while(|&width| width >= level::TILE).map(Level::new).collect();
+        let levels = widths.take_while(|&width| width >= level::TILE);
+        let block = Spectrum::new(width).map(|spectrum| spectrum.side());
         Self {
             layout,
             width,
             texel_counts: TexelCounts::new(layout.z.is_some()),
-            levels,
+            levels: levels.enumerate().map(|(index, width)| Level::new(index, width, block)).collect(),
             row: [const { Vec::new() }; 3],
         }
     }
@@ -97,15 +111,12 @@ impl<const N: usize> NormalMapJudge<N> {
     pub fn judgement(&self) -> MapJudgement {
         let evidence = score::combine_levels(&self.levels);
         let mut judgement = self.texel_counts.judgement();
-        judgement.correlation = evidence.correlation as f32;
-        judgement.z_score = evidence.z_score as f32;
-        judgement.log_energy_ratio = evidence.log_energy_ratio as f32;
-        judgement.is_exchanged = evidence.is_exchanged();
+        evidence.write(&mut judgement);
         let holds_no_normals = judgement.holds_no_normals() && !evidence.is_clear_gradient();
         let (verdict, confidence) = match () {
             () if self.texel_counts.is_flat() => (MapVerdict::Flat, 1.0),
             () if judgement.is_grey() || judgement.is_object_space() || holds_no_normals => {
-                (MapVerdict::NoGradient, score::MAX_CONFIDENCES[0])
+                (MapVerdict::NoGradient, score::CONFIDENCE_OF_COUNTS)
             }
             () => (evidence.verdict(), evidence.confidence()),
         };

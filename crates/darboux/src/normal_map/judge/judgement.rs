@@ -40,16 +40,28 @@ impl MapVerdict {
 pub struct MapJudgement {
     /// The verdict.
     pub verdict: MapVerdict,
-    /// An estimate of the probability that the verdict is right, from 0.5 to 0.998, as if red and green were exchanged in one of 31 maps; for
-    /// `CannotTell` that of the likelier of OpenGL and DirectX, at most 0.93; for `Flat` 1. The estimate was fitted to generated maps.
+    /// An estimate of the probability that the verdict is right, at least 0.5, as if red and green were exchanged in one of 31 maps; for
+    /// `CannotTell` that of the likelier of OpenGL and DirectX, at most 0.93; for `Flat` 1. It was fitted to blocks of real maps:
+    /// docs/notes/real-normal-maps.md compares it with the share of right verdicts.
     pub confidence: f32,
     /// The mean correlation of the tiles, from -1 (DirectX) to 1 (OpenGL), of the map or of one of its halvings: of those whose mean has
-    /// the sign of `z_score`, the one whose mean is largest in units of its standard error.
+    /// the sign of `z_score`, the one whose mean is largest in units of its standard error. Each tile counts alike. Where that contradicts the verdict, and in
+    /// maps of few tiles, `relief_correlation`.
     pub correlation: f32,
     /// That mean divided by its standard error; or, where it is larger, such quotients of the map and of its halvings, added and divided by
     /// the square root of their number. The halvings depend on each other, so large values are less certain than those of a normal
-    /// distribution.
+    /// distribution. Where `correlation` is `relief_correlation`, `shift_score`.
     pub z_score: f32,
+    /// The mean correlation of the tiles of the map and of its halvings, weighted by the energy of their slopes above that of rounding.
+    pub relief_correlation: f32,
+    /// How much better a height field explains the slopes in OpenGL's convention than in DirectX's, in units of the root mean square of the same number
+    /// over all shifts of green against red. 0 for maps with fewer than 16 texels along a side.
+    pub shift_score: f32,
+    /// The shares of the energy of the slopes that no height field explains: in OpenGL's convention and in DirectX's. Both are 0.5 for maps with fewer than 16
+    /// texels along a side.
+    pub residuals: [f32; 2],
+    /// Whether most tiles are in another convention than the relief: faint detail that was overlaid.
+    pub has_opposed_detail: bool,
     /// Half the natural logarithm of the energy of the unmixed derivatives over that of the mixed ones. Negative for exchanged channels.
     pub log_energy_ratio: f32,
     /// Whether that is certain enough.
@@ -118,9 +130,12 @@ impl MapJudgement {
         self.texels > self.background && self.share(self.grey) >= 0.99
     }
 
-    /// True for maps in object space: unit vectors, of which more than a tenth have a negative z.
+    /// True for maps in object space: unit vectors, of which more than a tenth have a negative z. A steep map in tangent space can have them, too:
+    /// then the vectors still point along z on average, and are slopes of a surface.
     pub fn is_object_space(&self) -> bool {
-        !self.is_grey() && self.share(self.negative_z) > 0.1 && self.share(self.not_unit) < 0.5
+        let is_steep = self.mean[2] > 0.5 && self.relief_correlation.abs() >= 0.3;
+        let is_turned = self.share(self.negative_z) > 0.1 && !is_steep;
+        !self.is_grey() && is_turned && self.share(self.not_unit) < 0.5
     }
 
     /// True where the layout stores z, but that channel has one value, which is wrong for more than 1 % of the texels. A map of gentle

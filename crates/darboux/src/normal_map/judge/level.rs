@@ -1,5 +1,7 @@
 //! One level of the pyramid: the map halved some number of times, with the correlation of every tile.
 
+use super::spectrum::Spectrum;
+
 /// Texels per side of a tile.
 pub const TILE: usize = 16;
 
@@ -9,6 +11,9 @@ const MAX_STEP: f32 = 1.0;
 /// The fewest texels of a tile that has a correlation.
 const MIN_TEXELS: f32 = (TILE * TILE / 4) as f32;
 
+/// The mean square of the difference of two codes of 8 bits that were rounded: twice the variance of rounding.
+const ROUNDING: f64 = 2.0 / 12.0 * (2.0 / 255.0) * (2.0 / 255.0);
+
 /// The sums of a tile: dp/dv dq/du, the squares of dp/dv, dq/du, dp/du and dq/dv, and the number of texels.
 const SUM_COUNT: usize = 6;
 
@@ -17,6 +22,8 @@ pub struct Level {
     width: usize,
     /// The rows pushed.
     height: usize,
+    /// The energy that rounding gives the derivative of a texel.
+    rounding: f64,
     /// The last three rows of x and of y, in turn.
     x: [Vec<f32>; 3],
     y: [Vec<f32>; 3],
@@ -25,6 +32,8 @@ pub struct Level {
     /// A row of the next level.
     half: [Vec<f32>; 2],
     pub tile_sums: TileSums,
+    /// None where the level is smaller than a block of the full size.
+    pub spectrum: Option<Spectrum>,
     /// The correlation of every tile, row after row; NaN where it has none.
     pub correlations: Vec<f32>,
 }
@@ -35,6 +44,9 @@ pub struct TileSums {
     pub tiles: usize,
     pub correlations: f64,
     pub squared_correlations: f64,
+    /// The sum of the tiles' weights, the energies of their mixed derivatives above that of rounding, and of the correlations times these.
+    pub weights: f64,
+    pub weighted_correlations: f64,
     /// Half the logarithm of the energy of the unmixed derivatives over that of the mixed ones.
     pub log_energy_ratios: f64,
     pub squared_log_energy_ratios: f64,
@@ -68,16 +80,21 @@ pub fn push(levels: &mut [Level], x: &[f32], y: &[f32]) {
 }
 
 impl Level {
-    pub fn new(width: usize) -> Self {
+    /// `index`: the number of halvings. `block`: the side of the blocks of the full size.
+    pub fn new(index: usize, width: usize, block: Option<usize>) -> Self {
+        // Each halving takes the mean of four texels, whose roundings are independent.
+        let rounding = ROUNDING / (1u64 << (2 * index).min(62)) as f64;
         let row = || vec![0.0; width];
         Self {
             width,
             height: 0,
+            rounding,
             x: std::array::from_fn(|_| row()),
             y: std::array::from_fn(|_| row()),
             columns: std::array::from_fn(|_| row()),
             half: std::array::from_fn(|_| vec![0.0; width / 2]),
             tile_sums: TileSums::default(),
+            spectrum: Spectrum::new(width).filter(|spectrum| Some(spectrum.side()) == block),
             correlations: Vec::new(),
         }
     }
@@ -87,6 +104,9 @@ impl Level {
         let slot = self.height % 3;
         self.x[slot].copy_from_slice(&x[..self.width]);
         self.y[slot].copy_from_slice(&y[..self.width]);
+        if let Some(spectrum) = &mut self.spectrum {
+            spectrum.push_row(x, y);
+        }
         self.height += 1;
         if self.height >= 3 {
             self.add_middle_row();
@@ -128,7 +148,7 @@ impl Level {
         for tile in 0..self.width / TILE {
             let columns = tile * TILE..(tile + 1) * TILE;
             let sums = self.columns.each_ref().map(|sums| sums[columns.clone()].iter().sum::<f32>());
-            let correlation = self.tile_sums.add(sums);
+            let correlation = self.tile_sums.add(sums, self.rounding);
             self.correlations.push(correlation.map_or(f32::NAN, |correlation| correlation as f32));
         }
         self.columns.iter_mut().for_each(|sums| sums.fill(0.0));
@@ -148,8 +168,10 @@ impl Level {
 }
 
 impl TileSums {
-    /// Adds a tile and returns its correlation; none where it has too few texels or no derivatives.
-    fn add(&mut self, [product, p_v, q_u, p_u, q_v, count]: [f32; SUM_COUNT]) -> Option<f64> {
+    /// Adds a tile and returns its correlation; none where it has too few texels or no derivatives. `rounding`: the energy of a texel's derivative that
+    /// rounding makes.
+    fn add(&mut self, sums: [f32; SUM_COUNT], rounding: f64) -> Option<f64> {
+        let [product, p_v, q_u, p_u, q_v, count] = sums;
         let [product, p_v, q_u, p_u, q_v] = [product, p_v, q_u, p_u, q_v].map(f64::from);
         let (mixed, unmixed) = (p_v * q_u, p_u * q_v);
         if count < MIN_TEXELS || !(mixed > 0.0) {
@@ -159,6 +181,9 @@ impl TileSums {
         self.tiles += 1;
         self.correlations += correlation;
         self.squared_correlations += correlation * correlation;
+        let weight = (mixed.sqrt() - f64::from(count) * rounding).max(0.0);
+        self.weights += weight;
+        self.weighted_correlations += weight * correlation;
         // The floor stands for the rounding of texels.
         let log_energy_ratio = ((unmixed + 1e-9) / (mixed + 1e-9)).ln() / 2.0;
         self.log_energy_ratios += log_energy_ratio;

@@ -1,7 +1,9 @@
 //! Combines the correlations of all tiles and all levels of a normal map into one score and its confidence.
 
-use super::judgement::{MIN_Z_SCORE, MapVerdict};
+use super::judgement::{MIN_Z_SCORE, MapJudgement, MapVerdict};
 use super::level::{Level, TileSums};
+use super::octaves::octaves;
+use super::spectrum::Octave;
 
 /// The fewest tiles of a level that has a z score.
 const MIN_TILES: usize = 16;
@@ -12,15 +14,24 @@ const MIN_TILES_FOR_NO_GRADIENT: usize = 256;
 /// The smallest mean square of differences that is neither rounding nor compression: eight codes of 8 bits.
 const MIN_SIGNAL: f64 = (16.0 / 255.0) * (16.0 / 255.0);
 
-/// The smallest absolute mean correlation that decides. The z score knows chance only, while details finer than a texel (aliasing) and
-/// compression shift the mean by some hundredths.
-const MIN_CORRELATION: f64 = 0.07;
+/// The weights of the evidence in the logarithm of the odds of a sign: of the votes' z score, limited to [`LARGEST_VOTES`]; of the inverse hyperbolic sine
+/// of the shift score; of the relief's correlation. Fitted by logistic regression to blocks of 16 to 256 texels of real maps whose convention is known, a
+/// tenth smaller than the likeliest ones (docs/notes/real-normal-maps.md).
+const VOTES_WEIGHT: f64 = 0.23;
+const SHIFT_WEIGHT: f64 = 1.35;
+const RELIEF_WEIGHT: f64 = 4.0;
 
-/// From this absolute z score on, smaller correlations decide, too: they come from large maps with much noise.
-const CLEAR_Z_SCORE: f64 = 6.5;
+/// The limit of the votes' z score: whatever their number, they count tiles of noise like tiles of relief, and tiles that repeat like independent ones.
+const LARGEST_VOTES: f64 = 5.0;
 
-/// The largest z score of a level of the other sign, as a part of the z score. Where levels contradict each other, details are finer than a texel.
-const MAX_CONTRADICTION: f64 = 2.0 / 3.0;
+/// The smallest probability of a sign that is a verdict.
+const MIN_PROBABILITY: f64 = 0.95;
+
+/// The absolute z score from which votes contradict the relief.
+const OPPOSED_Z_SCORE: f64 = 6.5;
+
+/// The probability of the relief's sign from which votes can contradict it.
+const OPPOSED_PROBABILITY: f64 = 0.8;
 
 /// The largest log energy ratio of exchanged channels, and its largest z score. That of a gradient is not negative, so the sign of the correlation
 /// needs less certainty than otherwise: this absolute z score.
@@ -32,31 +43,35 @@ const MIN_EXCHANGED_Z_SCORE: f64 = 2.0;
 /// pictures, whose red and green change together. Slopes of threads or grooves along u and v have little mixed energy and much more unmixed energy.
 const MAX_RATIO_OF_NOISE: f64 = 0.3;
 
-/// The steepness of the confidence over the z score, less that of the level that contradicts it most.
-const STEEPNESS: f64 = 1.1;
-
 /// The steepness of the confidence that red and green are not exchanged, over the z score of the log energy ratio.
 const EXCHANGE_STEEPNESS: f64 = 2.0;
 
 /// The natural logarithm of the odds, before the texels are seen, that red and green are not exchanged: 30 to 1.
 const EXCHANGE_ODDS: f64 = 3.4;
 
-/// The largest confidence of a verdict, and of the likelier sign without one.
-pub const MAX_CONFIDENCES: [f64; 2] = [0.998, 0.93];
+/// The confidence of verdicts that the counts of texels give: grey maps, maps in object space, and texels that are no normals.
+pub const CONFIDENCE_OF_COUNTS: f64 = 0.998;
+
+/// The confidence that a map without a sign is no gradient, and the largest one of a sign that is no verdict.
+const CONFIDENCE_WITHOUT_SIGN: f64 = 0.93;
 
 /// The evidence of all levels.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Evidence {
     /// The mean correlation of the clearest level whose sign is that of `z_score`.
-    pub correlation: f64,
+    correlation: f64,
     /// The index of that level.
     pub level: usize,
     /// The largest of the levels' z scores, or all of them combined.
-    pub z_score: f64,
+    z_score: f64,
+    /// The mean of the correlations of all levels, weighted by energy.
+    relief: f64,
+    /// The second witness: all wavelengths together.
+    spectrum: Octave,
     /// The largest absolute z score of a level whose sign is not that of `z_score`.
     contradiction: f64,
     /// The log energy ratio of the level of `correlation`, and its mean over its standard error.
-    pub log_energy_ratio: f64,
+    log_energy_ratio: f64,
     ratio_z_score: f64,
     /// Whether a gradient would be visible: enough tiles, with differences that are more than rounding and compression.
     has_enough_signal: bool,
@@ -68,6 +83,7 @@ pub struct Evidence {
 /// The levels are halvings of one map and depend on each other, so the combined score is not that of a standard normal variable, as it
 /// would be for independent levels.
 pub fn combine_levels(levels: &[Level]) -> Evidence {
+    let weighed = Evidence { relief: relief(levels), spectrum: spectrum_of(levels), ..Evidence::default() };
     let sums: Vec<(usize, &TileSums)> = levels
         .iter()
         .map(|level| &level.tile_sums)
@@ -77,7 +93,7 @@ pub fn combine_levels(levels: &[Level]) -> Evidence {
     let largest_by = |key: &dyn Fn(f64) -> f64| {
         sums.iter().copied().max_by(|(_, a), (_, b)| key(a.z_score()).total_cmp(&key(b.z_score())))
     };
-    let Some((index, largest)) = largest_by(&f64::abs) else { return Evidence::default() };
+    let Some((index, largest)) = largest_by(&f64::abs) else { return weighed };
     let combined = sums.iter().map(|(_, sums)| sums.z_score()).sum::<f64>() / (sums.len() as f64).sqrt();
     let z_score = if combined.abs() > largest.z_score().abs() { combined } else { largest.z_score() };
     let (level, clearest) = largest_by(&|score| score * z_score).unwrap_or((index, largest));
@@ -93,7 +109,23 @@ pub fn combine_levels(levels: &[Level]) -> Evidence {
         log_energy_ratio: clearest.mean(clearest.log_energy_ratios),
         ratio_z_score: clearest.z_score_of(clearest.log_energy_ratios, clearest.squared_log_energy_ratios),
         has_enough_signal: sums.iter().any(has_enough_signal),
+        ..weighed
     }
+}
+
+/// The correlation of all tiles of all levels, weighted by energy.
+fn relief(levels: &[Level]) -> f64 {
+    let sum = |of: fn(&TileSums) -> f64| levels.iter().map(|level| of(&level.tile_sums)).sum::<f64>();
+    let weights = sum(|sums| sums.weights);
+    if weights > 0.0 { sum(|sums| sums.weighted_correlations) / weights } else { 0.0 }
+}
+
+/// The second witness over all wavelengths.
+fn spectrum_of(levels: &[Level]) -> Octave {
+    octaves(levels).iter().fold(Octave::default(), |mut sum, octave| {
+        sum.add(octave);
+        sum
+    })
 }
 
 impl TileSums {
@@ -126,7 +158,7 @@ impl Evidence {
         let has_sign = self.z_score.abs() >= MIN_Z_SCORE.into();
         match () {
             () if self.is_exchanged() => MapVerdict::NoGradient,
-            () if self.is_decided() && self.z_score > 0.0 => MapVerdict::OpenGl,
+            () if self.is_decided() && self.sign_score() > 0.0 => MapVerdict::OpenGl,
             () if self.is_decided() => MapVerdict::DirectX,
             () if !has_sign && self.has_enough_signal && self.log_energy_ratio <= MAX_RATIO_OF_NOISE => {
                 MapVerdict::NoGradient
@@ -142,31 +174,72 @@ impl Evidence {
             && self.z_score.abs() >= MIN_EXCHANGED_Z_SCORE
     }
 
-    fn is_decided(&self) -> bool {
-        let z_score = self.z_score.abs();
-        let is_strong = self.correlation.abs() >= MIN_CORRELATION || z_score >= CLEAR_Z_SCORE;
-        z_score >= MIN_Z_SCORE.into() && is_strong && self.contradiction <= MAX_CONTRADICTION * z_score
+    /// The logarithm of the odds that green points up.
+    fn sign_score(&self) -> f64 {
+        let votes = (self.z_score.abs() - self.contradiction).max(0.0).copysign(self.z_score);
+        let votes = votes / (1.0 + votes.abs() / LARGEST_VOTES);
+        let shift = self.spectrum.shift_score().asinh();
+        VOTES_WEIGHT * votes + SHIFT_WEIGHT * shift + RELIEF_WEIGHT * self.relief
     }
 
-    /// An estimate of the probability that the verdict is right; without one, that the sign of the z score is right. `NoGradient` without
+    /// The probability of the likelier sign.
+    fn sign_probability(&self) -> f64 {
+        logistic(self.sign_score().abs())
+    }
+
+    fn is_decided(&self) -> bool {
+        self.sign_probability() >= MIN_PROBABILITY
+    }
+
+    /// Whether the plain votes contradict the relief.
+    fn has_opposed_detail(&self) -> bool {
+        let is_opposed = self.z_score * self.sign_score() < 0.0 && self.z_score.abs() >= OPPOSED_Z_SCORE;
+        is_opposed && self.sign_probability() >= OPPOSED_PROBABILITY
+    }
+
+    /// The correlation and the z score that are reported: those of the votes, or, where these contradict the verdict or there are none, those of the relief
+    /// and of the shifts.
+    fn reported(&self) -> [f64; 2] {
+        let sign = self.sign_score();
+        if self.z_score * sign > 0.0 {
+            return [self.correlation, self.z_score];
+        }
+        let with_sign = |value: f64| if value * sign > 0.0 { value } else { 0.0 };
+        [with_sign(self.relief), with_sign(self.spectrum.shift_score())]
+    }
+
+    /// Writes the numbers, without a verdict.
+    pub fn write(&self, judgement: &mut MapJudgement) {
+        let [correlation, z_score] = self.reported();
+        judgement.correlation = correlation as f32;
+        judgement.z_score = z_score as f32;
+        judgement.relief_correlation = self.relief as f32;
+        judgement.shift_score = self.spectrum.shift_score() as f32;
+        judgement.residuals = self.spectrum.residuals().map(|residual| residual as f32);
+        judgement.has_opposed_detail = self.has_opposed_detail();
+        judgement.log_energy_ratio = self.log_energy_ratio as f32;
+        judgement.is_exchanged = self.is_exchanged();
+    }
+
+    /// An estimate of the probability that the verdict is right; without one, that the likelier sign is right. `NoGradient` without
     /// exchanged channels has the largest confidence of maps without a verdict.
     ///
-    /// Logistic functions. The first steepness was fitted to generated maps with even numbers and tested on those with odd ones, many of them
-    /// so flat that some signs are wrong; the second one to the energy ratios of such maps (`cargo xtask maps`). The estimate stays below 1 because compression and details finer than a texel can have a direction of
-    /// their own.
+    /// Logistic functions: of the sign score, and of the energy ratio for the order of the channels, fitted to generated maps (`cargo xtask maps`).
     pub fn confidence(&self) -> f64 {
-        let logistic = |x: f64| 1.0 / (1.0 + (-x).exp());
-        let of_sign = logistic(STEEPNESS * (self.z_score.abs() - self.contradiction));
+        let of_sign = self.sign_probability();
         let of_order = logistic(EXCHANGE_ODDS + EXCHANGE_STEEPNESS * self.ratio_z_score);
-        let [largest, largest_without_verdict] = MAX_CONFIDENCES;
         match self.verdict() {
-            MapVerdict::NoGradient if self.is_exchanged() => (1.0 - of_order).min(largest),
-            MapVerdict::NoGradient => largest_without_verdict,
-            MapVerdict::OpenGl | MapVerdict::DirectX => of_sign.min(largest) * of_order,
-            MapVerdict::Flat | MapVerdict::CannotTell => of_sign.min(largest_without_verdict),
+            MapVerdict::NoGradient if self.is_exchanged() => 1.0 - of_order,
+            MapVerdict::NoGradient => CONFIDENCE_WITHOUT_SIGN,
+            MapVerdict::OpenGl | MapVerdict::DirectX => of_sign * of_order,
+            MapVerdict::Flat | MapVerdict::CannotTell => of_sign.min(CONFIDENCE_WITHOUT_SIGN),
         }
         .max(0.5)
     }
+}
+
+fn logistic(x: f64) -> f64 {
+    1.0 / (1.0 + (-x).exp())
 }
 
 #[cfg(test)]
@@ -175,7 +248,7 @@ mod tests {
 
     /// A level of 101 tiles whose mean correlation has this z score: the variance is at its floor.
     fn level(z_score: f64) -> Level {
-        let mut level = Level::new(16);
+        let mut level = Level::new(0, 16, None);
         level.tile_sums.tiles = 101;
         level.tile_sums.correlations = 101.0 * 0.01 * z_score;
         level.tile_sums.squared_correlations = level.tile_sums.correlations.powi(2) / 101.0;
@@ -208,18 +281,19 @@ mod tests {
         }
     }
 
-    /// Contradicting levels and small correlations decide nothing.
+    /// Votes alone decide nothing, and the relief outvotes them: then they are opposed detail.
     #[test]
-    fn aliased_maps_get_no_verdict() {
-        let verdict = |z_scores: &[f64]| {
-            let levels: Vec<Level> = z_scores.iter().map(|&z_score| level(z_score)).collect();
-            combine_levels(&levels).verdict()
+    fn relief_outvotes_tiles_of_noise() {
+        let judged = |z_score: f64, relief: f64| {
+            let mut level = level(z_score);
+            (level.tile_sums.weights, level.tile_sums.weighted_correlations) = (1.0, relief);
+            let evidence = combine_levels(&[level]);
+            (evidence.verdict(), evidence.has_opposed_detail(), evidence.reported()[1] < 0.0)
         };
-        assert_eq!(verdict(&[20.0, 3.0]), MapVerdict::OpenGl);
-        assert_eq!(verdict(&[-20.0, 10.0]), MapVerdict::DirectX);
-        assert_eq!(verdict(&[-20.0, 15.0]), MapVerdict::CannotTell);
-        // Mean correlations of 0.06 and 0.07.
-        assert_eq!(verdict(&[6.0]), MapVerdict::CannotTell);
-        assert_eq!(verdict(&[7.0]), MapVerdict::OpenGl);
+        assert_eq!(judged(100.0, 0.0).0, MapVerdict::CannotTell);
+        assert_eq!(judged(7.0, 0.8), (MapVerdict::OpenGl, false, false));
+        assert_eq!(judged(7.0, -0.05), (MapVerdict::CannotTell, false, false));
+        let (verdict, has_opposed_detail, _) = judged(40.0, -0.99);
+        assert_eq!((verdict, has_opposed_detail), (MapVerdict::CannotTell, true));
     }
 }
