@@ -16,7 +16,8 @@ use crate::place::Place;
 use crate::severity::Severity;
 
 pub use maps::{
-    Certainty, DirectionEvidence, FacesScore, LengthDoubt, MapFault, NoNormals, RedDoubt, ReliefEvidence, Texels,
+    Certainty, DirectionEvidence, FacesScore, LengthDoubt, MapFault, NoNormals, RedDoubt, ReliefEvidence,
+    Texels,
 };
 pub use obstacle::Obstacle;
 pub use pair::{Cancelled, PAIRS, Pair};

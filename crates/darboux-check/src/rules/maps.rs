@@ -239,6 +239,10 @@ fn channels_swapped(map: &Map) -> Option<Defect> {
 /// How far x and y of a map may lean on average; the slopes of a surface cancel.
 const MAX_MEAN_LEAN: f32 = 0.25;
 
+/// Mean lengths that cost no visible light. Resizing and compression shorten and lengthen single vectors of a rough map, and nearly all renderers
+/// normalise: where neither the mean nor most vectors are off, nothing needs to be done.
+const MEAN_LENGTHS: std::ops::RangeInclusive<f32> = 0.9..=1.1;
+
 fn not_unit(map: &Map) -> Option<Defect> {
     let judgement = of_kind(map, Kind::Normals)?;
     let found = texels(judgement, judgement.not_unit);
@@ -259,7 +263,9 @@ fn not_unit(map: &Map) -> Option<Defect> {
         LengthDoubt::NoSlopes => Obstacle::MayBeNoMap,
     });
     let fault = MapFault::NotUnit { texels: found, mean_length: judgement.mean_length, doubt };
-    (found.percent > MAX_PERCENT).then(|| defect(fault).with_obstacle(obstacle))
+    let shrinks = !MEAN_LENGTHS.contains(&judgement.mean_length);
+    let severity = if found.percent > 50.0 || shrinks { Severity::Warning } else { Severity::Info };
+    (found.percent > MAX_PERCENT).then(|| defect(fault).with_obstacle(obstacle).with_severity(severity))
 }
 
 /// The share of texels below the surface, in percent, that is worth a warning.

@@ -102,8 +102,7 @@ fn turned(layout: Layout) -> &'static str {
 }
 
 /// What the z score of the derivatives is called, and the number of tiles that it is from.
-const CERTAINTY: &str =
-    "distance of the tiles' mean agreement from zero (positive for OpenGL, negative for DirectX), each tile alike";
+const CERTAINTY: &str = "distance of the tiles' mean agreement from zero (positive for OpenGL, negative for DirectX), each tile alike";
 const TILES: &str = "tiles that were compared";
 
 /// What the z score of the faces is called, and their number.
@@ -140,7 +139,11 @@ fn with_directions(said: Said, evidence: &DirectionEvidence) -> Said {
 
 fn with_relief(said: Said, ReliefEvidence { correlation, shift_score, residuals }: &ReliefEvidence) -> Said {
     said.with("the same agreement, each tile weighted by its slopes", *correlation, "")
-        .with("how much better a height field fits with green up than with green down", *shift_score, "deviations of shifted channels")
+        .with(
+            "how much better a height field fits with green up than with green down",
+            *shift_score,
+            "deviations of shifted channels",
+        )
         .with("part of the slopes that no height field explains, with green up", 100.0 * residuals[0], "%")
         .with("with green down", 100.0 * residuals[1], "%")
 }

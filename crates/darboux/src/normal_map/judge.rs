@@ -78,10 +78,7 @@ pub fn judge_normal_map<C: Channel, const N: usize>(
 pub struct NormalMapJudge<const N: usize> {
     layout: TexelLayout<N>,
     width: usize,
-    texel_counts: TexelCounts,
-    levels: Vec<Level>,
-    /// x, y and z of the current row.
-    row: [Vec<f32>; 3],
+    evidence: RowEvidence,
 }
 
 impl<const N: usize> NormalMapJudge<N> {
@@ -90,31 +87,29 @@ impl<const N: usize> NormalMapJudge<N> {
         let widths = std::iter::successors(Some(width), |width| Some(width / 2));
         let levels = widths.take_while(|&width| width >= level::TILE);
         let block = Spectrum::new(width).map(|spectrum| spectrum.side());
-        Self {
-            layout,
-            width,
-            texel_counts: TexelCounts::new(layout.z.is_some()),
-            levels: levels.enumerate().map(|(index, width)| Level::new(index, width, block)).collect(),
-            row: [const { Vec::new() }; 3],
-        }
+        let levels = levels.enumerate().map(|(index, width)| Level::new(index, width, block)).collect();
+        let texel_counts = TexelCounts::new(layout.z.is_some());
+        Self { layout, width, evidence: RowEvidence { texel_counts, levels, row: [const { Vec::new() }; 3] } }
     }
 
     /// Takes the next row. Texels beyond the width are ignored. Errors: fewer texels than the width; then nothing is taken.
     pub fn push_row<C: Channel>(&mut self, texels: &[[C; N]]) -> Result<(), Error> {
         let row = texels.get(..self.width);
         let texels = row.ok_or(Error::ImageSize { width: self.width, height: 1, found: texels.len() })?;
-        Width::widest(WidthLimit::default()).run(RowTask { judge: self, texels });
+        let simd_width = Width::widest(WidthLimit::default());
+        simd_width.run(DecodeTask { layout: self.layout, evidence: &mut self.evidence, texels });
+        self.evidence.add_row(simd_width);
         Ok(())
     }
 
     /// The judgement on the rows so far.
     pub fn judgement(&self) -> MapJudgement {
-        let evidence = score::combine_levels(&self.levels);
-        let mut judgement = self.texel_counts.judgement();
+        let evidence = score::combine_levels(&self.evidence.levels);
+        let mut judgement = self.evidence.texel_counts.judgement();
         evidence.write(&mut judgement);
         let holds_no_normals = judgement.holds_no_normals() && !evidence.is_clear_gradient();
         let (verdict, confidence) = match () {
-            () if self.texel_counts.is_flat() => (MapVerdict::Flat, 1.0),
+            () if self.evidence.texel_counts.is_flat() => (MapVerdict::Flat, 1.0),
             () if judgement.is_grey() || judgement.is_object_space() || holds_no_normals => {
                 (MapVerdict::NoGradient, score::CONFIDENCE_OF_COUNTS)
             }
@@ -126,8 +121,8 @@ impl<const N: usize> NormalMapJudge<N> {
 
     /// The tiles of the rows so far and their votes.
     pub fn tiles(&self) -> MapTiles {
-        let index = score::combine_levels(&self.levels).level;
-        let correlations = self.levels.get(index).map_or(&[][..], |level| &level.correlations);
+        let index = score::combine_levels(&self.evidence.levels).level;
+        let correlations = self.evidence.levels.get(index).map_or(&[][..], |level| &level.correlations);
         MapTiles {
             side: level::TILE << index,
             columns: (self.width >> index) / level::TILE,
@@ -136,20 +131,45 @@ impl<const N: usize> NormalMapJudge<N> {
     }
 }
 
-/// Takes one row, compiled once per vector width.
-struct RowTask<'a, C, const N: usize> {
-    judge: &'a mut NormalMapJudge<N>,
+/// Decodes one row, compiled once per vector width.
+struct DecodeTask<'a, C, const N: usize> {
+    layout: TexelLayout<N>,
+    evidence: &'a mut RowEvidence,
     texels: &'a [[C; N]],
 }
 
-impl<C: Channel, const N: usize> Task for RowTask<'_, C, N> {
+impl<C: Channel, const N: usize> Task for DecodeTask<'_, C, N> {
     #[inline(always)]
     fn run(self) {
-        let Self { judge, texels } = self;
-        let NormalMapJudge { layout, texel_counts, levels, row, .. } = judge;
-        layout.decode_row(texels, row);
-        texel_counts.count_codes(texels, *layout);
-        let [x, y, z] = row;
+        let Self { layout, evidence, texels } = self;
+        layout.decode_row(texels, &mut evidence.row);
+        evidence.texel_counts.count_codes(texels, layout);
+    }
+}
+
+/// What rows of vectors add up to. Not generic, so that it is compiled here, with this crate's optimisations.
+#[derive(Debug)]
+struct RowEvidence {
+    texel_counts: TexelCounts,
+    levels: Vec<Level>,
+    /// x, y and z of the current row.
+    row: [Vec<f32>; 3],
+}
+
+impl RowEvidence {
+    /// Adds the current row.
+    fn add_row(&mut self, width: Width) {
+        width.run(AddTask(self));
+    }
+}
+
+/// Adds the current row, compiled once per vector width.
+struct AddTask<'a>(&'a mut RowEvidence);
+
+impl Task for AddTask<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let RowEvidence { texel_counts, levels, row: [x, y, z] } = self.0;
         texel_counts.count_vectors([x, y, z]);
         level::set_invalid_to_nan(x, y);
         level::push(levels, x, y);
