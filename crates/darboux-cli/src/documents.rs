@@ -42,7 +42,7 @@ impl<'a> Source<'a> {
     pub fn image(&self) -> Result<Option<Cow<'_, [u8]>>, String> {
         match (&self.stdin, self.input) {
             (Some(bytes), _) => Ok(RgbaImage::is_format_known(bytes).then_some(Cow::Borrowed(bytes))),
-            (None, Input::File(path)) if is_image(path) => {
+            (None, Input::File(path)) if is_image(path) || is_ktx2(path) => {
                 let bytes = fs::read(path)
                     .map_err(|error| format!("{}: cannot be read: {}", self.input, system_reason(&error)))?;
                 Ok(Some(Cow::Owned(bytes)))
@@ -106,11 +106,16 @@ fn from_stdin(input: &Input, bytes: Vec<u8>, reading: &ReadOptions) -> Result<Do
     document.map_err(|error| error.to_string())
 }
 
+/// Whether the extension is that of a KTX 2 file, and this command was built with its decoder.
+fn is_ktx2(path: &Path) -> bool {
+    cfg!(feature = "ktx2") && has_extension(path, &["ktx2"])
+}
+
 /// Whether the extension is that of an image without a decoder.
 fn is_other_image(path: &Path) -> bool {
     const OTHERS: [&str; 14] =
         ["avif", "bmp", "dds", "exr", "gif", "hdr", "jxl", "ktx", "ktx2", "psd", "tga", "tif", "tiff", "xcf"];
-    has_extension(path, &OTHERS)
+    has_extension(path, &OTHERS) && !is_ktx2(path)
 }
 
 fn has_extension(path: &Path, extensions: &[&str]) -> bool {

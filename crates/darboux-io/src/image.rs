@@ -2,6 +2,8 @@
 
 mod channels;
 mod chunks;
+#[cfg(feature = "ktx2")]
+mod ktx2_image;
 mod normal_map;
 mod palette;
 mod png_image;

@@ -4,7 +4,7 @@ use darboux::{
     BitangentDirection, MapJudgement, MapVerdict, NormalMapJudge, SrgbMistake, TangentDirection, TexelLayout,
     judge_normal_map,
 };
-use darboux_io::image::{DecodeLimits, RgbaImage, linear_to_srgb, srgb_to_linear};
+use darboux_io::image::{DecodeError, DecodeLimits, RgbaImage, linear_to_srgb, srgb_to_linear};
 
 use crate::check_options::AssumedMap;
 use crate::measure::contradiction::Contradiction;
@@ -128,7 +128,7 @@ impl Map {
             }
             Err(error) => Self {
                 file_size: file.len(),
-                is_other_format: is_other_format(file),
+                is_other_format: !matches!(error, DecodeError::Broken(_)) && is_other_format(file),
                 ..Self::unreadable(error.to_string(), wanted)
             },
         }

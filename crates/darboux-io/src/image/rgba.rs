@@ -1,4 +1,4 @@
-//! Decodes texture files (PNG, JPEG, WebP) to 8-bit RGBA texels. The first bytes of a file decide its format.
+//! Decodes texture files (PNG, JPEG, WebP; KTX 2 with the feature `ktx2`) to 8-bit RGBA texels. The first bytes of a file decide its format.
 
 use std::io::Cursor;
 
@@ -91,7 +91,7 @@ impl RgbaImage {
         } else if file.starts_with(b"RIFF") && brand == Some(b"WEBP") {
             decode_webp(file, limits)
         } else if file.starts_with(KTX2) {
-            Err(DecodeError::NoDecoder("KTX 2"))
+            decode_ktx2(file, limits)
         } else if file.get(4..8) == Some(b"ftyp") && brand.is_some_and(|brand| brand.starts_with(b"avi")) {
             Err(DecodeError::NoDecoder("AVIF"))
         } else {
@@ -102,7 +102,10 @@ impl RgbaImage {
     /// Whether the first bytes of a file are those of a format that is decoded.
     pub fn is_format_known(file: &[u8]) -> bool {
         let is_webp = file.starts_with(b"RIFF") && file.get(8..12) == Some(b"WEBP");
-        file.starts_with(&PNG) || file.starts_with(JPEG) || is_webp
+        file.starts_with(&PNG)
+            || file.starts_with(JPEG)
+            || is_webp
+            || cfg!(feature = "ktx2") && file.starts_with(KTX2)
     }
 
     /// Whether the image has colours, as normal maps do and height maps do not: whether the channels of its texels differ by more than 24 of
@@ -136,12 +139,12 @@ impl RgbaImage {
     }
 }
 
-fn broken(problem: &str) -> DecodeError {
+pub(super) fn broken(problem: &str) -> DecodeError {
     DecodeError::Broken(problem.to_owned())
 }
 
 /// Checks a size from a header; gives the number of texels.
-fn texel_count(width: usize, height: usize, limits: &DecodeLimits) -> Result<usize, DecodeError> {
+pub(super) fn texel_count(width: usize, height: usize, limits: &DecodeLimits) -> Result<usize, DecodeError> {
     let side = limits.max_side as usize;
     match width.checked_mul(height) {
         _ if width == 0 || height == 0 => Err(broken("it has no texels")),
@@ -216,6 +219,16 @@ fn ends_with_its_image(file: &[u8]) -> bool {
     }
 }
 
+#[cfg(feature = "ktx2")]
+fn decode_ktx2(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
+    super::ktx2_image::decode(file, limits)
+}
+
+#[cfg(not(feature = "ktx2"))]
+fn decode_ktx2(_: &[u8], _: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
+    Err(DecodeError::NoDecoder("KTX 2"))
+}
+
 fn decode_webp(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
     let mut decoder =
         WebPDecoder::new(Cursor::new(file)).map_err(|error| broken(reasons::of_webp(&error)))?;
@@ -231,11 +244,11 @@ fn decode_webp(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeEr
     Ok(RgbaImage { width, height, texels })
 }
 
-fn rgba<const N: usize>(channels: &[u8], texel: impl Fn([u8; N]) -> [u8; 4]) -> Vec<[u8; 4]> {
+pub(super) fn rgba<const N: usize>(channels: &[u8], texel: impl Fn([u8; N]) -> [u8; 4]) -> Vec<[u8; 4]> {
     channels.as_chunks().0.iter().map(|&channels| texel(channels)).collect()
 }
 
 /// The nearest 8-bit value: `word` / 257, rounded.
-fn to_byte(word: u16) -> u8 {
+pub(super) fn to_byte(word: u16) -> u8 {
     ((u32::from(word) + 128) / 257) as u8
 }

@@ -198,14 +198,15 @@ impl Evidence {
     }
 
     /// The correlation and the z score that are reported: those of the votes, or, where these contradict the verdict or there are none, those of the relief
-    /// and of the shifts.
+    /// and of the shifts; if the shifts contradict it, too, the logarithm of the odds.
     fn reported(&self) -> [f64; 2] {
         let sign = self.sign_score();
         if self.z_score * sign > 0.0 {
             return [self.correlation, self.z_score];
         }
-        let with_sign = |value: f64| if value * sign > 0.0 { value } else { 0.0 };
-        [with_sign(self.relief), with_sign(self.spectrum.shift_score())]
+        let shift_score = self.spectrum.shift_score();
+        let with_sign = |value: f64, otherwise: f64| if value * sign > 0.0 { value } else { otherwise };
+        [with_sign(self.relief, 0.0), with_sign(shift_score, sign)]
     }
 
     /// Writes the numbers, without a verdict.
