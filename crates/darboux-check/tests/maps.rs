@@ -218,3 +218,27 @@ fn mistakes_that_cancel_are_repaired_together_or_not() {
     model.negate_signs();
     assert_eq!(says_so(&check(&model)), [Code::ConventionsCancel]);
 }
+
+/// An eighth of a map has relief, and the rest faint detail with green inverted: the verdict is that of the relief, and nothing is repaired.
+#[test]
+fn detail_of_another_convention_is_named() {
+    const SIDE: usize = 512;
+    let texel = |i: usize| {
+        let (column, row) = ((i % SIDE) as f32, (i / SIDE) as f32);
+        let is_relief = row >= (SIDE / 8 * 7) as f32;
+        let (scale, slope, green) = if is_relief { (6.0, 0.5, 1.0) } else { (1.9, 0.02, -1.0) };
+        let (x, y) = (column / scale, row / scale);
+        let vector = [-slope * x.cos() * y.sin(), green * slope * x.sin() * y.cos(), 1.0];
+        let length = vector.iter().map(|x| x * x).sum::<f32>().sqrt();
+        vector.map(|x| ((x / length + 1.0) * 127.5).round() as u8)
+    };
+    let file = png(&(0..SIDE * SIDE).map(texel).collect::<Vec<_>>());
+    let findings = check_map(&file, &CheckOptions::default()).findings;
+    let detail = findings.iter().find(|finding| finding.code == Code::MapDetailFlipped);
+    assert!(
+        detail.is_some_and(|detail| detail.text.contains("its relief is with green up")),
+        "{findings:#?}"
+    );
+    let fixed = fix_map("map", &file, &LoadOptions::default(), &FixOptions::default());
+    assert!(fixed.expect("a map").image.is_none());
+}

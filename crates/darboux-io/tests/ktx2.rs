@@ -44,7 +44,7 @@ fn plain(format: u32, texels: &[u8]) -> Vec<u8> {
 fn basis_universal_is_decoded() {
     // The largest mean difference of a channel, in codes.
     for (name, file, tolerance) in
-        [("ETC1S", ETC1S, 12.0), ("UASTC", UASTC, 1.5), ("Zstandard", UASTC_ZSTD, 3.0)]
+        [("ETC1S", ETC1S, 12.0), ("UASTC", UASTC, 2.5), ("Zstandard", UASTC_ZSTD, 3.0)]
     {
         let image = decode(file).unwrap_or_else(|error| panic!("{name}: it {error}"));
         assert_eq!([image.width, image.height], [SIDE as u32; 2], "{name}");

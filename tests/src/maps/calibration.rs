@@ -1,9 +1,6 @@
-//! Compares the stated confidence with the share of right signs, and fits the confidence to outcomes.
+//! Compares the stated confidence with the share of right signs.
 
 use super::outcome::Outcome;
-
-/// The largest confidence that is stated. Of the outcomes of one table, so few are wrong that a larger one could not be tested.
-const LARGEST: f64 = 0.998;
 
 /// A range of stated confidences.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,22 +56,4 @@ pub fn table(bins: &[Bin]) -> String {
             percent(bin.uncertainty)
         )
     })
-}
-
-/// The steepness k for which the confidence 1 / (1 + exp(-k |z|)) explains the outcomes best (maximum likelihood), and the mean
-/// negative log-likelihood.
-pub fn fit<'a>(outcomes: impl IntoIterator<Item = &'a Outcome>) -> (f64, f64) {
-    let signs: Vec<(f64, bool)> = outcomes
-        .into_iter()
-        .filter_map(|outcome| Some((f64::from(outcome.z_score.abs()), outcome.has_right_sign()?)))
-        .collect();
-    let loss = |steepness: f64| {
-        let of = |&(z, is_right): &(f64, bool)| {
-            let confidence = (1.0 / (1.0 + (-steepness * z).exp())).min(LARGEST);
-            -if is_right { confidence } else { 1.0 - confidence }.ln()
-        };
-        signs.iter().map(of).sum::<f64>() / signs.len().max(1) as f64
-    };
-    let candidates = (1..400).map(|i| f64::from(i) / 100.0);
-    candidates.map(|k| (k, loss(k))).min_by(|a, b| a.1.total_cmp(&b.1)).expect("there are candidates")
 }

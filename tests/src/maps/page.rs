@@ -57,10 +57,10 @@ Of the gradients {decided_percent:.2} % are decided, and {wrong_percent:.2} % wr
 {others}
 ## Confidence
 
-The confidence is 1 / (1 + exp(-1.1 d)), at most 99.8 %, or 93 % without a verdict, where d is the z score less that of the level that contradicts it most. Where the
-texels do not rule out that red and green are exchanged, it is lower; before they are seen, the odds against that are 30 to 1. This is how it does on the fields of odd numbers. They include {gentle_fields} fields whose slopes are {slope} times as large, about one code of 8 bits, and whose sides are at most {gentle_side}:
-without them hardly any sign is wrong. With the z score alone in the place of d, the likeliest factor in the place of 1.1 is
-{even:.2} for the fields of even numbers and {odd:.2} for those of odd ones.
+The confidence is 1 / (1 + exp(-s)), or at most 93 % without a verdict. The score s weighs the votes of the tiles, the relief and the second witness, with weights that were fitted to
+[real maps](real-normal-maps.md), not to these fields. Where the texels do not rule out that red and green are exchanged, it is lower; before they are seen, the odds against that
+are 30 to 1. This is how it does on the fields of odd numbers. They include {gentle_fields} fields whose slopes are {slope} times as large, about one code of 8 bits, and whose sides are at
+most {gentle_side}: without them hardly any sign is wrong.
 
 {calibration}",
         fields = numbers(regular),
@@ -81,8 +81,6 @@ without them hardly any sign is wrong. With the z score alone in the place of d,
         gentle_fields = numbers(gentle),
         slope = gentle.set.slope,
         gentle_side = gentle.set.largest_side,
-        even = calibration::fit(regular.half(false).chain(gentle.half(false))).0,
-        odd = calibration::fit(both.clone()).0,
         calibration = calibration::table(&calibration::bins(both)),
     )
 }

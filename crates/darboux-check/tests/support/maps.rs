@@ -93,21 +93,6 @@ pub const MAP_MISTAKES: &[MapMistake] = &[
         tolerance: Some(0),
     },
     MapMistake {
-        code: Code::MapDetailFlipped,
-        how: "an eighth kept, and faint dents with green inverted on the rest",
-        make: |map| {
-            let detail = |i: usize| {
-                let (x, y) = ((i % SIDE) as f32 / 1.9, (i / SIDE) as f32 / 1.9);
-                let lean = |x: f32| (127.5 + 3.0 * x).round() as u8;
-                [lean(x.cos() * y.sin()), lean(x.sin() * y.cos()), 255]
-            };
-            let kept = SIDE / 8 * 7 * SIDE;
-            let texels = map.texels.iter().enumerate();
-            map.with_texels(texels.map(|(i, texel)| if i < kept { detail(i) } else { *texel }).collect())
-        },
-        tolerance: None,
-    },
-    MapMistake {
         code: Code::MapChannelsSwapped,
         how: "red and green exchanged",
         make: |map| map.through(|[r, g, b]| [g, r, b]),
