@@ -3,6 +3,7 @@
 use std::num::NonZero;
 use std::path::PathBuf;
 
+use clap::builder::{OsStringValueParser, TypedValueParser};
 use clap::{ArgGroup, Args, ValueEnum};
 use darboux::{Choice, Convention, Method};
 use darboux_bake::{
@@ -58,7 +59,7 @@ pub struct BakeArguments {
     pub high: Vec<PathBuf>,
 
     /// The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png
-    #[arg(short, long, value_name = "IMAGE", default_value = "", hide_default_value = true)]
+    #[arg(short, long, value_name = "IMAGE", default_value = "", hide_default_value = true, value_parser = any_path())]
     pub output: PathBuf,
 
     /// The maps to bake; several at once share their rays
@@ -305,6 +306,11 @@ impl BakeArguments {
     pub fn map_convention(&self) -> Convention {
         self.convention.convention
     }
+}
+
+/// A path that may be empty: jobs name their own outputs.
+fn any_path() -> impl TypedValueParser<Value = PathBuf> {
+    OsStringValueParser::new().map(PathBuf::from)
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {
