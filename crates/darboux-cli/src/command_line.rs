@@ -73,7 +73,7 @@ pub enum Command {
     /// Bake the detail of high-poly models into maps of a low-poly model
     #[cfg(feature = "bake")]
     #[command(long_about = bake::ABOUT, after_long_help = bake::EXAMPLES)]
-    Bake(BakeArguments),
+    Bake(Box<BakeArguments>),
     /// Compare the tangents of two files, or of a file and a method
     #[command(override_usage = compare::USAGE, long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
     Compare(CompareArguments),
