@@ -13,7 +13,7 @@ pub fn srgb_to_linear(channel: f64) -> f64 {
 
 /// The sRGB value of a linear channel, both from 0 to 1.
 pub fn linear_to_srgb(channel: f64) -> f64 {
-    if channel <= 0.003_130_8 {
+    if channel <= 0.04045 / 12.92 {
         return 12.92 * channel;
     }
     // x^(5/12): the third root of the root of the root of x^5.
