@@ -92,6 +92,18 @@ fn log_odds(z_score: f64) -> f64 {
     (z_score * z_score / 2.0).min(MAX_LOG_ODDS).copysign(z_score)
 }
 
+/// The probability of an odd number of inverted channels after the faces were heard, too. With one channel inverted more or less than the arrangement that they
+/// decide says, red or green would contradict them, and the other arrangement would agree better.
+fn with_faces(odd: f64, shown: Arrangement, map: &Map) -> f64 {
+    let other = match shown {
+        Arrangement::Same => Arrangement::GreenInverted,
+        _ => Arrangement::Same,
+    };
+    let [shown, other] = [shown, other].map(|arrangement| map.facet_score(arrangement).powi(2) / 2.0);
+    let factor = (shown - other).clamp(-MAX_LOG_ODDS, MAX_LOG_ODDS).exp();
+    if odd > 0.5 { odd * factor / (odd * factor + 1.0 - odd) } else { odd / (odd + (1.0 - odd) * factor) }
+}
+
 /// What the texels, as they are or once another mistake is undone, and the faces tell of the directions of the channels.
 pub fn witness(map: &Map) -> MapWitness {
     let of_two_channels = map.two_channels.map(|channels| match channels {
@@ -111,7 +123,10 @@ pub fn witness(map: &Map) -> MapWitness {
     let is_clearer = |a: &f64, b: &f64| (a - 0.5).abs().total_cmp(&(b - 0.5).abs());
     let decided = map.judged().and_then(arrangement).filter(|shown| map.decide(*shown).is_some());
     MapWitness {
-        odd: judgements().filter_map(is_inverted).max_by(is_clearer),
+        odd: judgements()
+            .filter_map(is_inverted)
+            .max_by(is_clearer)
+            .map(|odd| decided.map_or(odd, |shown| with_faces(odd, shown, map))),
         faces: decided.map_or(0.0, |shown| log_odds(map.facet_score(shown))),
         is_flat: judgements().any(|judgement| judgement.verdict == MapVerdict::Flat),
         assumed: map.assumed.map(|assumed| relative(assumed, map.wanted)),
