@@ -35,7 +35,7 @@ fn bake_onto_itself(bytes: &[u8]) -> Result<(), String> {
         .with_occlusion(2, f32::INFINITY);
     let baked = bake(&low_surfaces, &high_surfaces, &options, &mut Context::new(), &mut |_| {})
         .map_err(|error| error.to_string())?;
-    let normals = baked.images.normal.as_deref().unwrap_or_default();
-    assert!(normals.as_flattened().iter().all(|x| x.is_finite()), "a normal that is not finite");
+    let normals = baked.images.numbers(MapKind::Normal).unwrap_or_default();
+    assert!(normals.iter().all(|x| x.is_finite()), "a normal that is not finite");
     Ok(())
 }
