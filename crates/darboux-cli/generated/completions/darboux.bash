@@ -73,7 +73,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__bake)
-            opts="-o -q -h --high --output --map --size --bits --samples --convention --padding --ao-rays --ao-distance --distance --cage-offset --cage --match --back-faces --no-high-maps --method --bitangent --uv-set --material --normals --write-model --verify --heat-map --heat-model --jobs --force --allow-outside --memory-limit --json --quiet --help"
+            opts="-o -q -h --high --output --map --size --bits --dither --pack --samples --convention --padding --ao-rays --ao-distance --ao-falloff --ao-weights --ao-own-part --thickness-distance --curvature-radius --id-from --texture --world-direction --distance --cage-offset --cage --match --back-faces --no-high-maps --method --bitangent --uv-set --material --normals --write-model --verify --heat-map --heat-model --heat-range --suffixes --resume --jobs --force --allow-outside --memory-limit --polygons --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -92,7 +92,7 @@ _darboux() {
                     return 0
                     ;;
                 --map)
-                    COMPREPLY=($(compgen -W "normal object-normal height ao position" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "normal object-normal height ao position bent-normal object-bent-normal thickness curvature id vertex-color base-color opacity roughness metalness emission texture world-direction uv-islands wireframe" -- "${cur}"))
                     return 0
                     ;;
                 --size)
@@ -100,6 +100,14 @@ _darboux() {
                     return 0
                     ;;
                 --bits)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --dither)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --pack)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -120,6 +128,34 @@ _darboux() {
                     return 0
                     ;;
                 --ao-distance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --ao-falloff)
+                    COMPREPLY=($(compgen -W "none linear quadratic" -- "${cur}"))
+                    return 0
+                    ;;
+                --ao-weights)
+                    COMPREPLY=($(compgen -W "cosine uniform" -- "${cur}"))
+                    return 0
+                    ;;
+                --thickness-distance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --curvature-radius)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --id-from)
+                    COMPREPLY=($(compgen -W "material mesh part vertex-color" -- "${cur}"))
+                    return 0
+                    ;;
+                --texture)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --world-direction)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -171,12 +207,20 @@ _darboux() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --heat-range)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --jobs)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 --memory-limit)
                     COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --polygons)
+                    COMPREPLY=($(compgen -W "blender fan ears" -- "${cur}"))
                     return 0
                     ;;
                 *)
@@ -187,7 +231,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__check)
-            opts="-v -q -o -h --resume --retry --jobs --verbose --allow-outside --memory-limit --explain --only --allow --fail-on --convention --model --no-maps --fix --dry-run --method --normals --json --quiet --output --out-dir --in-place --force --help"
+            opts="-v -q -o -h --resume --retry --jobs --verbose --allow-outside --memory-limit --polygons --explain --only --allow --fail-on --convention --assume --model --no-maps --fix --dry-run --method --normals --json --quiet --output --out-dir --in-place --force --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -201,16 +245,20 @@ _darboux() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --polygons)
+                    COMPREPLY=($(compgen -W "blender fan ears" -- "${cur}"))
+                    return 0
+                    ;;
                 --explain)
-                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-unreadable map-scale-negative transform-mirrors" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-detail-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-other-layout conventions-cancel map-unreadable map-scale-negative transform-mirrors" -- "${cur}"))
                     return 0
                     ;;
                 --only)
-                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-unreadable map-scale-negative transform-mirrors" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-detail-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-other-layout conventions-cancel map-unreadable map-scale-negative transform-mirrors" -- "${cur}"))
                     return 0
                     ;;
                 --allow)
-                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-unreadable map-scale-negative transform-mirrors" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-detail-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-other-layout conventions-cancel map-unreadable map-scale-negative transform-mirrors" -- "${cur}"))
                     return 0
                     ;;
                 --fail-on)
@@ -219,6 +267,10 @@ _darboux() {
                     ;;
                 --convention)
                     COMPREPLY=($(compgen -W "opengl directx" -- "${cur}"))
+                    return 0
+                    ;;
+                --assume)
+                    COMPREPLY=($(compgen -W "map=opengl map=directx map=red-inverted" -- "${cur}"))
                     return 0
                     ;;
                 --model)
@@ -253,7 +305,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__compare)
-            opts="-q -h --method --worst --tolerance --heat-map --force --allow-outside --memory-limit --json --quiet --help"
+            opts="-q -h --method --worst --tolerance --heat-map --force --allow-outside --memory-limit --polygons --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -279,6 +331,10 @@ _darboux() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --polygons)
+                    COMPREPLY=($(compgen -W "blender fan ears" -- "${cur}"))
+                    return 0
+                    ;;
                 *)
                     COMPREPLY=()
                     ;;
@@ -301,7 +357,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__convert)
-            opts="-v -q -o -h --out-dir --in-place --force --resume --retry --jobs --verbose --allow-outside --memory-limit --from --to --layout --to-layout --space --model --uv-set --raw --json --quiet --output --help"
+            opts="-v -q -o -h --out-dir --in-place --force --resume --retry --jobs --verbose --allow-outside --memory-limit --polygons --from --to --layout --to-layout --space --model --uv-set --raw --json --quiet --output --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -317,6 +373,10 @@ _darboux() {
                     ;;
                 --memory-limit)
                     COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --polygons)
+                    COMPREPLY=($(compgen -W "blender fan ears" -- "${cur}"))
                     return 0
                     ;;
                 --from)
@@ -377,7 +437,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__inspect)
-            opts="-q -h --allow-outside --memory-limit --json --quiet --help"
+            opts="-q -h --allow-outside --memory-limit --polygons --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -385,6 +445,10 @@ _darboux() {
             case "${prev}" in
                 --memory-limit)
                     COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --polygons)
+                    COMPREPLY=($(compgen -W "blender fan ears" -- "${cur}"))
                     return 0
                     ;;
                 *)
@@ -409,7 +473,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__normals)
-            opts="-o -v -q -h --output --out-dir --in-place --force --resume --retry --jobs --verbose --allow-outside --memory-limit --normals --weight --respect-seams --overwrite --json --quiet --help"
+            opts="-o -v -q -h --output --out-dir --in-place --force --resume --retry --jobs --verbose --allow-outside --memory-limit --polygons --normals --weight --respect-seams --overwrite --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -435,6 +499,10 @@ _darboux() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --polygons)
+                    COMPREPLY=($(compgen -W "blender fan ears" -- "${cur}"))
+                    return 0
+                    ;;
                 --normals)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -451,7 +519,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__render)
-            opts="-o -q -h --output --view --tangents --against --split --lines --length --seams --layout --mistakes --mesh --size --camera --background --no-legend --force --allow-outside --memory-limit --json --quiet --help"
+            opts="-o -q -h --output --view --tangents --against --split --lines --length --seams --layout --mistakes --mesh --size --camera --look --background --no-legend --force --allow-outside --memory-limit --polygons --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -466,7 +534,7 @@ _darboux() {
                     return 0
                     ;;
                 --view)
-                    COMPREPLY=($(compgen -W "shaded tangent bitangent normal sign angle" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "shaded bumps tangent bitangent normal sign angle" -- "${cur}"))
                     return 0
                     ;;
                 --tangents)
@@ -509,12 +577,20 @@ _darboux() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --look)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --background)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 --memory-limit)
                     COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --polygons)
+                    COMPREPLY=($(compgen -W "blender fan ears" -- "${cur}"))
                     return 0
                     ;;
                 *)
@@ -525,7 +601,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__tangents)
-            opts="-o -v -q -h --output --out-dir --in-place --force --resume --retry --jobs --verbose --allow-outside --memory-limit --method --mode --threshold --device --normals --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
+            opts="-o -v -q -h --output --out-dir --in-place --force --resume --retry --jobs --verbose --allow-outside --memory-limit --polygons --method --mode --threshold --device --normals --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -549,6 +625,10 @@ _darboux() {
                     ;;
                 --memory-limit)
                     COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --polygons)
+                    COMPREPLY=($(compgen -W "blender fan ears" -- "${cur}"))
                     return 0
                     ;;
                 --method)
@@ -583,7 +663,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__view)
-            opts="-h --high --no-open --allow-outside --memory-limit --page --help"
+            opts="-h --high --no-open --allow-outside --memory-limit --polygons --page --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -595,6 +675,10 @@ _darboux() {
                     ;;
                 --memory-limit)
                     COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --polygons)
+                    COMPREPLY=($(compgen -W "blender fan ears" -- "${cur}"))
                     return 0
                     ;;
                 --page)

@@ -42,6 +42,9 @@ complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l out-dir -d 'Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure of input folders' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l jobs -d 'How many files are processed at the same time; by default one per processor core' -r
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l polygons -d 'How faces of five and more corners are cut, in formats that have them' -r -f -a "blender\t'as Blender cuts them for its exporters'
+fan\t'all triangles share the first corner; concave faces are cut into ears'
+ears\t'ears are cut off in the order of corners'"
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l method -d 'How tangents are computed: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF)'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
 lengyel\t'The sum of dP/du, not normalised, separate for each UV orientation'
@@ -79,6 +82,9 @@ complete -c darboux -n "__fish_darboux_using_subcommand normals" -s o -l output 
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l out-dir -d 'Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure of input folders' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l jobs -d 'How many files are processed at the same time; by default one per processor core' -r
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l polygons -d 'How faces of five and more corners are cut, in formats that have them' -r -f -a "blender\t'as Blender cuts them for its exporters'
+fan\t'all triangles share the first corner; concave faces are cut into ears'
+ears\t'ears are cut off in the order of corners'"
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l normals -d 'flat, smooth, or crease=DEG: smooth except at edges sharper than DEG degrees' -r
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l weight -d 'The weight of each face at a smooth vertex' -r -f -a "angle\t'The angle of its corner: independent of the triangulation of flat surfaces'
 area\t'Its area'
@@ -97,6 +103,9 @@ complete -c darboux -n "__fish_darboux_using_subcommand normals" -s h -l help -d
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l out-dir -d 'Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure of input folders' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l jobs -d 'How many files are processed at the same time; by default one per processor core' -r
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l polygons -d 'How faces of five and more corners are cut, in formats that have them' -r -f -a "blender\t'as Blender cuts them for its exporters'
+fan\t'all triangles share the first corner; concave faces are cut into ears'
+ears\t'ears are cut off in the order of corners'"
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l from -d 'The convention of the inputs' -r -f -a "gltf\t''
 opengl\t''
 directx\t''
@@ -136,6 +145,9 @@ complete -c darboux -n "__fish_darboux_using_subcommand convert" -s q -l quiet -
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l jobs -d 'How many files are processed at the same time; by default one per processor core' -r
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l polygons -d 'How faces of five and more corners are cut, in formats that have them' -r -f -a "blender\t'as Blender cuts them for its exporters'
+fan\t'all triangles share the first corner; concave faces are cut into ears'
+ears\t'ears are cut off in the order of corners'"
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l explain -d 'Print the meaning of a code and exit' -r -f -a "tangent-not-finite\t''
 tangent-zero\t''
 tangent-not-unit\t''
@@ -164,6 +176,7 @@ uv-degenerate\t''
 uv-mirrored\t''
 uv-overlapping\t''
 map-green-flipped\t''
+map-detail-flipped\t''
 map-red-flipped\t''
 map-channels-swapped\t''
 map-srgb\t''
@@ -175,6 +188,8 @@ map-not-unit\t''
 map-negative-z\t''
 map-flat-off\t''
 map-flat\t''
+map-other-layout\t''
+conventions-cancel\t''
 map-unreadable\t''
 map-scale-negative\t''
 transform-mirrors\t''"
@@ -206,6 +221,7 @@ uv-degenerate\t''
 uv-mirrored\t''
 uv-overlapping\t''
 map-green-flipped\t''
+map-detail-flipped\t''
 map-red-flipped\t''
 map-channels-swapped\t''
 map-srgb\t''
@@ -217,6 +233,8 @@ map-not-unit\t''
 map-negative-z\t''
 map-flat-off\t''
 map-flat\t''
+map-other-layout\t''
+conventions-cancel\t''
 map-unreadable\t''
 map-scale-negative\t''
 transform-mirrors\t''"
@@ -248,6 +266,7 @@ uv-degenerate\t''
 uv-mirrored\t''
 uv-overlapping\t''
 map-green-flipped\t''
+map-detail-flipped\t''
 map-red-flipped\t''
 map-channels-swapped\t''
 map-srgb\t''
@@ -259,6 +278,8 @@ map-not-unit\t''
 map-negative-z\t''
 map-flat-off\t''
 map-flat\t''
+map-other-layout\t''
+conventions-cancel\t''
 map-unreadable\t''
 map-scale-negative\t''
 transform-mirrors\t''"
@@ -267,6 +288,9 @@ warning\t'A picture may be wrong'
 never\t'Findings do not change the exit code'"
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l convention -d 'Where the green of normal maps should point' -r -f -a "opengl\t'Green up: glTF, OpenGL, Blender, Unity, Godot'
 directx\t'Green down: DirectX, Unreal'"
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l assume -d 'What normal maps are where neither their texels nor the faces of the model decide it' -r -f -a "map=opengl\t''
+map=directx\t''
+map=red-inverted\t''"
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l model -d 'The model that the images are normal maps of: its faces tell inverted green from inverted red, and its tangents, normals and UVs are checked, too' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l method -d 'How --fix makes tangents again: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF)'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
@@ -292,15 +316,32 @@ complete -c darboux -n "__fish_darboux_using_subcommand check" -s q -l quiet -d 
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l force -d 'Replace output files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l high -d 'The high models, which have the detail (.gltf, .glb, .vrm, .obj); the normal maps of their materials count' -r -F
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -s o -l output -d 'The map, in an existing folder; with several maps the name of each is added, as in crate.ao.png' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l high -d 'The high models, which have the detail (.gltf, .glb, .vrm, .obj); their materials count, with normal maps and textures' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -s o -l output -d 'The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l map -d 'The maps to bake; several at once share their rays' -r -f -a "normal\t'Normals in tangent space'
 object-normal\t'Normals in the space of the scene'
 height\t'The distance of the high surface from the low one; half grey is none'
 ao\t'Ambient occlusion: white is open'
-position\t'Positions, from 0 to 1 in the box around the high model'"
+position\t'Positions, from 0 to 1 in the box around the high model'
+bent-normal\t'The mean of the open directions, in tangent space'
+object-bent-normal\t'The mean of the open directions, in the space of the scene'
+thickness\t'The mean distance to the other side: black is thin'
+curvature\t'Convex is brighter than half grey, concave darker; white curves with the radius of --curvature-radius'
+id\t'A colour for each material, mesh or part of the high models'
+vertex-color\t'The colours of the high model\'s vertices'
+base-color\t'The base colours that the high models show'
+opacity\t'The alpha of the base colour'
+roughness\t'The roughness of the high models\' materials'
+metalness\t'The metalness of the high models\' materials'
+emission\t'The light that the high models emit'
+texture\t'The texture that --texture names, of the high models\' materials'
+world-direction\t'The direction of --world-direction, in tangent space'
+uv-islands\t'A colour for each UV chart of the low model'
+wireframe\t'White along the edges of the low model\'s triangles'"
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l size -d 'Texels per side, or width and height' -r
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l bits -d 'Bits per channel; by default 16 for heights and positions, 8 for the others' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l bits -d 'Bits per channel: 8 or 16 (PNG), 16 or 32 (EXR, TIFF); by default the more for heights, positions and thickness, the fewer for the others' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l dither -d 'Round to 8 bits with blue noise, so that smooth surfaces show no bands; SEED moves the noise' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l pack -d 'Write an image whose channels are maps of one channel each, such as orm=ao,roughness,metalness: OUTPUT with NAME before its ending' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l samples -d 'Samples per texel: 1, 4, 9, 16 and so on up to 256' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l convention -d 'The convention of the maps: directions of red and green, axes of object-space normals and positions' -r -f -a "gltf\t''
 opengl\t''
@@ -313,8 +354,21 @@ threejs\t''
 maya\t''
 3dsmax\t''"
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l padding -d 'Fill texels outside the charts up to this distance only, in texels; without it all are filled' -r
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l ao-rays -d 'Rays of ambient occlusion per sample' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l ao-rays -d 'Rays per sample of occlusion, bent normals and thickness' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l ao-distance -d 'How far surfaces occlude each other, in the models\' unit; without it any distance' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l ao-falloff -d 'How occlusion fades up to --ao-distance' -r -f -a "none\t'Occlusion does not fade with the distance'
+linear\t'It fades evenly up to the greatest distance'
+quadratic\t'It fades fast near the surface and slowly far away'"
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l ao-weights -d 'How the directions of occlusion and bent normals are weighted' -r -f -a "cosine\t'By the cosine of the angle to the normal, as light falls on a matte surface'
+uniform\t'All directions alike'"
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l thickness-distance -d 'How far the other side is looked for by thickness, in the models\' unit; without it at any distance' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l curvature-radius -d 'The radius in which curvature is measured: texels, as in 4texels, or a distance in the models\' unit' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l id-from -d 'What the colours of an id map stand for' -r -f -a "material\t'A colour for each material'
+mesh\t'A colour for each mesh'
+part\t'A colour for each part: each node with a mesh'
+vertex-color\t'The colours of the vertices themselves'"
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l texture -d 'The texture of the map texture: its place in the JSON of the high models\' materials' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l world-direction -d 'The direction of the map world-direction, along the axes of glTF, where y is up' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l distance -d 'Rays along the interpolated normals: how far outside they begin, and how far inside they end' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l cage-offset -d 'Rays from a cage: the low model, moved outwards by this distance along smooth normals, so that hard edges leave no gaps; they end as far inside' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l cage -d 'Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as --cage-offset would' -r -F
@@ -334,14 +388,21 @@ vertex\t'Per vertex, then interpolated'"
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l uv-set -d 'The UV set n of TEXCOORD_n; by default that of the material\'s normal map' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l material -d 'Bake only the primitives with this material, materials[N] of the low model\'s file; by default all share the map' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l normals -d 'Generate missing normals of the low model first: flat, smooth or crease=DEG; keep generates none' -r
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l write-model -d 'Write the low model with the normal map in its materials and the tangents in its vertices' -r -F
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l heat-map -d 'Draw these errors over the UV layout, on a scale from 0.01 to 180 degrees' -r -F
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l heat-model -d 'Write the low model painted with these errors, on the same scale; `darboux render` and every viewer show it' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l write-model -d 'Write the low model with the maps that its materials can have, and with the tangents in its vertices' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l heat-map -d 'Draw these errors over the UV layout, with their scale below' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l heat-model -d 'Write the low model painted with these errors, unlit, and beside it a PNG of their scale; `darboux render` and every viewer show it' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l heat-range -d 'The ends of the scale of errors in degrees; by default those that fit the errors' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l jobs -d 'How many threads work; by default one per processor core' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l polygons -d 'How faces of five and more corners are cut, in formats that have them' -r -f -a "blender\t'as Blender cuts them for its exporters'
+fan\t'all triangles share the first corner; concave faces are cut into ears'
+ears\t'ears are cut off in the order of corners'"
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l ao-own-part -d 'Let parts of the high models be occluded by themselves only, not by each other'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l back-faces -d 'Let rays hit triangles from behind'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l no-high-maps -d 'Bake the geometry of the high models without the normal maps of their materials'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l verify -d 'Shade the low model with the map that was written, as a renderer does, and print how far its normals are from those of the high models'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l suffixes -d 'Bake each NAME_low in the folder LOW from NAME_high, with the cage NAME_cage if there is one, into NAME.png in the folder of -o, or in LOW'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l resume -d 'Skip bakes of a job whose models, options and outputs have not changed since an earlier run; a killed run is continued'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l force -d 'Replace files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l json -d 'Write a report as JSON to standard output'
@@ -360,29 +421,36 @@ complete -c darboux -n "__fish_darboux_using_subcommand compare" -l worst -d 'Ho
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l tolerance -d 'Exit with 3 if an angle is larger than this, a sign w is opposite, or one side lacks tangents' -r
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l heat-map -d 'Draw the angles over the UV layout, as a PNG' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -l polygons -d 'How faces of five and more corners are cut, in formats that have them' -r -f -a "blender\t'as Blender cuts them for its exporters'
+fan\t'all triangles share the first corner; concave faces are cut into ears'
+ears\t'ears are cut off in the order of corners'"
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l force -d 'Replace a heat map that exists'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
+complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l polygons -d 'How faces of five and more corners are cut, in formats that have them' -r -f -a "blender\t'as Blender cuts them for its exporters'
+fan\t'all triangles share the first corner; concave faces are cut into ears'
+ears\t'ears are cut off in the order of corners'"
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -s o -l output -d 'The picture, in an existing folder' -r -F
-complete -c darboux -n "__fish_darboux_using_subcommand render" -l view -d 'What the colours of the surface show' -r -f -a "shaded\t'The surface with its base colour and normal map, lit from the upper right'
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l view -d 'What the colours of the surface show' -r -f -a "shaded\t'The surface with its materials in the viewer\'s studio, lit from the upper right'
+bumps\t'The same, with test bumps on parts without a normal map, which the file does not have'
 tangent\t'Tangents as colours: 0.5 + 0.5 times each component, in scene space'
 bitangent\t'Bitangents in the same colours'
 normal\t'Normals of the mesh in the same colours'
 sign\t'The sign w: blue for 1, orange for -1'
-angle\t'The angle between --tangents and --against, from 0.01 to 180 degrees; red where the signs are opposite'"
+angle\t'The angle between --tangents and --against, from 0.01 to 180 degrees; red with stripes where the signs are opposite'"
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l tangents -d 'The source of the tangents: file, derivatives (as shaders without tangents derive them), or a method; `darboux methods` lists the methods' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l against -d 'The second source of tangents, for --view angle and for the right side of --split' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l split -d 'Divide the picture at this percentage of its width: --tangents on the left; --against, or --mistakes, on the right' -r
-complete -c darboux -n "__fish_darboux_using_subcommand render" -l lines -d 'Draw these vectors at the vertices' -r -f -a "tangent\t'Red'
-bitangent\t'Green'
-normal\t'Blue'"
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l lines -d 'Draw these vectors at the vertices' -r -f -a "tangent\t'Red, unbroken'
+bitangent\t'Green, three dashes'
+normal\t'Blue, two dashes'"
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l length -d 'The length of the lines, in percent of the model\'s radius' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l layout -d 'Draw the UV layout in the colours of the surface (in those of the sign for the shaded view), v down' -r -f -a "corner\t'In the lower right corner'
 alone\t'Instead of the model'"
@@ -406,8 +474,12 @@ last-corner\t'Write corners through the old index list'"
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l mesh -d 'Draw only this mesh, given by its name or index; can be repeated' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l size -d 'Width and height in pixels, at least 1x1' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l camera -d 'Degrees around the model (0 is its front), degrees above the horizon, and the magnification (1 shows the whole model)' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l look -d 'Where the camera is and what it looks at, as `view=` in a link of the viewer has it; the light comes from where the viewer has it' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l background -d 'The colour behind the model' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l polygons -d 'How faces of five and more corners are cut, in formats that have them' -r -f -a "blender\t'as Blender cuts them for its exporters'
+fan\t'all triangles share the first corner; concave faces are cut into ears'
+ears\t'ears are cut off in the order of corners'"
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l seams -d 'Draw mirrored seams: the edges across which the sign w changes'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l no-legend -d 'Draw no legend and no names of the two sides'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l force -d 'Replace a picture that exists'
@@ -417,6 +489,9 @@ complete -c darboux -n "__fish_darboux_using_subcommand render" -s q -l quiet -d
 complete -c darboux -n "__fish_darboux_using_subcommand render" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l high -d 'A high-poly model whose detail the page bakes into a normal map of MODEL' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
+complete -c darboux -n "__fish_darboux_using_subcommand view" -l polygons -d 'How faces of five and more corners are cut, in formats that have them' -r -f -a "blender\t'as Blender cuts them for its exporters'
+fan\t'all triangles share the first corner; concave faces are cut into ears'
+ears\t'ears are cut off in the order of corners'"
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l page -d 'The folder with the page\'s files' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l no-open -d 'Print the address and open no browser'
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
