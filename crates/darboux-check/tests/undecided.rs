@@ -7,7 +7,7 @@ use darboux_check::{
 };
 use support::models::{Model, healthy_models};
 
-const KTX2: &[u8] = b"\xABKTX 20\xBB\r\n\x1A\n and more";
+const AVIF: &[u8] = b"\0\0\0\x20ftypavif and more";
 
 fn check(model: &Model) -> Vec<Finding> {
     check_document(&model.document(), &CheckOptions::default()).expect("a valid document")
@@ -23,7 +23,7 @@ fn flipped_signs_under_a_map_of_unknown_convention_are_left() {
         [120 + (hash >> 20 & 15) as u8, 120 + (hash >> 26 & 15) as u8, 254]
     };
     let noise = model.map.with_texels((0..model.map.texels.len()).map(noise).collect());
-    for file in [noise.file, KTX2.to_vec(), b"no image".to_vec()] {
+    for file in [noise.file, AVIF.to_vec(), b"no image".to_vec()] {
         model.map.file = file;
         let findings = check(&model);
         let flipped =
@@ -47,7 +47,7 @@ fn flipped_signs_under_a_map_of_unknown_convention_are_left() {
 #[test]
 fn a_map_in_a_format_that_is_not_read_is_not_checked_and_no_error() {
     let mut model = healthy_models().remove(0);
-    model.map.file = KTX2.to_vec();
+    model.map.file = AVIF.to_vec();
     let findings = check(&model);
     let map = findings.iter().find(|finding| finding.code == Code::MapUnreadable).expect("the finding");
     assert_eq!(map.severity, Severity::NotChecked, "{}", map.text);
@@ -76,7 +76,7 @@ fn mistakes_that_cancel_are_one_warning() {
     );
     // Without the texels, one of the two cannot be seen, and the other one is left.
     let mut unread = model.clone();
-    unread.map.file = KTX2.to_vec();
+    unread.map.file = AVIF.to_vec();
     let assumed = CheckOptions::default().with_assumed_map(Some(AssumedMap::DirectX));
     let findings = check_document(&unread.document(), &assumed).expect("a valid document");
     assert!(findings.iter().all(|finding| !finding.is_fixable()), "{findings:#?}");

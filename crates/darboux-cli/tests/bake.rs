@@ -939,7 +939,10 @@ fn dithering_keeps_means_that_rounding_loses() {
     });
     fs::write(pair.path("high.glb"), high).expect("a file");
     let mean = |more: &[&str]| {
-        pair.bake(&[&["--map", "roughness", "--force", "--size", "64"], more].concat()).exits(0);
+        let [low, high, map] = ["low.glb", "high.glb", "map.png"].map(|name| pair.path(name));
+        let all = ["bake", text(&low), "--high", text(&high), "-o", text(&map), "--size", "64"];
+        let options = ["--cage-offset", "1", "--map", "roughness", "--force"];
+        darboux(&[&all, &options[..], more].concat()).exits(0);
         let codes = grey(&pair.path("map.png"));
         (codes.iter().map(|&code| f64::from(code)).sum::<f64>() / codes.len() as f64, codes)
     };

@@ -35,7 +35,8 @@ fn the_tangents_report_has_the_documented_fields() {
             "warnings",
             "totals",
             "normals",
-            "device"
+            "device",
+            "source"
         ]
     );
     assert_eq!(

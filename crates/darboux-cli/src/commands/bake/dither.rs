@@ -129,12 +129,12 @@ mod tests {
         sorted.sort_by(f32::total_cmp);
         let count = (SIDE * SIDE) as f32;
         assert!(sorted.iter().enumerate().all(|(i, &x)| (x - (i as f32 + 0.5) / count).abs() < 1e-6));
-        // The mean of any 4 x 4 texels is near one half: white noise deviates by 0.072 on average.
+        // The mean of any 4 x 4 texels is near one half: it deviates by less than half as much as that of white noise, 0.072.
         let mean = |x: usize, y: usize| {
             (0..16).map(|i| noise.threshold([x + i % 4, y + i / 4], 0)).sum::<f32>() / 16.0
         };
         let squares = (0..SIDE * SIDE).map(|i| (mean(i % SIDE, i / SIDE) - 0.5).powi(2));
         let deviation = (squares.sum::<f32>() / count).sqrt();
-        assert!(deviation < 0.03, "{deviation}");
+        assert!(deviation < 0.036, "{deviation}");
     }
 }

@@ -141,7 +141,7 @@ fn verdict(map: &ReportedMap) -> String {
 /// Why there is no verdict.
 fn undecided(z_score: f32) -> &'static str {
     match z_score.abs() {
-        0.0 => "at least 64 x 64 of them must belong to a surface with slopes",
+        0.0 => "too few of them belong to a surface with slopes",
         ..4.0 => "their slopes do not stand out from rounding and noise",
         _ => "the map and its reduced sizes contradict each other, as where details are finer than a texel",
     }
