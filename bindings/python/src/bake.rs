@@ -23,7 +23,10 @@ use crate::threads::run_interruptibly;
 
 const BITANGENTS: &[(&str, Bitangent)] = &[("pixel", Bitangent::PerPixel), ("vertex", Bitangent::PerVertex)];
 
-const UNITS: &[(&str, fn(f32) -> CurvatureRadius)] =
+/// Makes a radius of a number in some unit.
+type RadiusOf = fn(f32) -> CurvatureRadius;
+
+const UNITS: &[(&str, RadiusOf)] =
     &[("texels", CurvatureRadius::Texels), ("distance", CurvatureRadius::Distance)];
 
 /// The textures of the high mesh, and whether they are in sRGB.

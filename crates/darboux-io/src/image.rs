@@ -2,6 +2,8 @@
 
 mod channels;
 mod chunks;
+#[cfg(feature = "textures")]
+mod decoding;
 #[cfg(feature = "ktx2")]
 mod ktx2_image;
 mod normal_map;
@@ -13,10 +15,12 @@ mod rgba;
 mod srgb;
 
 pub use channels::{Channels, ChannelsError};
+#[cfg(feature = "textures")]
+pub use decoding::{DecodeError, DecodeLimits};
 pub use normal_map::{
     change_texels, convert_normal_map, count_invalid_normals, normal_vectors, set_normal_vectors,
 };
 pub use png_image::{PngImage, Sample};
 #[cfg(feature = "textures")]
-pub use rgba::{DecodeError, DecodeLimits, RgbaImage};
+pub use rgba::RgbaImage;
 pub use srgb::{linear_to_srgb, srgb_to_linear};

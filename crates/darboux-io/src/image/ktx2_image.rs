@@ -4,10 +4,10 @@ use ktx2::{Format, Header, Level, Reader, SupercompressionScheme};
 use ruzstd::StreamingDecoder;
 use ruzstd::io::Read;
 
-use super::rgba::{DecodeError, DecodeLimits, RgbaImage, broken, rgba, texel_count, to_byte};
+use super::decoding::{DecodeError, DecodeLimits, broken, rgba, texel_count, to_byte};
 
-/// Decodes the largest level of the first layer.
-pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
+/// Decodes the largest level of the first layer to its width, its height and its texels.
+pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<(u32, u32, Vec<[u8; 4]>), DecodeError> {
     let reader = Reader::new(file).map_err(|_| broken("its header is damaged"))?;
     let header = reader.header();
     let (width, height) = (header.pixel_width, header.pixel_height.max(1));
@@ -29,7 +29,7 @@ pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeErr
     if texels.len() != count {
         return Err(broken(&format!("it has {} texels instead of {count}", texels.len())));
     }
-    Ok(RgbaImage { width, height, texels })
+    Ok((width, height, texels))
 }
 
 fn decode_basis(file: &[u8]) -> Result<Vec<[u8; 4]>, DecodeError> {

@@ -10,6 +10,7 @@ use zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
 
 use super::chunks::SIGNATURE as PNG;
+use super::decoding::{DecodeError, DecodeLimits, broken, rgba, texel_count, to_byte};
 use super::palette::check_palette;
 use super::reasons;
 
@@ -22,59 +23,6 @@ pub struct RgbaImage {
     pub height: u32,
     /// The texels, row after row, the top row first.
     pub texels: Vec<[u8; 4]>,
-}
-
-/// The largest image that is decoded. By default the sides may have 16,384 texels and the image 2^27, which take 512 MiB.
-#[derive(Clone, Copy, Debug)]
-#[non_exhaustive]
-pub struct DecodeLimits {
-    /// The largest width and height.
-    pub max_side: u32,
-    /// The most texels.
-    pub max_texels: u64,
-}
-
-impl DecodeLimits {
-    /// These limits with another width and height.
-    #[must_use]
-    pub const fn with_max_side(self, max_side: u32) -> Self {
-        Self { max_side, ..self }
-    }
-
-    /// These limits with another number of texels.
-    #[must_use]
-    pub const fn with_max_texels(self, max_texels: u64) -> Self {
-        Self { max_texels, ..self }
-    }
-}
-
-impl Default for DecodeLimits {
-    fn default() -> Self {
-        Self { max_side: 1 << 14, max_texels: 1 << 27 }
-    }
-}
-
-/// Why an image was not decoded: a clause whose subject is the image.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum DecodeError {
-    /// The format is recognised, but there is no decoder for it.
-    #[error("is {0}, for which there is no decoder here; convert it to PNG, JPEG or WebP")]
-    NoDecoder(&'static str),
-    /// The format is not recognised.
-    #[error("is neither PNG nor JPEG nor WebP; convert it to one of them")]
-    UnknownFormat,
-    /// The image exceeds [`DecodeLimits`].
-    #[error("has {width} x {height} texels, more than the limit; make it smaller, or raise the memory limit")]
-    TooLarge {
-        /// Texels per row.
-        width: usize,
-        /// Rows.
-        height: usize,
-    },
-    /// The content is damaged or of a kind that the decoder lacks.
-    #[error("cannot be decoded ({0}); save it again")]
-    Broken(String),
 }
 
 const JPEG: &[u8] = b"\xFF\xD8\xFF";
@@ -136,20 +84,6 @@ impl RgbaImage {
         let cells = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y)));
         let sum: u64 = cells.map(|(x, y)| mean_difference(x, y)).sum();
         sum > DIFFERENCE * (SIDE * SIDE) as u64
-    }
-}
-
-pub(super) fn broken(problem: &str) -> DecodeError {
-    DecodeError::Broken(problem.to_owned())
-}
-
-/// Checks a size from a header; gives the number of texels.
-pub(super) fn texel_count(width: usize, height: usize, limits: &DecodeLimits) -> Result<usize, DecodeError> {
-    let side = limits.max_side as usize;
-    match width.checked_mul(height) {
-        _ if width == 0 || height == 0 => Err(broken("it has no texels")),
-        Some(texels) if width <= side && height <= side && texels as u64 <= limits.max_texels => Ok(texels),
-        _ => Err(DecodeError::TooLarge { width, height }),
     }
 }
 
@@ -221,7 +155,8 @@ fn ends_with_its_image(file: &[u8]) -> bool {
 
 #[cfg(feature = "ktx2")]
 fn decode_ktx2(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
-    super::ktx2_image::decode(file, limits)
+    let (width, height, texels) = super::ktx2_image::decode(file, limits)?;
+    Ok(RgbaImage { width, height, texels })
 }
 
 #[cfg(not(feature = "ktx2"))]
@@ -242,13 +177,4 @@ fn decode_webp(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeEr
         false => rgba(&bytes, |[r, g, b]| [r, g, b, 255]),
     };
     Ok(RgbaImage { width, height, texels })
-}
-
-pub(super) fn rgba<const N: usize>(channels: &[u8], texel: impl Fn([u8; N]) -> [u8; 4]) -> Vec<[u8; 4]> {
-    channels.as_chunks().0.iter().map(|&channels| texel(channels)).collect()
-}
-
-/// The nearest 8-bit value: `word` / 257, rounded.
-pub(super) fn to_byte(word: u16) -> u8 {
-    ((u32::from(word) + 128) / 257) as u8
 }
