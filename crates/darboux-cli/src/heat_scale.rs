@@ -19,6 +19,7 @@ impl HeatRange {
 
     /// The range from a tenth of the median angle to the greatest, each rounded outwards to 1, 2 or 5 times a power of ten. Values that are not finite do not
     /// count.
+    #[cfg(feature = "bake")]
     pub fn fitting(degrees: impl Iterator<Item = f64>) -> Self {
         let mut known: Vec<f64> = degrees.filter(|angle| angle.is_finite() && *angle > 0.0).collect();
         known.sort_unstable_by(f64::total_cmp);
@@ -90,6 +91,7 @@ impl fmt::Display for HeatRange {
 }
 
 /// The next of 1, 2, 5 times a power of ten, upwards or downwards.
+#[cfg(feature = "bake")]
 fn rounded(x: f64, is_up: bool) -> f64 {
     let power = 10f64.powf(x.log10().floor());
     let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
@@ -123,6 +125,7 @@ const TICK: [u8; 3] = [255, 255, 255];
 pub const FLIP: [u8; 3] = [230, 40, 40];
 
 /// One row of the scale in a picture: its colours and ticks.
+#[cfg(feature = "gpu")]
 pub fn row(width: usize) -> Vec<[u8; 3]> {
     let last = width.saturating_sub(1).max(1) as f64;
     let ticks = TICKS.map(|tick| (scale_position(tick) * last).round() as usize);
