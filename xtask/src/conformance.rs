@@ -64,7 +64,7 @@ fn compute_reference() -> Outcome {
     run(computer()?.arg(cases).arg(folder("reference")?))
 }
 
-/// The environment variables with which the adapters of our own interfaces find them. Those of the named adapters are built, of all if none
+/// The environment variables with which the adapters of our own interfaces find them. The libraries of the named adapters are built; those of all adapters if none
 /// is named; interfaces that cannot be built here are left out, and the scripts say which adapters that skips.
 fn interfaces(names: &[&str]) -> Result<Vec<(&'static str, PathBuf)>, String> {
     let target = target_folder()?;

@@ -5,7 +5,7 @@ use darboux::{measure_tangents as measure, measure_uv_fidelity as measure_fideli
 use crate::arena::with_arena;
 use crate::mesh_arrays::rows;
 
-/// Compares the given tangents with the other tangents, of which there are as many. Returns the address of the numbers in the order in
+/// Compares the given tangents with as many other tangents. Returns the address of the numbers in the order in
 /// which `measureTangents` of `lib/darboux.ts` reads them; last the number of worst corners, and each of these with its angle.
 #[unsafe(no_mangle)]
 pub extern "C" fn measure_tangents() -> *const f64 {

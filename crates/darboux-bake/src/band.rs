@@ -136,7 +136,7 @@ impl Bake<'_> {
         scratch.rays += scratch.rays_of_tile.len() as u64;
     }
 
-    /// Stages 4 and 5: the hits of a tile's rays, all of which begin at the cut of their shaft.
+    /// Stages 4 and 5: the hits of a tile's rays. All rays begin at the cut of their shaft.
     fn follow_rays(&self, first: [usize; 2], sample: [i64; 2], scratch: &mut Scratch) {
         let Scratch { rays_of_tile, sums, numbers, stack, .. } = scratch;
         for rays in rays_of_tile.chunk_by(|a, b| a.group == b.group) {

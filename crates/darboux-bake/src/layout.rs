@@ -51,7 +51,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Places all triangles. Those without an area, not finite or across too many tiles are left out and counted.
+    /// Places all triangles. Triangles without an area, not finite or across too many tiles are left out and counted.
     ///
     /// `budget`: the lists of the layout are added to it. Errors: they exceed it.
     pub fn new(

@@ -12,7 +12,7 @@ pub struct BakeReport {
     pub charted_texels: u64,
     /// Charted texels without any hit. They are filled from around.
     pub missed_texels: u64,
-    /// Those of the missed texels whose rays hit triangles from behind: the high mesh is inside out there, or has a hole.
+    /// Missed texels whose rays hit triangles from behind: the high mesh is inside out there, or has a hole.
     pub back_facing_texels: u64,
     /// Texels that more than one triangle covers. The first triangle owns them.
     pub overlapping_texels: u64,

@@ -81,7 +81,7 @@ const WRONG: &[Wrong] = &[
     },
 ];
 
-/// Files of which a part is missing, so that they do not open.
+/// Files that lack a part, so that they do not open.
 const INCOMPLETE: &[&str] = &[
     "glTF-Validator_tests/base_mesh_data_index_buffer_degenerate_triangle.gltf",
     "glTF-Validator_tests/base_mesh_data_normals_tangents_non_unit_invalid_sign.gltf",

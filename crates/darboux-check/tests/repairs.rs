@@ -219,7 +219,7 @@ fn maps_keep_their_bit_depth() {
     }
 }
 
-/// Two mistakes of which one hides the other are both repaired.
+/// Both mistakes are repaired where one hides the other.
 #[test]
 fn a_repair_goes_on_with_what_it_reveals() {
     let model = healthy_models().remove(0);
@@ -280,7 +280,7 @@ fn a_nearly_flat_map_that_was_encoded_as_srgb_is_repaired() {
     }
 }
 
-/// Two mistakes, of which only one may be repaired, which would reveal the other.
+/// Two mistakes: only one may be repaired, and its repair would reveal the other.
 #[test]
 fn a_repair_that_makes_a_map_worse_is_not_kept() {
     let map = healthy_models().remove(0).map;

@@ -39,7 +39,7 @@ impl Input {
 #[derive(Debug, PartialEq, Eq)]
 pub struct UsageError(pub String);
 
-/// The suffixes of output names, by command. Those of `convert` are conventions.
+/// The suffixes of output names, by command. The suffixes of `convert` are conventions.
 pub mod output_suffix {
     pub const TANGENTS: &str = "tangents";
     pub const NORMALS: &str = "normals";

@@ -85,7 +85,7 @@ impl LoadOptions {
         Self { option_names, ..self }
     }
 
-    /// The memory for a file of `size` bytes of which `decompressed` bytes were made.
+    /// The memory for a file of `size` bytes that was decompressed into `decompressed` bytes.
     pub(crate) fn budget(&self, size: usize, decompressed: usize) -> Budget {
         self.memory_limit.budget(size, decompressed, self.option_names.memory_limit)
     }

@@ -43,7 +43,7 @@ impl MemoryLimit {
         self.process
     }
 
-    /// The limit for a file of `size` bytes of which `decompressed` bytes were made.
+    /// The limit for a file of `size` bytes that was decompressed into `decompressed` bytes.
     pub(crate) fn budget(self, size: usize, decompressed: usize, option: &'static str) -> Budget {
         if let Some(bytes) = self.fixed {
             return Budget {

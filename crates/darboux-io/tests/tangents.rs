@@ -88,7 +88,7 @@ fn a_split_carries_every_attribute_bit_for_bit() {
 
 #[test]
 fn indices_widen_when_a_split_needs_it() {
-    // 254 vertices, of which indices of 8 bits can name one more.
+    // 254 vertices; indices of 8 bits can name one more.
     let mut vertices = butterfly();
     vertices.positions.resize(254, [5.0; 3]);
     vertices.normals.resize(254, [0.0, 1.0, 0.0]);

@@ -6,7 +6,7 @@ use crate::algebra::Matrix;
 const FIELD_OF_VIEW: f64 = 35.0;
 /// The fraction of the picture that stays empty around the model.
 const MARGIN: f64 = 0.04;
-/// The iterations that centre the model, each of which visits all points.
+/// The iterations that centre the model. Each visits all points.
 const CENTERING_STEPS: usize = 4;
 
 type V3 = [f64; 3];

@@ -55,7 +55,7 @@ pub fn surface_pipeline(gpu: &Gpu, subject: Subject, view: View, format: Texture
     pipeline(gpu, &options, format)
 }
 
-/// The pipeline for lines, each of which is a strip of two triangles.
+/// The pipeline for lines. A line is a strip of two triangles.
 pub fn line_pipeline(gpu: &Gpu, format: TextureFormat) -> RenderPipeline {
     let attributes = vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3];
     let options = PipelineOptions {

@@ -104,7 +104,7 @@ const LIKELY: f64 = 0.5;
 /// The comparison of recipes with the tangents of one mesh.
 struct Trial<'a> {
     mesh: &'a Mesh<'a>,
-    /// Those of the measured corners.
+    /// The tangents of the measured corners.
     tangents: &'a [[f32; 4]],
     /// The corners that are compared; none: all.
     measured: Option<&'a [u32]>,

@@ -117,7 +117,7 @@ struct Job<'a> {
     triangles: &'a mut [Bounded],
     bounds: Box3,
     depth: usize,
-    /// The node and the place in it of which the set is the child; the root has none.
+    /// The node, and the place in it, whose child the set is; the root has none.
     parent: Option<(usize, usize)>,
     /// The parts of a set that was split.
     parts: Vec<(&'a mut [Bounded], Box3)>,

@@ -1,4 +1,4 @@
-//! Maps of which one part is in OpenGL's convention and another one in DirectX's, as where tiles or islands from several sources were put together.
+//! Maps with one part in OpenGL's convention and another one in DirectX's, as where tiles or islands from several sources were put together.
 //!
 //! The map is cut into blocks, and each is judged alone. Blocks of fewer texels than these have too few tiles: on published maps, some of 64 x 64
 //! are decided wrongly, and none of 128 x 128.

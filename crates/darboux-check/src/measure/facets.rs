@@ -30,7 +30,7 @@ const SAMPLES: usize = 4;
 /// The smallest root of the mean squared tilt that votes, of face normals and of texels: two codes of 8 bits.
 const SMALLEST: f64 = 4.0 / 255.0;
 
-/// How the channels of a map are arranged, as far as its derivatives tell: the facets decide between two possibilities, of which one has the
+/// How the channels of a map are arranged, as far as its derivatives tell: the facets decide between two arrangements, one of which has the
 /// negated x and y of the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arrangement {

@@ -41,7 +41,7 @@ pub struct Fit {
     /// What was measured: corners with usable tangents whose vertices do not lie on mirrored seams; triangles or vertices for a difference of a
     /// part of the surface.
     pub measured: usize,
-    /// Those that support the difference.
+    /// The corners that support the difference.
     pub supporting: usize,
     /// The numbers of these triangles or vertices.
     pub items: Vec<usize>,
@@ -64,7 +64,7 @@ struct Counts {
     across: usize,
     /// Corners within one degree.
     near: usize,
-    /// Those of them that have the same sign.
+    /// The supporting corners that have the same sign.
     close: usize,
     /// Per orientation (unmirrored, mirrored): corners, and those whose sign differs.
     signs: [[usize; 2]; 2],

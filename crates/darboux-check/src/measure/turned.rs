@@ -84,7 +84,7 @@ impl Around {
         is_across: true,
     };
 
-    /// Whether the tangent points against all u directions, of which none is in doubt.
+    /// Whether the tangent points against all u directions; none of them is in doubt.
     fn is_against_all(&self) -> bool {
         self.thin.weight == 0.0 && self.largest_cosine.is_finite() && self.largest_cosine < AGAINST
     }

@@ -38,7 +38,7 @@ pub enum Flip {
     Normals,
 }
 
-/// What is known about the tangents of a surface of which some are wrong.
+/// What is known about the tangents of a surface where some are wrong.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WrongTangents {
     /// The codes that are repaired.

@@ -71,7 +71,7 @@ fn object_space(map: &Map) -> Option<Defect> {
     Some(defect(MapFault::ObjectSpace(texels(judgement, judgement.negative_z))))
 }
 
-/// The vectors of a tangent-space map point along z on average. Those of a flat surface in object space may point along any axis.
+/// The vectors of a tangent-space map point along z on average. Vectors of a flat surface in object space may point along any axis.
 fn reordered(map: &Map) -> Option<Defect> {
     let judgement = of_kind(map, Kind::Reordered)?;
     let reordered = map.reordered.clone()?;

@@ -21,7 +21,7 @@ fn missing(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     vec![Defect::new(Fault::UvMissing { set: *uv_set, present: uv_sets.len() })]
 }
 
-/// UVs of any set: every texture may use it. Those of the normal texture decide the tangents, too.
+/// UVs of any set: every texture may use it. The UV set of the normal texture also decides the tangents.
 fn not_finite(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let surface = facts.surface;
     let of_set = |(&set, uvs): (&usize, &Vec<[f32; 2]>)| {

@@ -60,7 +60,7 @@ pub fn pair_line(pair: &PairRow) -> String {
     format!("| {first} | {second} | {which} | {} | {why} |\n", instead.join(", "))
 }
 
-/// Why two mistakes are not both named. Empty for pairs of which nothing is known.
+/// Why two mistakes are not both named. Empty for pairs without a known reason.
 pub fn why_missed(pair: [Code; 2]) -> &'static str {
     let has = |code| pair.contains(&code);
     match () {

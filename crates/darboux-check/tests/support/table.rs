@@ -19,11 +19,11 @@ pub struct Row {
     pub how: &'static str,
     /// The models that the mistake was made on.
     pub models: usize,
-    /// Those where the check named it.
+    /// Models where the check named the mistake.
     pub named: usize,
-    /// Those where the check named another error.
+    /// Models where the check named another error.
     pub with_other_errors: usize,
-    /// Those that the repair made equal to the healthy model; none where the repair leaves the mistake.
+    /// Models that the repair made equal to the healthy model; none where the repair leaves the mistake.
     pub repaired: Option<usize>,
     /// What went wrong, one sentence each.
     pub failures: Vec<String>,

@@ -20,7 +20,7 @@ pub(crate) struct NormalGroups {
 }
 
 impl NormalGroups {
-    /// `triangles`: five words per triangle, of which the first three have the vertices of its corners in the bits of `vertex_bits`.
+    /// `triangles`: five words per triangle; the first three have the vertices of its corners in the bits of `vertex_bits`.
     ///
     /// Errors: a group has more members than one thread can add up.
     pub fn new(mesh: &Mesh<'_>, triangles: &[u32], vertex_bits: u32) -> Result<Self, GpuError> {

@@ -84,11 +84,11 @@ struct EmbeddedImage {
 /// The URIs of the files that are written beside a `.gltf`; none for a GLB.
 #[derive(Debug, Default)]
 pub struct FileUris {
-    /// Those of the binary outputs.
+    /// The URIs of the binary outputs.
     pub binaries: Vec<String>,
-    /// Those of files that were copied under another name, by their paths.
+    /// The URIs of files that were copied under another name, by their paths.
     pub renamed: HashMap<PathBuf, String>,
-    /// Those of images with new content, by their indices.
+    /// The URIs of images with new content, by their indices.
     pub images: BTreeMap<usize, String>,
 }
 

@@ -205,7 +205,7 @@ pub struct Unreferenced {
 }
 
 impl Unreferenced {
-    /// Those of a document as it was read. `references`: all that it has.
+    /// The unreferenced elements of a document as it was read. `references`: all that it has.
     pub fn new(json: &Value, references: &[Reference]) -> Self {
         let rest = |array: &str, kinds: &[ReferenceKind]| {
             let count = json[array].as_array().map_or(0, Vec::len);

@@ -65,7 +65,7 @@ impl<'a> RunLimits<'a> {
         if most > 1 { pool_threads().min(most) } else { 1 }
     }
 
-    /// How many threads share a list of jobs, each of which is worth waking a thread.
+    /// How many threads share a list of jobs. Each job is worth waking a thread.
     pub fn thread_count_of_jobs(&self, jobs: usize) -> usize {
         let most = jobs.min(self.max_threads);
         if most > 1 { pool_threads().min(most) } else { 1 }

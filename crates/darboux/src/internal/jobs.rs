@@ -23,7 +23,7 @@ pub fn for_each<T: Send>(
     limits.check()
 }
 
-/// The values of a function for every element of a list, each of which one thread computes.
+/// The values of a function for every element of a list. One thread computes each value.
 ///
 /// `contexts`: one per thread, of one thread each, whose memory is reused; [`contexts`] makes them.
 pub fn map_with<T: Sync, R: Send>(

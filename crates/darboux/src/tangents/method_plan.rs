@@ -39,7 +39,7 @@ pub(crate) struct FastMethodPlan {
     fast: FastPlan,
     /// All faces with corners that the first pass leaves undecided.
     undecided: Option<UndecidedFaces>,
-    /// Those with corners that the groups of `fast` leave undecided.
+    /// The faces with corners that the groups of `fast` leave undecided.
     left: Option<UndecidedFaces>,
     base: Vertices,
     stages: OnceLock<GroupedMesh>,

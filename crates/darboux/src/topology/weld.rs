@@ -255,7 +255,7 @@ enum Cut {
 
 /// The longest axis of the box of some points, and the least and largest coordinate along it.
 ///
-/// As [`Bounds::of`]. Each point is read as a vector of four lanes, the last of which is not used.
+/// As [`Bounds::of`]. Each point is read as a vector of four lanes; the last lane is not used.
 fn longest_axis(first: &Point, others: &[Point]) -> (usize, f32, f32) {
     let lanes = |point: &Point| {
         let [x, y, z] = point.position;

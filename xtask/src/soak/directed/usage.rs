@@ -1,4 +1,4 @@
-//! Command lines that are wrong, and files of which a part cannot be shown.
+//! Command lines that are wrong, and files with a part that cannot be shown.
 
 use serde_json::{Value, json};
 

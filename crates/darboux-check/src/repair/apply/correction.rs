@@ -26,7 +26,7 @@ const EXPLAINED: f64 = 0.9;
 /// The share from which on the default of MikkTSpace does, whatever other recipes give: on simple surfaces all give the same.
 const IS_MIKKTSPACE: f64 = 0.99;
 
-/// The tangents of all corners of a surface, in glTF's convention, of which some were corrected.
+/// The tangents of all corners of a surface, in glTF's convention; some were corrected.
 pub struct Correction {
     pub surface: Surface,
     pub tangent_of_corner: Vec<[f32; 4]>,

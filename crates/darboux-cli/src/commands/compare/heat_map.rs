@@ -91,7 +91,7 @@ impl HeatMap {
         }
     }
 
-    /// The number of triangles of which only the corners are drawn.
+    /// The number of triangles that are drawn as their corners only.
     pub fn too_large(&self) -> usize {
         self.too_large
     }

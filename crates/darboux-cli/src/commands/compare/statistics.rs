@@ -149,7 +149,7 @@ impl Comparison {
     }
 }
 
-/// Compares the corners of a primitive, of which `[mesh, number]` are the indices of its mesh and among the pairs. Appends its angles above zero.
+/// Compares the corners of a primitive. `[mesh, number]`: the index of its mesh, and its index among the pairs. Appends its angles above zero.
 fn compare(
     corners: &PairedCorners<'_>,
     (mesh, number): (usize, usize),

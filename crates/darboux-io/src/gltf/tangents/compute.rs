@@ -24,7 +24,7 @@ pub struct Vertices<'a> {
     pub normals: Vectors<'a>,
     /// The UVs without a texture transform; none if no job has a transform.
     stored_uvs: Option<Cow<'a, [[f32; 2]]>>,
-    /// The UVs of the current job. Those of vertices outside it are unspecified.
+    /// The UVs of the current job. UVs of vertices outside the job are unspecified.
     uvs: Cow<'a, [[f32; 2]]>,
 }
 

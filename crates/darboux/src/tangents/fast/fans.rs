@@ -64,7 +64,7 @@ pub(crate) struct Fans {
     /// The group of each entry, or [`NONE`].
     pub group_of_entry: Vec<u32>,
     pub groups: Vec<Group>,
-    /// The number of groups found around vertices. Those of members that do not all join come after them.
+    /// The number of groups found around vertices. Groups whose members do not all join come after them.
     pub first_shared: usize,
     /// The members of the latter: group and entry.
     pub shared_members: Vec<[u32; 2]>,
