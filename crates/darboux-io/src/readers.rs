@@ -35,6 +35,10 @@ fn scene(
         SourceFormat::Ply => crate::ply::read(bytes, files),
         #[cfg(feature = "stl")]
         SourceFormat::Stl => crate::stl::read(bytes),
+        SourceFormat::Usd => Err(ContentError::unsupported(
+            "",
+            "is USD, which is not read here; export the model as .glb, or compute its tangents with darboux.usd in Python",
+        )),
         #[allow(unreachable_patterns, reason = "with all readers, no format is left")]
         other => {
             _ = (files, options);
