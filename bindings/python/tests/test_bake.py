@@ -66,8 +66,8 @@ def test_options_act() -> None:
 
 
 def test_bad_arguments() -> None:
-    with pytest.raises(ValueError, match="maps is 'curvature'; it must be one of 'normal'"):
-        baked(maps=["curvature"])
+    with pytest.raises(ValueError, match="maps is 'bump'; it must be one of 'normal'"):
+        baked(maps=["bump"])
     with pytest.raises(ValueError, match="image of 0 x 4 texels cannot be made"):
         baked(size=(0, 4))
     with pytest.raises(ValueError, match="give two finite distances"):

@@ -316,7 +316,7 @@ def bake(
     thickness_distance: float = ...,
     curvature_radius: float = 4.0,
     curvature_unit: Literal["texels", "distance"] = "texels",
-    world_direction: Tuple[float, float, float] = (0.0, 1.0, 0.0),
+    world_direction: Tuple[float, float, float] = ...,
     high_colors: Optional[npt.ArrayLike] = None,
     high_uvs: Optional[npt.ArrayLike] = None,
     high_textures: Optional[Mapping[str, npt.NDArray[np.uint8]]] = None,
