@@ -140,6 +140,7 @@ export const ready: Promise<void> = checkModule.ready;
  * @throws TypeError for another type. Error for a file that cannot be read; an image that cannot be decoded is a finding.
  */
 export function check(file: Uint8Array, options?: CheckOptions | null): Findings {
+  checkType('file', file, ['Uint8Array']);
   return checkModule.call((exports) => findings(exports, file, isImage(file), options, false));
 }
 
