@@ -47,14 +47,18 @@ fn happened(main: Code, of_main: &[&ReportedFinding], others: usize, worst: Seve
     let kind = if worst == Severity::Error { "error" } else { "warning" };
     let others = match others {
         0 => String::new(),
-        1 => format!(" There is 1 other {kind}."),
-        count => format!(" There are {count} other {kind}s."),
+        1 => format!(" 1 other {kind} is listed below."),
+        count => format!(" {count} other {kind}s are listed below."),
     };
-    format!(
-        "{} ({place}): {}{others}",
-        main.meaning().trim_end_matches('.'),
-        lower_case(&without_references(main.cause()))
-    )
+    format!("{place}: {}.{others}{}", first.text.trim_end_matches('.'), usual_cause(main))
+}
+
+/// The sentence about how findings of a kind come about; empty where the text of each finding says it.
+fn usual_cause(code: Code) -> String {
+    match code {
+        Code::TangentOtherRecipe | Code::ConventionsCancel => String::new(),
+        _ => format!(" A usual cause: {}", lower_case(&without_references(code.cause()))),
+    }
 }
 
 /// A sentence without the numbers of issues, which are in parentheses.
