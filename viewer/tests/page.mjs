@@ -70,7 +70,8 @@ export class Viewer {
       const text = (id) => document.getElementById(id).textContent;
       const isChecked = document.getElementById('findings').ariaBusy === 'false';
       const isBaking = document.getElementById('bake').ariaBusy === 'true';
-      return isChecked && !isBaking && document.getElementById('progress').hidden && (text('status') || text('error'));
+      const isMoving = document.getElementById('view').ariaBusy === 'true';
+      return isChecked && !isBaking && !isMoving && document.getElementById('progress').hidden && (text('status') || text('error'));
     });
     // The page draws in the next animation frame.
     await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));

@@ -132,13 +132,19 @@ export class Viewport {
     if (this.isSlow) this.useCoarse();
     if (this.coarse && (this.isSlow || !this.hasSides)) {
       clearTimeout(this.restTimer);
-      this.isMoving = true;
+      this.setMoving(true);
       this.restTimer = setTimeout(() => {
-        this.isMoving = false;
+        this.setMoving(false);
         this.draw();
       }, REST);
     }
     this.draw();
+  }
+
+  /** Says whether the camera moves, to screen readers and tests, too: the canvas is busy while it shows the coarse copy. */
+  private setMoving(isMoving: boolean): void {
+    this.isMoving = isMoving;
+    this.canvas.ariaBusy = String(isMoving);
   }
 
   /** Replaces both sides. */
@@ -285,7 +291,7 @@ export class Viewport {
 
   /** Draws the picture at once. Its pixels are valid until the running task ends. */
   picture(): HTMLCanvasElement {
-    this.isMoving = false;
+    this.setMoving(false);
     this.drawNow();
     return this.canvas;
   }
