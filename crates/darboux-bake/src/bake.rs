@@ -8,7 +8,6 @@ use darboux::internal::jobs;
 use crate::band::Bake;
 use crate::budget::Budget;
 use crate::charts::Charts;
-use crate::common_box::CommonBox;
 use crate::high::HighGroup;
 use crate::images::{Band, Images, TexelState};
 use crate::layout::{BLOCK, Layout};
@@ -16,8 +15,8 @@ use crate::limits::{MAX_SAMPLES_PER_AXIS, MAX_SIDE};
 use crate::maps::{MapList, Units, has_palette, is_label};
 use crate::samples::pattern;
 use crate::{
-    BakeError, BakeOptions, BakeReport, CurvatureRadius, HighSurface, IdColor, LowSurface, MapKind, memory,
-    padding, palette,
+    BakeError, BakeOptions, BakeReport, CurvatureRadius, HighSurface, IdColor, LowSurface, MapKind,
+    PreparedSurfaces, memory, padding, palette,
 };
 
 /// The share of a run that is done.
@@ -80,17 +79,28 @@ pub fn bake(
 ) -> Result<Baked, BakeError> {
     check_options(options)?;
     check_surfaces(low, high)?;
+    Budget::new(options.memory_limit).add(memory::of_bake(high, options))?;
+    PreparedSurfaces::new(low, high, options.memory_limit, context)?.bake(options, context, progress)
+}
+
+/// Bakes surfaces whose hierarchies are built.
+pub(crate) fn bake_prepared(
+    surfaces: &PreparedSurfaces<'_>,
+    options: &BakeOptions,
+    context: &mut Context,
+    progress: &mut (dyn FnMut(BakeProgress) + Send),
+) -> Result<Baked, BakeError> {
+    check_options(options)?;
+    let PreparedSurfaces { space, low, high, groups } = surfaces;
     let mut budget = Budget::new(options.memory_limit);
     budget.add(memory::of_bake(high, options))?;
-    let boxed = Boxed::new(low, high, options);
-    let Boxed { space, low, high, options } = &boxed;
-    let layout = Layout::new(low, options.size, options.surface_convention, &mut budget)?;
-    let groups = group_surfaces(low, high, context)?;
+    let options = &surfaces.options_in_box(options);
+    let layout = Layout::new(low, options.size, options.surface_convention, options.udim, &mut budget)?;
     let mut images = Images::background(options, &budget)?;
     let needs_charts = options.maps.has(MapKind::UvIslands);
     let stages = Bake {
         low,
-        groups: &groups,
+        groups,
         layout: &layout,
         options,
         maps: MapList::new(options),
@@ -104,45 +114,8 @@ pub fn bake(
     let mut report = bake_bands(&stages, &mut images, context, progress)?;
     fill(&mut images, options.padding, context)?;
     let legends = color_labels(&mut images, options);
-    count_triangles(&mut report, low, high, &layout, &groups);
+    count_triangles(&mut report, low, high, &layout, groups);
     Ok(Baked { images, report, legends })
-}
-
-/// The surfaces, and the distances of the options, in a box around the places that the low triangles use.
-pub(crate) struct Boxed<'a> {
-    pub space: CommonBox,
-    pub low: Vec<LowSurface<'a>>,
-    pub high: Vec<HighSurface<'a>>,
-    pub options: BakeOptions,
-}
-
-impl<'a> Boxed<'a> {
-    pub fn new(low: &[LowSurface<'a>], high: &[HighSurface<'a>], options: &BakeOptions) -> Self {
-        let used = low.iter().flat_map(|surface| {
-            let vertex = |corner| surface.mesh.positions().get(surface.mesh.vertex_of_corner(corner));
-            (0..surface.mesh.corner_count()).map(vertex)
-        });
-        let space = CommonBox::around(used);
-        let distance = options.distance.map(|distance| space.distance(distance));
-        let occlusion_distance = space.distance(options.occlusion_distance);
-        let thickness_distance = space.distance(options.thickness_distance);
-        let curvature_radius = match options.curvature_radius {
-            CurvatureRadius::Distance(radius) => CurvatureRadius::Distance(space.distance(radius)),
-            texels => texels,
-        };
-        Self {
-            space,
-            low: low.iter().map(|surface| surface.in_space(space)).collect(),
-            high: high.iter().map(|surface| surface.in_space(space)).collect(),
-            options: BakeOptions {
-                distance,
-                occlusion_distance,
-                thickness_distance,
-                curvature_radius,
-                ..*options
-            },
-        }
-    }
 }
 
 pub(crate) fn check_options(options: &BakeOptions) -> Result<(), BakeError> {
@@ -205,16 +178,6 @@ pub(crate) fn check_surfaces(low: &[LowSurface<'_>], high: &[HighSurface<'_>]) -
         return Err(BakeError::NoHighTriangles);
     }
     Ok(())
-}
-
-/// The high surfaces by group, for every group of the low surfaces.
-pub(crate) fn group_surfaces<'a>(
-    low: &[LowSurface<'_>],
-    high: &[HighSurface<'a>],
-    context: &Context,
-) -> Result<Vec<HighGroup<'a>>, BakeError> {
-    let count = low.iter().map(|surface| surface.group + 1).max().unwrap_or(0);
-    (0..count).map(|group| HighGroup::new(high, group, context)).collect()
 }
 
 /// Bakes all bands of the images, on all threads.

@@ -172,7 +172,7 @@ impl Bake<'_> {
     }
 
     /// The sides of a sample's area on a triangle; zeros where no map needs them.
-    pub fn sides_of_sample(&self, face: &Face) -> [Vector; 2] {
+    pub fn sides_of_sample(&self, face: &Face<'_>) -> [Vector; 2] {
         if !self.maps.needs_sides {
             return [[0.0; 3]; 2];
         }

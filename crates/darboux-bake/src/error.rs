@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::Udim;
 use crate::limits::{MAX_SAMPLES_PER_AXIS, MAX_SIDE, MAX_TRIANGLES};
 
 /// The error of [`bake`](crate::bake()) and of the surfaces that it takes. Degenerate geometry is no error: the report counts it.
@@ -59,6 +60,11 @@ pub enum BakeError {
         /// The number found.
         found: usize,
     },
+    /// Charts lie where no UDIM tile is.
+    NoUdim {
+        /// The tile to the right of the first and above it, in tiles.
+        tile: [i32; 2],
+    },
     /// The low surfaces have no triangle.
     NoLowTriangles,
     /// The high surfaces have no triangle.
@@ -114,6 +120,11 @@ impl fmt::Display for BakeError {
             Self::Texels { expected, found } => write!(
                 f,
                 "the map has {found} texels but its size needs {expected}; give one vector per texel, and at least one"
+            ),
+            Self::NoUdim { tile: [column, row] } => write!(
+                f,
+                "charts lie in the tile {column} to the right of the first and {row} above it, which has no UDIM number; move them to columns 0 to 9 and rows 0 to {}",
+                Udim::ROWS - 1
             ),
             Self::NoLowTriangles => {
                 f.write_str("the low model has no triangles; check that it was exported with its meshes")

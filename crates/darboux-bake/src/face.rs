@@ -1,13 +1,13 @@
 //! A triangle of a low surface with all that samples on it need, and points on it.
 
-use crate::LowSurface;
 use crate::layout::{Layout, Placed};
 use crate::point::SurfacePoint;
 use crate::vector::{Vector, cross, scale, sub, unit, weighted, wide};
+use crate::{LowSurface, SkewCorrection};
 
 /// A triangle of a low surface.
 #[derive(Clone, Copy, Debug)]
-pub struct Face {
+pub struct Face<'a> {
     pub placed: Placed,
     pub group: usize,
     positions: [[f32; 3]; 3],
@@ -21,10 +21,13 @@ pub struct Face {
     area: f64,
     /// The unit normal of the plane, counter-clockwise; zero where the triangle has no area.
     face_normal: Vector,
+    skew: Option<SkewCorrection<'a>>,
+    /// The size of the image in texels.
+    size: [f64; 2],
 }
 
-impl Face {
-    pub fn new(layout: &Layout, surfaces: &[LowSurface<'_>], placed: Placed) -> Self {
+impl<'a> Face<'a> {
+    pub fn new(layout: &Layout, surfaces: &[LowSurface<'a>], placed: Placed) -> Self {
         let low = &surfaces[placed.surface as usize];
         let corners = [0, 1, 2].map(|corner| 3 * placed.triangle as usize + corner);
         let vertices = corners.map(|corner| low.mesh.vertex_of_corner(corner));
@@ -44,6 +47,8 @@ impl Face {
             texels,
             area: area(texels),
             face_normal: unit(cross(sub(b, a), sub(c, a))).unwrap_or_default(),
+            skew: low.skew,
+            size: layout.size.map(|side| side as f64),
         }
     }
 
@@ -76,17 +81,17 @@ impl Face {
     /// The point at a place of the image, in texels. A place outside the triangle, where rounding has put it, moves to its edge.
     pub fn point(&self, at: [f64; 2]) -> SurfacePoint {
         let weights = self.continued_weights(at).map(|weight| weight.max(0.0));
-        self.mixed(scale(1.0 / weights.iter().sum::<f64>(), weights))
+        self.mixed(scale(1.0 / weights.iter().sum::<f64>(), weights), at)
     }
 
     /// The point at a place outside the triangle, where its plane, cage and frames are continued; `None` farther away than the triangle is large,
     /// where errors would grow.
     pub fn continued_point(&self, at: [f64; 2]) -> Option<SurfacePoint> {
         let weights = self.continued_weights(at);
-        weights.iter().all(|weight| (-1.0..=2.0).contains(weight)).then(|| self.mixed(weights))
+        weights.iter().all(|weight| (-1.0..=2.0).contains(weight)).then(|| self.mixed(weights, at))
     }
 
-    fn mixed(&self, weights: [f64; 3]) -> SurfacePoint {
+    fn mixed(&self, weights: [f64; 3], at: [f64; 2]) -> SurfacePoint {
         let [x, y, z, sign] = weighted(weights, self.tangents);
         SurfacePoint {
             position: weighted(weights, self.positions),
@@ -96,7 +101,13 @@ impl Face {
             bitangent: weighted(weights, self.bitangents),
             cage: self.cage.map(|cage| weighted(weights, cage)),
             face_normal: self.face_normal,
+            skew: self.skew_at(at),
         }
+    }
+
+    fn skew_at(&self, at: [f64; 2]) -> f64 {
+        let share = || [0, 1].map(|i| at[i] / self.size[i]);
+        self.skew.map_or(0.0, |skew| skew.at(self.placed.triangle as usize, share()))
     }
 
     /// The barycentric coordinates of a place; some are negative outside the triangle.

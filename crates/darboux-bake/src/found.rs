@@ -40,7 +40,7 @@ impl Found<'_> {
 
 /// A sample on the low surface.
 pub struct LowSample<'a> {
-    pub face: &'a Face,
+    pub face: &'a Face<'a>,
     pub point: &'a SurfacePoint,
     /// In texels.
     pub place: [f64; 2],

@@ -76,6 +76,7 @@ mod tests {
             bitangent,
             cage: None,
             face_normal: normal,
+            skew: 0.0,
         }
     }
 

@@ -52,7 +52,7 @@ impl Bake<'_> {
     /// Adds what the ray of a sample finds, if it continues the chart. `at`: the texel in the image; `texel`: in the block.
     fn sample_continued(
         &self,
-        face: &Face,
+        face: &Face<'_>,
         at: [usize; 2],
         texel: usize,
         sample: [i64; 2],

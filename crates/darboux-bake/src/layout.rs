@@ -1,10 +1,12 @@
 //! Stage 1: where the triangles of the low surfaces lie in the image, and which triangles each block of texels needs.
 
+use std::collections::BTreeSet;
+
 use darboux::{Convention, UvOrigin};
 
 use crate::budget::Budget;
 use crate::samples::STEPS;
-use crate::{BakeError, LowSurface};
+use crate::{BakeError, LowSurface, Udim};
 
 /// Texels per side of a block.
 pub const BLOCK: usize = 32;
@@ -33,6 +35,8 @@ enum LeftOut {
     NonFinite,
     /// It touches too many tiles, or lies too far away.
     Oversized,
+    /// It does not touch the tile that is baked.
+    Elsewhere,
 }
 
 /// The triangles of every block of the image.
@@ -40,6 +44,8 @@ enum LeftOut {
 pub struct Layout {
     pub size: [usize; 2],
     uv_origin: UvOrigin,
+    /// The only tile that is placed; all without one.
+    only: Option<[i32; 2]>,
     placed: Vec<Placed>,
     /// Where the list of each block begins in `lists`, and the end of the last one.
     starts: Vec<u64>,
@@ -51,18 +57,20 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Places all triangles. Triangles without an area, not finite or across too many tiles are left out and counted.
+    /// Places all triangles, or those of a tile. Triangles without an area, not finite or across too many tiles are left out and counted.
     ///
     /// `budget`: the lists of the layout are added to it. Errors: they exceed it.
     pub fn new(
         low: &[LowSurface<'_>],
         [width, height]: [u32; 2],
         convention: Convention,
+        udim: Option<Udim>,
         budget: &mut Budget,
     ) -> Result<Self, BakeError> {
         let mut layout = Self {
             size: [width as usize, height as usize],
             uv_origin: convention.uv_origin,
+            only: udim.map(Udim::tile),
             placed: Vec::new(),
             starts: Vec::new(),
             lists: Vec::new(),
@@ -86,6 +94,7 @@ impl Layout {
                 Err(LeftOut::Degenerate) => self.degenerate += 1,
                 Err(LeftOut::Oversized) => self.oversized += 1,
                 Err(LeftOut::NonFinite) => self.non_finite += 1,
+                Err(LeftOut::Elsewhere) => {}
             }
         }
         budget.add(count * size_of::<Placed>() as u64)?;
@@ -121,7 +130,12 @@ impl Layout {
         if area(steps(self.texels(low, &at_first))) == 0 {
             return Err(LeftOut::Degenerate);
         }
-        Ok([first, last].map(|tile| tile.map(|x| x as i32)))
+        let [first, last] = [first, last].map(|tile| tile.map(|x| x as i32));
+        match self.only {
+            None => Ok([first, last]),
+            Some(tile) if (0..2).all(|i| (first[i]..=last[i]).contains(&tile[i])) => Ok([tile; 2]),
+            Some(_) => Err(LeftOut::Elsewhere),
+        }
     }
 
     /// The corners of a triangle in texels from the upper left corner of the image.
@@ -189,6 +203,34 @@ impl Layout {
             area(steps(self.texels(&low[placed.surface as usize], placed))).unsigned_abs() as f64
         });
         twice_in_steps.sum::<f64>() / (2 * STEPS * STEPS) as f64
+    }
+
+    /// The tiles that triangles cover, where all are placed.
+    pub fn covered_tiles(&self, low: &[LowSurface<'_>]) -> BTreeSet<[i32; 2]> {
+        let mut tiles = BTreeSet::new();
+        for placed in &self.placed {
+            if !tiles.contains(&placed.tile) && self.covers_image(&low[placed.surface as usize], placed) {
+                tiles.insert(placed.tile);
+            }
+        }
+        tiles
+    }
+
+    /// Whether a triangle has an area in the image: no line along one of its edges separates both.
+    fn covers_image(&self, low: &LowSurface<'_>, placed: &Placed) -> bool {
+        let corners = self.texels(low, placed);
+        let [from, to] = bounds(corners);
+        let [width, height] = self.size.map(|side| side as f64);
+        let image = [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]];
+        let is_near = from[0] < width && from[1] < height && to[0] > 0.0 && to[1] > 0.0;
+        is_near
+            && (0..3).all(|i| {
+                let [from, to, opposite] = [0, 1, 2].map(|next| corners[(i + next) % 3]);
+                let side = |at: [f64; 2]| {
+                    (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0])
+                };
+                image.iter().any(|&corner| side(corner) * side(opposite) > 0.0)
+            })
     }
 
     pub fn blocks_per_row(&self) -> usize {

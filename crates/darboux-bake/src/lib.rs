@@ -14,14 +14,17 @@
 //! padding    7  texels without a hit are filled from the nearest one
 //! ```
 
+mod auto_cage;
 mod bake;
 mod band;
 mod budget;
 mod bvh;
+mod cage;
 mod charts;
 mod color_texture;
 mod common_box;
 mod coverage;
+mod crossing;
 mod error;
 mod face;
 mod found;
@@ -43,19 +46,25 @@ mod options;
 mod padding;
 mod palette;
 mod point;
+mod prepared;
 mod rays;
 mod report;
 mod samples;
+mod skew;
 mod space;
 mod surface;
 mod texel;
 mod text;
 mod texture_wrap;
+mod udim;
 mod vector;
 mod verify;
 
+pub use auto_cage::{AutoCage, AutoCageOptions, auto_cage};
 pub use bake::{BakeProgress, Baked, bake};
+pub use cage::{default_cage_offset, inflated_cage, inflated_cage_by};
 pub use color_texture::ColorTexture;
+pub use crossing::crossing_triangles;
 pub use error::BakeError;
 pub use images::{Images, TexelState};
 pub use map_kind::{MapContent, MapKind, MapSet};
@@ -67,9 +76,12 @@ pub use name_match::{NameMatch, match_names};
 pub use normal_texture::NormalTexture;
 pub use options::{BakeOptions, Bitangent, CurvatureRadius, IdSource, OcclusionFalloff, OcclusionWeights};
 pub use palette::IdColor;
+pub use prepared::PreparedSurfaces;
 pub use report::BakeReport;
+pub use skew::SkewCorrection;
 pub use space::{ConvertedSpace, NormalSpace, SpaceOptions, convert_space};
-pub use surface::{HighSurface, LowSurface, SurfaceLabels, default_cage_offset, inflated_cage};
+pub use surface::{HighSurface, LowSurface, SurfaceLabels};
+pub use udim::{Udim, udims_of};
 pub use verify::{ErrorStatistics, Mistake, Verification, VerifiedPlace, check_verification, verify};
 
 /// The example of README.md compiles.

@@ -20,7 +20,8 @@ fn texels(options: &BakeOptions) -> u64 {
     u64::from(options.size[0]) * u64::from(options.size[1])
 }
 
-fn of_hierarchies(high: &[HighSurface<'_>]) -> u64 {
+/// The bytes of the hierarchies over the high surfaces.
+pub fn of_hierarchies(high: &[HighSurface<'_>]) -> u64 {
     let triangles: u64 = high.iter().map(|surface| surface.triangle_count() as u64).sum();
     triangles * bvh::BYTES_PER_TRIANGLE
 }

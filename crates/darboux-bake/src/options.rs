@@ -2,7 +2,7 @@
 
 use darboux::{Choice, Convention, UnknownName};
 
-use crate::{MapKind, MapSet};
+use crate::{MapKind, MapSet, Udim};
 
 /// Options of [`bake`](crate::bake()).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +49,8 @@ pub struct BakeOptions {
     pub id_source: IdSource,
     /// The direction of [`MapKind::WorldDirection`], along the axes of the surfaces. Default: (0, 1, 0), up in glTF.
     pub world_direction: [f32; 3],
+    /// The tile of the UV plane that is baked. Default: all tiles lie over each other, as a repeated texture shows them.
+    pub udim: Option<Udim>,
     /// The most bytes that a run may take. Default: no limit.
     pub memory_limit: Option<u64>,
 }
@@ -77,6 +79,7 @@ impl BakeOptions {
             curvature_radius: CurvatureRadius::Texels(4.0),
             id_source: IdSource::Material,
             world_direction: [0.0, 1.0, 0.0],
+            udim: None,
             memory_limit: None,
         }
     }
@@ -181,6 +184,12 @@ impl BakeOptions {
     #[must_use]
     pub fn with_world_direction(self, world_direction: [f32; 3]) -> Self {
         Self { world_direction, ..self }
+    }
+
+    /// These options for a tile of the UV plane, or for all.
+    #[must_use]
+    pub fn with_udim(self, udim: Option<Udim>) -> Self {
+        Self { udim, ..self }
     }
 
     /// These options with a memory limit in bytes, or none.

@@ -16,4 +16,6 @@ pub struct SurfacePoint {
     pub cage: Option<Vector>,
     /// The unit normal of the triangle's plane, counter-clockwise; zero where the triangle has no area.
     pub face_normal: Vector,
+    /// How far the ray turns to the normal of the triangle's plane, from 0 to 1.
+    pub skew: f64,
 }

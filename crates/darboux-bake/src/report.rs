@@ -42,6 +42,24 @@ pub struct BakeReport {
 }
 
 impl BakeReport {
+    /// The counts of several tiles of the same surfaces: the sums over texels and rays. Triangles that have an area in one of the tiles are not degenerate.
+    #[must_use]
+    pub fn with_tile(self, tile: &Self) -> Self {
+        if self.texels == 0 {
+            return *tile;
+        }
+        let degenerate_triangles = self.degenerate_triangles.min(tile.degenerate_triangles);
+        Self {
+            degenerate_triangles,
+            low_triangles: tile.low_triangles,
+            oversized_triangles: tile.oversized_triangles,
+            non_finite_low_triangles: tile.non_finite_low_triangles,
+            high_triangles: tile.high_triangles,
+            non_finite_triangles: tile.non_finite_triangles,
+            ..self.plus(*tile)
+        }
+    }
+
     /// The sums of both.
     pub(crate) fn plus(self, other: Self) -> Self {
         Self {

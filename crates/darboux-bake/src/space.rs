@@ -15,7 +15,7 @@ use crate::limits::MAX_SIDE;
 use crate::point::SurfacePoint;
 use crate::samples::{STEPS, pattern};
 use crate::vector::{narrow, unit, wide};
-use crate::{BakeError, Bitangent, LowSurface, padding};
+use crate::{BakeError, Bitangent, LowSurface, Udim, padding};
 
 /// The space of a map's normals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -44,6 +44,8 @@ pub struct SpaceOptions {
     pub to_convention: Convention,
     /// How far texels outside the charts are filled, as in [`BakeOptions::padding`](crate::BakeOptions::padding).
     pub padding: Option<u32>,
+    /// The tile of the UV plane that the map covers. Default: all tiles lie over each other, as a repeated texture shows them.
+    pub udim: Option<Udim>,
     /// The most bytes that a run may take. Default: no limit.
     pub memory_limit: Option<u64>,
 }
@@ -59,6 +61,7 @@ impl SpaceOptions {
             from_convention: Convention::GLTF,
             to_convention: Convention::GLTF,
             padding: None,
+            udim: None,
             memory_limit: None,
         }
     }
@@ -85,6 +88,12 @@ impl SpaceOptions {
     #[must_use]
     pub fn with_padding(self, padding: Option<u32>) -> Self {
         Self { padding, ..self }
+    }
+
+    /// These options for a tile of the UV plane, or for all.
+    #[must_use]
+    pub fn with_udim(self, udim: Option<Udim>) -> Self {
+        Self { udim, ..self }
     }
 
     /// These options with a memory limit in bytes, or none.
@@ -134,7 +143,7 @@ pub fn convert_space(
     }
     let mut budget = Budget::new(options.memory_limit);
     budget.add(texels.len() as u64 * (12 + 1 + padding::BYTES_PER_TEXEL))?;
-    let layout = Layout::new(low, options.size, options.surface_convention, &mut budget)?;
+    let layout = Layout::new(low, options.size, options.surface_convention, options.udim, &mut budget)?;
     let converter = Converter { low, layout: &layout, texels, options };
     let mut converted = vec![[0.0; 3]; texels.len()];
     let mut states = vec![TexelState::Outside; texels.len()];

@@ -1,12 +1,12 @@
 //! The surfaces that are baked: borrowed meshes in one space.
 
-use darboux::{Error, Faces, Indices, Mesh, NormalOptions, Strided, generate_normals};
+use darboux::{Error, Faces, Indices, Mesh, Strided};
 
 use crate::common_box::CommonBox;
 use crate::frame::ShadingFrame;
 use crate::material::{Property, SurfaceMaterial};
-use crate::vector::{Vector, add_scaled, box_diagonal, narrow, weighted, wide};
-use crate::{BakeError, ColorTexture, MaterialProperty, NormalTexture};
+use crate::vector::{Vector, box_diagonal, weighted};
+use crate::{BakeError, ColorTexture, MaterialProperty, NormalTexture, SkewCorrection};
 
 /// A surface that receives the detail: triangles with normals, UVs and tangents.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +14,7 @@ pub struct LowSurface<'a> {
     pub(crate) mesh: Mesh<'a>,
     pub(crate) tangents: &'a [[f32; 4]],
     pub(crate) cage: Option<Strided<'a, 3>>,
+    pub(crate) skew: Option<SkewCorrection<'a>>,
     pub(crate) group: usize,
     pub(crate) space: CommonBox,
 }
@@ -32,18 +33,25 @@ impl<'a> LowSurface<'a> {
             let (expected, found) = (mesh.corner_count(), tangents.len());
             return Err(Error::InputLength { what: "tangents", expected, found }.into());
         }
-        Ok(Self { mesh, tangents, cage: None, group: 0, space: CommonBox::default() })
+        Ok(Self { mesh, tangents, cage: None, skew: None, group: 0, space: CommonBox::default() })
     }
 
     /// This surface with a cage, from which rays begin: the mesh with its vertices moved.
     ///
-    /// `positions`: one per vertex of the mesh. [`inflated_cage`] makes one. Errors: another number of positions.
+    /// `positions`: one per vertex of the mesh. [`inflated_cage`](crate::inflated_cage) and [`auto_cage`](crate::auto_cage()) make one. Errors: another number of positions.
     pub fn with_cage(self, positions: impl Into<Strided<'a, 3>>) -> Result<Self, BakeError> {
         let positions = positions.into();
         if positions.len() != self.mesh.vertex_count() {
             return Err(BakeError::Cage { vertices: self.mesh.vertex_count(), found: positions.len() });
         }
         Ok(Self { cage: Some(positions), ..self })
+    }
+
+    /// This surface with rays that turn from the smooth direction towards the normals of triangles. Errors: amounts that do not fit the surface, or do
+    /// not lie from 0 to 1.
+    pub fn with_skew_correction(self, skew: SkewCorrection<'a>) -> Result<Self, BakeError> {
+        skew.check(self.triangle_count())?;
+        Ok(Self { skew: Some(skew), ..self })
     }
 
     /// This surface in another group: its rays hit high surfaces of the same group only.
@@ -239,30 +247,4 @@ impl<'a> HighSurface<'a> {
     pub(crate) fn normals(&self, triangle: usize) -> [[f32; 3]; 3] {
         [0, 1, 2].map(|corner| self.mesh.normals().get(self.mesh.vertex_of_corner(3 * triangle + corner)))
     }
-}
-
-/// How far a cage lies outside a model without another choice: 2 % of the diagonal of the model's box, in the same unit.
-pub fn default_cage_offset(diagonal: f64) -> f32 {
-    (0.02 * diagonal).max(f64::from(f32::MIN_POSITIVE)) as f32
-}
-
-/// The vertices of a mesh, moved outwards by `offset`: a cage without gaps.
-///
-/// Vertices at equal positions move in the same direction, the mean of the normals of their faces weighted by angle, also where the normals of
-/// the mesh differ as at hard edges. Vertices that no corner uses stay. Errors: faces that are not triangles.
-pub fn inflated_cage(mesh: &Mesh<'_>, offset: f32) -> Result<Vec<[f32; 3]>, BakeError> {
-    if !matches!(mesh.faces(), Faces::Triangles) {
-        return Err(BakeError::NotTriangles);
-    }
-    let mut cage: Vec<[f32; 3]> =
-        (0..mesh.vertex_count()).map(|vertex| mesh.positions().get(vertex)).collect();
-    let space = CommonBox::around(cage.iter().copied());
-    let in_box: Vec<[f32; 3]> = cage.iter().map(|&position| space.position(position)).collect();
-    let directions = generate_normals(&in_box, mesh.indices(), mesh.faces(), &NormalOptions::new())?;
-    for (corner, &direction) in directions.corners.per_corner().iter().enumerate() {
-        let vertex = mesh.vertex_of_corner(corner);
-        let from = wide(mesh.positions().get(vertex));
-        cage[vertex] = narrow(add_scaled(from, f64::from(offset), wide(direction)));
-    }
-    Ok(cage)
 }

@@ -14,11 +14,12 @@ mod summary;
 
 use darboux::Context;
 
-use crate::bake::{Boxed, check_options, check_surfaces, for_each_band, group_surfaces};
+use crate::bake::{check_options, check_surfaces, for_each_band};
 use crate::budget::Budget;
 use crate::layout::Layout;
 use crate::{
-    BakeError, BakeOptions, BakeProgress, HighSurface, Images, LowSurface, MapKind, NormalTexture, memory,
+    BakeError, BakeOptions, BakeProgress, HighSurface, Images, LowSurface, MapKind, NormalTexture,
+    PreparedSurfaces, memory,
 };
 use points::{BYTES_PER_POINT, BandPoints, Points, cell_side};
 use summary::summarize;
@@ -44,18 +45,31 @@ pub fn verify(
     context: &mut Context,
     progress: &mut (dyn FnMut(BakeProgress) + Send),
 ) -> Result<Verification, BakeError> {
+    Plan::new(low, high, options)?;
+    PreparedSurfaces::new(low, high, options.memory_limit, context)?
+        .verify(baked, written, options, context, progress)
+}
+
+/// Verifies with surfaces whose hierarchies are built.
+pub(crate) fn verify_prepared(
+    surfaces: &PreparedSurfaces<'_>,
+    baked: &Images,
+    written: &NormalTexture,
+    options: &BakeOptions,
+    context: &mut Context,
+    progress: &mut (dyn FnMut(BakeProgress) + Send),
+) -> Result<Verification, BakeError> {
+    let PreparedSurfaces { low, high, groups, .. } = surfaces;
     let Plan { layout, cell_side } = Plan::new(low, high, options)?;
     let unrounded = baked.vectors(MapKind::Normal).map(<[_]>::to_vec);
     let unrounded = unrounded.filter(|_| baked.size == options.size && written.size() == options.size);
     let unrounded = unrounded.ok_or(BakeError::NoMaps)?;
     let unrounded =
         NormalTexture::new(options.size, unrounded, options.map_convention, options.surface_convention)?;
-    let boxed = Boxed::new(low, high, options);
-    let Boxed { low, high, options, .. } = &boxed;
-    let groups = group_surfaces(low, high, context)?;
+    let options = &surfaces.options_in_box(options);
     let points = Points {
         low,
-        groups: &groups,
+        groups,
         layout: &layout,
         options,
         states: &baked.states,
@@ -96,7 +110,7 @@ impl Plan {
         check_surfaces(low, high)?;
         let mut budget = Budget::new(options.memory_limit);
         budget.add(memory::of_verification(high, options))?;
-        let layout = Layout::new(low, options.size, options.surface_convention, &mut budget)?;
+        let layout = Layout::new(low, options.size, options.surface_convention, options.udim, &mut budget)?;
         let cell_side = cell_side(&layout, low);
         let points = layout.charted_area(low) / (cell_side * cell_side) as f64;
         budget.add(points as u64 * BYTES_PER_POINT)?;

@@ -1046,3 +1046,137 @@ fn a_folder_is_baked_by_suffixes() {
     assert!(run.stderr.contains("crate_high_bolts.glb") && pair.path("crate.png").exists());
     assert!(darboux(&["bake", text(folder)]).exits(2).stderr.contains("add --suffixes"));
 }
+
+/// The low model with its UVs moved by whole tiles to the right and upwards.
+fn low_in_tile(columns: f32, rows: f32) -> Vec<u8> {
+    let glb = plate([0.0, 0.0], &FULL, 1.0);
+    let text = u32::from_le_bytes(glb[12..16].try_into().expect("4 bytes")) as usize;
+    // Behind the positions and normals of four vertices.
+    let first = 28 + text + 2 * 48;
+    let mut moved = glb;
+    for (at, word) in moved[first..first + 32].as_chunks_mut::<4>().0.iter_mut().enumerate() {
+        let by = if at % 2 == 0 { columns } else { -rows };
+        *word = (f32::from_le_bytes(*word) + by).to_le_bytes();
+    }
+    moved
+}
+
+#[test]
+fn each_udim_tile_gets_an_image() {
+    let pair = Pair::new();
+    let [low_path, high_path] = ["low.glb", "high.glb"].map(|name| pair.path(name));
+    fs::write(pair.path("low.glb"), low_in_tile(2.0, 1.0)).expect("a file");
+    let bake = |output: &str, more: &[&str]| {
+        let all = ["bake", text(&low_path), "--high", text(&high_path), "--size", "16"];
+        darboux(&[&all[..], &["--cage-offset", "1", "-o", text(&pair.path(output))], more].concat())
+    };
+    let run = bake("crate.%UDIM%.png", &["--map", "normal,height", "--verify", "--json"]).exits(0);
+    let report = run.json();
+    assert_eq!(report["maps"][0]["udim"], 1013);
+    assert_eq!(report["maps"][1]["file"], text(&pair.path("crate.1013.height.png")));
+    assert_eq!(
+        (&report["tiles"][0]["udim"], &report["counts"]["charted_texels"]),
+        (&json!(1013), &json!(256))
+    );
+    assert!(report["tiles"][0]["verification"]["all"]["median"].as_f64().expect("a number") < 0.3);
+    assert!(run.stderr.contains("tile 1013:") && pair.path("crate.1013.normal.png").exists());
+    // The image is the one that a single tile has.
+    bake("one.png", &[]).exits(0);
+    assert_eq!(
+        fs::read(pair.path("crate.1013.normal.png")).expect("a map"),
+        fs::read(pair.path("one.png")).expect("a map")
+    );
+    assert!(
+        bake("crate.<UDIM>.normal.png", &[]).exits(1).stderr.contains("1013.normal.png: exists; use --force")
+    );
+    let model = pair.path("baked.glb");
+    let refused = |output: &str, more: &[&str], what: &str| {
+        let stderr = bake(output, more).exits(2).stderr;
+        assert!(stderr.contains(what), "{stderr}");
+    };
+    refused("n.%UDIM%.png", &["--write-model", text(&model)], "cannot have UDIM tiles");
+    let heat = pair.path("heat.png");
+    refused("n.%UDIM%.png", &["--verify", "--heat-map", text(&heat)], "write %UDIM% in its name");
+    let heat = pair.path("heat.%UDIM%.png");
+    refused("n.png", &["--verify", "--heat-map", text(&heat)], "belongs into the name of -o");
+    fs::write(pair.path("low.glb"), low_in_tile(-3.0, 0.0)).expect("a file");
+    assert!(bake("n.%UDIM%.png", &[]).exits(1).stderr.contains("tile -3 to the right of the first"));
+    // A job has tiles as well, and knows which of their images are missing.
+    fs::write(pair.path("low.glb"), low_in_tile(1.0, 0.0)).expect("a file");
+    let job = pair.path("job.toml");
+    fs::write(&job, "[[bake]]\nlow = \"low.glb\"\nhigh = \"high.glb\"\noutput = \"j.%UDIM%.png\"\nsize = 8\ncage-offset = 1\n").expect("a file");
+    let resumed =
+        || darboux(&["bake", text(&job), "--resume", "--json"]).exits(0).json()["up_to_date"].clone();
+    assert_eq!((resumed(), resumed()), (json!(0), json!(1)));
+    fs::remove_file(pair.path("j.1002.png")).expect("a map");
+    assert_eq!(resumed(), 0);
+}
+
+#[test]
+fn cages_are_made_written_and_read_again() {
+    let pair = Pair::new();
+    let [low, high, cage] = ["low.glb", "high.glb", "cage.glb"].map(|name| pair.path(name));
+    let bake = |output: &str, more: &[&str]| {
+        let output = pair.path(output);
+        let all = ["bake", text(&low), "--high", text(&high), "--size", "16", "-o", text(&output), "--json"];
+        darboux(&[&all, more].concat())
+    };
+    let run = bake("made.png", &["--auto-cage", "--cage-offset", "2", "--write-cage", text(&cage)]).exits(0);
+    let rays = run.json()["rays"].clone();
+    let number = |name: &str| rays[name].as_f64().expect("a number");
+    // The roof rises to 0.5; the margin is 2 % of the largest offset.
+    assert_eq!(rays["kind"], "auto_cage");
+    assert!(near(&[number("least"), number("most"), number("inwards")], &[0.53, 0.54, 0.04], 0.02), "{rays}");
+    assert!(run.stderr.contains("which all but 0.001 of the rays allow"), "{}", run.stderr);
+    assert_eq!(run.json()["cage"], text(&cage));
+    let read = bake("read.png", &["--cage", text(&cage)]).exits(0).json();
+    assert_eq!((&read["rays"]["kind"], &read["counts"]["missed_texels"]), (&json!("cage_file"), &json!(0)));
+    assert_eq!(pair.texel("made.png"), pair.texel("read.png"));
+    let refused = |more: &[&str], what: &str| {
+        let stderr = bake("refused.png", more).exits(2).stderr;
+        assert!(stderr.contains(what), "{stderr}");
+    };
+    refused(&["--auto-cage=1"], "expected a share from 0 on and below 1");
+    refused(&["--auto-cage", "--distance", "1,1"], "cannot be used with");
+    refused(&["--write-cage", text(&pair.path("cage.obj"))], "its name must end in .glb");
+    let without = bake("refused.png", &["--offset-colors"]).exits(1).stderr;
+    assert!(without.contains("without vertex colours, which --offset-colors needs"), "{without}");
+}
+
+#[test]
+fn rays_are_straightened_by_an_amount_or_a_painted_image() {
+    let pair = Pair::new();
+    let [low_path, high_path] = ["low.glb", "high.glb"].map(|name| pair.path(name));
+    // Normals that lean by 45 degrees.
+    let low = plate([0.0, 0.0], &FULL, 1.0);
+    let length = u32::from_le_bytes(low[12..16].try_into().expect("4 bytes")) as usize;
+    let mut leaning = low;
+    for normal in leaning[28 + length + 48..28 + length + 96].as_chunks_mut::<12>().0 {
+        let half = 0.5f32.sqrt();
+        normal.copy_from_slice([half, 0.0, half].map(f32::to_le_bytes).as_flattened());
+    }
+    fs::write(pair.path("low.glb"), leaning).expect("a file");
+    let height = |name: &str, skew: &[&str]| {
+        let distance = ["--distance", "2,2", "--map", "position", "--bits", "16"];
+        let output = pair.path(name);
+        let all = ["bake", text(&low_path), "--high", text(&high_path), "--size", "16"];
+        let run =
+            darboux(&[&all[..], &["-o", text(&output), "--json"], &distance[..], skew].concat()).exits(0);
+        run.json()["maps"][0]["range"][0].clone()
+    };
+    let paint = |name: &str, code: u8| {
+        let path = pair.path(name);
+        image::save_buffer(&path, &[code; 16 * 16], 16, 16, image::ColorType::L8).expect("a PNG");
+        path.display().to_string()
+    };
+    let (white, black) = (paint("white.png", 255), paint("black.png", 0));
+    let straight = height("straight.png", &["--skew", "1"]);
+    let leaning = height("leaning.png", &[]);
+    assert!(straight != leaning);
+    assert_eq!(height("white_map.png", &["--skew", &white]), straight);
+    assert_eq!(height("black_map.png", &["--skew", &black]), leaning);
+    let all = ["bake", text(&low_path), "--high", text(&high_path), "-o", "x.png"];
+    assert!(darboux(&[&all[..], &["--skew", "2"]].concat()).exits(2).stderr.contains("from 0 to 1"));
+    let missing = darboux(&[&all[..], &["--skew", "missing.png"]].concat()).exits(1).stderr;
+    assert!(missing.contains("missing.png: cannot be read"), "{missing}");
+}

@@ -185,7 +185,7 @@ fn decode(document: &Document, used: &TextureUse, is_srgb: bool) -> Result<Color
 }
 
 /// The colours of a primitive's vertices, opaque where they have no alpha. Errors: invalid data.
-fn colors<'a>(
+pub fn colors<'a>(
     document: &'a Document,
     corners: &PrimitiveCorners<'_>,
 ) -> Result<Option<Cow<'a, [[f32; 4]]>>, Error> {

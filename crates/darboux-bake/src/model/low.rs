@@ -7,6 +7,7 @@ use darboux::{Indices, Mesh, TangentOptions};
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 
+use super::content::colors;
 use super::placed::{PlacedPrimitive, places, vertices};
 use super::stored::StoredPrimitive;
 use crate::LowSurface;
@@ -71,6 +72,7 @@ struct LowPart<'a> {
     normals: Cow<'a, [[f32; 3]]>,
     uvs: Cow<'a, [[f32; 2]]>,
     tangents: Vec<[f32; 4]>,
+    colors: Option<Cow<'a, [[f32; 4]]>>,
 }
 
 impl<'a> LowModel<'a> {
@@ -129,7 +131,8 @@ impl<'a> LowModel<'a> {
                 uvs.to_mut().iter_mut().for_each(|uv| *uv = texture.transform_uv(*uv));
             }
             let (name, file) = (name.clone(), document.name());
-            model.parts.push(LowPart { name, uv_set, file, primitive, normals, uvs, tangents });
+            let colors = colors(document, corners)?;
+            model.parts.push(LowPart { name, uv_set, file, primitive, normals, uvs, tangents, colors });
         }
         if model.parts.is_empty() && model.without_uvs > 0 {
             return Err(without_uvs(document, options.uv_set, &chosen));
@@ -159,6 +162,11 @@ impl<'a> LowModel<'a> {
     /// The name of each surface: that of its node, or else of its mesh; empty if neither has one.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.parts.iter().map(|part| part.primitive.part_name.as_str())
+    }
+
+    /// The colours of the vertices of each surface: red, green, blue and alpha; none where the file has none.
+    pub fn colors(&self) -> impl Iterator<Item = Option<&[[f32; 4]]>> {
+        self.parts.iter().map(|part| part.colors.as_deref())
     }
 
     /// The diagonal of the box around the model, in units of its positions.

@@ -121,7 +121,7 @@ impl Points<'_> {
 
     fn compare(
         &self,
-        face: &Face,
+        face: &Face<'_>,
         place: Place,
         owner: Option<Placed>,
         stack: &mut Stack,
@@ -152,7 +152,7 @@ impl Points<'_> {
     }
 
     /// The normal of the high surfaces at a point.
-    fn truth(&self, face: &Face, point: &SurfacePoint, stack: &mut Stack) -> Option<Vector> {
+    fn truth(&self, face: &Face<'_>, point: &SurfacePoint, stack: &mut Stack) -> Option<Vector> {
         let ray = ray_of(point, self.options.distance)?;
         let group = &self.groups[face.group];
         let sides = if self.options.back_faces { Sides::Both } else { Sides::Front };

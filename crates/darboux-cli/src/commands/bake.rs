@@ -2,6 +2,7 @@
 
 pub mod arguments;
 mod cage;
+mod cage_file;
 mod dither;
 mod encode;
 mod files;
@@ -14,6 +15,8 @@ mod pictures;
 mod report;
 mod run;
 mod single;
+mod skew;
+mod tiles;
 mod verified;
 mod write;
 

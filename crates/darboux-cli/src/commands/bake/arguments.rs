@@ -10,6 +10,7 @@ use darboux_bake::{
     Bitangent, CurvatureRadius, IdSource, MapKind, MapSet, OcclusionFalloff, OcclusionWeights,
 };
 
+use super::skew::{SkewChoice, skew};
 use crate::heat_scale::HeatRange;
 use crate::options::choice::choice;
 use crate::options::convention::{ConventionParser, NamedConvention};
@@ -37,6 +38,8 @@ Examples:
   darboux bake low.glb --high high.glb -o n.png --samples 16 --bits 16
   darboux bake low.glb --high high.glb -o n.png --distance 0.05,0.02
   darboux bake low.glb --high high.glb -o n.png --match name          crate_low from crate_high
+  darboux bake low.glb --high high.glb -o n.png --auto-cage           a cage that fits the detail
+  darboux bake low.glb --high high.glb -o n.%UDIM%.png                an image for each UDIM tile
   darboux bake low.glb --high high.glb -o n.png --convention unreal   green down
   darboux bake low.glb --high high.glb -o n.png --write-model baked.glb --verify
   darboux bake model.glb --high model.glb -o n.png --uv-set 1         from one UV layout to another
@@ -58,7 +61,8 @@ pub struct BakeArguments {
     #[arg(long, value_name = "HIGH", num_args = 1..)]
     pub high: Vec<PathBuf>,
 
-    /// The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png
+    /// The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png, and %UDIM% becomes the
+    /// number of each tile
     #[arg(short, long, value_name = "IMAGE", default_value = "", hide_default_value = true, value_parser = any_path())]
     pub output: PathBuf,
 
@@ -120,6 +124,28 @@ pub struct BakeArguments {
     /// Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as --cage-offset would
     #[arg(long, value_name = "CAGE", help_heading = "Rays")]
     pub cage: Option<PathBuf>,
+
+    /// Rays from a cage that is made for the models: at every vertex as close as all but a SHARE of the rays around allows, 0.001 by default
+    ///
+    /// Detail that stands on the surface lies inside the cage, and what stands over it behind a gap, such as a handle over a lid, outside. The cage is at
+    /// most --cage-offset away, by default 10 % of the diagonal of the low model's box. The distances found are printed.
+    #[arg(long, value_name = "SHARE", num_args = 0..=1, default_missing_value = "0.001", require_equals = true, value_parser = share, conflicts_with_all = ["distance", "cage"], help_heading = "Rays")]
+    pub auto_cage: Option<f32>,
+
+    /// Multiply the distance of the cage at each vertex by the red of the low model's vertex colours
+    #[arg(long, conflicts_with_all = ["distance", "cage", "auto_cage"], help_heading = "Rays")]
+    pub offset_colors: bool,
+
+    /// Turn rays towards the normals of the low model's triangles: by an AMOUNT from 0 to 1, or by a painted IMAGE over its UVs, white where rays
+    /// follow the triangle's normal and black where they follow the smooth one
+    ///
+    /// It straightens details on flat faces with smooth normals; at hard edges straight rays leave gaps, which the image can leave out.
+    #[arg(long, value_name = "AMOUNT|IMAGE", value_parser = skew, help_heading = "Rays")]
+    pub skew: Option<SkewChoice>,
+
+    /// Write the cage as a model, which --cage reads
+    #[arg(long, value_name = "GLB", conflicts_with = "distance", help_heading = "Results")]
+    pub write_cage: Option<PathBuf>,
 
     /// Which high parts the rays of a low part can hit
     #[arg(long = "match", value_enum, value_name = "HOW", default_value_t, help_heading = "Rays")]
@@ -357,6 +383,11 @@ fn samples_per_axis(text: &str) -> Result<SamplesPerAxis, String> {
 fn distance(text: &str) -> Result<f32, String> {
     let number = text.parse().ok().filter(|x: &f32| x.is_finite() && *x > 0.0);
     number.ok_or_else(|| "expected a number above 0".to_owned())
+}
+
+fn share(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|x: &f32| (0.0..1.0).contains(x));
+    number.ok_or_else(|| "expected a share from 0 on and below 1, such as 0.001".to_owned())
 }
 
 fn curvature_radius(text: &str) -> Result<CurvatureRadius, String> {

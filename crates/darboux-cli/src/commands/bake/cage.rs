@@ -1,6 +1,10 @@
 //! Where rays begin: at a distance along the normals, on a cage that is made here, or on one that is a file.
 
-use darboux_bake::{BakeError, HighModelOptions, LowModel, LowSurface, default_cage_offset, inflated_cage};
+use darboux::Context;
+use darboux_bake::{
+    AutoCageOptions, BakeError, HighModelOptions, LowModel, LowSurface, PreparedSurfaces, auto_cage,
+    default_cage_offset, inflated_cage, inflated_cage_by,
+};
 use darboux_io::gltf::Document;
 use serde::Serialize;
 
@@ -11,15 +15,38 @@ use crate::documents::load_with_warnings;
 #[derive(Clone, Copy, Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Rays {
-    Normals { outwards: f32, inwards: f32 },
-    Cage { offset: f32, is_default: bool },
-    CageFile { inwards: f32 },
+    Normals {
+        outwards: f32,
+        inwards: f32,
+    },
+    Cage {
+        offset: f32,
+        is_default: bool,
+    },
+    CageFile {
+        inwards: f32,
+    },
+    /// The cage is made for the models: `share` as of the command line, `reach` the largest offset, `least` and `most` those found.
+    AutoCage {
+        share: f32,
+        reach: f32,
+        least: f32,
+        most: f32,
+        inwards: f32,
+    },
 }
+
+/// The largest offset of automatic cages, in default offsets: 10 % of the diagonal.
+const REACH: f32 = 5.0;
 
 impl Rays {
     /// The choice of the command line; a distance from the model's size without one.
     pub fn choose(arguments: &BakeArguments, low: &LowModel<'_>) -> Self {
         let by_size = default_cage_offset(low.diagonal());
+        if let Some(share) = arguments.auto_cage {
+            let reach = arguments.cage_offset.unwrap_or(REACH * by_size);
+            return Self::AutoCage { share, reach, least: 0.0, most: reach, inwards: reach };
+        }
         match (arguments.distance, arguments.cage_offset, &arguments.cage) {
             (Some([outwards, inwards]), ..) => Self::Normals { outwards, inwards },
             (_, Some(offset), _) => Self::Cage { offset, is_default: false },
@@ -33,7 +60,7 @@ impl Rays {
         match *self {
             Self::Normals { outwards, inwards } => [outwards, inwards],
             Self::Cage { offset, .. } => [offset; 2],
-            Self::CageFile { inwards } => [0.0, inwards],
+            Self::CageFile { inwards } | Self::AutoCage { inwards, .. } => [0.0, inwards],
         }
     }
 
@@ -49,6 +76,12 @@ impl Rays {
                 format!("a cage at a distance of {}{why}", rounded(*offset))
             }
             Self::CageFile { inwards } => format!("a cage from a file, to {} inside", rounded(*inwards)),
+            Self::AutoCage { share, least, most, inwards, .. } => {
+                let [least, most, inwards] = [least, most, inwards].map(|distance| rounded(*distance));
+                format!(
+                    "a cage at {least} to {most}, which all but {share} of the rays allow, to {inwards} inside"
+                )
+            }
         }
     }
 }
@@ -59,22 +92,57 @@ fn rounded(distance: f32) -> f64 {
 }
 
 /// The positions of the cages of all surfaces; empty where rays follow normals.
-pub struct Cages(Vec<Vec<[f32; 3]>>);
+pub struct Cages(pub Vec<Vec<[f32; 3]>>);
 
 impl Cages {
-    /// Makes or reads the cages. Errors are one sentence each.
-    pub fn read(arguments: &BakeArguments, rays: &Rays, low: &[LowSurface<'_>]) -> Result<Self, String> {
+    /// Makes or reads the cages; fills in what an automatic cage has found. `low`: those of `prepared`, without cages. Errors are one sentence each.
+    pub fn read(
+        arguments: &BakeArguments,
+        rays: &mut Rays,
+        model: &LowModel<'_>,
+        low: &[LowSurface<'_>],
+        prepared: &PreparedSurfaces<'_>,
+        context: &mut Context,
+    ) -> Result<Self, String> {
         match (rays, &arguments.cage) {
             (Rays::Normals { .. }, _) => Ok(Self(Vec::new())),
             (Rays::CageFile { .. }, Some(path)) => {
                 let document = load_with_warnings(path, &arguments.reading, &mut Vec::new())?;
                 of_document(&document, low).map(Self)
             }
-            _ => {
-                let cages = low.iter().map(|surface| inflated_cage(surface.mesh(), rays.distance()[0]));
-                cages.collect::<Result<_, BakeError>>().map(Self).map_err(|error| error.to_string())
+            (Rays::AutoCage { share, reach, least, most, inwards }, _) => {
+                let cage = auto_cage(prepared, &AutoCageOptions::new(*share, *reach), context);
+                let cage = cage.map_err(|error| error.to_string())?;
+                ([*least, *most], *inwards) = (cage.offsets, cage.inwards);
+                Ok(Self(cage.positions))
             }
+            (rays, _) => Self::inflated(arguments, rays.distance()[0], model, low),
         }
+    }
+
+    fn inflated(
+        arguments: &BakeArguments,
+        offset: f32,
+        model: &LowModel<'_>,
+        low: &[LowSurface<'_>],
+    ) -> Result<Self, String> {
+        let cage = |(surface, colors): (&LowSurface<'_>, Option<&[[f32; 4]]>)| {
+            let cage = match colors {
+                Some(colors) if arguments.offset_colors => {
+                    let offsets: Vec<f32> = colors.iter().map(|color| offset * color[0]).collect();
+                    inflated_cage_by(surface.mesh(), &offsets)
+                }
+                None if arguments.offset_colors => {
+                    return Err(format!(
+                        "{}: has triangles without vertex colours, which --offset-colors needs; paint them, or leave the option out",
+                        arguments.low.display()
+                    ));
+                }
+                _ => inflated_cage(surface.mesh(), offset),
+            };
+            cage.map_err(|error| error.to_string())
+        };
+        low.iter().zip(model.colors()).map(cage).collect::<Result<_, String>>().map(Self)
     }
 
     /// The surfaces with their cages.

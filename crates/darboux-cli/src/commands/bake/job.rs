@@ -3,7 +3,7 @@
 //! ```text
 //! file       entries of a TOML file; every option of the command is a key
 //! suffixes   pairs NAME_low, NAME_high, NAME_cage in a folder
-//! run        bakes what has changed since an earlier run, one entry after the other
+//! run        bakes what has changed since an earlier run, several entries at once
 //! ```
 
 mod entry;

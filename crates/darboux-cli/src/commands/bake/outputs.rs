@@ -6,7 +6,9 @@ use darboux::{Choice, Convention};
 use darboux_bake::{IdSource, MapKind};
 
 use super::arguments::{BakeArguments, Pack};
+use super::cage_file::is_glb;
 use super::encode::FileKind;
+use super::tiles;
 use crate::paths::{is_png, refuse_missing_folder};
 
 /// The chosen maps, each once, with their files.
@@ -48,6 +50,16 @@ pub fn refuse_outputs(arguments: &BakeArguments) -> Result<(), String> {
         return Err(format!("{shown}: --verify reads the map as renderers do; choose a PNG"));
     }
     refuse_other_results(arguments)?;
+    tiles::check(arguments)?;
+    if tiles::has_place(&arguments.output) {
+        // The tiles are known when the low model was read.
+        return Ok(());
+    }
+    refuse_existing(arguments)
+}
+
+/// Refuses to write over files and folders that exist.
+pub fn refuse_existing(arguments: &BakeArguments) -> Result<(), String> {
     for path in all_outputs(arguments) {
         if path.is_dir() {
             return Err(format!("{} is a folder; choose a file in it", path.display()));
@@ -79,8 +91,14 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
     }
     for model in write_model.iter().chain(heat_model) {
         refuse_missing_folder(model)?;
-        if !model.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("glb")) {
+        if !is_glb(model) {
             return Err(format!("{}: the model is a GLB; its name must end in .glb", model.display()));
+        }
+    }
+    if let Some(cage) = &arguments.write_cage {
+        refuse_missing_folder(cage)?;
+        if !is_glb(cage) {
+            return Err(format!("{}: the cage is a GLB; its name must end in .glb", cage.display()));
         }
     }
     if write_model.is_some() {
@@ -109,9 +127,10 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
 pub fn all_outputs(arguments: &BakeArguments) -> Vec<PathBuf> {
     let maps = maps_of(arguments).into_iter().map(|(_, path)| path).chain(legends_of(arguments));
     let maps = maps.chain(packs_of(arguments).map(|(_, path)| path));
-    let BakeArguments { write_model, heat_map, heat_model, .. } = arguments;
+    let BakeArguments { write_model, heat_map, heat_model, write_cage, .. } = arguments;
     let scale = heat_model.as_deref().map(scale_of);
-    maps.chain([write_model, heat_map, heat_model].into_iter().flatten().cloned()).chain(scale).collect()
+    let others = [write_model, heat_map, heat_model, write_cage].into_iter().flatten().cloned();
+    maps.chain(others).chain(scale).collect()
 }
 
 /// The picture of the scale beside a painted model.

@@ -26,17 +26,40 @@ pub struct BakeReport {
     pub model: Option<String>,
     /// The picture of texels without a hit.
     pub misses: Option<String>,
+    /// The cage that was written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cage: Option<String>,
+    /// Of all tiles together.
     pub counts: darboux_bake::BakeReport,
     pub verification: Option<Verified>,
+    /// One for each tile, where the output's name has `%UDIM%`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tiles: Vec<TileReport>,
     pub warnings: Vec<String>,
+}
+
+/// What a tile has for itself. json.txt documents the fields.
+#[derive(Debug, Serialize)]
+pub struct TileReport {
+    pub udim: u32,
+    pub misses: Option<String>,
+    pub counts: darboux_bake::BakeReport,
+    pub verification: Option<Verified>,
 }
 
 impl BakeReport {
     /// All files that were written.
     pub fn files(&self) -> Vec<String> {
         let maps = self.maps.iter().map(|map| &map.file);
-        let pictures = self.verification.iter().flat_map(Verified::files);
-        maps.chain(&self.legends).chain(&self.model).chain(&self.misses).chain(pictures).cloned().collect()
+        let pictures = self.verifications().flat_map(Verified::files);
+        let misses = self.misses.iter().chain(self.tiles.iter().filter_map(|tile| tile.misses.as_ref()));
+        let models = self.model.iter().chain(&self.cage);
+        maps.chain(&self.legends).chain(models).chain(misses).chain(pictures).cloned().collect()
+    }
+
+    /// Of the whole, or of each tile.
+    fn verifications(&self) -> impl Iterator<Item = &Verified> {
+        self.verification.iter().chain(self.tiles.iter().filter_map(|tile| tile.verification.as_ref()))
     }
 }
 
@@ -75,6 +98,20 @@ pub fn summary(report: &BakeReport) -> Vec<String> {
     );
     let model = report.model.iter().map(|path| format!("{path}: the low model with its maps and tangents"));
     let verified = report.verification.iter().flat_map(Verified::lines);
+    let tiles = report.tiles.iter().filter_map(|tile| Some((tile.udim, tile.verification.as_ref()?)));
+    let of_tiles =
+        tiles.flat_map(|(udim, verified)| [format!("tile {udim}:")].into_iter().chain(verified.lines()));
+    let cage = report.cage.iter().map(|path| format!("{path}: the cage"));
     let legends = report.legends.iter().map(|path| format!("{path}: what the colours stand for"));
-    report.maps.iter().map(map).chain(legends).chain(model).chain([of_run]).chain(verified).collect()
+    report
+        .maps
+        .iter()
+        .map(map)
+        .chain(legends)
+        .chain(model)
+        .chain(cage)
+        .chain([of_run])
+        .chain(verified)
+        .chain(of_tiles)
+        .collect()
 }

@@ -5,20 +5,23 @@ use std::path::Path;
 
 use darboux::Context;
 use darboux_bake::{
-    BakeOptions, BakeProgress, Baked, HighModel, HighModelOptions, HighSurface, LowModel, LowModelOptions,
-    LowSurface, bake, check_verification, group_by_name,
+    BakeError, BakeOptions, BakeProgress, HighModel, HighModelOptions, HighSurface, LowModel,
+    LowModelOptions, LowSurface, PreparedSurfaces, check_verification, group_by_name,
 };
 use darboux_io::Outputs;
 use darboux_io::gltf::{Document, PrimitiveCorners};
 
 use super::arguments::{BakeArguments, MatchChoice};
 use super::cage::{Cages, Rays};
+use super::cage_file::stage_cage;
 use super::legend::stage_legends;
 use super::model::{refuse_model, stage_model};
 use super::open::open_low;
 use super::outputs::{all_outputs, refuse_outputs};
 use super::pictures;
-use super::report::{BakeReport, advice, summary};
+use super::report::{BakeReport, TileReport, advice, summary};
+use super::skew::Skew;
+use super::tiles::{Tile, tiles_of};
 use super::verified::{PROGRESS_UNITS, Verified};
 use super::write::{commit, stage_maps};
 use crate::documents::load_with_warnings;
@@ -34,6 +37,7 @@ pub fn run(arguments: &BakeArguments, messages: &Messages) -> u8 {
         return exit::USAGE;
     }
     interrupt::wait_for_writes();
+    messages.start(progress_units(arguments));
     let done = bake_files(arguments, messages);
     messages.end_progress();
     let report = match done {
@@ -69,43 +73,39 @@ pub fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<Bake
     let documents = Documents::open(arguments, &mut warnings)?;
     let corners = documents.corners()?;
     let models = Models::read(arguments, &documents, &corners)?;
+    let skew = Skew::read(arguments)?;
     warnings.extend(advice::of_models(&models.low, documents.low.name(), &models.highs));
-
-    let rays = Rays::choose(arguments, &models.low);
-    let surfaces = models.low.surfaces().map_err(sentence)?;
-    let cages = Cages::read(arguments, &rays, &surfaces)?;
-    let mut surfaces = cages.around(surfaces).map_err(|error| error.to_string())?;
-    let high_surfaces = models.high_surfaces(arguments, &mut surfaces, &mut warnings)?;
-
-    let options = options(arguments, &rays);
     refuse_model(arguments, &models.low)?;
+
+    let mut rays = Rays::choose(arguments, &models.low);
+    let mut surfaces = models.low.surfaces().map_err(sentence)?;
+    let high_surfaces = models.high_surfaces(arguments, &mut surfaces, &mut warnings)?;
+    let tiles = tiles_of(arguments, &surfaces)?;
     if arguments.verify {
-        let check = check_verification(&surfaces, &high_surfaces, &options);
+        let check = check_verification(&surfaces, &high_surfaces, &options(arguments, &rays));
         check.map_err(|error| format!("--verify cannot follow the bake: {error}"))?;
     }
-    let baked = bake_surfaces(arguments, messages, &surfaces, &high_surfaces, &options)?;
-    if let Some(reason) = advice::failure(&baked.report, arguments, models.low.elongation()) {
-        return Err(reason);
+    let mut context = context(arguments);
+    let prepared = PreparedSurfaces::new(&surfaces, &high_surfaces, memory::available(), &context);
+    let prepared = prepared.map_err(text)?;
+    let cages = Cages::read(arguments, &mut rays, &models.low, &surfaces, &prepared, &mut context)?;
+    let mut surfaces = cages.around(surfaces).map_err(text)?;
+    if let Some(skew) = &skew {
+        surfaces = skew.on(surfaces).map_err(text)?;
     }
-    let mut outputs = Outputs::new(None);
-    let written = stage_maps(arguments, &baked.images, &options, &mut outputs)?;
-    let misses = pictures::misses(arguments, &baked, &mut warnings, &mut outputs)?;
-    let legends = stage_legends(arguments, &baked.legends, &models.highs, &mut outputs)?;
-    let model = stage_model(arguments, &models.low, &baked.images, &written, &mut warnings, &mut outputs)?;
-    let verification = match &written.normal {
-        Some(normal) if arguments.verify => {
-            let surfaces = (&surfaces[..], &high_surfaces[..]);
-            let images = &baked.images;
-            let mut verified =
-                Verified::new(arguments, surfaces, images, normal, &options, messages, &mut outputs)?;
-            verified.stage_model(arguments, &models.low, &mut outputs)?;
-            Some(verified)
-        }
-        _ => None,
+    warnings.extend(advice::of_rays(&surfaces, models.low.names(), rays.distance()[0]));
+    let surfaces = prepared.with_low(&surfaces, &context).map_err(text)?;
+
+    let mut run = Run {
+        models: &models,
+        surfaces: &surfaces,
+        context,
+        messages,
+        warnings,
+        outputs: Outputs::new(None),
     };
-    commit(outputs)?;
-    warnings.extend(advice::of_report(&baked.report, arguments, models.low.elongation(), misses.as_deref()));
-    Ok(BakeReport {
+    let cage = stage_cage(arguments, surfaces.low(), models.low.names(), &cages.0, &mut run.outputs)?;
+    let mut report = BakeReport {
         command: "bake",
         version: VERSION,
         low: arguments.low.display().to_string(),
@@ -113,14 +113,101 @@ pub fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<Bake
         size: arguments.size,
         samples: arguments.samples.0 * arguments.samples.0,
         rays,
-        maps: written.maps,
-        legends,
-        model,
-        misses,
-        counts: baked.report,
-        verification,
-        warnings: distinct(warnings),
-    })
+        maps: Vec::new(),
+        legends: Vec::new(),
+        model: None,
+        misses: None,
+        cage,
+        counts: darboux_bake::BakeReport::default(),
+        verification: None,
+        tiles: Vec::new(),
+        warnings: Vec::new(),
+    };
+    for tile in &tiles {
+        run.tile(tile, &options(arguments, &rays).with_udim(tile.udim), &mut report)?;
+    }
+    commit(run.outputs)?;
+    report.warnings = distinct(run.warnings);
+    Ok(report)
+}
+
+/// What the tiles of a bake share.
+struct Run<'a> {
+    models: &'a Models<'a>,
+    surfaces: &'a PreparedSurfaces<'a>,
+    context: Context,
+    messages: &'a Messages,
+    warnings: Vec<String>,
+    outputs: Outputs,
+}
+
+impl Run<'_> {
+    /// Bakes a tile, stages its files and adds it to the report. Errors are one sentence each.
+    fn tile(&mut self, tile: &Tile, options: &BakeOptions, report: &mut BakeReport) -> Result<(), String> {
+        let Tile { udim, arguments } = tile;
+        let low = &self.models.low;
+        let progress = self.messages.file(&arguments.output.display().to_string(), PROGRESS_UNITS);
+        let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
+        let baked = self.surfaces.bake(options, &mut self.context, &mut tell).map_err(text)?;
+        drop(tell);
+        if let Some(reason) = advice::failure(&baked.report, arguments, low.elongation()) {
+            return Err(udim.map_or(reason.clone(), |udim| format!("tile {udim}: {reason}")));
+        }
+        let outputs = &mut self.outputs;
+        let written = stage_maps(arguments, &baked.images, options, outputs)?;
+        let misses = pictures::misses(arguments, &baked, &mut self.warnings, outputs)?;
+        report.legends.extend(stage_legends(arguments, &baked.legends, &self.models.highs, outputs)?);
+        report.model = stage_model(arguments, low, &baked.images, &written, &mut self.warnings, outputs)?;
+        let verification = match &written.normal {
+            Some(normal) if arguments.verify => {
+                let mut verified = Verified::new(
+                    arguments,
+                    self.surfaces,
+                    &baked.images,
+                    normal,
+                    options,
+                    &mut self.context,
+                    self.messages,
+                    outputs,
+                )?;
+                verified.stage_model(arguments, low, outputs)?;
+                Some(verified)
+            }
+            _ => None,
+        };
+        let advice = advice::of_report(&baked.report, arguments, low.elongation(), misses.as_deref());
+        let named = |warning: String| udim.map_or(warning.clone(), |udim| format!("tile {udim}: {warning}"));
+        self.warnings.extend(advice.into_iter().map(named));
+        report.maps.extend(written.maps);
+        match udim {
+            None => {
+                (report.misses, report.counts, report.verification) = (misses, baked.report, verification);
+            }
+            Some(udim) => {
+                report.counts = report.counts.with_tile(&baked.report);
+                let (udim, counts) = (udim.number(), baked.report);
+                report.tiles.push(TileReport { udim, misses, counts, verification });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The progress of a bake; those of tiles are as many as its name says.
+pub fn progress_units(arguments: &BakeArguments) -> u64 {
+    PROGRESS_UNITS * (1 + u64::from(arguments.verify))
+}
+
+fn context(arguments: &BakeArguments) -> Context {
+    let mut context = Context::new();
+    if let Some(jobs) = arguments.jobs {
+        context.set_max_threads(usize::from(jobs.get()));
+    }
+    context
+}
+
+fn text(error: BakeError) -> String {
+    error.to_string()
 }
 
 /// Sentences in their order, each once: a model may be LOW and HIGH.
@@ -244,21 +331,4 @@ fn options(arguments: &BakeArguments, rays: &Rays) -> BakeOptions {
         .with_id_source(content.id_from)
         .with_world_direction(world_direction)
         .with_memory_limit(memory::available())
-}
-
-fn bake_surfaces(
-    arguments: &BakeArguments,
-    messages: &Messages,
-    low: &[LowSurface<'_>],
-    high: &[HighSurface<'_>],
-    options: &BakeOptions,
-) -> Result<Baked, String> {
-    let mut context = Context::new();
-    if let Some(jobs) = arguments.jobs {
-        context.set_max_threads(usize::from(jobs.get()));
-    }
-    messages.start(PROGRESS_UNITS * (1 + u64::from(arguments.verify)));
-    let progress = messages.file(&arguments.output.display().to_string(), PROGRESS_UNITS);
-    let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
-    bake(low, high, options, &mut context, &mut tell).map_err(|error| error.to_string())
 }

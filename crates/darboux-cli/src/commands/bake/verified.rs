@@ -2,8 +2,8 @@
 
 use darboux::{Context, Convention};
 use darboux_bake::{
-    BakeOptions, BakeProgress, ErrorStatistics, HighSurface, Images, LowModel, LowSurface, Mistake,
-    NormalTexture, Verification, VerifiedPlace, verify,
+    BakeOptions, BakeProgress, ErrorStatistics, Images, LowModel, Mistake, NormalTexture, PreparedSurfaces,
+    Verification, VerifiedPlace,
 };
 use darboux_io::Outputs;
 use darboux_io::image::{Channels, PngImage, normal_vectors};
@@ -33,25 +33,24 @@ pub struct Verified {
 
 impl Verified {
     /// Verifies a map and draws its errors. Errors are one sentence each.
+    #[expect(clippy::too_many_arguments, reason = "each is another part of the run")]
     pub fn new(
         arguments: &BakeArguments,
-        (low, high): (&[LowSurface<'_>], &[HighSurface<'_>]),
+        surfaces: &PreparedSurfaces<'_>,
         baked: &Images,
         map: &PngImage,
         options: &BakeOptions,
+        context: &mut Context,
         messages: &Messages,
         outputs: &mut Outputs,
     ) -> Result<Self, String> {
         let texels = normal_vectors(map, Channels::RGB).map_err(|error| error.to_string())?;
         let written = NormalTexture::new(map.size(), texels, options.map_convention, Convention::GLTF)
             .map_err(|error| error.to_string())?;
-        let mut context = Context::new();
-        if let Some(jobs) = arguments.jobs {
-            context.set_max_threads(usize::from(jobs.get()));
-        }
         let progress = messages.file(&format!("comparing {}", arguments.output.display()), PROGRESS_UNITS);
         let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
-        let errors = verify(low, high, baked, &written, options, &mut context, &mut tell)
+        let errors = surfaces
+            .verify(baked, &written, options, context, &mut tell)
             .map_err(|error| error.to_string())?;
         let fitting = || HeatRange::fitting(errors.heat.iter().map(|&degrees| f64::from(degrees)));
         let range = arguments.heat_range.unwrap_or_else(fitting);

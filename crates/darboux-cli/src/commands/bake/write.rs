@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use darboux::Choice;
-use darboux_bake::{BakeOptions, Images, MapKind};
+use darboux_bake::{BakeOptions, Images, MapKind, Udim};
 use darboux_io::image::PngImage;
 use darboux_io::{Outputs, SaveOptions};
 use serde::Serialize;
@@ -20,6 +20,9 @@ use crate::interrupt;
 pub struct WrittenMap {
     pub map: String,
     pub file: String,
+    /// The number of its tile; none where one image has all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub udim: Option<u32>,
     pub bits: u8,
     /// The values that black and white mean, one pair per channel; none where the map is a direction.
     pub range: Vec<[f32; 2]>,
@@ -58,6 +61,7 @@ pub fn stage_maps(
     let noise = arguments.dither.map(BlueNoise::new);
     let encoding = |map| Encoding::new(map, images, options, arguments.content.texture.as_deref());
     let save = SaveOptions::default().with_force(arguments.force);
+    let udim = options.udim.map(Udim::number);
     let mut stage_file =
         |path: &Path, name: &str, bits: u8, channels: &Channels<'_>, range: Vec<[f32; 2]>| {
             let notes = notes(name, &range);
@@ -65,7 +69,7 @@ pub fn stage_maps(
             let shown = path.display().to_string();
             let bytes = file_bytes(kind, &shown, channels, bits, &notes, noise)?;
             outputs.stage_bytes(path, &bytes, &save).map_err(|error| error.to_string())?;
-            written.maps.push(WrittenMap { map: name.to_owned(), file: shown, bits, range });
+            written.maps.push(WrittenMap { map: name.to_owned(), file: shown, udim, bits, range });
             Ok::<_, String>(())
         };
     for (map, path) in maps_of(arguments) {

@@ -13,7 +13,8 @@ use super::entry::Entry;
 use crate::commands::bake::arguments::BakeArguments;
 
 /// The keys whose values are paths.
-const PATHS: [&str; 7] = ["low", "high", "output", "cage", "write-model", "heat-map", "heat-model"];
+const PATHS: [&str; 8] =
+    ["low", "high", "output", "cage", "write-cage", "write-model", "heat-map", "heat-model"];
 
 /// Options whose value is one text of several elements, with commas.
 const LISTS: [&str; 5] = ["map", "size", "distance", "world-direction", "heat-range"];
@@ -66,7 +67,9 @@ fn read(table: &Table, folder: &Path) -> Result<Entry, String> {
             continue;
         }
         for text in values {
-            let is_path = PATHS.contains(&key.as_str());
+            // An image, unless it is an amount.
+            let is_image = key == "skew" && text.parse::<f32>().is_err();
+            let is_path = is_image || PATHS.contains(&key.as_str());
             let text = if is_path { in_folder(folder, &text) } else { text };
             line.push(if text.is_empty() { format!("--{key}") } else { format!("--{key}={text}") });
         }

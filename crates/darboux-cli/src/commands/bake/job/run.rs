@@ -1,7 +1,12 @@
 //! Bakes the entries of a job.
 
 use std::collections::HashSet;
+use std::fs;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
 
 use serde::Serialize;
 
@@ -10,9 +15,11 @@ use crate::batch::journal::{Journal, OutputInputs, Record};
 use crate::commands::bake::arguments::BakeArguments;
 use crate::commands::bake::outputs::all_outputs;
 use crate::commands::bake::report::{BakeReport, summary};
-use crate::commands::bake::single::{bake_files, check_usage};
+use crate::commands::bake::single::{bake_files, check_usage, progress_units};
+use crate::commands::bake::skew::SkewChoice;
 use crate::exit;
 use crate::json::{VERSION, print_report};
+use crate::memory::JobMemory;
 use crate::options::files::new_run;
 use crate::terminal::Messages;
 use crate::text::counted;
@@ -27,7 +34,7 @@ struct JobReport {
     errors: Vec<String>,
 }
 
-/// Bakes the entries one after the other, each on all threads, and returns the exit code. An entry that fails does not stop the others.
+/// Bakes the entries and returns the exit code. An entry that fails does not stop the others.
 pub fn run(arguments: &BakeArguments, entries: Vec<Entry>, messages: &Messages) -> u8 {
     if let Err(sentence) = check_entries(arguments, &entries) {
         messages.error(&sentence);
@@ -52,16 +59,20 @@ pub fn run(arguments: &BakeArguments, entries: Vec<Entry>, messages: &Messages) 
     };
     let mut report =
         JobReport { command: "bake", version: VERSION, bakes: Vec::new(), up_to_date: 0, errors: Vec::new() };
-    for entry in entries {
-        match bake_entry(arguments, entry, journal.as_ref(), messages) {
-            Ok(Some(baked)) => report.bakes.push(baked),
-            Ok(None) => report.up_to_date += 1,
-            Err(sentence) => {
-                messages.error(&sentence);
-                report.errors.push(sentence);
-            }
+    messages.start(entries.iter().map(|entry| progress_units(&entry.arguments)).sum());
+    let job = Job { arguments, journal: journal.as_ref(), messages, memory: JobMemory::of_process() };
+    job.bake_all(&entries, &mut |done| match done {
+        Ok(Some(baked)) => {
+            print_baked(&baked, messages);
+            report.bakes.push(baked);
         }
-    }
+        Ok(None) => report.up_to_date += 1,
+        Err(sentence) => {
+            messages.error(&sentence);
+            report.errors.push(sentence);
+        }
+    });
+    messages.end_progress();
     messages.say(&totals(&report));
     let code = print_report(&report, arguments.messages.json, messages);
     if report.errors.is_empty() { code } else { exit::FAILED }
@@ -96,42 +107,91 @@ fn print_entries(entries: &[Entry], messages: &Messages) {
     }
 }
 
-/// Bakes an entry; none if an earlier run has done it. Errors are one sentence each.
-fn bake_entry(
-    job: &BakeArguments,
-    entry: Entry,
-    journal: Option<&Journal>,
-    messages: &Messages,
-) -> Result<Option<BakeReport>, String> {
-    let Entry { mut arguments, options } = entry;
-    arguments.force |= job.force;
-    arguments.jobs = arguments.jobs.or(job.jobs);
-    let Some(journal) = journal else { return finish(&arguments, messages).map(Some) };
-    let inputs = inputs_of(&arguments, options)?;
-    let output = arguments.output.clone();
-    if let Some(record) = journal.find(&output) {
-        if record.is_up_to_date(&inputs, journal.folder()) {
-            return Ok(None);
-        }
-        arguments.force = true;
-    }
-    let report = finish(&arguments, messages)?;
-    if let Some(record) = Record::new(journal.folder(), &output, inputs, &report.files(), &report)? {
-        journal.add(&record)?;
-    }
-    Ok(Some(report))
+/// The report of an entry; none if an earlier run has done it. Errors are one sentence each.
+type Done = Result<Option<BakeReport>, String>;
+
+/// What all entries share.
+struct Job<'a> {
+    arguments: &'a BakeArguments,
+    journal: Option<&'a Journal>,
+    messages: &'a Messages,
+    memory: JobMemory,
 }
 
-fn finish(arguments: &BakeArguments, messages: &Messages) -> Result<BakeReport, String> {
-    let report = bake_files(arguments, messages)?;
+impl Job<'_> {
+    /// Bakes all entries, several at once: their threads share one pool, and one reads or writes files while another follows rays. `tell` is called in
+    /// the order of the entries.
+    fn bake_all(&self, entries: &[Entry], tell: &mut dyn FnMut(Done)) {
+        let next = AtomicUsize::new(0);
+        let bake_next = || {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            Some((index, self.bake(entries.get(index)?)))
+        };
+        let mut finished: Vec<Option<Done>> = entries.iter().map(|_| None).collect();
+        let mut told = 0;
+        let mut add = |(index, done): (usize, Done)| {
+            finished[index] = Some(done);
+            while let Some(done) = finished.get_mut(told).and_then(Option::take) {
+                tell(done);
+                told += 1;
+            }
+        };
+        let cores = || thread::available_parallelism().map_or(1, NonZero::get);
+        let workers = self.arguments.jobs.map_or_else(cores, |jobs| usize::from(jobs.get()));
+        thread::scope(|scope| {
+            let (sender, receiver) = mpsc::channel();
+            for _ in 1..workers.min(entries.len()) {
+                let (sender, bake_next) = (sender.clone(), &bake_next);
+                let work = move || while bake_next().is_some_and(|done| sender.send(done).is_ok()) {};
+                if thread::Builder::new().spawn_scoped(scope, work).is_err() {
+                    break;
+                }
+            }
+            drop(sender);
+            while let Some(done) = bake_next() {
+                add(done);
+                receiver.try_iter().for_each(&mut add);
+            }
+            receiver.iter().for_each(&mut add);
+        });
+    }
+
+    fn bake(&self, Entry { arguments, options }: &Entry) -> Done {
+        let mut arguments = arguments.clone();
+        arguments.force |= self.arguments.force;
+        arguments.jobs = arguments.jobs.or(self.arguments.jobs);
+        let models = arguments.high.iter().chain([&arguments.low]);
+        let _share =
+            self.memory.take(models.filter_map(|path| fs::metadata(path).ok()).map(|file| file.len()).sum());
+        let Some(journal) = self.journal else { return bake_files(&arguments, self.messages).map(Some) };
+        let inputs = inputs_of(&arguments, options.clone())?;
+        let output = arguments.output.clone();
+        if let Some(record) = journal.find(&output) {
+            if record.is_up_to_date(&inputs, journal.folder()) {
+                return Ok(None);
+            }
+            arguments.force = true;
+        }
+        let report = bake_files(&arguments, self.messages)?;
+        if let Some(record) = Record::new(journal.folder(), &output, inputs, &report.files(), &report)? {
+            journal.add(&record)?;
+        }
+        Ok(Some(report))
+    }
+}
+
+fn print_baked(report: &BakeReport, messages: &Messages) {
     report.warnings.iter().for_each(|warning| messages.warn(warning));
-    summary(&report).iter().for_each(|line| messages.say(line));
-    Ok(report)
+    summary(report).iter().for_each(|line| messages.say(line));
 }
 
 /// Everything that the outputs of an entry depend on. Errors: a file cannot be read.
 fn inputs_of(arguments: &BakeArguments, options: String) -> Result<OutputInputs, String> {
-    let others = arguments.high.iter().chain(&arguments.cage);
+    let skew = match &arguments.skew {
+        Some(SkewChoice::Image(path)) => Some(path),
+        _ => None,
+    };
+    let others = arguments.high.iter().chain(&arguments.cage).chain(skew);
     let others = others.map(|path| OutputInputs::new("bake", String::new(), path, &arguments.reading));
     let others: Vec<OutputInputs> = others.collect::<Result<_, _>>()?;
     let options = serde_json::to_string(&(options, others)).map_err(|error| error.to_string())?;

@@ -1,6 +1,6 @@
 //! What is unusual about a bake, and what to change.
 
-use darboux_bake::{BakeReport, HighModel, LowModel};
+use darboux_bake::{BakeReport, HighModel, LowModel, LowSurface, crossing_triangles};
 
 use crate::commands::bake::arguments::BakeArguments;
 use crate::text::counted;
@@ -40,6 +40,34 @@ pub fn of_models(low: &LowModel<'_>, low_name: &str, high: &[HighModel<'_>]) -> 
     });
     let of_maps = high.iter().flat_map(HighModel::warnings).cloned();
     of_low.chain(of_materials).chain(of_high).chain(of_maps).collect()
+}
+
+/// Warnings about rays that cross. `names`: of the surfaces; `outwards`: how far outside rays begin without a cage.
+pub fn of_rays<'n>(
+    low: &[LowSurface<'_>],
+    names: impl Iterator<Item = &'n str>,
+    outwards: f32,
+) -> Vec<String> {
+    let crossing = crossing_triangles(low, outwards);
+    let parts = names.zip(crossing).filter(|(_, count)| *count > 0);
+    let parts: Vec<String> = parts
+        .map(|(name, count)| {
+            let name = if name.is_empty() { "a part without a name" } else { name };
+            format!("{name} ({})", counted(count, "triangle", "triangles"))
+        })
+        .collect();
+    match &parts[..] {
+        [] => Vec::new(),
+        [first, ..] => {
+            let others = match parts.len() {
+                0..=6 => parts.join(", "),
+                count => format!("{first} and {} other parts", count - 1),
+            };
+            vec![format!(
+                "rays of neighbouring texels cross before they reach the low model, so that detail may be mirrored or doubled there: {others}; use a smaller distance, or --auto-cage"
+            )]
+        }
+    }
 }
 
 /// Whether so many texels have no hit that something must be wrong.

@@ -1,0 +1,60 @@
+//! `--skew`: an amount for all rays, or a painted map.
+
+use std::fs;
+use std::path::PathBuf;
+
+use darboux_bake::{BakeError, ColorTexture, LowSurface, SkewCorrection};
+use darboux_io::image::{DecodeLimits, RgbaImage};
+use darboux_io::system_reason;
+
+use super::arguments::BakeArguments;
+
+/// What `--skew` names.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SkewChoice {
+    /// From 0 to 1.
+    Amount(f32),
+    Image(PathBuf),
+}
+
+/// An amount, or a map that was read.
+pub enum Skew {
+    Amount(f32),
+    Map(ColorTexture),
+}
+
+impl Skew {
+    /// Reads the map. None without `--skew`. Errors are one sentence each.
+    pub fn read(arguments: &BakeArguments) -> Result<Option<Self>, String> {
+        let path = match &arguments.skew {
+            None => return Ok(None),
+            Some(SkewChoice::Amount(amount)) => return Ok(Some(Self::Amount(*amount))),
+            Some(SkewChoice::Image(path)) => path,
+        };
+        let shown = path.display();
+        let bytes =
+            fs::read(path).map_err(|error| format!("{shown}: cannot be read: {}", system_reason(&error)))?;
+        let image = RgbaImage::decode(&bytes, &DecodeLimits::default());
+        let image = image.map_err(|error| format!("{shown}: the image {error}"))?;
+        let map = ColorTexture::new([image.width, image.height], image.texels, false);
+        map.map(|map| Some(Self::Map(map))).map_err(|error| format!("{shown}: {error}"))
+    }
+
+    /// The surfaces with this correction.
+    pub fn on<'a>(&'a self, low: Vec<LowSurface<'a>>) -> Result<Vec<LowSurface<'a>>, BakeError> {
+        let correction = match self {
+            Self::Amount(amount) => SkewCorrection::Everywhere(*amount),
+            Self::Map(map) => SkewCorrection::Map(map),
+        };
+        low.into_iter().map(|surface| surface.with_skew_correction(correction)).collect()
+    }
+}
+
+/// Parses `--skew`. The error is a clause.
+pub fn skew(text: &str) -> Result<SkewChoice, String> {
+    match text.parse::<f32>() {
+        Ok(amount) if (0.0..=1.0).contains(&amount) => Ok(SkewChoice::Amount(amount)),
+        Ok(_) => Err("expected an amount from 0 to 1, or an image".to_owned()),
+        Err(_) => Ok(SkewChoice::Image(text.into())),
+    }
+}
