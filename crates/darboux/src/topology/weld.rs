@@ -229,22 +229,8 @@ pub(crate) fn for_each_final_range(
     }
 }
 
-/// Partitions the points of a cell as far as needed for the final range that holds a position, and returns this range; none of the points
-/// where the reference welds none.
-pub(crate) fn final_range_at(points: &mut [Point], position: V3) -> &[Point] {
-    match cut(points) {
-        Cut::Final => points,
-        Cut::NotFinite => &[],
-        Cut::At(axis, middle) => {
-            let below = partition(points, axis, middle);
-            let (below, above) = points.split_at_mut(below);
-            final_range_at(if position[axis] < middle { below } else { above }, position)
-        }
-    }
-}
-
 /// Where the reference divides some points of a cell.
-enum Cut {
+pub(crate) enum Cut {
     /// It does not, and welds them.
     Final,
     /// It does not, and welds nothing.
@@ -272,7 +258,8 @@ fn longest_axis(first: &Point, others: &[Point]) -> (usize, f32, f32) {
     (axis, min[axis], max[axis])
 }
 
-fn cut(points: &[Point]) -> Cut {
+/// Where the reference divides some points of a cell.
+pub(crate) fn cut(points: &[Point]) -> Cut {
     let [first, others @ ..] = points else { return Cut::Final };
     if others.is_empty() {
         return Cut::Final;
@@ -335,7 +322,7 @@ impl Welder<'_, '_> {
 }
 
 /// Moves the points below `middle` to the front, exchanging from both ends. Returns their number.
-fn partition(points: &mut [Point], axis: usize, middle: f32) -> usize {
+pub(crate) fn partition(points: &mut [Point], axis: usize, middle: f32) -> usize {
     let (mut left, mut right) = (0, points.len());
     loop {
         while left < right && points[left].position[axis] < middle {

@@ -34,6 +34,7 @@ use crate::util::radix_sort::{sort, sort_by_key};
 
 use crate::tangents::fast::tail_names::{TailEntries, TailNames};
 use crate::tangents::fast::triangle_list::{TriangleBuffer, TriangleList};
+use crate::tangents::fast::vertex_record::{VertexRecord, position_of};
 
 /// The number of triangles of the first tail, where triangles that share vertices are near each other in the list.
 const FIRST_TAIL: usize = if cfg!(small_limits) { 1 } else { 4 };
@@ -73,12 +74,7 @@ impl SomeCells {
     /// The cell of a position, if it is one of these.
     #[inline(always)]
     fn at(&self, position: [f32; 3]) -> Option<u16> {
-        let [x, y, z] = position;
-        let along = match self.cells.axis {
-            0 => x,
-            1 => y,
-            _ => z,
-        };
+        let along = position[self.cells.axis];
         let is_near = (along >= self.low) & (along <= self.high);
         if is_near { self.wanted_cell(position) } else { None }
     }
@@ -97,6 +93,10 @@ pub(crate) struct TailCells {
     start: usize,
     /// None where the list is short.
     cells: Option<SomeCells>,
+    /// The axis, and the lowest and highest coordinate along it, of the cells; no coordinate where the list is short.
+    axis: usize,
+    low: f32,
+    high: f32,
 }
 
 impl TailCells {
@@ -115,13 +115,24 @@ impl TailCells {
             !are_degenerate(positions)
         });
         let start = start_of_face(list, with_edges.nth(tail - 1).unwrap_or(0));
-        Self { start, cells: (!is_short).then(|| cells_of_tail(list, bounds, start)) }
+        let cells = (!is_short).then(|| cells_of_tail(list, bounds, start));
+        let (axis, low, high) = match &cells {
+            Some(SomeCells { cells, low, high, .. }) => (cells.axis, *low, *high),
+            None => (0, f32::INFINITY, f32::NEG_INFINITY),
+        };
+        Self { start, cells, axis, low, high }
     }
 
-    /// True for positions in these cells, if the entries of the vertices in them are listed by the pass over the triangles.
+    /// True for vertices in these cells, if the entries of the vertices in them are listed by the pass over the triangles.
     #[inline(always)]
-    pub fn contain(&self, position: [f32; 3]) -> bool {
-        self.cells.as_ref().is_some_and(|cells| cells.at(position).is_some())
+    pub fn contain(&self, record: &VertexRecord) -> bool {
+        let along = record[self.axis % record.len()];
+        (along >= self.low) & (along <= self.high) && self.contain_near(record)
+    }
+
+    #[inline(never)]
+    fn contain_near(&self, record: &VertexRecord) -> bool {
+        self.cells.as_ref().is_some_and(|cells| cells.wanted_cell(position_of(*record)).is_some())
     }
 }
 

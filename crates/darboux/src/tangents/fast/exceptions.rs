@@ -39,6 +39,9 @@ impl Exceptions {
 
     /// Moves the lists of another thread to the end of these.
     pub fn append(&mut self, other: &mut Self) {
+        if self.undecided.is_empty() && self.in_tail.is_empty() {
+            return std::mem::swap(self, other);
+        }
         self.undecided.append(&mut other.undecided);
         self.in_tail.append(&mut other.in_tail);
     }

@@ -77,7 +77,10 @@ pub(crate) trait Pass: Copy + Sync {
     /// Marks vertices of quads that the general path handles whole (see `quads.rs`), after `triangles` have been added to `range`.
     fn mark_quads(self, list: &TriangleList<'_>, triangles: Range<usize>, range: &mut VertexRange<'_>);
 
-    /// Finishes up to [`BLOCK_SIZE`] vertices: `tangents` holds their normalized sums.
+    /// False for vertices with `marks` whose sums the pass does not read when it finishes them.
+    fn reads_sums(self, marks: &[u32]) -> bool;
+
+    /// Finishes up to [`BLOCK_SIZE`] vertices: `tangents` holds their normalized sums, if the pass reads these.
     fn finish(self, range: &mut VertexRange<'_>, tangents: &mut TangentBlock, findings: &mut Findings);
 }
 
@@ -144,10 +147,18 @@ impl<Q: VertexQuantity> Pass for Discover<'_, Q> {
         list.mark_doubtful_quads(triangles, range.first, range.marks);
     }
 
+    /// Around vertices without an orientation there is no triangle with UV area.
+    #[inline(always)]
+    fn reads_sums(self, marks: &[u32]) -> bool {
+        let all = marks.iter().fold(0, |all, marks| all | marks);
+        all & (corner_marks::PRESERVES | corner_marks::MIRRORS) != 0
+    }
+
     #[inline(always)]
     fn finish(self, range: &mut VertexRange<'_>, tangents: &mut TangentBlock, findings: &mut Findings) {
         tangents.rows.clear();
         let mut signs = [UNDECIDED; BLOCK_SIZE];
+        let (mut flat, mut flat_count) = ([0; BLOCK_SIZE], 0);
         for ((sign, &marks), &is_usable) in signs.iter_mut().zip(&*range.marks).zip(&tangents.is_usable) {
             *sign = sign_of_marks(marks, is_usable != 0);
         }
@@ -159,9 +170,8 @@ impl<Q: VertexQuantity> Pass for Discover<'_, Q> {
                     findings.note_unused(vertex.position());
                 } else {
                     (tangent, sign) = self.flat_tangent(vertex);
-                    if sign != UNDECIDED {
-                        findings.flat_vertices.push(range.first + i as u32);
-                    }
+                    flat[flat_count % BLOCK_SIZE] = range.first + i as u32;
+                    flat_count += usize::from(sign != UNDECIDED);
                 }
             } else if sign != UNDECIDED {
                 match fan(marks, vertex.sum[3], &vertex.fingerprint) {
@@ -171,8 +181,11 @@ impl<Q: VertexQuantity> Pass for Discover<'_, Q> {
                 }
             }
             let undecided = if sign == UNDECIDED { flags::IS_UNDECIDED } else { 0 };
-            let in_tail = if self.tail.contain(vertex.position()) { flags::IN_TAIL } else { 0 };
+            let in_tail = if self.tail.contain(&vertex.record) { flags::IN_TAIL } else { 0 };
             vertex.finish(tangent, sign, undecided | in_tail);
+        }
+        if flat_count > 0 {
+            findings.flat_vertices.extend_from_slice(&flat[..flat_count]);
         }
         tangents.rows.for_each_failed(self.vertex_count, |at| range.vertices[at].undecide());
     }
@@ -239,6 +252,11 @@ impl Pass for Replay<'_> {
     }
 
     fn mark_quads(self, _list: &TriangleList<'_>, _triangles: Range<usize>, _range: &mut VertexRange<'_>) {}
+
+    #[inline(always)]
+    fn reads_sums(self, _marks: &[u32]) -> bool {
+        true
+    }
 
     /// Notes whether all vertices with a sign have usable tangents.
     #[inline(always)]
@@ -402,8 +420,10 @@ impl<P: Pass> Task for FinishVertices<'_, P> {
         let mut tangents = TangentBlock::default();
         let VertexRange { mut first, vertices, marks } = self.range;
         for (vertices, marks) in vertices.chunks_mut(BLOCK_SIZE).zip(marks.chunks_mut(BLOCK_SIZE)) {
-            tangents.load(vertices);
-            tangents.normalize();
+            if self.pass.reads_sums(marks) {
+                tangents.load(vertices);
+                tangents.normalize();
+            }
             let count = vertices.len() as u32;
             self.pass.finish(&mut VertexRange { first, vertices, marks }, &mut tangents, self.findings);
             first += count;

@@ -34,7 +34,8 @@ pub(crate) struct FastPlan {
 #[derive(Debug)]
 enum PlannedWeld {
     Unwelded,
-    OfVertex(Vec<u32>),
+    /// The welded vertex of each vertex, and that of each corner.
+    OfVertex(Vec<u32>, Vec<u32>),
     OfCorner {
         welded: Vec<u32>,
         /// The first corner of each welded vertex.
@@ -46,7 +47,7 @@ impl PlannedWeld {
     fn new(weld: WeldMap<'_>) -> Self {
         match weld {
             WeldMap::Unwelded => Self::Unwelded,
-            WeldMap::OfVertex(welded) => Self::OfVertex(welded.to_vec()),
+            WeldMap::OfVertex(welded, of_corner) => Self::OfVertex(welded.to_vec(), of_corner.to_vec()),
             WeldMap::OfCorner(welded, records) => {
                 let mut first_corner = Vec::with_capacity(records.len());
                 for (corner, &vertex) in (0..).zip(welded) {
@@ -63,7 +64,7 @@ impl PlannedWeld {
 
     /// True when vertices that were welded are still equal.
     fn vertices_are_equal(&self, mesh: &Mesh<'_>, limits: RunLimits<'_>) -> bool {
-        let Self::OfVertex(welded) = self else { return true };
+        let Self::OfVertex(welded, _) = self else { return true };
         threads::all(limits, welded.len(), |vertex| {
             let first = welded[vertex] as usize;
             first == vertex || record_of(mesh, vertex) == record_of(mesh, first)
@@ -73,7 +74,7 @@ impl PlannedWeld {
     fn map<'a>(&'a self, records: &'a [VertexRecord]) -> WeldMap<'a> {
         match self {
             Self::Unwelded => WeldMap::Unwelded,
-            Self::OfVertex(welded) => WeldMap::OfVertex(welded),
+            Self::OfVertex(welded, of_corner) => WeldMap::OfVertex(welded, of_corner),
             Self::OfCorner { welded, .. } => WeldMap::OfCorner(welded, records),
         }
     }

@@ -16,7 +16,7 @@ impl FastPath {
     /// [`UNDECIDED`] signs at all corners of other vertices, among them those of UV-degenerate triangles, and at the corners of
     /// degenerate triangles.
     pub fn resume(&mut self, mesh: &Mesh<'_>, mode: Mode, welded: Vec<u32>, out: &mut [[f32; 4]]) {
-        self.weld.set(welded);
+        self.weld.set(mesh, welded);
         self.split = FaceSplit::default();
         self.exceptions.clear();
         let is_undecided = |corners: &[[f32; 4]; 3]| corners.iter().any(|corner| corner[3] == UNDECIDED);

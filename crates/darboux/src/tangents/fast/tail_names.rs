@@ -2,15 +2,15 @@
 //!
 //! The reference names a welded vertex after the first of its corners once it has divided the points of the vertex's cell into ranges. So
 //! a name lies between the vertex's first and last corner, and these bounds often suffice. Where they do not, the points of the cell are
-//! divided, but only down to the range of the vertex that is asked for. After some searches in one cell it is divided completely, so that
-//! the time does not grow with the number of vertices times the size of the cell.
+//! divided, but only down to the range of the vertex that is asked for. The ranges of a cell are a tree, which later searches divide further, so no
+//! range is divided twice.
 
-use crate::topology::weld::{CELL_COUNT, Cells, Point, final_range_at, for_each_final_range};
+use std::ops::Range;
+
+use crate::math::V3;
+use crate::topology::weld::{CELL_COUNT, Cells, Cut, Point, cut, partition};
 
 use crate::tangents::fast::triangle_list::TriangleList;
-
-/// After so many searches for single vertices, all vertices of a cell are named.
-const SINGLE_SEARCHES: u32 = if cfg!(small_limits) { 1 } else { 16 };
 
 /// The names of vertices, as far as they are known. The memory is reused from mesh to mesh.
 #[derive(Debug, Default)]
@@ -21,21 +21,35 @@ pub(crate) struct TailNames {
     bounded: Vec<u32>,
     /// The cell of each point, where the caller does not know it.
     cell_of_point: Vec<u16>,
-    /// The points in the order of their cells, by entry within a cell, once a cell was searched. Then divided as far as the searches needed;
-    /// to divide points again changes nothing.
+    /// The points in the order of their cells, by entry within a cell, once a cell was searched. Then divided as far as the searches needed.
     points: Vec<Point>,
-    /// What was searched of each cell. All values are zero but those of cells with points.
-    searched: Vec<Searched>,
-    /// The cells with points, in the order of their points.
-    cells_with_points: Vec<u16>,
+    /// The ranges of points: those of whole cells, then those into which searches have divided them.
+    ranges: Vec<PointRange>,
+    /// The range of each cell, or [`NO_POINTS`].
+    range_of_cell: Vec<u16>,
 }
 
-/// A cell: the range of its points, and the number of searches.
+/// Marks cells without points.
+const NO_POINTS: u16 = u16::MAX;
+
+/// A range of points.
 #[derive(Clone, Copy, Debug, Default)]
-struct Searched {
+struct PointRange {
     start: u32,
     end: u32,
-    count: u32,
+    division: Division,
+}
+
+/// How a range of points is divided.
+#[derive(Clone, Copy, Debug, Default)]
+enum Division {
+    /// No search has asked for it yet.
+    #[default]
+    Unknown,
+    /// Not at all, and the vertices of the points have names.
+    Undivided,
+    /// Along an axis, at a coordinate. The number of the range below it; the range above it is the next.
+    At(usize, f32, u32),
 }
 
 /// All entries of the vertices in some cells.
@@ -149,66 +163,84 @@ impl TailNames {
         }
     }
 
-    /// Finds the name of a vertex; after some searches in its cell, the names of all vertices of the cell.
+    /// Finds the names of all vertices at the position of one.
     fn search_cell_of(&mut self, entries: &TailEntries<'_>, vertex: u32) {
         let position = entries.list.position(vertex);
-        let cell = entries.cells.at(position);
         if self.points.is_empty() {
             self.group_by_cell(entries);
         }
-        let Searched { start, end, count } = &mut self.searched[cell];
-        *count += 1;
-        let (points, bounds) = (&mut self.points[*start as usize..*end as usize], &mut self.bounds);
-        if *count <= SINGLE_SEARCHES {
-            let range = final_range_at(points, position);
-            let mut entries_of_range = range.iter().map(|point| point.entry);
-            if let Some(first) =
-                entries_of_range.find(|&entry| entries.list.vertex(entries.list.corner(entry)) == vertex)
-            {
-                bounds[vertex as usize] = NameBounds::exactly(entries.list.corner(first));
+        let cell = self.range_of_cell[entries.cells.at(position)];
+        for point in self.points_at(usize::from(cell), position).rev() {
+            // The points are visited from the last to the first, so that the corner at the first entry of each vertex remains its name.
+            let Point { entry, .. } = self.points[point];
+            let corner = entries.list.corner(entry);
+            let bounds = &mut self.bounds[entries.list.vertex(corner) as usize];
+            if bounds.after_high != 0 {
+                *bounds = NameBounds::exactly(corner);
             }
-            return;
         }
-        for_each_final_range(points, &|_| true, &mut |points| {
-            // From the last point to the first, so that the corner at the first entry of each vertex remains its name.
-            for corner in points.iter().rev().map(|point| entries.list.corner(point.entry)) {
-                let bounds = &mut bounds[entries.list.vertex(corner) as usize];
-                if bounds.after_high != 0 {
-                    *bounds = NameBounds::exactly(corner);
-                }
-            }
-        });
     }
 
-    /// Groups the points by their cells, by counting. The time depends on the number of points alone, not on that of the cells.
-    fn group_by_cell(&mut self, entries: &TailEntries<'_>) {
-        let cell_of_point = entries.cell_of_point.unwrap_or_else(|| {
-            self.cell_of_point.clear();
-            let cells = entries.points.iter().map(|point| entries.cells.at(point.position) as u16);
-            self.cell_of_point.extend(cells);
-            &self.cell_of_point
-        });
-        let used = self.cells_with_points.drain(..).map(usize::from);
-        used.for_each(|cell| self.searched[cell] = Searched::default());
-        self.searched.resize(CELL_COUNT, Searched::default());
-        for &cell in cell_of_point {
-            let end = &mut self.searched[usize::from(cell)].end;
-            if *end == 0 {
-                self.cells_with_points.push(cell);
+    /// The points at a position within a range, divided from the others as far as the reference divides them. None at the second search,
+    /// because they have names then.
+    fn points_at(&mut self, mut range: usize, position: V3) -> Range<usize> {
+        loop {
+            let PointRange { start, end, division } = self.ranges[range];
+            let found = start as usize..end as usize;
+            match division {
+                Division::At(axis, middle, below) => {
+                    range = below as usize + usize::from(position[axis] >= middle);
+                }
+                Division::Undivided => return 0..0,
+                Division::Unknown => match cut(&self.points[found.clone()]) {
+                    Cut::At(axis, middle) => {
+                        let above = start + partition(&mut self.points[found], axis, middle) as u32;
+                        self.ranges[range].division = Division::At(axis, middle, self.ranges.len() as u32);
+                        for (start, end) in [(start, above), (above, end)] {
+                            self.ranges.push(PointRange { start, end, division: Division::Unknown });
+                        }
+                    }
+                    Cut::Final => {
+                        self.ranges[range].division = Division::Undivided;
+                        return found;
+                    }
+                    Cut::NotFinite => return 0..0,
+                },
             }
-            *end += 1;
+        }
+    }
+
+    /// Groups the points by their cells, by counting.
+    fn group_by_cell(&mut self, entries: &TailEntries<'_>) {
+        let Self { cell_of_point, points, ranges, range_of_cell, .. } = self;
+        let cell_of_point = entries.cell_of_point.unwrap_or_else(|| {
+            cell_of_point.clear();
+            let cells = entries.points.iter().map(|point| entries.cells.at(point.position) as u16);
+            cell_of_point.extend(cells);
+            cell_of_point
+        });
+        range_of_cell.clear();
+        range_of_cell.resize(CELL_COUNT, NO_POINTS);
+        ranges.clear();
+        for &cell in cell_of_point {
+            let range = &mut range_of_cell[usize::from(cell)];
+            if *range == NO_POINTS {
+                *range = ranges.len() as u16;
+                ranges.push(PointRange::default());
+            }
+            ranges[usize::from(*range)].end += 1;
         }
         // While filling, each end is the next free slot of its cell, and so grows from the cell's start to its end.
         let mut start = 0;
-        for cell in self.cells_with_points.iter().map(|&cell| usize::from(cell)) {
-            let len = self.searched[cell].end;
-            self.searched[cell] = Searched { start, end: start, count: 0 };
+        for range in &mut *ranges {
+            let len = range.end;
+            (range.start, range.end) = (start, start);
             start += len;
         }
-        self.points.resize(entries.points.len(), Point::default());
+        points.resize(entries.points.len(), Point::default());
         for (&cell, &point) in cell_of_point.iter().zip(entries.points) {
-            let next = &mut self.searched[usize::from(cell)].end;
-            self.points[*next as usize] = point;
+            let next = &mut ranges[usize::from(range_of_cell[usize::from(cell)])].end;
+            points[*next as usize] = point;
             *next += 1;
         }
     }

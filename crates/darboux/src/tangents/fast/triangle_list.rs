@@ -28,8 +28,8 @@ pub(crate) struct TriangleList<'a> {
 pub(crate) enum WeldMap<'a> {
     /// No two vertices of the mesh are equal.
     Unwelded,
-    /// The welded vertex of each vertex of the mesh.
-    OfVertex(&'a [u32]),
+    /// The welded vertex of each vertex of the mesh, and that of each corner.
+    OfVertex(&'a [u32], &'a [u32]),
     /// The welded vertex of each corner, and the records of the welded vertices.
     OfCorner(&'a [u32], &'a [VertexRecord]),
 }
@@ -88,6 +88,7 @@ impl<'a> TriangleList<'a> {
     }
 
     /// The corners of a triangle.
+    #[inline]
     pub fn corners(&self, triangle: u32) -> [u32; 3] {
         match self.split.triangles.get(triangle as usize) {
             Some(triangle) => triangle.corners(),
@@ -103,6 +104,7 @@ impl<'a> TriangleList<'a> {
     }
 
     /// The corner at an entry.
+    #[inline]
     pub fn corner(&self, entry: u32) -> u32 {
         if self.is_split() { self.corners(entry / 3)[entry as usize % 3] } else { entry }
     }
@@ -117,6 +119,7 @@ impl<'a> TriangleList<'a> {
     }
 
     /// The triangles of the face that contains a triangle.
+    #[inline]
     pub fn face_of(&self, triangle: u32) -> Range<u32> {
         let triangles = &self.split.triangles;
         let is_second = |at: u32| triangles.get(at as usize).is_some_and(|triangle| triangle.is_second());
@@ -132,24 +135,26 @@ impl<'a> TriangleList<'a> {
     }
 
     /// The welded vertex at a corner.
+    #[inline]
     pub fn vertex(&self, corner: u32) -> u32 {
         match self.weld {
-            WeldMap::OfCorner(of, _) => of[corner as usize],
+            WeldMap::OfCorner(of, _) | WeldMap::OfVertex(_, of) => of[corner as usize],
             WeldMap::Unwelded => self.mesh.vertex_of_corner(corner as usize) as u32,
-            WeldMap::OfVertex(of) => of[self.mesh.vertex_of_corner(corner as usize)],
         }
     }
 
     /// The welded vertices of a triangle.
+    #[inline]
     pub fn triangle(&self, triangle: u32) -> [u32; 3] {
         self.corners(triangle).map(|corner| self.vertex(corner))
     }
 
     /// The position of a welded vertex.
+    #[inline]
     pub fn position(&self, vertex: u32) -> [f32; 3] {
         match self.weld {
             WeldMap::OfCorner(_, records) => position_of(records[vertex as usize]),
-            WeldMap::Unwelded | WeldMap::OfVertex(_) => self.mesh.positions().get(vertex as usize),
+            WeldMap::Unwelded | WeldMap::OfVertex(..) => self.mesh.positions().get(vertex as usize),
         }
     }
 
@@ -158,7 +163,7 @@ impl<'a> TriangleList<'a> {
     pub fn record(&self, vertex: u32) -> VertexRecord {
         match self.weld {
             WeldMap::OfCorner(_, records) => records[vertex as usize],
-            WeldMap::Unwelded | WeldMap::OfVertex(_) => record_of(self.mesh, vertex as usize),
+            WeldMap::Unwelded | WeldMap::OfVertex(..) => record_of(self.mesh, vertex as usize),
         }
     }
 
@@ -169,7 +174,7 @@ impl<'a> TriangleList<'a> {
     {
         match self.weld {
             WeldMap::OfCorner(_, records) => VertexValues::Records(&records[range]),
-            WeldMap::Unwelded | WeldMap::OfVertex(_) => {
+            WeldMap::Unwelded | WeldMap::OfVertex(..) => {
                 VertexValues::Slices(VertexSlices::of_vertices(self.mesh, range, buffer))
             }
         }
@@ -195,15 +200,13 @@ impl<'a> TriangleList<'a> {
         'a: 'b,
     {
         match (self.weld, self.mesh.indices()) {
-            (WeldMap::OfCorner(of, _), _) => &of[range],
+            (WeldMap::OfCorner(of, _) | WeldMap::OfVertex(_, of), _) => &of[range],
             (WeldMap::Unwelded, Indices::U32(indices)) => &indices[range],
-            (_, Indices::Unindexed) => &[],
-            (WeldMap::Unwelded, Indices::U16(indices)) => mapped(&indices[range], buffer, |vertex| vertex),
-            (WeldMap::OfVertex(of), Indices::U16(indices)) => {
-                mapped(&indices[range], buffer, |vertex| of[vertex as usize])
-            }
-            (WeldMap::OfVertex(of), Indices::U32(indices)) => {
-                mapped(&indices[range], buffer, |vertex| of[vertex as usize])
+            (WeldMap::Unwelded, Indices::Unindexed) => &[],
+            (WeldMap::Unwelded, Indices::U16(indices)) => {
+                buffer.clear();
+                buffer.extend(indices[range].iter().map(|&vertex| u32::from(vertex)));
+                buffer
             }
         }
     }
@@ -212,17 +215,13 @@ impl<'a> TriangleList<'a> {
     #[inline(always)]
     pub fn visit_vertices(&self, range: Range<usize>, visit: impl FnMut(u32)) {
         match (self.weld, self.mesh.indices()) {
-            (WeldMap::OfCorner(of, _), _) => of[range].iter().copied().for_each(visit),
-            (_, Indices::Unindexed) => {}
+            (WeldMap::OfCorner(of, _) | WeldMap::OfVertex(_, of), _) => {
+                of[range].iter().copied().for_each(visit);
+            }
+            (WeldMap::Unwelded, Indices::Unindexed) => {}
             (WeldMap::Unwelded, Indices::U32(indices)) => indices[range].iter().copied().for_each(visit),
             (WeldMap::Unwelded, Indices::U16(indices)) => {
                 indices[range].iter().copied().map(u32::from).for_each(visit);
-            }
-            (WeldMap::OfVertex(of), Indices::U32(indices)) => {
-                indices[range].iter().map(|&vertex| of[vertex as usize]).for_each(visit);
-            }
-            (WeldMap::OfVertex(of), Indices::U16(indices)) => {
-                indices[range].iter().map(|&vertex| of[usize::from(vertex)]).for_each(visit);
             }
         }
     }
@@ -239,14 +238,4 @@ impl<'a> TriangleList<'a> {
             }
         }
     }
-}
-
-fn mapped<'a, I: Copy + Into<u32>>(
-    indices: &[I],
-    buffer: &'a mut Vec<u32>,
-    of: impl Fn(u32) -> u32,
-) -> &'a [u32] {
-    buffer.clear();
-    buffer.extend(indices.iter().map(|&vertex| of(vertex.into())));
-    buffer
 }

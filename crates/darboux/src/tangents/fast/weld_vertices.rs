@@ -22,8 +22,10 @@ use crate::tangents::fast::worker::Worker;
 /// The welded vertices of a mesh. The memory is reused from mesh to mesh.
 #[derive(Debug, Default)]
 pub(crate) struct HashWeld {
-    /// The welded vertex of each vertex, or of each corner. Empty where no two vertices are equal.
+    /// The welded vertex of each corner. Empty where no two vertices are equal.
     welded: Vec<u32>,
+    /// The welded vertex of each vertex, where vertices are welded and some are equal; else empty.
+    first_equal: Vec<u32>,
     /// True where corners are welded, not vertices.
     per_corner: bool,
     /// The number of welded vertices; where vertices are welded, the number of all vertices.
@@ -47,6 +49,7 @@ impl HashWeld {
     /// Welds the vertices of an indexed mesh, or the corners of an unindexed one. None where the fast path does not apply.
     pub fn weld(&mut self, mesh: &Mesh<'_>, width: Width, workers: &mut [Worker]) -> Option<()> {
         self.welded.clear();
+        self.first_equal.clear();
         self.copies = 0;
         self.per_corner = matches!(mesh.indices(), Indices::Unindexed)
             || mesh.vertex_count() > MAX_VERTICES_PER_CORNER * mesh.corner_count();
@@ -55,23 +58,39 @@ impl HashWeld {
         }
         self.count = mesh.vertex_count();
         match self.find_collisions(mesh, width, workers)? {
-            0 => Some(()),
-            collisions => self.weld_collisions(mesh, &workers[0].seen_hashes, collisions),
+            0 => {}
+            collisions => self.weld_collisions(mesh, &workers[0].seen_hashes, collisions)?,
         }
+        self.find_vertices_of_corners(mesh, workers);
+        Some(())
     }
 
     /// Sets the welded vertex of each vertex of an indexed mesh.
-    pub fn set(&mut self, welded: Vec<u32>) {
+    pub fn set(&mut self, mesh: &Mesh<'_>, welded: Vec<u32>) {
         self.per_corner = false;
         self.count = welded.len();
-        self.welded = welded;
+        self.first_equal = welded;
+        self.find_vertices_of_corners(mesh, &mut [()]);
+    }
+
+    /// Finds the welded vertex of each corner, where some vertices are equal.
+    fn find_vertices_of_corners<W: Send>(&mut self, mesh: &Mesh<'_>, workers: &mut [W]) {
+        let count = if self.first_equal.is_empty() { 0 } else { mesh.corner_count() };
+        self.welded.resize(count, 0);
+        let ranges = split_range(0..count, workers.len(), 1);
+        let jobs = ranges.clone().zip(split_slice(&mut self.welded, 0, ranges));
+        threads::run(workers, jobs, |_, (range, welded)| match mesh.indices() {
+            Indices::U32(indices) => look_up(&self.first_equal, &indices[range], welded),
+            Indices::U16(indices) => look_up(&self.first_equal, &indices[range], welded),
+            Indices::Unindexed => {}
+        });
     }
 
     pub fn map(&self) -> WeldMap<'_> {
         match (self.per_corner, self.welded.is_empty()) {
             (true, _) => WeldMap::OfCorner(&self.welded, &self.corners[0].distinct.records),
             (false, true) => WeldMap::Unwelded,
-            (false, false) => WeldMap::OfVertex(&self.welded),
+            (false, false) => WeldMap::OfVertex(&self.first_equal, &self.welded),
         }
     }
 
@@ -109,10 +128,10 @@ impl HashWeld {
             let is_equal = |at: u32| record_of(mesh, candidate(at)) == record();
             match self.table.find(hash, is_equal).ok()? {
                 Some(at) => {
-                    if self.welded.is_empty() {
-                        self.welded.extend(0..self.count as u32);
+                    if self.first_equal.is_empty() {
+                        self.first_equal.extend(0..self.count as u32);
                     }
-                    self.welded[vertex as usize] = self.candidates[at as usize];
+                    self.first_equal[vertex as usize] = self.candidates[at as usize];
                     self.copies += 1;
                 }
                 None => {
@@ -141,5 +160,12 @@ impl HashWeld {
         self.count = first.distinct.records.len();
         self.bounds = ValueRange::bounds(self.corners.iter().map(|corners| &corners.value_range))?;
         if self.corners[0].distinct.has_long_chain { None } else { Some(()) }
+    }
+}
+
+/// Sets each of `out` to the value at its index.
+fn look_up<I: Copy + Into<u32>>(values: &[u32], indices: &[I], out: &mut [u32]) {
+    for (out, &index) in out.iter_mut().zip(indices) {
+        *out = values[index.into() as usize];
     }
 }
