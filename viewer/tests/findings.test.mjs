@@ -40,6 +40,9 @@ test('findings have a severity in words, a sentence, a look, a cure, and evidenc
   const findings = await viewer.findings();
   assert.deepEqual(findings.map(({ code }) => code), ['tangent-shared-across-mirror', 'tangent-sign-mixed', 'tangent-other-recipe', 'uv-mirrored', 'uv-overlapping']);
   assert.equal(await viewer.text('findings-summary'), '1 error, 2 warnings, 2 notes.');
+  const diagnosis = await viewer.text('diagnosis');
+  assert.match(diagnosis, /Shield.*A line along the middle of the model.* Press Repair\.$/s);
+  assert.ok(!diagnosis.includes('`'), diagnosis);
   const words = { error: 'Error', warning: 'Warning', info: 'Note' };
   for (const { severity, text } of findings) {
     assert.match(text, new RegExp(`^${words[severity]}\\s*Shield: .*\\.\\s+Looks like: .*\\s+Cure: .*\\s+Evidence`), text);

@@ -51,6 +51,29 @@ for (const [name, [width, height, isTouched]] of Object.entries(SCREENS)) {
   });
 }
 
+test('embedded, there is the picture with its slider and a link to the whole page', async () => {
+  const viewer = await Viewer.open(chromium, `${server.address}?embed#left=file&right=mikktspace&first-sight=0`, { viewport: { width: 480, height: 360 } });
+  for (const selector of ['header .row', '#panel']) assert.equal(await viewer.page.isVisible(selector), false, selector);
+  const view = await viewer.page.locator('#view').boundingBox();
+  assert.deepEqual([view.width, view.height], [480, 360]);
+  assert.deepEqual(await viewer.violations(), []);
+  const left = await viewer.picture();
+  await viewer.slide('split', 100);
+  assert.ok((await viewer.picture()).differs(left) > 0.003, 'the slider shows the file');
+  await viewer.page.mouse.move(240, 100);
+  const before = await viewer.picture();
+  await viewer.page.mouse.wheel(0, 300);
+  await viewer.settled();
+  assert.ok((await viewer.picture()).differs(before) < 0.001, 'the wheel scrolls the page around it');
+  await viewer.page.waitForFunction(() => /split=100/.test(location.hash));
+  const [whole] = await Promise.all([viewer.page.context().waitForEvent('page'), viewer.page.click('#whole-page')]);
+  await whole.waitForSelector('#panel');
+  assert.match(whole.url(), /#.*split=100/);
+  assert.ok(!whole.url().includes('embed'));
+  if (process.env.SCREENS) await viewer.page.screenshot({ path: join(process.env.SCREENS, 'embedded.png') });
+  await viewer.close();
+});
+
 /** A link to the page shows the same at this size. */
 async function remembers(viewer) {
   await viewer.choose('right', 'lengyel');

@@ -20,6 +20,7 @@ import { call } from '../worker/surfaces';
 import { chooseBaked, chooseRepaired, connectControls, offerSources, settings } from './controls';
 import { BakePanel } from './bake-panel';
 import { element, isOn, numberOf } from './elements';
+import { connectEmbedding } from './embed';
 import { Examination } from './examination';
 import { placeOf } from './findings-panel';
 import { connectKeys, connectLightDrag } from './keyboard';
@@ -120,6 +121,7 @@ export class App {
   private comparing = 0;
 
   start(): void {
+    connectEmbedding();
     this.viewport.add(this.marker.object);
     element('view').addEventListener('webglcontextlost', () => showError(new Error(CONTEXT_LOST)));
     connectTheme((model, layout) => this.viewport.background(model, layout));

@@ -2,6 +2,7 @@
 
 import type { Finding } from 'darboux/check';
 
+import type { Checked } from '../check/checker';
 import { checker } from '../check/client';
 import { call } from '../worker/surfaces';
 import { documentOf } from '../files/export-glb';
@@ -24,9 +25,8 @@ export interface Host {
   attempt(work: () => Promise<void>): Promise<void>;
 }
 
-interface Repaired {
+interface Repaired extends Checked {
   file: Uint8Array<ArrayBuffer> | null;
-  findings: Finding[];
 }
 
 export class Examination {
@@ -59,10 +59,10 @@ export class Examination {
   async examine(model: Model): Promise<void> {
     try {
       const file = await documentOf(model);
-      const findings = await checker('check', file);
+      const checked = await checker('check', file);
       if (this.model !== model) return;
-      showFindings(findings, this.visit);
-      await this.host.checked(findings);
+      showFindings(checked, this.visit);
+      await this.host.checked(checked.findings);
       if (this.model !== model) return;
       const maps = await checker('judgeMaps', file);
       if (this.model !== model) return;
@@ -95,10 +95,10 @@ export class Examination {
     const model = this.model!;
     setBusy(true);
     try {
-      const { file, findings } = await this.repairOnce(model);
+      const repaired = await this.repairOnce(model);
       if (this.model !== model) return;
-      if (file) await this.show(file, findings);
-      showFindings(findings, this.visit);
+      if (repaired.file) await this.show(repaired.file, repaired.findings);
+      showFindings(repaired, this.visit);
     } finally {
       if (this.model === model) setBusy(false);
     }

@@ -2,6 +2,7 @@
 
 import type { Finding } from 'darboux/check';
 
+import type { Checked } from '../check/checker';
 import { counted } from '../plural';
 import { element } from './elements';
 import { severityIcon } from './severity-icon';
@@ -26,6 +27,7 @@ export function setBusy(isBusy: boolean): void {
 /** Clears the list and says that the check runs. */
 export function showChecking(): void {
   element('findings').replaceChildren();
+  element('diagnosis').replaceChildren();
   element('notes').hidden = true;
   setBusy(true);
   element('findings-summary').textContent = 'Checking the model and its normal maps …';
@@ -35,8 +37,9 @@ export function showChecking(): void {
 /** The parts of a card that are shown at once. */
 const SHOWN_PARTS = 6;
 
-/** Lists findings, the worst problem first. */
-export function showFindings(findings: Finding[], visit: Visit): void {
+/** Shows the diagnosis, and below it findings, the worst problem first. */
+export function showFindings({ findings, diagnosis }: Checked, visit: Visit): void {
+  element('diagnosis').replaceChildren(...inWords(forPage(diagnosis)));
   const sorted = [...findings].sort((a, b) => SEVERITIES.indexOf(a.severity) - SEVERITIES.indexOf(b.severity));
   const problems = Map.groupBy(sorted, ({ code, severity }) => `${severity} ${code}`);
   const cards = [...problems.values()].map((same) => ({ isNote: ['info', 'not-checked'].includes(same[0].severity), card: card(same, visit) }));
@@ -140,10 +143,18 @@ function evidence({ code, count, first, firstAre, evidence: numbers, leftBecause
 
 function paragraph(label: string, sentence: string): HTMLElement {
   const out = document.createElement('p');
-  // Names of commands are between backticks.
-  const parts = sentence.split('`').map((part, at) => (at % 2 ? text('code', part) : part));
-  out.append(text('b', `${label}: `), ...parts);
+  out.append(text('b', `${label}: `), ...inWords(sentence));
   return out;
+}
+
+/** A sentence in which names of commands are between backticks. */
+function inWords(sentence: string): (HTMLElement | string)[] {
+  return sentence.split('`').map((part, at) => (at % 2 ? text('code', part) : part));
+}
+
+/** The diagnosis with the page's button in place of the command that does the same. */
+function forPage(diagnosis: string): string {
+  return diagnosis.replace('Type `darboux check FILE --fix` to repair it.', 'Press Repair.').replace('`darboux check FILE --fix` repairs', 'Repair mends');
 }
 
 function text(tag: string, content: string, className = ''): HTMLElement {
