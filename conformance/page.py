@@ -144,13 +144,92 @@ def page(all_of_them):
     heads = "".join(f"<th>{name}</th>" for name in CLASSES)
     embedded = json.dumps(data, separators=(",", ":")).replace("</", "<\\/")
     template = (HERE / "page.html").read_text(encoding="utf-8")
-    for key, value in {"HEADS": heads, "ROWS": rows, "DETAILS": details, "ABSENT": absent, "DATA": embedded}.items():
+    bars = "\n".join(bar_row(s) for s in all_of_them if not s.get("ours") and not is_another_method(s))
+    others = "\n".join(bar_row(s) for s in all_of_them if is_another_method(s))
+    parts = {"SUMMARY": headline(all_of_them), "DARBOUX": darboux_row(all_of_them), "BARS": bars, "OTHERS": others, "OTHERS_WORDS": html.escape(OTHERS)}
+    for key, value in {**parts, "HEADS": heads, "ROWS": rows, "DETAILS": details, "ABSENT": absent, "DATA": embedded}.items():
         template = template.replace(f"<!-- {key} -->", value)
     return template
 
 
+GLYPHS = {"bits": "●", "angle": "◐", "seams": "○", "fails": "✕", "skipped": "–"}
+WORDS = {"bits": "equal in bits", "angle": "within 0.1°", "seams": "signs and seams right", "fails": "signs or seams wrong", "skipped": "not judged"}
+
+
+def counts(own):
+    """Cases of a class by the best level that they pass, and those that were not judged."""
+    levels = [own["levels"][level] for level in LEVELS]
+    judged = own["cases"] - own["skipped"]
+    best = [after - before for before, after in zip([0, *levels], [*levels, judged])]
+    return dict(zip(GLYPHS, [*best, own["skipped"]]))
+
+
+def all_counts(s):
+    by_class = [counts(own) for own in s["classes"].values()]
+    return {level: sum(one[level] for one in by_class) for level in GLYPHS}
+
+
+def bar(s):
+    """A strip with one cell per case, grouped by class."""
+    at, parts = 0, []
+    for name in CLASSES:
+        if name not in s["classes"]:
+            continue
+        for level, count in counts(s["classes"][name]).items():
+            if count:
+                parts.append(f'<rect class="{level}" x="{at}" width="{count}" height="10"><title>{name}: {count} {WORDS[level]}</title></rect>')
+                at += count
+        parts.append(f'<rect class="gap" x="{at - 0.25}" width="0.5" height="10"/>')
+    total = all_counts(s)
+    words = ", ".join(f"{count} {WORDS[level]}" for level, count in total.items() if count)
+    return f'<svg class="bar" viewBox="0 0 {at} 10" preserveAspectRatio="none" role="img" aria-label="{words}">{"".join(parts)}</svg>'
+
+
+def share(s):
+    total = all_counts(s)
+    judged = sum(total.values()) - total["skipped"]
+    return f'{GLYPHS["bits"]} {total["bits"]} of {judged}' if judged else "-"
+
+
+def bar_line(s):
+    name = html.escape(s["name"])
+    name = f'<a href="#{s["id"]}">{name}</a>' if s["failing"] else name
+    return f'<span class="name">{name}</span><span class="share">{share(s)}</span>{bar(s)}'
+
+
+def bar_row(s):
+    return f'<li class="row">{bar_line(s)}</li>'
+
+
+def darboux_row(all_of_them):
+    """Darboux as one row, with its modes and interfaces inside."""
+    ours = [s for s in all_of_them if s.get("ours")]
+    first = next(s for s in ours if s["id"] == "darboux-reference")
+    default = all_counts(next(s for s in ours if s["id"] == "darboux-repaired"))
+    rest = "\n".join(bar_row(s) for s in ours if s is not first)
+    head = f'<span class="row"><span class="name">Darboux, mode reference</span><span class="share">{share(first)}</span>{bar(first)}</span>'
+    words = f"The default mode, <em>repaired</em>, is not equal in bits everywhere by intent: in {default['angle']} cases it gives usable tangents where MikkTSpace gives none. All of its {sum(default.values())} cases are within 0.1°."
+    return f'<li><details class="ours"><summary>{head}</summary><p>{words}</p><ul class="bars">\n{rest}\n</ul></details></li>'
+
+
+def headline(all_of_them):
+    """Who is right in one paragraph."""
+    def is_whole(s):
+        total = all_counts(s)
+        return total["bits"] > 0 and total["angle"] + total["seams"] + total["fails"] == 0
+
+    ours = [s["name"].split(", ", 1)[-1] for s in all_of_them if s.get("ours") and is_whole(s)]
+    nearest = max((s for s in all_of_them if not s.get("ours") and s["id"] != REFERENCE), key=lambda s: all_counts(s)["bits"])
+    total = all_counts(nearest)
+    judged = sum(total.values()) - total["skipped"]
+    return f'Equal to mikktspace.c in every bit of every case that they run: <strong>Darboux</strong> ({html.escape(", ".join(ours))}). Of the others, {html.escape(nearest["name"])} comes nearest: {total["bits"]} of the {judged} cases that it runs.'
+
+
 def table_row(s):
-    cells = "".join(f'<td class="{shade(s["classes"].get(c))}">{cell(s["classes"][c]) if c in s["classes"] else "-"}</td>' for c in CLASSES)
+    def glyph(own):
+        return GLYPHS.get(shade(own), "")
+
+    cells = "".join(f'<td class="{shade(s["classes"].get(c))}">{glyph(s["classes"].get(c))} {cell(s["classes"][c]) if c in s["classes"] else "-"}</td>' for c in CLASSES)
     name = html.escape(s["name"])
     name = f'<a href="#{s["id"]}">{name}</a>' if s["failing"] else name
     return f'<tr><th>{name}<small>{html.escape(s["version"])}, {s["date"]}</small></th>{cells}<td>{nanoseconds(s)}</td></tr>'
@@ -193,7 +272,7 @@ def failing_case(identity, row, sentences):
     numbers += [f"{m[key]} {words}" for key, words in (("wrong_signs", "wrong signs"), ("non_finite", "not finite"), ("zero", "zero"), ("missing_splits", "vertices not split")) if m[key]]
     level = f"passes {row['levels'][0]}" if row["levels"] else "passes no level"
     picture = f' data-of="{identity}" data-case="{row["name"]}"' if "tangents" in row else ""
-    return f'<details class="case"{picture}><summary>{row["name"]} <small>{level}</small></summary><p>{html.escape(sentences[row["name"]])}</p><p class="numbers">{", ".join(numbers)}</p></details>'
+    return f'<details class="case"{picture}><summary>{row["name"]} <small>{level}</small></summary><p class="numbers">{", ".join(numbers)}</p><p>Possible cause, not measured: {html.escape(sentences[row["name"]])}</p></details>'
 
 
 def picture_data(case):
