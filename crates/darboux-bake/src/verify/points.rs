@@ -162,11 +162,14 @@ impl Points<'_> {
 
     fn kind(&self, place: Place, is_owner: bool) -> VerifiedPlace {
         let states = filter_texels(place, self.layout.size).map(|texel| self.states[texel]);
-        match () {
-            () if !is_owner => VerifiedPlace::Overlap,
-            () if states.iter().any(|state| state.is_missed()) => VerifiedPlace::Missed,
-            () if states.iter().any(|&state| state != TexelState::Baked) => VerifiedPlace::Border,
-            () => VerifiedPlace::Inside,
+        if !is_owner {
+            VerifiedPlace::Overlap
+        } else if states.iter().any(|state| state.is_missed()) {
+            VerifiedPlace::Missed
+        } else if states.iter().any(|&state| state != TexelState::Baked) {
+            VerifiedPlace::Border
+        } else {
+            VerifiedPlace::Inside
         }
     }
 

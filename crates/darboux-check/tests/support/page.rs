@@ -63,30 +63,24 @@ pub fn pair_line(pair: &PairRow) -> String {
 /// Why two mistakes are not both named. Empty for pairs without a known reason.
 pub fn why_missed(pair: [Code; 2]) -> &'static str {
     let has = |code| pair.contains(&code);
-    match () {
-        () if has(Code::TangentZero) => "the second mistake gives the tangent that was zero another value",
-        () if has(Code::TangentNotPerpendicular) && has(Code::TangentRotated) => {
-            "the cross product with the normal is perpendicular again, and too short"
-        }
-        () if pair == [Code::TangentSignFlippedWhereMirrored, Code::TangentSignFlipped] => {
-            "the file is the one of w set to -1, one mistake"
-        }
-        () if has(Code::TangentOtherUvSet) => {
-            "tangents that are turned further are compared with those of the material's UV set alone"
-        }
-        () if has(Code::TangentRotated) && has(Code::TangentNegated) => {
-            "tangents against v can also be bitangents of the other direction; a single tangent is not judged among turned ones"
-        }
-        () if has(Code::TangentRotated) && has(Code::TangentOtherRecipe) => {
-            "methods are compared with tangents along u only"
-        }
-        () if pair == [Code::NormalAgainstWinding; 2] => {
-            "faces and normals agree again; what is left is the sign w, which follows the order of the corners"
-        }
-        () if has(Code::NormalAgainstWinding) => {
-            "on an open surface, reversed normals and reversed signs w are the same as reversed faces"
-        }
-        () => "",
+    if has(Code::TangentZero) {
+        "the second mistake gives the tangent that was zero another value"
+    } else if has(Code::TangentNotPerpendicular) && has(Code::TangentRotated) {
+        "the cross product with the normal is perpendicular again, and too short"
+    } else if pair == [Code::TangentSignFlippedWhereMirrored, Code::TangentSignFlipped] {
+        "the file is the one of w set to -1, one mistake"
+    } else if has(Code::TangentOtherUvSet) {
+        "tangents that are turned further are compared with those of the material's UV set alone"
+    } else if has(Code::TangentRotated) && has(Code::TangentNegated) {
+        "tangents against v can also be bitangents of the other direction; a single tangent is not judged among turned ones"
+    } else if has(Code::TangentRotated) && has(Code::TangentOtherRecipe) {
+        "methods are compared with tangents along u only"
+    } else if pair == [Code::NormalAgainstWinding; 2] {
+        "faces and normals agree again; what is left is the sign w, which follows the order of the corners"
+    } else if has(Code::NormalAgainstWinding) {
+        "on an open surface, reversed normals and reversed signs w are the same as reversed faces"
+    } else {
+        ""
     }
 }
 

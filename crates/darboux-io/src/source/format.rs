@@ -93,39 +93,35 @@ pub fn name_of_other(bytes: &[u8]) -> Option<&'static str> {
     let lower = text[..text.len().min(256)].to_ascii_lowercase();
     let at = |offset: usize, magic: &[u8]| bytes.get(offset..).is_some_and(|rest| rest.starts_with(magic));
     let starts = |start: &[u8]| lower.starts_with(start);
-    Some(match () {
-        () if at(0, b"BLENDER") || at(0, b"\x28\xB5\x2F\xFD") => {
-            "is a Blender file; export the model from Blender as .glb"
-        }
-        () if at(0, b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1") => {
-            "is a scene of 3ds Max or another file of that container; export the model as .fbx or .glb"
-        }
-        () if at(0, b"\x4D\x4D") && bytes.len() > 6 && !at(2, b"\x00\x2A") => {
-            "is a 3DS file, which is not read; convert it to .glb"
-        }
-        () if at(0, b"PK\x03\x04") => "is a zip archive; unpack it and give the model in it",
-        () if at(0, b"\x1F\x8B") => "is compressed with gzip; unpack it first",
-        () if at(0, b"Rar!") || at(0, b"7z\xBC\xAF\x27\x1C") => {
-            "is an archive; unpack it and give the model in it"
-        }
-        () if starts(b"<!doctype html") || starts(b"<html") => {
-            "is a web page, so the download failed; download the model again"
-        }
-        () if starts(b"<?xml") && lower.windows(7).any(|window| window == b"collada") => {
-            "is a COLLADA file, which is not read; convert it to .glb"
-        }
-        () if starts(b"version https://git-lfs") => {
-            "is a pointer of Git LFS, not the model; run: git lfs pull"
-        }
-        () if starts(b"//maya ascii") || at(0, b"FOR4") || at(0, b"FOR8") => {
-            "is a scene of Maya; export the model as .fbx or .glb"
-        }
-        () if at(0, b"Ogawa") => "is an Alembic file, which is not read; export the model as .glb",
-        () if starts(b"newmtl") => "is a material library of an OBJ; give the .obj file",
-        () if at(0, b"\x89PNG") || at(0, b"\xFF\xD8\xFF") || (at(0, b"RIFF") && at(8, b"WEBP")) => {
-            "is an image, not a model; give the model"
-        }
-        () if at(0, b"%PDF") => "is a PDF, not a model; give the model",
-        () => return None,
+    Some(if at(0, b"BLENDER") || at(0, b"\x28\xB5\x2F\xFD") {
+        "is a Blender file; export the model from Blender as .glb"
+    } else if at(0, b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1") {
+        "is a scene of 3ds Max or another file of that container; export the model as .fbx or .glb"
+    } else if at(0, b"\x4D\x4D") && bytes.len() > 6 && !at(2, b"\x00\x2A") {
+        "is a 3DS file, which is not read; convert it to .glb"
+    } else if at(0, b"PK\x03\x04") {
+        "is a zip archive; unpack it and give the model in it"
+    } else if at(0, b"\x1F\x8B") {
+        "is compressed with gzip; unpack it first"
+    } else if at(0, b"Rar!") || at(0, b"7z\xBC\xAF\x27\x1C") {
+        "is an archive; unpack it and give the model in it"
+    } else if starts(b"<!doctype html") || starts(b"<html") {
+        "is a web page, so the download failed; download the model again"
+    } else if starts(b"<?xml") && lower.windows(7).any(|window| window == b"collada") {
+        "is a COLLADA file, which is not read; convert it to .glb"
+    } else if starts(b"version https://git-lfs") {
+        "is a pointer of Git LFS, not the model; run: git lfs pull"
+    } else if starts(b"//maya ascii") || at(0, b"FOR4") || at(0, b"FOR8") {
+        "is a scene of Maya; export the model as .fbx or .glb"
+    } else if at(0, b"Ogawa") {
+        "is an Alembic file, which is not read; export the model as .glb"
+    } else if starts(b"newmtl") {
+        "is a material library of an OBJ; give the .obj file"
+    } else if at(0, b"\x89PNG") || at(0, b"\xFF\xD8\xFF") || (at(0, b"RIFF") && at(8, b"WEBP")) {
+        "is an image, not a model; give the model"
+    } else if at(0, b"%PDF") {
+        "is a PDF, not a model; give the model"
+    } else {
+        return None;
     })
 }

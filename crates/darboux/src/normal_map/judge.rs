@@ -108,12 +108,12 @@ impl<const N: usize> NormalMapJudge<N> {
         let mut judgement = self.evidence.texel_counts.judgement();
         evidence.write(&mut judgement);
         let holds_no_normals = judgement.holds_no_normals() && !evidence.is_clear_gradient();
-        let (verdict, confidence) = match () {
-            () if self.evidence.texel_counts.is_flat() => (MapVerdict::Flat, 1.0),
-            () if judgement.is_grey() || judgement.is_object_space() || holds_no_normals => {
-                (MapVerdict::NoGradient, score::CONFIDENCE_OF_COUNTS)
-            }
-            () => (evidence.verdict(), evidence.confidence()),
+        let (verdict, confidence) = if self.evidence.texel_counts.is_flat() {
+            (MapVerdict::Flat, 1.0)
+        } else if judgement.is_grey() || judgement.is_object_space() || holds_no_normals {
+            (MapVerdict::NoGradient, score::CONFIDENCE_OF_COUNTS)
+        } else {
+            (evidence.verdict(), evidence.confidence())
         };
         (judgement.verdict, judgement.confidence) = (verdict, confidence as f32);
         judgement

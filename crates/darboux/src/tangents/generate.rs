@@ -57,9 +57,11 @@ fn run_mikktspace(
     fast: &mut FastPath,
     out: &mut [[f32; 4]],
 ) -> Report {
-    match () {
-        () if !fast.run(mesh, options, limits, out) => mikktspace::run(mesh, options, limits, out),
-        () if limits.is_cancelled() => Report::default(),
-        () => submesh::complete(mesh, options, fast, limits, out),
+    if !fast.run(mesh, options, limits, out) {
+        mikktspace::run(mesh, options, limits, out)
+    } else if limits.is_cancelled() {
+        Report::default()
+    } else {
+        submesh::complete(mesh, options, fast, limits, out)
     }
 }

@@ -350,14 +350,18 @@ impl Repair<'_> {
     ) -> Result<Option<Status>, String> {
         let Output::File(path) = output else { return Ok(None) };
         let files = &self.arguments.files;
-        match () {
-            () if files.names_output() => Ok(None),
-            () if !is_changed => Ok(Some(Status::Untouched)),
-            () if files.force || !path.exists() => Ok(None),
-            () if is_written(path) => Ok(Some(Status::UpToDate)),
-            () => Err(format!(
+        if files.names_output() {
+            Ok(None)
+        } else if !is_changed {
+            Ok(Some(Status::Untouched))
+        } else if files.force || !path.exists() {
+            Ok(None)
+        } else if is_written(path) {
+            Ok(Some(Status::UpToDate))
+        } else {
+            Err(format!(
                 "{output}: exists, and other data would be written; use --force to replace it, or name another output"
-            )),
+            ))
         }
     }
 

@@ -165,11 +165,14 @@ impl MapJudgement {
             let commonest_is_near = self.commonest.iter().all(|&channel| channel.abs_diff(code) <= 3);
             is_common && commonest_is_near || mean_is_near && z > 192.0
         };
-        match () {
-            () if self.is_grey() => None,
-            () if is_near(188) => Some(SrgbMistake::Encoded),
-            () if is_near(55) => Some(SrgbMistake::Decoded),
-            () => None,
+        if self.is_grey() {
+            None
+        } else if is_near(188) {
+            Some(SrgbMistake::Encoded)
+        } else if is_near(55) {
+            Some(SrgbMistake::Decoded)
+        } else {
+            None
         }
     }
 }

@@ -156,14 +156,16 @@ impl Evidence {
 
     pub fn verdict(&self) -> MapVerdict {
         let has_sign = self.z_score.abs() >= MIN_Z_SCORE.into();
-        match () {
-            () if self.is_exchanged() => MapVerdict::NoGradient,
-            () if self.is_decided() && self.sign_score() > 0.0 => MapVerdict::OpenGl,
-            () if self.is_decided() => MapVerdict::DirectX,
-            () if !has_sign && self.has_enough_signal && self.log_energy_ratio <= MAX_RATIO_OF_NOISE => {
-                MapVerdict::NoGradient
-            }
-            () => MapVerdict::CannotTell,
+        if self.is_exchanged() {
+            MapVerdict::NoGradient
+        } else if self.is_decided() && self.sign_score() > 0.0 {
+            MapVerdict::OpenGl
+        } else if self.is_decided() {
+            MapVerdict::DirectX
+        } else if !has_sign && self.has_enough_signal && self.log_energy_ratio <= MAX_RATIO_OF_NOISE {
+            MapVerdict::NoGradient
+        } else {
+            MapVerdict::CannotTell
         }
     }
 
