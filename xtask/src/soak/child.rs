@@ -19,6 +19,9 @@ use signal_hook::low_level::emulate_default_handler;
 pub struct Limits {
     /// Time of the processor, over all threads.
     pub processor: Duration,
+    /// The longest time without progress: a run that hangs neither uses the processor nor waits for it. A busy machine does not lengthen it.
+    pub idle: Duration,
+    /// The longest time of all, for a hang in which a thread goes on with little, such as the display of progress.
     pub wall: Duration,
     /// Resident bytes.
     pub memory: u64,
@@ -127,15 +130,20 @@ fn watch(
     let start = Instant::now();
     let mut used = ResourceUse::default();
     let mut over = None;
+    let mut last_progress = (Duration::ZERO, Duration::ZERO);
     let mut pause = Duration::from_micros(200);
     loop {
         measure(child.id(), &mut used);
         used.wall = start.elapsed();
+        let scheduled = time_in_the_scheduler(child.id());
+        if scheduled != last_progress.0 {
+            last_progress = (scheduled, used.wall);
+        }
         if let Some(status) = child.try_wait()? {
             return Ok((status, used, over));
         }
         if over.is_none() {
-            over = used.exceeds(limits);
+            over = used.exceeds(limits, used.wall - last_progress.1);
             if over.is_some() {
                 child.kill()?;
             }
@@ -149,11 +157,13 @@ fn watch(
 }
 
 impl ResourceUse {
-    fn exceeds(&self, limits: Limits) -> Option<&'static str> {
+    fn exceeds(&self, limits: Limits, idle: Duration) -> Option<&'static str> {
         if self.memory > limits.memory {
             Some("memory")
-        } else if self.processor > limits.processor || self.wall > limits.wall {
+        } else if self.processor > limits.processor {
             Some("time")
+        } else if idle > limits.idle || self.wall > limits.wall {
+            Some("a hang")
         } else {
             None
         }
@@ -180,6 +190,17 @@ pub fn measure(id: u32, used: &mut ResourceUse) {
     }
 }
 
+/// The time for which the threads of a running process have used the processor or waited for it. Zero on systems without /proc.
+pub fn time_in_the_scheduler(id: u32) -> Duration {
+    let Ok(threads) = fs::read_dir(format!("/proc/{id}/task")) else { return Duration::ZERO };
+    let time_of = |thread: fs::DirEntry| {
+        let line = fs::read_to_string(thread.path().join("schedstat")).ok()?;
+        let nanoseconds = line.split_whitespace().take(2).filter_map(|field| field.parse::<u64>().ok()).sum();
+        Some(Duration::from_nanos(nanoseconds))
+    };
+    threads.flatten().filter_map(time_of).sum()
+}
+
 /// The time of user and system in a line of /proc/ID/stat, whose unit is a hundredth of a second on every Linux.
 fn processor_time(line: &str) -> Duration {
     // The name of the program, in parentheses, may contain spaces.
@@ -192,8 +213,12 @@ fn processor_time(line: &str) -> Duration {
 mod tests {
     use super::*;
 
-    const LIMITS: Limits =
-        Limits { processor: Duration::from_secs(5), wall: Duration::from_millis(300), memory: 1 << 30 };
+    const LIMITS: Limits = Limits {
+        processor: Duration::from_secs(5),
+        idle: Duration::from_millis(300),
+        wall: Duration::from_secs(600),
+        memory: 1 << 30,
+    };
 
     fn shell(line: &str, limits: Limits) -> EndedRun {
         let folder = tempfile::tempdir().expect("a folder");
@@ -220,12 +245,12 @@ mod tests {
 
     #[test]
     fn runs_over_a_limit_are_killed() {
-        assert_eq!(shell("sleep 20", LIMITS).over, Some("time"));
+        assert_eq!(shell("sleep 20", LIMITS).over, Some("a hang"));
         if cfg!(target_os = "linux") {
             let little = Limits { memory: 1, ..LIMITS };
             assert_eq!(shell("sleep 20", little).over, Some("memory"));
-            let short =
-                Limits { processor: Duration::from_millis(50), wall: Duration::from_secs(20), ..LIMITS };
+            // A loop makes progress, however many others want the processor.
+            let short = Limits { processor: Duration::from_millis(600), ..LIMITS };
             assert_eq!(shell("while :; do :; done", short).over, Some("time"));
         }
     }

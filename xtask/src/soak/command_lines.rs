@@ -143,6 +143,19 @@ impl Argument {
             "LETTERS" => random.pick(&["rgb", "rg", "ag", "la", "gr", "bgr", "x"]),
             "N|WxH" | "WxH" => random.pick(&["64x48", "1x1", "33x200"]),
             "8|16" => random.pick(&["8", "16"]),
+            "8|16|32" => random.pick(&["8", "16", "32"]),
+            "NAME=MAPS" => {
+                random.pick(&["orm=ao,roughness,metalness", "x=height", "../x=ao", "=", "x=normal,ao"])
+            }
+            "X,Y,Z" => random.pick(&["0,1,0", "0,0,0", "1e30,-1e30,1", "nan,0,0"]),
+            "MIN,MAX" => random.pick(&["0,10", "10,0", "0,0", "-1,inf"]),
+            "PLACE" => random.pick(&[
+                "emissiveTexture",
+                "normalTexture",
+                "pbrMetallicRoughness/baseColorTexture",
+                "/",
+            ]),
+            "X,Y,Z,X,Y,Z" => random.pick(&["0,0,2,0,0,0", "0,0,0,0,0,0", "1e30,0,0,0,nan,0"]),
             "OUT,IN" => random.pick(&["0.1,0.1", "0,0", "1e30,1e30"]),
             "YAW,PITCH[,ZOOM]" => random.pick(&["0,0", "180,-90,0.01", "30,20,1000"]),
             "RRGGBB" => random.pick(&["ff8000", "x"]),
@@ -173,7 +186,11 @@ impl Line {
         }
         if has("--high") {
             let (high, low) = random.pick(&[(files.other, files.file), (files.file, files.other)]);
-            self.extend(&[low, "--high", high, "-o", "out.png"]);
+            let output = random.pick(&["out.png", "out.png", "out.exr", "out.tif", "out"]);
+            self.extend(&[low, "--high", high, "-o", output]);
+            if random.one_in(4) {
+                self.extend(&["--resume"]);
+            }
         } else if has("--in-place") {
             // Most options of a check, and its outputs, need a repair.
             if has("--fix") && !self.has("--fix") && self.words.len() > 1 {

@@ -41,8 +41,8 @@ pub fn limits(case: &Case) -> Limits {
     let computes_texels = draws || case.has("bake") || case.has("--space");
     Limits {
         processor: Duration::from_secs(if computes_texels { 40 } else { 15 }),
-        // Much longer than the processor's time: on a busy machine a run waits for its turn most of the time.
-        wall: Duration::from_secs(600),
+        idle: Duration::from_secs(60),
+        wall: Duration::from_secs(3600),
         memory: BASE_MEMORY + READ_INPUT * case.input_size() + PROGRAM + if draws { ADAPTER } else { 0 },
     }
 }

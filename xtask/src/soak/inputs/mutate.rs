@@ -71,7 +71,7 @@ pub fn file(random: &mut Random, extension: &str, bytes: &mut Vec<u8>) {
                     *bytes = Value::Object(json).to_string().into_bytes();
                 }
             }
-            "obj" | "mtl" if !random.one_in(4) => lines(random, bytes),
+            "obj" | "mtl" | "toml" if !random.one_in(4) => lines(random, bytes),
             "ply" | "stl" if bytes.is_ascii() && !bytes.contains(&0) && !random.one_in(4) => {
                 lines(random, bytes);
             }

@@ -32,6 +32,7 @@ pub fn all(models: Option<&Path>) -> Result<Vec<Seed>, String> {
     if let Some(models) = models {
         seeds.extend(in_folder(models)?);
     }
+    seeds.extend(in_folder(&root().join("crates/darboux-io/tests/ktx2"))?);
     seeds.extend(of_corpus()?);
     seeds.extend(made()?);
     Ok(seeds)
@@ -214,7 +215,7 @@ mod tests {
     #[test]
     fn every_format_has_a_seed() {
         let seeds = all(None).expect("seeds");
-        for kind in ["gltf", "glb", "vrm", "obj", "ply", "stl", "png", "jpeg", "webp"] {
+        for kind in ["gltf", "glb", "vrm", "obj", "ply", "stl", "fbx", "png", "jpeg", "webp", "ktx2"] {
             assert!(seeds.iter().any(|seed| seed.extension() == kind), "{kind}");
         }
         let names: Vec<_> = seeds.iter().map(|seed| seed.name.display().to_string()).collect();
