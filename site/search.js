@@ -1,4 +1,4 @@
-// The theme, search over all sections of the site, the menu's state, wide blocks that keys can scroll, and answers that open when the page is printed.
+// The theme, sliders over pairs of pictures, search over all sections of the site, the menu's state, wide blocks that keys can scroll, and answers that open when the page is printed.
 
 'use strict';
 
@@ -116,6 +116,9 @@
     }
   });
   document.querySelectorAll('main pre, main table').forEach((block) => wide.observe(block));
+
+  // Sliders over pairs of pictures, for pages that have any.
+  if (document.querySelector('main td > img')) document.head.append(Object.assign(document.createElement('script'), { src: `${base}pairs.js` }));
 
   addEventListener('beforeprint', () => document.querySelectorAll('main details').forEach((details) => (details.open = true)));
 }

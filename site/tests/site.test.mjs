@@ -113,6 +113,24 @@ for (const [name, viewport] of Object.entries(SCREENS)) {
   });
 }
 
+test('a right and a wrong picture lie under a slider, and beside each other without scripts', { skip, timeout: 60_000 }, async () => {
+  const { page, faults, close } = await open('docs/check.html', { viewport: SCREENS.phone });
+  const pair = page.locator('.pair').first();
+  await pair.waitFor();
+  assert.equal(await page.locator('main td > img').count(), 0, 'every pair is a slider');
+  const shots = [];
+  for (const percent of ['100', '0']) {
+    await pair.locator('input').fill(percent);
+    shots.push((await pair.screenshot()).toString('base64'));
+  }
+  assert.notEqual(shots[0], shots[1]);
+  assert.deepEqual(faults, []);
+  await close();
+  const still = await open('docs/check.html', { javaScriptEnabled: false });
+  assert.ok((await still.page.locator('main td > img').count()) > 20);
+  await still.close();
+});
+
 test('a lesson embeds the viewer in a state', { skip, timeout: 120_000 }, async () => {
   const { page, faults, close } = await open('docs/learn/5-mirrored.html', { viewport: SCREENS.desktop });
   await page.locator('iframe').scrollIntoViewIfNeeded();

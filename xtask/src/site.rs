@@ -27,7 +27,7 @@ use html::Page;
 use output::Output;
 
 /// The files that every page uses.
-const STATIC_FILES: [&str; 3] = ["style.css", "search.js", "figures.js"];
+const STATIC_FILES: [&str; 4] = ["style.css", "search.js", "figures.js", "pairs.js"];
 
 /// Makes the site and prints its folder as the last line.
 pub fn make() -> Outcome {
