@@ -1,6 +1,6 @@
 """The adapter to Blender, where it is installed as a module, and an outside check: its calc_tangents beside ours.
 
-Blender has a MikkTSpace of its own, rewritten: it computes other roundings, so that bits differ. Directions may not, nor signs.
+Blender has a MikkTSpace of its own, which takes another arc cosine, so that bits differ (test_blender_model.py). Directions may not, nor signs.
 """
 
 from typing import Any, Callable, Dict
