@@ -5,11 +5,12 @@ use std::collections::HashMap;
 use darboux::{Cancel, Context, Convention};
 use darboux_bake::{
     BakeError, BakeOptions, BakeReport, Baked, Bitangent, ColorTexture, CurvatureRadius, HighSurface,
-    LowSurface, MapKind, MapSet, MaterialProperty, bake as bake_surfaces, inflated_cage,
+    LowSurface, MapKind, MapSet, MaterialProperty, SkewCorrection, Udim, bake as bake_surfaces,
+    inflated_cage,
 };
 use numpy::prelude::*;
-use numpy::{PyArray1, PyReadonlyArray3};
-use pyo3::exceptions::{PyMemoryError, PyValueError};
+use numpy::{PyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -21,7 +22,8 @@ use crate::numbers::{Natural, Threads, natural};
 use crate::results::named;
 use crate::threads::run_interruptibly;
 
-const BITANGENTS: &[(&str, Bitangent)] = &[("pixel", Bitangent::PerPixel), ("vertex", Bitangent::PerVertex)];
+pub const BITANGENTS: &[(&str, Bitangent)] =
+    &[("pixel", Bitangent::PerPixel), ("vertex", Bitangent::PerVertex)];
 
 /// Makes a radius of a number in some unit.
 type RadiusOf = fn(f32) -> CurvatureRadius;
@@ -82,6 +84,11 @@ const TEXTURES: &[(&str, (MaterialProperty, bool))] = &[
 ///     The radius in which curvature is measured, in 'texels' or as a 'distance' in units of the positions.
 /// world_direction : (float, float, float)
 ///     The direction of the map 'world-direction', along the axes of the source's convention.
+/// skew : float, (F,) array_like or (N, M) uint8 array, optional
+///     How far rays turn from the smooth direction (0) to the normal of the triangle (1): everywhere, per triangle, or by a map over the UVs of the image,
+///     in which 255 is 1.
+/// udim : int, optional
+///     The tile of the UV plane that is baked, 1001 + column + 10 * row. Without, all tiles lie over each other.
 /// high_colors : (W, 4) array_like, optional
 ///     Red, green, blue and alpha of the high mesh's vertices, in linear light: the map 'vertex-color', and a factor of 'base-color' and 'opacity'.
 /// high_uvs : (W, 2) array_like, optional
@@ -108,7 +115,7 @@ const TEXTURES: &[(&str, (MaterialProperty, bool))] = &[
     cage=None, maps=vec!["normal".to_owned()], samples=1, source="gltf", target="gltf", bitangent="pixel",
     padding=None, back_faces=false, ao_rays=64, ao_distance=f32::INFINITY, ao_falloff="none", ao_weights="cosine",
     thickness_distance=f32::INFINITY, curvature_radius=4.0, curvature_unit="texels", world_direction=(0.0, 1.0, 0.0),
-    high_colors=None, high_uvs=None, high_textures=None, threads=None
+    skew=None, udim=None, high_colors=None, high_uvs=None, high_textures=None, threads=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "Python passes them by name")]
 pub fn bake<'py>(
@@ -139,6 +146,8 @@ pub fn bake<'py>(
     curvature_radius: f32,
     curvature_unit: &str,
     world_direction: (f32, f32, f32),
+    skew: Option<&Bound<'py, PyAny>>,
+    udim: Option<Natural>,
     high_colors: Option<&Bound<'py, PyAny>>,
     high_uvs: Option<&Bound<'py, PyAny>>,
     high_textures: Option<HashMap<String, PyReadonlyArray3<'py, u8>>>,
@@ -159,7 +168,8 @@ pub fn bake<'py>(
         .with_occlusion_weights(named_choice(ao_weights)?)
         .with_thickness_distance(thickness_distance)
         .with_curvature_radius(choice("curvature_unit", curvature_unit, UNITS)?(curvature_radius))
-        .with_world_direction(world_direction.into());
+        .with_world_direction(world_direction.into())
+        .with_udim(tile(udim)?);
     let low = MeshArrays::new(positions, normals, uvs, indices, None)?;
     let tangents = Rows::<4>::new("tangents", "C", tangents)?;
     let tangents = tangents.packed()?;
@@ -180,11 +190,8 @@ pub fn bake<'py>(
     let high = shown(high.map_err(bake_error)?, high_colors.as_ref(), high_uvs.as_ref(), &textures)?;
     let high = [high];
     let cage = cage.map(|cage| Cage::new(cage, &surface)).transpose()?;
-    let surface = match &cage {
-        Some(Cage::Given(rows)) => surface.with_cage(rows.view()?).map_err(bake_error)?,
-        Some(Cage::Inflated(rows)) => surface.with_cage(rows).map_err(bake_error)?,
-        None => surface,
-    };
+    let skew = skew.map(Skew::new).transpose()?;
+    let surface = Skew::on(skew.as_ref(), Cage::around(cage.as_ref(), surface)?)?;
     let cancel = Cancel::new();
     let mut context = Context::new().with_cancel(&cancel);
     let work = |_: &std::sync::mpsc::Sender<()>| {
@@ -195,21 +202,78 @@ pub fn bake<'py>(
 }
 
 /// Positions of a cage.
-enum Cage<'py> {
+pub enum Cage<'py> {
     Given(Rows<'py, 3>),
     Inflated(Vec<[f32; 3]>),
 }
 
 impl<'py> Cage<'py> {
-    fn new(value: &Bound<'py, PyAny>, surface: &LowSurface<'_>) -> PyResult<Self> {
+    pub fn new(value: &Bound<'py, PyAny>, surface: &LowSurface<'_>) -> PyResult<Self> {
         match value.extract::<f32>() {
             Ok(offset) => inflated_cage(surface.mesh(), offset).map(Self::Inflated).map_err(bake_error),
             Err(_) => Rows::new("cage", "V", value).map(Self::Given),
         }
     }
+
+    /// The surface with this cage, or as it is without one.
+    pub fn around<'a>(cage: Option<&'a Self>, surface: LowSurface<'a>) -> PyResult<LowSurface<'a>> {
+        match cage {
+            Some(Self::Given(rows)) => surface.with_cage(rows.view()?).map_err(bake_error),
+            Some(Self::Inflated(rows)) => surface.with_cage(rows).map_err(bake_error),
+            None => Ok(surface),
+        }
+    }
 }
 
-fn bake_error(error: BakeError) -> PyErr {
+/// The correction that Python passes: an amount, one per triangle, or an image.
+pub enum Skew {
+    Everywhere(f32),
+    PerTriangle(Vec<f32>),
+    Map(ColorTexture),
+}
+
+impl Skew {
+    pub fn new(value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if let Ok(amount) = value.extract::<f32>() {
+            return Ok(Self::Everywhere(amount));
+        }
+        let Ok(image) = value.extract::<PyReadonlyArray2<'_, u8>>() else {
+            return value.extract().map(Self::PerTriangle).map_err(|_| {
+                PyTypeError::new_err(
+                    "skew must be a number, one number per triangle, or a uint8 image of shape (N, M)",
+                )
+            });
+        };
+        let view = image.as_array();
+        let [height, width] = [view.shape()[0], view.shape()[1]];
+        let size = [width, height].map(|side| u32::try_from(side).unwrap_or(u32::MAX));
+        let texels = view.iter().map(|&grey| [grey, grey, grey, u8::MAX]).collect();
+        ColorTexture::new(size, texels, false).map(Self::Map).map_err(bake_error)
+    }
+
+    /// The surface with this correction, or as it is without one.
+    pub fn on<'a>(skew: Option<&'a Self>, surface: LowSurface<'a>) -> PyResult<LowSurface<'a>> {
+        let correction = match skew {
+            None => return Ok(surface),
+            Some(Self::Everywhere(amount)) => SkewCorrection::Everywhere(*amount),
+            Some(Self::PerTriangle(amounts)) => SkewCorrection::PerTriangle(amounts),
+            Some(Self::Map(map)) => SkewCorrection::Map(map),
+        };
+        surface.with_skew_correction(correction).map_err(bake_error)
+    }
+}
+
+/// The tile of a UDIM number. Errors: a number that no tile has.
+pub fn tile(number: Option<Natural>) -> PyResult<Option<Udim>> {
+    let known = |Natural(number)| {
+        Udim::from_number(number).ok_or_else(|| {
+            PyValueError::new_err(format!("udim is {number}; it must be a number of a tile, 1001 to 9990"))
+        })
+    };
+    number.map(known).transpose()
+}
+
+pub fn bake_error(error: BakeError) -> PyErr {
     match error {
         BakeError::Memory { .. } => PyMemoryError::new_err(error.to_string()),
         error => PyValueError::new_err(error.to_string()),

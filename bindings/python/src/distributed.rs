@@ -57,6 +57,46 @@ impl DistributedBatch {
     }
 }
 
+/// A job of bakes: one task per entry, and the journal in the job's folder.
+///
+/// Parameters
+/// ----------
+/// job : path-like
+///     The TOML file, or a folder with the option '--suffixes'. No other run can work on it while it is open.
+/// options : list of str
+///     Options of `darboux bake`.
+///
+/// Raises
+/// ------
+/// ValueError
+///     The command refuses the job; another run works on it.
+#[pyclass(frozen, module = "darboux._darboux")]
+pub struct DistributedJob(darboux_cli::DistributedJob);
+
+#[pymethods]
+impl DistributedJob {
+    #[new]
+    fn new(job: PathBuf, options: Vec<String>) -> PyResult<Self> {
+        darboux_cli::DistributedJob::open(&job, &options).map(Self).map_err(PyValueError::new_err)
+    }
+
+    /// One task per entry, as JSON.
+    #[getter]
+    fn tasks(&self) -> Vec<String> {
+        self.0.tasks().to_vec()
+    }
+
+    /// Add the result of a task to the journal.
+    fn record(&self, result: &str) -> PyResult<()> {
+        self.0.record(result).map_err(PyValueError::new_err)
+    }
+
+    /// Remove unfinished files of killed workers and release the job. No worker may be running.
+    fn close(&self) -> PyResult<()> {
+        self.0.close().map_err(PyValueError::new_err)
+    }
+}
+
 /// Process a task with this number of threads; return its result.
 #[pyfunction]
 pub fn run_task(py: Python<'_>, task: &str, threads: Threads) -> PyResult<String> {

@@ -5,6 +5,7 @@
 
 mod arrays;
 mod bake;
+mod bake_maps;
 mod check;
 mod choices;
 mod command;
@@ -33,13 +34,15 @@ mod _darboux {
     #[pymodule_export]
     use crate::bake::bake;
     #[pymodule_export]
+    use crate::bake_maps::{auto_cage, convert_space, udim_tiles, verify};
+    #[pymodule_export]
     use crate::check::{check, fix, judge_normal_map, recognise_recipe};
     #[pymodule_export]
     use crate::command::run;
     #[pymodule_export]
     use crate::convention::{convert, convert_texels};
     #[pymodule_export]
-    use crate::distributed::{DistributedBatch, failed_task, run_task};
+    use crate::distributed::{DistributedBatch, DistributedJob, failed_task, run_task};
     #[pymodule_export]
     use crate::document::{Document, dumps, load, loads, save};
     #[pymodule_export]

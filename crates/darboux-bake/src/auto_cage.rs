@@ -174,7 +174,9 @@ impl Lines<'_> {
             hits.iter().rev().map(|&(distance, is_front)| (reach - distance, is_front)).collect();
         let near = 1e-3 * reach;
         let inside = places.iter().rposition(|&(place, is_front)| is_front && place <= near);
-        let first = inside.or_else(|| places.iter().position(|&(_, is_front)| is_front))?;
+        // Without a front below, the point lies inside the body, whose front comes before the back of any other.
+        let above = || places.iter().position(|&(place, _)| place > near).filter(|&at| places[at].1);
+        let first = inside.or_else(above)?;
         let mut height = places[first].0;
         for &(place, is_front) in &places[first + 1..] {
             if is_front {

@@ -31,6 +31,12 @@ impl TexelState {
         self as u8
     }
 
+    /// The state of a number; none for other numbers.
+    pub fn from_number(number: u8) -> Option<Self> {
+        let all = [Self::Outside, Self::Baked, Self::Extended, Self::Missed, Self::MissedBehind];
+        all.get(usize::from(number)).copied()
+    }
+
     /// Whether the texel's content comes from rays, not from another texel.
     pub fn has_content(self) -> bool {
         matches!(self, Self::Extended | Self::Baked)
@@ -75,6 +81,24 @@ impl Images {
             states: repeated(count, &[TexelState::Outside]).map_err(|_| budget.refused())?,
             images: images.map_err(|_| budget.refused())?,
         })
+    }
+
+    /// A normal map in tangent space that was baked earlier, for [`verify`](crate::verify()).
+    ///
+    /// `size`: texels per row, and rows; `states`, `normals`: row after row, the top row first. Errors: another number of texels.
+    pub fn of_normals(
+        size: [u32; 2],
+        states: Vec<TexelState>,
+        normals: &[[f32; 3]],
+    ) -> Result<Self, BakeError> {
+        let expected = size[0] as usize * size[1] as usize;
+        match [states.len(), normals.len()].into_iter().find(|&found| found != expected) {
+            Some(found) => Err(BakeError::Texels { expected, found }),
+            None => {
+                let numbers = normals.as_flattened().to_vec();
+                Ok(Self { size, states, images: vec![Image { kind: MapKind::Normal, numbers }] })
+            }
+        }
     }
 
     /// The kinds that were chosen, in the order of [`MapKind::ALL`].

@@ -31,6 +31,8 @@ pub use batch::distributed::{DistributedBatch, failed_task, run_task};
 #[doc(hidden)]
 pub use command_line::Arguments;
 use command_line::Command;
+#[cfg(feature = "bake")]
+pub use commands::bake::job::distributed::DistributedJob;
 pub use net::silence_panics;
 #[cfg(unix)]
 pub use out_of_memory::ExitWithoutMemory;

@@ -986,6 +986,60 @@ fn a_job_bakes_what_has_changed() {
 }
 
 #[test]
+fn jobs_killed_at_random_are_continued_and_equal() {
+    let pair = Pair::new();
+    let entries: String = (0..6)
+        .map(|number| {
+            format!(
+                "[[bake]]\nlow = \"../low.glb\"\nhigh = \"../high.glb\"\noutput = \"map{number}.png\"\nsize = {}\n",
+                96 + 16 * number
+            )
+        })
+        .collect();
+    let job = |name: &str| {
+        let folder = pair.path(name);
+        fs::create_dir(&folder).expect("a folder");
+        let defaults = "[defaults]\nmap = [\"normal\", \"ao\"]\nao-rays = 8\ncage-offset = 1\n";
+        fs::write(folder.join("job.toml"), format!("{defaults}{entries}")).expect("a file");
+        folder.join("job.toml")
+    };
+    let (killed, whole) = (job("killed"), job("whole"));
+    darboux(&["bake", text(&whole)]).exits(0);
+    let mut dice = 12_345u64;
+    for _ in 0..12 {
+        let mut process = std::process::Command::new(env!("CARGO_BIN_EXE_darboux"))
+            .args(["bake", text(&killed), "--resume", "--quiet"])
+            .spawn()
+            .expect("the command starts");
+        dice = dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        std::thread::sleep(std::time::Duration::from_millis(dice >> 32 & 255));
+        process.kill().expect("it is ours");
+        process.wait().expect("it has ended");
+        // What has its name is whole.
+        for name in maps_in(&killed) {
+            let [found, expected] = [&killed, &whole].map(|job| fs::read(job.with_file_name(&name)));
+            assert_eq!(found.expect("a map"), expected.expect("a map"), "{name}");
+        }
+    }
+    darboux(&["bake", text(&killed), "--resume"]).exits(0);
+    assert_eq!(maps_in(&killed), maps_in(&whole));
+    for name in maps_in(&whole) {
+        let [found, expected] = [&killed, &whole].map(|job| fs::read(job.with_file_name(&name)));
+        assert_eq!(found.expect("a map"), expected.expect("a map"), "{name}");
+    }
+    let left = names_in(killed.parent().expect("a folder"));
+    assert!(!left.iter().any(|name| name.starts_with('.')), "{left:?}");
+}
+
+/// The names of the maps beside a job, in order.
+fn maps_in(job: &Path) -> Vec<String> {
+    let mut names = names_in(job.parent().expect("a folder"));
+    names.retain(|name| name.ends_with(".png") && !name.starts_with('.'));
+    names.sort();
+    names
+}
+
+#[test]
 fn jobs_that_cannot_be_right_are_refused() {
     let pair = Pair::new();
     let job = pair.path("job.toml");

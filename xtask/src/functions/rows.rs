@@ -147,12 +147,15 @@ pub const GROUPS: &[(&str, &[Row])] = &[
                 ["gltf-transform:tangents"]; ["darboux tangents"],
             "add normals": ["darboux_io::gltf::add_normals"]; []; []; ["Document.add_normals"]; []; ["darboux normals"],
             "describe": ["darboux_io::gltf::inspect"]; []; []; ["Document.inspect"]; []; ["darboux inspect"],
-            "many files": []; []; []; ["batch", "process"]; []; ["darboux tangents"],
+            "many files": []; []; []; ["batch", "process", "bake_job"]; []; ["darboux tangents"],
             "bake surfaces": ["darboux_bake::bake"]; []; []; ["bake"]; ["bake:bake"]; [],
             "bake models": ["darboux_bake::LowModel::surfaces", "darboux_bake::HighModel::surfaces"]; []; []; [];
                 ["bake:bakeModels"]; ["darboux bake"],
-            "errors of a baked map in degrees": ["darboux_bake::verify"]; []; []; []; []; ["darboux bake"],
-            "object-space maps to tangent space, and back": ["darboux_bake::convert_space"]; []; []; []; [];
+            "errors of a baked map in degrees": ["darboux_bake::verify"]; []; []; ["verify"]; []; ["darboux bake"],
+            "a cage that is made": ["darboux_bake::auto_cage"]; []; []; ["auto_cage"]; []; ["darboux bake"],
+            "UDIM tiles": ["darboux_bake::udims_of"]; []; []; ["udim_tiles"]; []; ["darboux bake"],
+            "object-space maps to tangent space, and back": ["darboux_bake::convert_space"]; []; [];
+                ["convert_space"]; [];
                 ["darboux convert"],
             "draw": ["darboux_render::render"]; []; []; []; []; ["darboux render"],
         ],

@@ -18,15 +18,17 @@ array([[1., 0., 0., 1.],
 """
 
 from . import encode
-from ._batch import batch
+from ._batch import bake_job, batch
 from ._darboux import (
     CONVENTIONS,
     Document,
     Plan,
     __version__,
+    auto_cage,
     bake,
     check,
     convert,
+    convert_space,
     convert_texels,
     dumps,
     fix,
@@ -43,13 +45,18 @@ from ._darboux import (
     split_normals,
     split_vertices,
     transform_frames,
+    udim_tiles,
+    verify,
 )
 from ._process import process
 from ._results import (
+    AutoCage,
     BakedMaps,
     BakeReport,
     Change,
     Converted,
+    ConvertedSpace,
+    ErrorStatistics,
     Evidence,
     Finding,
     Findings,
@@ -62,16 +69,20 @@ from ._results import (
     TangentDifference,
     TransformedFrames,
     UvFidelity,
+    Verification,
     VertexSplit,
 )
 
 __all__ = [
     "CONVENTIONS",
+    "AutoCage",
     "BakeReport",
     "BakedMaps",
     "Change",
     "Converted",
+    "ConvertedSpace",
     "Document",
+    "ErrorStatistics",
     "Evidence",
     "Finding",
     "Findings",
@@ -85,12 +96,16 @@ __all__ = [
     "TangentDifference",
     "TransformedFrames",
     "UvFidelity",
+    "Verification",
     "VertexSplit",
     "__version__",
+    "auto_cage",
     "bake",
+    "bake_job",
     "batch",
     "check",
     "convert",
+    "convert_space",
     "convert_texels",
     "dumps",
     "encode",
@@ -109,4 +124,6 @@ __all__ = [
     "split_normals",
     "split_vertices",
     "transform_frames",
+    "udim_tiles",
+    "verify",
 ]

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, List, Literal, Optional, Sequence, Union
 
-from ._darboux import DistributedBatch, __version__, failed_task
+from ._darboux import DistributedBatch, DistributedJob, __version__, failed_task
 from ._engines import ENGINES, Engine, LostWorker
 from ._process import PathLike
 
@@ -77,10 +77,7 @@ def batch(
     OSError
         The folder cannot be written.
     """
-    if engine not in ENGINES:
-        raise ValueError(f"engine is {engine!r}; it must be one of {', '.join(map(repr, ENGINES))}")
-    if retries < 0 or (workers is not None and workers < 1):
-        raise ValueError("retries must be 0 or more, workers 1 or more")
+    _check(engine, workers, retries)
     out = Path(os.path.abspath(out))
     inputs = [files] if isinstance(files, (str, os.PathLike)) else list(files)
     paths = [os.path.abspath(path) for path in inputs]
@@ -95,6 +92,58 @@ def batch(
     finally:
         tasks.close()
     return report
+
+
+def bake_job(
+    job: PathLike,
+    *,
+    engine: Literal["local", "ray", "dask"] = "local",
+    workers: Optional[int] = None,
+    retries: int = 2,
+    progress: Union[bool, Callable[[int, int], object]] = True,
+    options: Sequence[str] = (),
+) -> Dict[str, Any]:
+    """Bake the entries of a job, as `darboux bake JOB --resume` does, in many processes.
+
+    Parameters
+    ----------
+    job : path-like
+        The TOML file; or a folder, with '--suffixes' in `options`. Its folder gets the journal, darboux-journal.jsonl. One run at a time.
+    engine, workers, retries, progress
+        As for batch. Each of the local workers has its share of the processors, each of a cluster's one processor.
+    options : sequence of str
+        Of the command, such as ['--suffixes', '--map', 'normal,ao'].
+
+    Returns
+    -------
+    dict
+        'bakes': for each entry its 'input', the low model, 'output', 'status' ('written', 'up_to_date' or 'failed'), 'error', 'tries', and 'bake', the
+        report of `darboux bake --json`; and 'totals' by status.
+
+    Raises
+    ------
+    ValueError
+        The command refuses the job or an option; another run works on it.
+    ImportError
+        The engine's package is not installed.
+    """
+    _check(engine, workers, retries)
+    tasks = DistributedJob(os.path.abspath(job), list(options))
+    try:
+        with ENGINES[engine](workers) as running:
+            done = _run_all(tasks, running, retries, progress)
+    finally:
+        tasks.close()
+    statuses = [entry["status"] for entry in done]
+    totals = {status: statuses.count(status) for status in ("written", "up_to_date", "failed")}
+    return {"command": "bake", "version": __version__, "bakes": done, "totals": {"bakes": len(done), **totals}}
+
+
+def _check(engine: str, workers: Optional[int], retries: int) -> None:
+    if engine not in ENGINES:
+        raise ValueError(f"engine is {engine!r}; it must be one of {', '.join(map(repr, ENGINES))}")
+    if retries < 0 or (workers is not None and workers < 1):
+        raise ValueError("retries must be 0 or more, workers 1 or more")
 
 
 def _refuse_missing_folders(paths: Sequence[str]) -> None:
@@ -115,7 +164,8 @@ def _arguments(options: Dict[str, Any]) -> Iterator[str]:
 
 
 def _run_all(
-    batch: DistributedBatch, engine: Engine, retries: int, progress: Union[bool, Callable[[int, int], object]]
+    batch: Union[DistributedBatch, DistributedJob],
+    engine: Engine, retries: int, progress: Union[bool, Callable[[int, int], object]]
 ) -> List[Dict[str, Any]]:
     """The reports of all files, in the order of the inputs."""
     tasks = batch.tasks

@@ -7,8 +7,10 @@ import numpy.typing as npt
 
 from ._choices import Method, Mode, NormalWeight, Shading, SmoothingSeams
 from ._results import (
+    AutoCage,
     BakedMaps,
     Converted,
+    ConvertedSpace,
     Findings,
     Frames,
     MapJudgement,
@@ -19,6 +21,7 @@ from ._results import (
     TangentDifference,
     TransformedFrames,
     UvFidelity,
+    Verification,
     VertexSplit,
 )
 
@@ -29,12 +32,15 @@ _Progress = Callable[[int, int], object]
 __all__ = [
     "CONVENTIONS",
     "DistributedBatch",
+    "DistributedJob",
     "Document",
     "Plan",
     "__version__",
+    "auto_cage",
     "bake",
     "check",
     "convert",
+    "convert_space",
     "convert_texels",
     "dumps",
     "failed_task",
@@ -68,6 +74,8 @@ __all__ = [
     "tangent_to_snorm16",
     "tangent_to_snorm8",
     "transform_frames",
+    "udim_tiles",
+    "verify",
 ]
 __version__: str
 CONVENTIONS: Tuple[str, ...]
@@ -262,6 +270,14 @@ def loads(
 def dumps(document: Document) -> bytes: ...
 def save(document: Document, path: _Path, *, force: bool = False) -> List[Path]: ...
 @final
+class DistributedJob:
+    def __new__(cls, job: _Path, options: List[str]) -> "DistributedJob": ...
+    @property
+    def tasks(self) -> List[str]: ...
+    def record(self, result: str) -> None: ...
+    def close(self) -> None: ...
+
+@final
 class DistributedBatch:
     def __new__(cls, inputs: Sequence[_Path], folder: _Path, options: Sequence[str]) -> "DistributedBatch": ...
     @property
@@ -317,11 +333,74 @@ def bake(
     curvature_radius: float = 4.0,
     curvature_unit: Literal["texels", "distance"] = "texels",
     world_direction: Tuple[float, float, float] = ...,
+    skew: Union[float, npt.ArrayLike, None] = None,
+    udim: Optional[int] = None,
     high_colors: Optional[npt.ArrayLike] = None,
     high_uvs: Optional[npt.ArrayLike] = None,
     high_textures: Optional[Mapping[str, npt.NDArray[np.uint8]]] = None,
     threads: Optional[int] = None,
 ) -> BakedMaps: ...
+def verify(
+    positions: npt.ArrayLike,
+    normals: npt.ArrayLike,
+    uvs: npt.ArrayLike,
+    indices: Optional[npt.ArrayLike],
+    tangents: npt.ArrayLike,
+    high_positions: npt.ArrayLike,
+    high_indices: Optional[npt.ArrayLike] = None,
+    high_normals: Optional[npt.ArrayLike] = None,
+    *,
+    baked: BakedMaps,
+    written: Optional[npt.ArrayLike] = None,
+    distance: Tuple[float, float],
+    cage: Union[npt.ArrayLike, float, None] = None,
+    source: str = "gltf",
+    target: str = "gltf",
+    bitangent: Literal["pixel", "vertex"] = "pixel",
+    back_faces: bool = False,
+    skew: Union[float, npt.ArrayLike, None] = None,
+    udim: Optional[int] = None,
+    threads: Optional[int] = None,
+) -> Verification: ...
+def convert_space(
+    positions: npt.ArrayLike,
+    normals: npt.ArrayLike,
+    uvs: npt.ArrayLike,
+    indices: Optional[npt.ArrayLike],
+    tangents: npt.ArrayLike,
+    texels: npt.ArrayLike,
+    *,
+    to: Literal["tangent", "object"],
+    mesh: str = "gltf",
+    source: str = "gltf",
+    target: str = "gltf",
+    bitangent: Literal["pixel", "vertex"] = "pixel",
+    padding: Optional[int] = None,
+    udim: Optional[int] = None,
+    threads: Optional[int] = None,
+) -> ConvertedSpace: ...
+def auto_cage(
+    positions: npt.ArrayLike,
+    normals: npt.ArrayLike,
+    uvs: npt.ArrayLike,
+    indices: Optional[npt.ArrayLike],
+    tangents: npt.ArrayLike,
+    high_positions: npt.ArrayLike,
+    high_indices: Optional[npt.ArrayLike] = None,
+    high_normals: Optional[npt.ArrayLike] = None,
+    *,
+    reach: float,
+    share: float = 0.001,
+    threads: Optional[int] = None,
+) -> AutoCage: ...
+def udim_tiles(
+    positions: npt.ArrayLike,
+    normals: npt.ArrayLike,
+    uvs: npt.ArrayLike,
+    indices: Optional[npt.ArrayLike] = None,
+    *,
+    source: str = "gltf",
+) -> List[int]: ...
 def check(
     source: Union[_Path, Document],
     *,

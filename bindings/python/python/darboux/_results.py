@@ -307,6 +307,78 @@ class BakeReport(NamedTuple):
     """Triangles of the high mesh with positions that are not finite. No ray hits them."""
 
 
+class ErrorStatistics(NamedTuple):
+    """Statistics of angles in degrees; all are 0 where there are no points."""
+
+    points: int
+    """The number of points."""
+    median: float
+    """Half of the angles are smaller."""
+    mean: float
+    """The mean."""
+    p95: float
+    """95 % of the angles are smaller."""
+    p99: float
+    """99 % of the angles are smaller."""
+    worst: float
+    """The largest."""
+
+
+class Verification(NamedTuple):
+    """The angles between what a renderer shows and the normals of the high mesh."""
+
+    all: ErrorStatistics
+    """Of all points."""
+    rounding: ErrorStatistics
+    """Between the written map and the map before its components were rounded."""
+    inside: ErrorStatistics
+    """Where the filter reads texels with hits of their own: resolution and rounding."""
+    border: ErrorStatistics
+    """Where it also reads texels outside the chart."""
+    missed: ErrorStatistics
+    """Where it also reads texels whose rays missed."""
+    overlap: ErrorStatistics
+    """Where another triangle owns the texels."""
+    other_bitangent: ErrorStatistics
+    """What a renderer with the other bitangent would show, at all points."""
+    other_green: ErrorStatistics
+    """What a renderer with the other green would show."""
+    normalised_frame: ErrorStatistics
+    """What a renderer would show that normalises normal and tangent per pixel."""
+    points_without_hit: int
+    """Points whose ray hits nothing; they are not compared."""
+    points_without_frame: int
+    """Points without a tangent frame; they are not compared."""
+    heat: Floats
+    """(H, W): the largest error around each texel, NaN where no point lies; at most 2048 rows and columns."""
+
+
+class ConvertedSpace(NamedTuple):
+    """A normal map in another space."""
+
+    texels: Floats
+    """(H, W, 3): unit normals from -1 to 1, the top row first."""
+    charted_texels: int
+    """Texels that charts cover."""
+    overlapping_texels: int
+    """Texels that several triangles cover; the first triangle's frame counts."""
+    invalid_texels: int
+    """Texels without a frame, or whose vector has no direction."""
+
+
+class AutoCage(NamedTuple):
+    """A cage that was made."""
+
+    positions: Floats
+    """(V, 3): the vertices of the low mesh, moved."""
+    least: float
+    """The smallest distance, in units of the positions."""
+    most: float
+    """The largest distance."""
+    inwards: float
+    """How far inside the low mesh rays have to end."""
+
+
 class BakedMaps(NamedTuple):
     """The images of a bake, the top row first; None for what was not chosen. H: rows, W: texels per row."""
 

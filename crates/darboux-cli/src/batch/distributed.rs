@@ -40,11 +40,23 @@ struct Task {
     record: Option<Record>,
 }
 
+/// A task of one of the commands that distribute their work.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum AnyTask {
+    Tangents(Task),
+    #[cfg(feature = "bake")]
+    Bake(crate::commands::bake::job::distributed::BakeTask),
+}
+
+/// The result of a task whose report stays as it is.
+pub type Unread<'a> = TaskResult<&'a RawValue>;
+
 /// The result of a task. `R` is the type of the report.
 #[derive(Serialize, Deserialize)]
-struct TaskResult<R> {
+pub struct TaskResult<R> {
     report: R,
-    record: Option<Record>,
+    pub record: Option<Record>,
 }
 
 impl DistributedBatch {
@@ -100,7 +112,7 @@ impl DistributedBatch {
 
     /// Adds the result of a task to the journal. Errors: the result was not made by [`run_task`]; the journal cannot be written.
     pub fn record(&self, result: &str) -> Result<(), String> {
-        let result: TaskResult<&RawValue> =
+        let result: Unread<'_> =
             serde_json::from_str(result).map_err(|error| format!("the result cannot be parsed: {error}"))?;
         result.record.map_or(Ok(()), |record| self.journal.add(&record))
     }
@@ -112,10 +124,14 @@ impl DistributedBatch {
     }
 }
 
-/// Processes the file of a task. The result of a file that fails holds the reason. Errors: the task was not made by
-/// [`DistributedBatch::open`].
+/// Processes the file of a task, or bakes the entry of a job. The result of one that fails holds the reason. Errors: the task was not made by
+/// [`DistributedBatch::open`] or by that of a job.
 pub fn run_task(task: &str) -> Result<String, String> {
-    let task = parse_task(task)?;
+    let task = match parse_task(task)? {
+        AnyTask::Tangents(task) => task,
+        #[cfg(feature = "bake")]
+        AnyTask::Bake(task) => return crate::commands::bake::job::distributed::run_bake_task(task),
+    };
     let mut arguments = parsed(std::slice::from_ref(&task.input), &task.folder, &task.options)?;
     arguments.files.run = RunId(task.run);
     let job = Job { input: Input::File(task.input), output: Output::File(task.output) };
@@ -126,13 +142,19 @@ pub fn run_task(task: &str) -> Result<String, String> {
 
 /// The result of a task that could not be run, for example because its worker was lost at every attempt. Errors: those of [`run_task`].
 pub fn failed_task(task: &str, reason: &str) -> Result<String, String> {
-    let task = parse_task(task)?;
+    let task = match parse_task(task)? {
+        AnyTask::Tangents(task) => task,
+        #[cfg(feature = "bake")]
+        AnyTask::Bake(task) => {
+            return crate::commands::bake::job::distributed::failed_bake_task(task, reason);
+        }
+    };
     let input = task.input.display().to_string();
     let sentence = format!("{input}: {reason}");
     json(&TaskResult { report: FileReport::<TangentsFileSummary>::failed(input, sentence), record: None })
 }
 
-fn parse_task(task: &str) -> Result<Task, String> {
+fn parse_task(task: &str) -> Result<AnyTask, String> {
     serde_json::from_str(task).map_err(|error| format!("the task cannot be parsed: {error}"))
 }
 
@@ -149,7 +171,7 @@ fn parsed(inputs: &[PathBuf], folder: &Path, options: &[String]) -> Result<Tange
 }
 
 /// The first paragraph of clap's message, without the usage hints.
-fn sentence_of(error: &clap::Error) -> String {
+pub fn sentence_of(error: &clap::Error) -> String {
     let text = error.to_string();
     let lines: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).map(str::trim).collect();
     lines.join(" ").trim_start_matches("error: ").to_owned()

@@ -6,7 +6,7 @@ mod cage_file;
 mod dither;
 mod encode;
 mod files;
-mod job;
+pub mod job;
 mod legend;
 mod model;
 mod open;

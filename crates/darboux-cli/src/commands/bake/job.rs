@@ -1,11 +1,13 @@
 //! A bake as a job: pairs of models with their settings, in a TOML file or found in a folder by their names.
 //!
 //! ```text
-//! file       entries of a TOML file; every option of the command is a key
-//! suffixes   pairs NAME_low, NAME_high, NAME_cage in a folder
-//! run        bakes what has changed since an earlier run, several entries at once
+//! file        entries of a TOML file; every option of the command is a key
+//! suffixes    pairs NAME_low, NAME_high, NAME_cage in a folder
+//! run         bakes what has changed since an earlier run, several entries at once
+//! distributed the same in steps, for workers of other programs
 //! ```
 
+pub mod distributed;
 mod entry;
 mod file;
 mod run;

@@ -8,8 +8,8 @@ use darboux_bake::{
     BakeError, BakeOptions, BakeProgress, HighModel, HighModelOptions, HighSurface, LowModel,
     LowModelOptions, LowSurface, PreparedSurfaces, check_verification, group_by_name,
 };
-use darboux_io::Outputs;
 use darboux_io::gltf::{Document, PrimitiveCorners};
+use darboux_io::{Outputs, RunId};
 
 use super::arguments::{BakeArguments, MatchChoice};
 use super::cage::{Cages, Rays};
@@ -38,7 +38,7 @@ pub fn run(arguments: &BakeArguments, messages: &Messages) -> u8 {
     }
     interrupt::wait_for_writes();
     messages.start(progress_units(arguments));
-    let done = bake_files(arguments, messages);
+    let done = bake_files(arguments, None, messages);
     messages.end_progress();
     let report = match done {
         Ok(report) => report,
@@ -68,7 +68,13 @@ pub fn check_usage(arguments: &BakeArguments) -> Result<(), String> {
 }
 
 /// Reads, bakes and writes. Errors are one sentence each.
-pub fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeReport, String> {
+///
+/// `run`: the run of a job that the files belong to.
+pub fn bake_files(
+    arguments: &BakeArguments,
+    run: Option<RunId>,
+    messages: &Messages,
+) -> Result<BakeReport, String> {
     let mut warnings = Vec::new();
     let documents = Documents::open(arguments, &mut warnings)?;
     let corners = documents.corners()?;
@@ -93,18 +99,12 @@ pub fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<Bake
     if let Some(skew) = &skew {
         surfaces = skew.on(surfaces).map_err(text)?;
     }
-    warnings.extend(advice::of_rays(&surfaces, models.low.names(), rays.distance()[0]));
+    warnings.extend(advice::of_rays(arguments, &surfaces, models.low.names(), rays.distance()[0]));
     let surfaces = prepared.with_low(&surfaces, &context).map_err(text)?;
 
-    let mut run = Run {
-        models: &models,
-        surfaces: &surfaces,
-        context,
-        messages,
-        warnings,
-        outputs: Outputs::new(None),
-    };
-    let cage = stage_cage(arguments, surfaces.low(), models.low.names(), &cages.0, &mut run.outputs)?;
+    let mut bake =
+        Run { models: &models, surfaces: &surfaces, context, messages, warnings, outputs: Outputs::new(run) };
+    let cage = stage_cage(arguments, surfaces.low(), models.low.names(), &cages.0, &mut bake.outputs)?;
     let mut report = BakeReport {
         command: "bake",
         version: VERSION,
@@ -124,10 +124,10 @@ pub fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<Bake
         warnings: Vec::new(),
     };
     for tile in &tiles {
-        run.tile(tile, &options(arguments, &rays).with_udim(tile.udim), &mut report)?;
+        bake.tile(tile, &options(arguments, &rays).with_udim(tile.udim), &mut report)?;
     }
-    commit(run.outputs)?;
-    report.warnings = distinct(run.warnings);
+    commit(bake.outputs)?;
+    report.warnings = distinct(bake.warnings);
     Ok(report)
 }
 

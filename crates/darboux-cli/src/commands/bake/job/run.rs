@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
+use darboux_io::RunId;
 use serde::Serialize;
 
 use super::entry::Entry;
@@ -41,16 +42,8 @@ pub fn run(arguments: &BakeArguments, entries: Vec<Entry>, messages: &Messages) 
         return exit::USAGE;
     }
     print_entries(&entries, messages);
-    let folder = match arguments.low.is_dir() {
-        true => arguments.low.clone(),
-        false => arguments
-            .low
-            .parent()
-            .map(Path::to_owned)
-            .filter(|folder| !folder.as_os_str().is_empty())
-            .unwrap_or_else(|| ".".into()),
-    };
-    let journal = match arguments.resume.then(|| Journal::open(&folder, new_run())).transpose() {
+    let run = new_run();
+    let journal = match arguments.resume.then(|| Journal::open(&folder_of(arguments), run)).transpose() {
         Ok(journal) => journal,
         Err(sentence) => {
             messages.error(&sentence);
@@ -60,7 +53,7 @@ pub fn run(arguments: &BakeArguments, entries: Vec<Entry>, messages: &Messages) 
     let mut report =
         JobReport { command: "bake", version: VERSION, bakes: Vec::new(), up_to_date: 0, errors: Vec::new() };
     messages.start(entries.iter().map(|entry| progress_units(&entry.arguments)).sum());
-    let job = Job { arguments, journal: journal.as_ref(), messages, memory: JobMemory::of_process() };
+    let job = Job { arguments, journal: journal.as_ref(), run, messages, memory: JobMemory::of_process() };
     job.bake_all(&entries, &mut |done| match done {
         Ok(Some(baked)) => {
             print_baked(&baked, messages);
@@ -78,8 +71,15 @@ pub fn run(arguments: &BakeArguments, entries: Vec<Entry>, messages: &Messages) 
     if report.errors.is_empty() { code } else { exit::FAILED }
 }
 
+/// The folder of a job, which has its journal.
+pub fn folder_of(arguments: &BakeArguments) -> PathBuf {
+    let low = &arguments.low;
+    let parent = || low.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if low.is_dir() { low.clone() } else { parent().unwrap_or(Path::new(".")).to_owned() }
+}
+
 /// Refuses, before anything is baked, entries that cannot be right, and files that two of them would write.
-fn check_entries(job: &BakeArguments, entries: &[Entry]) -> Result<(), String> {
+pub fn check_entries(job: &BakeArguments, entries: &[Entry]) -> Result<(), String> {
     let mut outputs: HashSet<PathBuf> = HashSet::new();
     for Entry { arguments, .. } in entries {
         let mut checked = arguments.clone();
@@ -114,6 +114,7 @@ type Done = Result<Option<BakeReport>, String>;
 struct Job<'a> {
     arguments: &'a BakeArguments,
     journal: Option<&'a Journal>,
+    run: RunId,
     messages: &'a Messages,
     memory: JobMemory,
 }
@@ -156,28 +157,64 @@ impl Job<'_> {
         });
     }
 
-    fn bake(&self, Entry { arguments, options }: &Entry) -> Done {
-        let mut arguments = arguments.clone();
-        arguments.force |= self.arguments.force;
-        arguments.jobs = arguments.jobs.or(self.arguments.jobs);
+    fn bake(&self, entry: &Entry) -> Done {
+        let arguments = &entry.arguments;
         let models = arguments.high.iter().chain([&arguments.low]);
-        let _share =
-            self.memory.take(models.filter_map(|path| fs::metadata(path).ok()).map(|file| file.len()).sum());
-        let Some(journal) = self.journal else { return bake_files(&arguments, self.messages).map(Some) };
-        let inputs = inputs_of(&arguments, options.clone())?;
-        let output = arguments.output.clone();
-        if let Some(record) = journal.find(&output) {
-            if record.is_up_to_date(&inputs, journal.folder()) {
-                return Ok(None);
-            }
-            arguments.force = true;
-        }
-        let report = bake_files(&arguments, self.messages)?;
-        if let Some(record) = Record::new(journal.folder(), &output, inputs, &report.files(), &report)? {
+        let sizes = models.filter_map(|path| fs::metadata(path).ok()).map(|file| file.len());
+        let _share = self.memory.take(sizes.sum());
+        let earlier = self
+            .journal
+            .map(|journal| Earlier { folder: journal.folder(), record: journal.find(&arguments.output) });
+        let BakedEntry { report, record } =
+            bake_entry(self.arguments, entry, earlier, self.run, self.messages)?;
+        if let (Some(journal), Some(record)) = (self.journal, record) {
             journal.add(&record)?;
         }
-        Ok(Some(report))
+        Ok(report)
     }
+}
+
+/// What earlier runs of a job have recorded.
+#[derive(Clone, Copy)]
+pub struct Earlier<'a> {
+    pub folder: &'a Path,
+    /// Of the entry's output.
+    pub record: Option<&'a Record>,
+}
+
+/// The result of an entry.
+pub struct BakedEntry {
+    /// None if an earlier run has done it.
+    pub report: Option<BakeReport>,
+    /// What the journal gets.
+    pub record: Option<Record>,
+}
+
+/// Bakes an entry, unless an earlier run has done it. `earlier`: none without `--resume`. Errors are one sentence each.
+pub fn bake_entry(
+    job: &BakeArguments,
+    Entry { arguments, options }: &Entry,
+    earlier: Option<Earlier<'_>>,
+    run: RunId,
+    messages: &Messages,
+) -> Result<BakedEntry, String> {
+    let mut arguments = arguments.clone();
+    arguments.force |= job.force;
+    arguments.jobs = arguments.jobs.or(job.jobs);
+    let Some(Earlier { folder, record }) = earlier else {
+        let report = bake_files(&arguments, None, messages)?;
+        return Ok(BakedEntry { report: Some(report), record: None });
+    };
+    let inputs = inputs_of(&arguments, options.clone())?;
+    if let Some(record) = record {
+        if record.is_up_to_date(&inputs, folder) {
+            return Ok(BakedEntry { report: None, record: None });
+        }
+        arguments.force = true;
+    }
+    let report = bake_files(&arguments, Some(run), messages)?;
+    let record = Record::new(folder, &arguments.output, inputs, &report.files(), &report)?;
+    Ok(BakedEntry { report: Some(report), record })
 }
 
 fn print_baked(report: &BakeReport, messages: &Messages) {

@@ -44,6 +44,7 @@ pub fn of_models(low: &LowModel<'_>, low_name: &str, high: &[HighModel<'_>]) -> 
 
 /// Warnings about rays that cross. `names`: of the surfaces; `outwards`: how far outside rays begin without a cage.
 pub fn of_rays<'n>(
+    arguments: &BakeArguments,
     low: &[LowSurface<'_>],
     names: impl Iterator<Item = &'n str>,
     outwards: f32,
@@ -63,8 +64,14 @@ pub fn of_rays<'n>(
                 0..=6 => parts.join(", "),
                 count => format!("{first} and {} other parts", count - 1),
             };
+            let cure = match arguments.auto_cage {
+                Some(_) => {
+                    "a larger share for --auto-cage, or move these vertices of the cage (--write-cage)"
+                }
+                None => "a smaller distance, or --auto-cage",
+            };
             vec![format!(
-                "rays of neighbouring texels cross before they reach the low model, so that detail may be mirrored or doubled there: {others}; use a smaller distance, or --auto-cage"
+                "rays of neighbouring texels cross before they reach the low model, so that detail may be mirrored or doubled there: {others}; use {cure}"
             )]
         }
     }
