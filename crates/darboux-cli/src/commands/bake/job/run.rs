@@ -206,12 +206,11 @@ pub fn bake_entry(
         return Ok(BakedEntry { report: Some(report), record: None });
     };
     let inputs = inputs_of(&arguments, options.clone())?;
-    if let Some(record) = record {
-        if record.is_up_to_date(&inputs, folder) {
-            return Ok(BakedEntry { report: None, record: None });
-        }
-        arguments.force = true;
+    if record.is_some_and(|record| record.is_up_to_date(&inputs, folder)) {
+        return Ok(BakedEntry { report: None, record: None });
     }
+    // A run that was killed before it recorded its outputs has left them.
+    arguments.force = true;
     let report = bake_files(&arguments, Some(run), messages)?;
     let record = Record::new(folder, &arguments.output, inputs, &report.files(), &report)?;
     Ok(BakedEntry { report: Some(report), record })
