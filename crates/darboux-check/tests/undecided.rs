@@ -2,6 +2,7 @@
 
 mod support;
 
+use darboux::Method;
 use darboux_check::{
     AssumedMap, CheckOptions, Code, Finding, FixOptions, Severity, check_document, fix_document,
 };
@@ -41,6 +42,31 @@ fn flipped_signs_under_a_map_of_unknown_convention_are_left() {
         let fixed = fix_document(&mut document, findings, &options).expect("a repair");
         let flipped = fixed.findings.iter().find(|fixed| fixed.finding.code == Code::TangentSignFlipped);
         assert!(flipped.is_some_and(|flipped| flipped.repaired), "{fixed:?}");
+    }
+}
+
+/// Flipped signs that are left stay when another mistake makes all tangents be computed again.
+#[test]
+fn flipped_signs_that_are_left_survive_the_repair_of_other_mistakes() {
+    for healthy in healthy_models().into_iter().filter(|model| model.name.contains("wavy")) {
+        let mut model = healthy.clone();
+        model.map.file = b"no image".to_vec();
+        let by_faces = model.computed(Method::Face, model.uv_set);
+        model.tangents().copy_from_slice(&by_faces);
+        model.negate_signs();
+        let findings = check(&model);
+        let mut document = model.document();
+        let fixed = fix_document(&mut document, findings, &FixOptions::default()).expect("a repair");
+        assert!(fixed.is_changed, "{}: {fixed:#?}", model.name);
+        let left = check_document(&document, &CheckOptions::default()).expect("a valid document");
+        let is_flipped =
+            |finding: &Finding| finding.code == Code::TangentSignFlipped && !finding.is_fixable();
+        assert!(left.iter().any(is_flipped), "{}: {left:#?}", model.name);
+        assert!(
+            left.iter().all(|finding| finding.code != Code::TangentOtherRecipe),
+            "{}: {left:#?}",
+            model.name
+        );
     }
 }
 

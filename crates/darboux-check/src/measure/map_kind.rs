@@ -82,9 +82,13 @@ fn is_map(judgement: &MapJudgement) -> bool {
     is_gradient || percent(judgement, judgement.not_unit) <= NO_NORMALS[0]
 }
 
-/// Whether texels are no slopes of a surface, and most of them cannot be normals or many of them are neither unit nor above the surface.
+/// Whether most texels are neither unit nor above the surface, or they are no slopes of a surface, and most of them cannot be normals or many of them
+/// are neither.
 fn is_no_map(judgement: &MapJudgement) -> bool {
     let are_no_normals = [judgement.not_unit, judgement.negative_z].map(|count| percent(judgement, count));
+    if are_no_normals.iter().all(|percent| *percent > NO_NORMALS[0]) {
+        return true;
+    }
     let are_colours =
         (0..2).all(|i| are_no_normals[i] > NO_NORMALS[i]) && !judgement.has_exchanged_channels();
     judgement.verdict == MapVerdict::NoGradient && (judgement.holds_no_normals() || are_colours)

@@ -12,7 +12,7 @@ use darboux_io::gltf::{Document, PrimitiveName};
 
 use super::options::FixOptions;
 use super::outcome::Change;
-use super::plan::{Action, Edit, WrongTangents};
+use super::plan::{Action, Edit, Kept, WrongTangents};
 use crate::instances::{Key, key, primitives_at};
 
 /// Applies edits, each to its primitive and to all with the same data. Returns what was done to tangents.
@@ -22,10 +22,16 @@ pub fn apply(
     options: &FixOptions,
 ) -> Result<BTreeMap<Key, Change>, Error> {
     let mut changes = BTreeMap::new();
+    let of_edit = |edit: &Edit| {
+        let names = primitives_at(document, &edit.place);
+        names.iter().map(|name| (key(name), edit.kept)).collect::<Vec<_>>()
+    };
+    let kept: BTreeMap<Key, Kept> = edits.iter().flat_map(of_edit).collect();
     let lost_tangents = normals::repair(document, edits, options)?;
-    tangents::make(document, &lost_tangents, options)?;
+    tangents::make(document, &lost_tangents, &kept, options)?;
     changes.extend(lost_tangents.iter().map(|name| (key(name), Change::RecomputedTangents)));
-    tangents::negate_signs(document, &names(document, edits, |action| *action == Action::NegateSigns))?;
+    let flipped = names(document, edits, |action| *action == Action::NegateSigns);
+    tangents::change(document, &flipped, |[x, y, z, w]| [x, y, z, -w])?;
     let mut wrong: BTreeMap<Key, &WrongTangents> = BTreeMap::new();
     for edit in edits {
         if let Action::CorrectTangents(of_edit) = &edit.action {
@@ -33,9 +39,9 @@ pub fn apply(
             wrong.extend(primitives_at(document, &edit.place).iter().map(|name| (key(name), of_edit)));
         }
     }
-    changes.extend(tangents::correct(document, &wrong, options)?);
+    changes.extend(tangents::correct(document, &wrong, &kept, options)?);
     let made = names(document, edits, |action| *action == Action::MakeTangents);
-    tangents::make(document, &made, options)?;
+    tangents::make(document, &made, &kept, options)?;
     changes.extend(made.iter().map(|name| (key(name), Change::RecomputedTangents)));
     Ok(changes)
 }

@@ -11,6 +11,7 @@ use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Obstacle, Pair};
 use crate::hypotheses::has_flipped_signs;
 use crate::instances::{Key, key};
+use crate::severity::Severity;
 
 /// The primitives and images that are left because a part of such a pair is left, each with the pair, or may be one.
 #[derive(Debug, Default)]
@@ -79,6 +80,9 @@ impl LeftPairs {
             defect.cancelled = defect.cancelled.take().or_else(|| cancelled(&defect));
             let pair = pair_of(&defect).map(Obstacle::PairIsLeft);
             let map = map_of(&defect).map(|image| Obstacle::MapMayCancel { image });
+            if map.is_some() || defect.cancelled.is_some() {
+                defect.severity = defect.severity.min(Severity::Warning);
+            }
             defect.with_obstacle(pair.or(map))
         };
         defects.into_iter().map(mark).collect()

@@ -16,6 +16,26 @@ use crate::place::Place;
 pub struct Edit {
     pub place: Place,
     pub action: Action,
+    pub kept: Kept,
+}
+
+/// What is wrong with all tangents of a primitive and stays so when they are computed again, because a mistake in the map that is left may cancel it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Kept {
+    /// The signs w stay flipped.
+    pub flipped: bool,
+    /// The tangents stay negated.
+    pub negated: bool,
+}
+
+impl Kept {
+    fn of(defects: &[&Defect], options: &FixOptions) -> Self {
+        let stays = |code: Code| {
+            let mut left = defects.iter().filter(|defect| !options.repairs(defect));
+            left.any(|defect| defect.code() == code && !defect.lists_items())
+        };
+        Self { flipped: stays(Code::TangentSignFlipped), negated: stays(Code::TangentNegated) }
+    }
 }
 
 /// What is changed.
@@ -117,7 +137,7 @@ pub fn plan(defects: &[Defect], options: &FixOptions, stages: &BTreeMap<Key, Sta
     let edit = |(at, defects): (Key, Vec<&Defect>)| {
         let stage = stages.get(&at).copied().unwrap_or_default();
         let action = next_action(&defects, options, stage)?;
-        Some(Edit { place: defects[0].place.clone(), action })
+        Some(Edit { place: defects[0].place.clone(), action, kept: Kept::of(&defects, options) })
     };
     of_places.into_iter().filter_map(edit).collect()
 }

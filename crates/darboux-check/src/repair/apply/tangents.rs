@@ -14,16 +14,17 @@ use crate::check::for_each_surface;
 use crate::instances::{Key, key, primitives_at};
 use crate::repair::options::FixOptions;
 use crate::repair::outcome::Change;
-use crate::repair::plan::WrongTangents;
+use crate::repair::plan::{Kept, WrongTangents};
 
 /// The attribute.
 const TANGENT: &str = "TANGENT";
 
 /// Corrects tangents that are wrong, and keeps the bits of the others. Vertices are split where their corners need different tangents; on primitives
-/// with morph targets, all tangents are made again then, with those of the targets. `wrong`: per primitive. Returns what was done to the primitives.
+/// with morph targets, all tangents are made again then, with those of the targets. `wrong` and `kept`: per primitive. Returns what was done to the primitives.
 pub fn correct(
     document: &mut Document,
     wrong: &BTreeMap<Key, &WrongTangents>,
+    kept: &BTreeMap<Key, Kept>,
     options: &FixOptions,
 ) -> Result<BTreeMap<Key, Change>, Error> {
     if wrong.is_empty() {
@@ -66,7 +67,7 @@ pub fn correct(
         }
     }
     split_vertices(document, &split)?;
-    make(document, &remade, options)?;
+    make(document, &remade, kept, options)?;
     Ok(changes)
 }
 
@@ -113,18 +114,26 @@ fn split_vertices(document: &mut Document, corrections: &[Corrected]) -> Result<
     document.set_corner_tangents(&given.collect::<Vec<_>>())
 }
 
-/// Negates the signs w of primitives; the directions of the tangents, whatever method they come from, stay.
-pub fn negate_signs(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Error> {
+/// Changes all tangents of primitives.
+pub fn change(
+    document: &mut Document,
+    names: &[PrimitiveName],
+    change: fn([f32; 4]) -> [f32; 4],
+) -> Result<(), Error> {
     for (accessor, users) in users_of(document, TANGENT, names) {
-        let tangents = document.vectors::<4>(accessor)?;
-        let negated: Vec<[f32; 4]> = tangents.iter().map(|&[x, y, z, w]| [x, y, z, -w]).collect();
-        document.set_tangents(&users, &negated)?;
+        let changed: Vec<[f32; 4]> = document.vectors::<4>(accessor)?.iter().copied().map(change).collect();
+        document.set_tangents(&users, &changed)?;
     }
     Ok(())
 }
 
-/// Makes the tangents of primitives again. Vertices whose corners need different tangents are split.
-pub fn make(document: &mut Document, names: &[PrimitiveName], options: &FixOptions) -> Result<(), Error> {
+/// Makes the tangents of primitives again. Vertices whose corners need different tangents are split. `kept`: what stays wrong, per primitive.
+pub fn make(
+    document: &mut Document,
+    names: &[PrimitiveName],
+    kept: &BTreeMap<Key, Kept>,
+    options: &FixOptions,
+) -> Result<(), Error> {
     if names.is_empty() {
         return Ok(());
     }
@@ -132,5 +141,11 @@ pub fn make(document: &mut Document, names: &[PrimitiveName], options: &FixOptio
     let is_wanted = |name: &PrimitiveName| places.contains(&(name.mesh, name.primitive));
     let adding = AddTangentsOptions::default().with_tangents(options.tangents).with_overwrite(true);
     let context = &mut Context::new();
-    add_tangents_to(document, &adding, &is_wanted, context, Generate::OnCpu, &mut |_| {}).map(drop)
+    add_tangents_to(document, &adding, &is_wanted, context, Generate::OnCpu, &mut |_| {})?;
+    let staying = |stays: fn(&Kept) -> bool| {
+        let names = names.iter().filter(|name| kept.get(&key(name)).is_some_and(stays));
+        names.cloned().collect::<Vec<_>>()
+    };
+    change(document, &staying(|kept| kept.flipped), |[x, y, z, w]| [x, y, z, -w])?;
+    change(document, &staying(|kept| kept.negated), |[x, y, z, w]| [-x, -y, -z, w])
 }
