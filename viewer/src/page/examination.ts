@@ -33,6 +33,8 @@ export class Examination {
   private model: Model | null = null;
   private maps: ShownMap[] = [];
   private repaired: Uint8Array<ArrayBuffer> | null = null;
+  /** What happened to the open model, before any repair. */
+  private diagnosis = '';
   private readonly repairs = new WeakMap<Model, Promise<Repaired>>();
 
   constructor(private readonly host: Host) {
@@ -61,6 +63,7 @@ export class Examination {
       const file = await documentOf(model);
       const checked = await checker('check', file);
       if (this.model !== model) return;
+      this.diagnosis = checked.diagnosis;
       showFindings(checked, this.visit);
       await this.host.checked(checked.findings);
       if (this.model !== model) return;
@@ -98,7 +101,8 @@ export class Examination {
       const repaired = await this.repairOnce(model);
       if (this.model !== model) return;
       if (repaired.file) await this.show(repaired.file, repaired.findings);
-      showFindings(repaired, this.visit);
+      // What was wrong stays said: faults of maps are repaired before anybody has read it.
+      showFindings(repaired, this.visit, this.diagnosis);
     } finally {
       if (this.model === model) setBusy(false);
     }

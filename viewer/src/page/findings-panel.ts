@@ -37,9 +37,10 @@ export function showChecking(): void {
 /** The parts of a card that are shown at once. */
 const SHOWN_PARTS = 6;
 
-/** Shows the diagnosis, and below it findings, the worst problem first. */
-export function showFindings({ findings, diagnosis }: Checked, visit: Visit): void {
-  element('diagnosis').replaceChildren(...inWords(forPage(diagnosis)));
+/** Shows the diagnosis, and below it findings, the worst problem first. `before`: the diagnosis of the file that was repaired. */
+export function showFindings({ findings, diagnosis }: Checked, visit: Visit, before = ''): void {
+  const done = before && before !== diagnosis ? `${forPage(before, true)} ` : '';
+  element('diagnosis').replaceChildren(...inWords(done + forPage(diagnosis, false)));
   const sorted = [...findings].sort((a, b) => SEVERITIES.indexOf(a.severity) - SEVERITIES.indexOf(b.severity));
   const problems = Map.groupBy(sorted, ({ code, severity }) => `${severity} ${code}`);
   const cards = [...problems.values()].map((same) => ({ isNote: ['info', 'not-checked'].includes(same[0].severity), card: card(same, visit) }));
@@ -153,8 +154,8 @@ function inWords(sentence: string): (HTMLElement | string)[] {
 }
 
 /** The diagnosis with the page's button in place of the command that does the same. */
-function forPage(diagnosis: string): string {
-  return diagnosis.replace('Type `darboux check FILE --fix` to repair it.', 'Press Repair.').replace('`darboux check FILE --fix` repairs', 'Repair mends');
+function forPage(diagnosis: string, isDone: boolean): string {
+  return diagnosis.replace('Type `darboux check FILE --fix` to repair it.', isDone ? '' : 'Press Repair.').trim().replace('`darboux check FILE --fix` repairs', 'Repair mends');
 }
 
 function text(tag: string, content: string, className = ''): HTMLElement {
