@@ -1,7 +1,7 @@
 //! glTF 2.0 and GLB: documents that are read, edited, and written with everything else preserved.
 //!
 //! ```text
-//! load, container, json, buffers, resources            reading: the file, its JSON, its buffers
+//! load, container, buffers, resources                  reading: the file, its buffers; its JSON is read in `crate::json`
 //! document, schema, references                         the one truth: a JSON value and buffers; typed parts; checks of references
 //! compression/                                         compressed data becomes plain data
 //! accessors, stored_elements, elements                 accessors as arrays, and arrays as accessors
@@ -24,7 +24,6 @@ mod elements;
 mod file_bytes;
 mod image_uses;
 mod inspect;
-mod json;
 mod load;
 mod materials;
 mod normals;

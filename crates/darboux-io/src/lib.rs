@@ -30,6 +30,7 @@ mod fbx;
 mod files;
 pub mod gltf;
 pub mod image;
+pub mod json;
 mod load_options;
 mod memory_limit;
 pub mod obj;

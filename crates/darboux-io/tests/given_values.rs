@@ -88,7 +88,8 @@ fn vertices_get_new_vectors_in_the_primitives_that_are_named() {
     let attributes = |mesh: usize| document.meshes()[mesh].primitives[0].attributes.clone();
     assert_eq!(*document.vectors::<3>(attributes(0)["POSITION"]).unwrap(), raised);
     let stored = &document.json()["accessors"][attributes(0)["POSITION"]];
-    assert_eq!((&stored["min"], &stored["max"]), (&json!([0.0, 2.0, -1.0]), &json!([5.0, 2.0, -1.0])));
+    assert_eq!(stored["min"], [0.0, 2.0, -1.0]);
+    assert_eq!(stored["max"], [5.0, 2.0, -1.0]);
     assert_ne!(attributes(0)["NORMAL"], attributes(1)["NORMAL"]);
     assert!(!attributes(1).contains_key("TANGENT"));
     let sentence = document.set_normals(&[name(1)], &[[0.0; 3]; 2]).unwrap_err().to_string();

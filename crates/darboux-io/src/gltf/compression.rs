@@ -5,7 +5,7 @@ mod meshopt;
 
 use std::collections::BTreeSet;
 
-use serde_json::Value;
+use crate::json::Value;
 
 use super::document::Document;
 use super::element_type::ComponentType;

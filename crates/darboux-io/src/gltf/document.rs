@@ -5,17 +5,17 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
+use crate::json::Value;
 use serde::de::DeserializeOwned;
-use serde_json::Value;
 
 use super::buffers::{BufferSource, ImageFile};
 use super::container::Container;
 use super::file_bytes::FileBytes;
-use super::json::{self, TextLayout};
 use super::references::Unreferenced;
 use super::resources::Resources;
 use super::schema::{self, Root};
 use crate::error::ContentError;
+use crate::json::{self, TextLayout};
 use crate::memory_limit::Budget;
 use crate::source::Provenance;
 use crate::{Error, LoadOptions};

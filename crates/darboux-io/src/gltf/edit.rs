@@ -17,15 +17,15 @@ mod vertices;
 
 pub use checkpoint::Checkpoint;
 
-use serde_json::{Map, Value, json};
+use crate::json::{Map, Value, object};
 
 use super::buffers::{BufferSource, NewBytes};
 use super::document::Document;
 use super::element_type::ComponentType;
 use super::elements::{Elements, NewAccessor, Target};
-use super::json;
 use super::schema::{self, Root};
 use crate::error::ContentError;
+use crate::json;
 
 impl Document {
     /// Appends an accessor with new buffer views. Returns its index. It is written if something refers to it then.
@@ -38,7 +38,7 @@ impl Document {
         let mut element = stored.to_json(bounds);
         for key in ["name", "extras", "extensions"] {
             if let Some(value) = description.as_ref().and_then(|description| description.get(key)) {
-                element.insert(key.to_owned(), value.clone());
+                element.insert(key, value.clone());
             }
         }
         if let Some(backed) = self.backed_count.get_mut() {
@@ -113,12 +113,16 @@ impl Document {
         let byte_length = bytes.len();
         let (buffer, byte_offset) = self.push_bytes(bytes);
         let byte_stride = (stride != size).then_some(stride);
-        let mut element = Map::new();
-        element.insert("buffer".to_owned(), buffer.into());
-        element.insert("byteOffset".to_owned(), byte_offset.into());
-        element.insert("byteLength".to_owned(), byte_length.into());
-        element.extend(byte_stride.map(|stride| ("byteStride".to_owned(), stride.into())));
-        element.extend(target.and_then(Target::code).map(|code| ("target".to_owned(), code.into())));
+        let mut element = Map::default();
+        element.insert("buffer", buffer.into());
+        element.insert("byteOffset", byte_offset.into());
+        element.insert("byteLength", byte_length.into());
+        if let Some(stride) = byte_stride {
+            element.insert("byteStride", stride.into());
+        }
+        if let Some(code) = target.and_then(Target::code) {
+            element.insert("target", code.into());
+        }
         let extensions = schema::BufferViewExtensions::default();
         self.root.buffer_views.push(schema::BufferView {
             buffer,
@@ -134,8 +138,8 @@ impl Document {
     fn push_bytes(&mut self, bytes: Vec<u8>) -> (usize, usize) {
         if !matches!(self.buffers.last(), Some(BufferSource::New(_))) {
             self.buffers.push(BufferSource::New(NewBytes::default()));
-            self.root.buffers.push(schema::Buffer { uri: None, byte_length: 0, name: None });
-            self.push_element("buffers", json!({ "byteLength": 0 }));
+            self.root.buffers.push(schema::Buffer { uri: None, byte_length: 0 });
+            self.push_element("buffers", object! { "byteLength": 0usize });
         }
         let buffer = self.buffers.len() - 1;
         let Some(BufferSource::New(new)) = self.buffers.last_mut() else { unreachable!("was pushed") };
@@ -227,7 +231,7 @@ impl Document {
             declared.retain(|declared| !names.iter().any(|name| declared == name));
             self.is_changed |= declared.len() < count;
             if declared.is_empty() {
-                root.shift_remove(list);
+                root.remove(list);
             }
         }
     }

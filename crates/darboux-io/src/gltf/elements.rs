@@ -1,6 +1,6 @@
 //! Elements of accessors as bytes, and new accessors made of them.
 
-use serde_json::{Map, Value, json};
+use crate::json::{Map, Value, object};
 
 use super::element_type::{ComponentType, ElementType};
 use super::schema::{Accessor, Sparse};
@@ -144,9 +144,9 @@ impl Target {
 
 impl Accessor {
     /// The JSON of a new accessor.
-    pub(super) fn to_json(&self, bounds: Option<Bounds>) -> Map<String, Value> {
-        let mut element = Map::new();
-        let mut set = |key: &str, value: Value| element.insert(key.to_owned(), value);
+    pub(super) fn to_json(&self, bounds: Option<Bounds>) -> Map {
+        let mut element = Map::default();
+        let mut set = |key: &str, value: Value| element.insert(key, value);
         if let Some(view) = self.buffer_view {
             set("bufferView", view.into());
         }
@@ -162,9 +162,9 @@ impl Accessor {
         }
         if let Some(Sparse { count, indices, values }) = self.sparse.as_deref() {
             let kind = indices.component_type.code();
-            let indices = json!({ "bufferView": indices.buffer_view, "componentType": kind });
-            let values = json!({ "bufferView": values.buffer_view });
-            set("sparse", json!({ "count": count, "indices": indices, "values": values }));
+            let indices = object! { "bufferView": indices.buffer_view, "componentType": kind };
+            let values = object! { "bufferView": values.buffer_view };
+            set("sparse", object! { "count": *count, "indices": indices, "values": values });
         }
         element
     }

@@ -1,9 +1,9 @@
 //! Finds the materials' textures that use an image.
 
-use serde_json::Value;
+use crate::json::{self, Value};
 
+use super::Document;
 use super::materials::Texture;
-use super::{Document, json};
 
 /// The members of materials that are normal maps.
 const NORMAL_MAPS: [&str; 2] = ["normalTexture", "clearcoatNormalTexture"];

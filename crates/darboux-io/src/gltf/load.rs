@@ -4,18 +4,18 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
-use serde_json::Value;
+use crate::json::Value;
 
 use super::buffers::load_buffer;
 use super::container::Container;
 use super::document::Document;
 use super::file_bytes::{FileAccess, FileBytes};
-use super::json::{self, TextLayout};
 use super::primitives::triangles::mode_name;
 use super::references::{self, Unreferenced};
 use super::resources::Resources;
 use super::schema::Root;
 use crate::error::{ContentError, shortened};
+use crate::json::{self, TextLayout};
 use crate::memory_limit::{self, Budget};
 use crate::source::{Built, ModelFiles};
 use crate::{Error, Files, LoadOptions, paths, readers};

@@ -6,13 +6,13 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use super::Document;
-use super::json;
 use super::objects_only::read_from_objects;
 use super::resources::{UriTarget, decode_data_uri};
 use super::schema::{Image, TextureInfoExtensions};
 use super::tangents::uv::{UvChoice, UvTransform};
 use crate::Error;
 use crate::error::{ContentError, system_reason};
+use crate::json;
 
 /// A material: the parts that a simple renderer needs.
 #[derive(Clone, Debug, PartialEq)]

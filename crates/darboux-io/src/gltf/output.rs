@@ -7,17 +7,16 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 
-use serde::ser::{Serialize, SerializeMap, Serializer};
-use serde_json::{Value, json};
+use crate::json::{Value, object};
 
 use super::buffers::{BufferSource, ImageFile};
 use super::document::Document;
-use super::json::TextLayout;
 use super::resources::{UriTarget, encode_data_uri, image_type};
 use super::schema::{Buffer, BufferView};
 use super::segments::Segment;
 use super::unused_data::UnusedData;
 use crate::error::{ContentError, system_reason};
+use crate::json::{Part, TextLayout};
 
 /// The segments of a binary chunk, or of a new file.
 #[derive(Debug, Default)]
@@ -283,13 +282,13 @@ impl<'a> OutputLayout<'a> {
     fn push_image(&mut self, binary: &mut BinaryOutput<'a>, bytes: Segment<'a>) -> usize {
         let length = bytes.len();
         let offset = binary.push(bytes);
-        self.image_views.push(json!({ "buffer": 0, "byteOffset": offset, "byteLength": length }));
+        self.image_views.push(object! { "buffer": 0usize, "byteOffset": offset, "byteLength": length });
         let kept = self.unused_data.view_count(self.document.root.buffer_views.len());
         kept + self.image_views.len() - 1
     }
 
     /// The JSON text of the output.
-    pub fn json(&self, uris: &FileUris, text_layout: &TextLayout) -> Result<Vec<u8>, ContentError> {
+    pub fn json(&self, uris: &FileUris, text_layout: &TextLayout) -> Vec<u8> {
         let cleared = self.unused_data.cleared(&self.document.json);
         let root = cleared.as_ref().unwrap_or(&self.document.json);
         let replaced = [
@@ -297,9 +296,7 @@ impl<'a> OutputLayout<'a> {
             ("buffers", Some(self.buffers(uris))),
             ("images", self.images(root, uris)),
         ];
-        text_layout.text(&OutputJson { root, replaced }).map_err(|error| {
-            ContentError::invalid("", format!("the JSON cannot be written: {error}; export the file again"))
-        })
+        output_text(root, &replaced, text_layout)
     }
 
     fn views(&self) -> Elements<'_> {
@@ -318,7 +315,7 @@ impl<'a> OutputLayout<'a> {
             extensions.into_iter().flatten().filter(|(_, extension)| extension.is_object())
         {
             if let Cow::Owned(extension) = self.moved(extension) {
-                moved.to_mut()["extensions"][name] = extension;
+                moved.to_mut()["extensions"][name.as_str()] = extension;
             }
         }
         moved
@@ -350,8 +347,8 @@ impl<'a> OutputLayout<'a> {
     fn buffer(&self, output_buffer: &OutputBuffer, uris: &FileUris) -> Cow<'_, Value> {
         let mut buffer = match output_buffer.source {
             Some(source) => Cow::Borrowed(self.document.element("buffers", source)),
-            None if uris.binaries.is_empty() => Cow::Owned(json!({})),
-            None => Cow::Owned(json!({ "name": Buffer::NAME_FOR_NEW_DATA })),
+            None if uris.binaries.is_empty() => Cow::Owned(object! {}),
+            None => Cow::Owned(object! { "name": Buffer::NAME_FOR_NEW_DATA }),
         };
         match (&output_buffer.content, output_buffer.source) {
             (BufferContent::Binary(binary), _) => {
@@ -399,7 +396,7 @@ impl<'a> OutputLayout<'a> {
         }
         for EmbeddedImage { index, view, media_type } in &self.images {
             let image = &mut images[*index];
-            image.as_object_mut().and_then(|image| image.shift_remove("uri"));
+            image.as_object_mut().and_then(|image| image.remove("uri"));
             image["mimeType"] = media_type.as_str().into();
             image["bufferView"] = (*view).into();
         }
@@ -410,30 +407,21 @@ impl<'a> OutputLayout<'a> {
 /// The elements of an array.
 type Elements<'a> = Vec<Cow<'a, Value>>;
 
-/// The root object with some of its arrays replaced. Empty arrays are left out.
-struct OutputJson<'a> {
-    root: &'a Value,
-    replaced: [(&'static str, Option<Elements<'a>>); 3],
-}
-
-impl Serialize for OutputJson<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let members = || self.root.as_object().into_iter().flatten();
-        let replaced = self.replaced.iter().filter_map(|(key, new)| Some((*key, new.as_ref()?)));
-        let new_of = |key: &str| replaced.clone().find(|(replaced, _)| *replaced == key);
-        let mut map = serializer.serialize_map(None)?;
-        for (key, value) in members() {
-            match new_of(key) {
-                None => map.serialize_entry(key, value)?,
-                Some((_, new)) if new.is_empty() => {}
-                Some((_, new)) => map.serialize_entry(key, new)?,
-            }
-        }
-        for (key, new) in replaced.filter(|(key, new)| !new.is_empty() && self.root.get(key).is_none()) {
-            map.serialize_entry(key, new)?;
-        }
-        map.end()
-    }
+/// The text of the root object with some of its arrays replaced. Empty arrays are left out.
+fn output_text(
+    root: &Value,
+    replaced: &[(&'static str, Option<Elements<'_>>)],
+    layout: &TextLayout,
+) -> Vec<u8> {
+    let new_of = |key: &str| replaced.iter().find(|(replaced, new)| *replaced == key && new.is_some());
+    let kept = |key: &str| new_of(key).and_then(|(_, new)| new.as_deref()).filter(|new| !new.is_empty());
+    let stored = root.as_object().into_iter().flatten().filter_map(|(key, value)| match new_of(key) {
+        None => Some((key.as_str(), Part::Value(value))),
+        Some(_) => kept(key).map(|new| (key.as_str(), Part::Elements(new))),
+    });
+    let added = replaced.iter().filter(|(key, _)| root.get(*key).is_none());
+    let added = added.filter_map(|(key, _)| kept(key).map(|new| (*key, Part::Elements(new))));
+    layout.text_of_object(stored.chain(added))
 }
 
 /// Sets a member to a text, unless it is that text.
@@ -444,11 +432,11 @@ fn set_text(object: &mut Cow<'_, Value>, key: &str, text: &str) {
 }
 
 fn remove(object: &mut Cow<'_, Value>, key: &str) {
-    object.to_mut().as_object_mut().and_then(|object| object.shift_remove(key));
+    object.to_mut().as_object_mut().and_then(|object| object.remove(key));
 }
 
 /// Whether a buffer can be merged into another without loss of JSON members.
 fn is_plain(buffer: &Value) -> bool {
     let mut keys = buffer.as_object().into_iter().flat_map(|members| members.keys());
-    keys.all(|key| ["uri", "byteLength", "name"].contains(&key.as_str()))
+    keys.all(|key| ["uri", "byteLength", "name"].contains(&key))
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use serde_json::Value;
+use crate::json::Value;
 
 use crate::error::ContentError;
 
@@ -362,7 +362,7 @@ fn extension_names<'a>(value: &'a Value, names: &mut BTreeSet<&'a str>) {
         Value::Object(members) => {
             for (key, value) in members.iter().filter(|(_, value)| value.is_object() || value.is_array()) {
                 if let ("extensions", Value::Object(extensions)) = (key.as_str(), value) {
-                    names.extend(extensions.keys().map(String::as_str));
+                    names.extend(extensions.keys());
                 }
                 extension_names(value, names);
             }
@@ -375,7 +375,7 @@ fn extension_names<'a>(value: &'a Value, names: &mut BTreeSet<&'a str>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gltf::json::parse_test as parse;
+    use crate::json::parse_test as parse;
 
     #[test]
     fn references_are_found_where_gltf_has_them() {

@@ -9,11 +9,12 @@ use std::path::{Path, PathBuf};
 use super::buffers::{BufferSource, ImageFile};
 use super::container::glb;
 use super::document::Document;
-use super::json::TextLayout;
 use super::output::{FileUris, OutputLayout};
 use super::resources::{LocatedFile, UriTarget, encode_path, portable};
+use super::schema::Buffer;
 use super::segments::{self, Segment};
 use crate::error::ContentError;
+use crate::json::TextLayout;
 use crate::staging::{Outputs, Staging};
 use crate::{Error, FileKind, SaveOptions, paths};
 
@@ -77,12 +78,9 @@ impl Document {
     /// The file of a buffer that an earlier run made for new data, if the document has edits: it gets a new file for that buffer. The old
     /// file is kept, since other documents may refer to it.
     pub(super) fn replaced_file(&self, buffer: usize) -> Option<&LocatedFile> {
-        match (self.root.buffers.get(buffer), self.buffers.get(buffer)) {
-            (Some(buffer), Some(BufferSource::File(file)))
-                if buffer.was_made_by_darboux() && self.is_changed() =>
-            {
-                Some(&file.located)
-            }
+        let is_ours = self.element("buffers", buffer)["name"] == Buffer::NAME_FOR_NEW_DATA;
+        match self.buffers.get(buffer) {
+            Some(BufferSource::File(file)) if is_ours && self.is_changed() => Some(&file.located),
             _ => None,
         }
     }
@@ -132,7 +130,7 @@ impl Document {
             self.container.other_chunks.iter().map(|(kind, range)| (*kind, &self.file[range.clone()]));
         let segments = || {
             let mut layout = OutputLayout::glb(self)?;
-            let json = layout.json(&FileUris::default(), &TextLayout::default())?;
+            let json = layout.json(&FileUris::default(), &TextLayout::default());
             glb(json, layout.binaries.pop().map(|binary| binary.segments), chunks.collect())
         };
         segments().map_err(|error| error.in_file(self.name()))
@@ -166,7 +164,7 @@ impl Document {
         for (&image, ImageFile { relative, bytes, .. }) in &self.image_files {
             uris.images.insert(image, names.place_segments(relative, staging, &[Segment::Borrowed(bytes)])?);
         }
-        Ok(vec![Segment::Owned(layout.json(&uris, &self.layout).map_err(in_file)?)])
+        Ok(vec![Segment::Owned(layout.json(&uris, &self.layout))])
     }
 
     /// Copies the files that the document refers to into the output's folder, unless that is the document's folder. Returns the files

@@ -5,7 +5,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
-use serde_json::Value;
 
 use super::element_type::{ComponentType, ElementType};
 use super::objects_only::read_from_objects;
@@ -336,18 +335,11 @@ pub(super) struct Buffer {
     pub uri: Option<String>,
     /// The number of bytes.
     pub byte_length: usize,
-    /// The name.
-    pub(super) name: Option<Value>,
 }
 
 impl Buffer {
     /// The name of buffers made for new data of a `.gltf`, by which later runs recognise them.
     pub(super) const NAME_FOR_NEW_DATA: &str = "darboux";
-
-    /// True if an earlier run of Darboux made the buffer, for new data.
-    pub(super) fn was_made_by_darboux(&self) -> bool {
-        self.name.as_ref().is_some_and(|name| name == Self::NAME_FOR_NEW_DATA)
-    }
 }
 
 /// An image.

@@ -10,7 +10,7 @@
 
 use std::ops::Range;
 
-use serde_json::Value;
+use crate::json::Value;
 
 use super::buffers::BufferSource;
 use super::document::Document;
@@ -111,7 +111,7 @@ impl UnusedData {
             let mut index = 0..;
             accessors.retain(|_| index.next().is_none_or(|index| !self.has_accessor(index)));
             if accessors.is_empty() {
-                cleared.as_object_mut().and_then(|root| root.shift_remove("accessors"));
+                cleared.as_object_mut().and_then(|root| root.remove("accessors"));
             }
         }
         Some(cleared)

@@ -167,9 +167,9 @@ fn set_faces(
         let key = (old, mode, corners.len());
         match flipped.get(&key) {
             Some(&indices) => document.edit_primitive(name.mesh, name.primitive, |json| {
-                json.insert("indices".to_owned(), indices.into());
+                json.insert("indices", indices.into());
                 if json.contains_key("mode") {
-                    json.insert("mode".to_owned(), TRIANGLES.into());
+                    json.insert("mode", TRIANGLES.into());
                 }
             })?,
             None => {

@@ -108,7 +108,7 @@ impl Document {
             self.decompressed_bytes += elements.bytes.len();
             let view = self.push_view(elements.bytes, size, target.stride(size), Some(target));
             self.edit_element("accessors", index, |accessor| {
-                accessor.as_object_mut().and_then(|accessor| accessor.shift_remove("byteOffset"));
+                accessor.as_object_mut().and_then(|accessor| accessor.remove("byteOffset"));
                 accessor["bufferView"] = view.into();
             })?;
             sources.insert(index, (draco.buffer_view, id));

@@ -18,13 +18,12 @@ mod triangles;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use serde_json::Value;
+use crate::json::{self, Value};
 
 use super::DecodeBudget;
 use crate::error::ContentError;
 use crate::gltf::buffers::BufferSource;
 use crate::gltf::document::Document;
-use crate::gltf::json;
 use crate::gltf::schema::{BufferView, Meshopt};
 
 const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];

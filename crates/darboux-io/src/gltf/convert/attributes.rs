@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
+use crate::json::Value;
 use darboux::{Convention, Conversion};
-use serde_json::Value;
 
 use super::summary::ConversionSummary;
 use crate::Error;

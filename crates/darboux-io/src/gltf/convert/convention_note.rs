@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::json::{Map, Value};
 use darboux::Convention;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
-use serde_json::{Map, Value};
 
 use crate::Error;
 use crate::gltf::Document;
@@ -59,17 +59,23 @@ impl Document {
             return Ok(());
         }
         let asset = self.json.get_mut("asset").and_then(Value::as_object_mut);
-        let extras = asset.map(|asset| asset.entry("extras").or_insert_with(|| Map::new().into()));
+        let extras = asset.map(|asset| {
+            let extras = asset.get_or_add("extras");
+            if extras.is_null() {
+                *extras = Map::default().into();
+            }
+            extras
+        });
         let Some(extras) = extras.and_then(Value::as_object_mut) else {
             let problem = format!("is not an object, so that {MEMBER} cannot be stored; remove it");
             return Err(self.invalid("asset.extras", problem));
         };
         match name {
-            Some(name) => drop(extras.insert(MEMBER.to_owned(), name)),
-            None => drop(extras.shift_remove(MEMBER)),
+            Some(name) => drop(extras.insert(MEMBER, name)),
+            None => drop(extras.remove(MEMBER)),
         }
         if extras.is_empty() {
-            self.json["asset"].as_object_mut().and_then(|asset| asset.shift_remove("extras"));
+            self.json["asset"].as_object_mut().and_then(|asset| asset.remove("extras"));
         }
         self.is_changed = true;
         Ok(())

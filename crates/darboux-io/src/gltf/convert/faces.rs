@@ -54,9 +54,9 @@ impl<'a> FaceReverser<'a> {
             }
         };
         document.edit_primitive(mesh, place, |json| {
-            json.insert("indices".to_owned(), indices.into());
+            json.insert("indices", indices.into());
             if topology != TriangleMode::Triangles {
-                json.insert("mode".to_owned(), 4.into());
+                json.insert("mode", 4.into());
             }
         })?;
         Ok(true)

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use crate::json::{self, Value};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use serde_json::Value;
 
 use super::attributes::floats;
 use super::axes::AxisChange;
@@ -12,7 +12,7 @@ use crate::Error;
 use crate::error::ContentError;
 use crate::gltf::primitives::canonical::CanonicalAccessors;
 use crate::gltf::primitives::limits;
-use crate::gltf::{Document, ElementType, NewAccessor, Target, json};
+use crate::gltf::{Document, ElementType, NewAccessor, Target};
 
 /// Converts the transforms of a scene.
 pub struct SceneConverter<'a> {
@@ -85,7 +85,8 @@ impl<'a> SceneConverter<'a> {
 
     /// Converts the transforms of `EXT_mesh_gpu_instancing`.
     fn instances(&mut self, document: &mut Document, at: &str, node: &mut Value) -> Result<(), Error> {
-        let attributes = node.pointer_mut("/extensions/EXT_mesh_gpu_instancing/attributes");
+        const PATH: [&str; 3] = ["extensions", "EXT_mesh_gpu_instancing", "attributes"];
+        let attributes = PATH.into_iter().try_fold(node, |value, key| value.get_mut(key));
         let Some(Value::Object(attributes)) = attributes else { return Ok(()) };
         for (name, accessor) in attributes {
             if let Some(kind) = TransformKind::of(name) {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use serde_json::Value;
+use crate::json::Value;
 
 use crate::Error;
 use crate::error::ContentError;

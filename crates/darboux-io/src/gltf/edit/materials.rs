@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use serde_json::{Value, json};
+use crate::json::{self, Value, object};
 
 use crate::Error;
 use crate::error::ContentError;
 use crate::gltf::schema::{Image, Material, Primitive};
-use crate::gltf::{Document, PrimitiveName, json};
+use crate::gltf::{Document, PrimitiveName};
 
 /// A primitive that gets a map, and the UV set n of `TEXCOORD_n` that the map uses.
 type MappedPrimitive = (PrimitiveName, usize);
@@ -117,14 +117,14 @@ impl Document {
             mime_type: Some(media_type.to_owned()),
         });
         let image =
-            self.push_element("images", json!({ "name": name, "mimeType": media_type, "bufferView": view }));
-        self.push_element("textures", json!({ "source": image }))
+            self.push_element("images", object! { "name": name, "mimeType": media_type, "bufferView": view });
+        self.push_element("textures", object! { "source": image })
     }
 
     /// Appends a material without members. Returns its index.
     fn push_material(&mut self) -> usize {
-        self.root.materials.push(json::read(&json!({}), "").unwrap_or_default());
-        self.push_element("materials", json!({}))
+        self.root.materials.push(json::read(&object! {}, "").unwrap_or_default());
+        self.push_element("materials", object! {})
     }
 
     fn set_texture_of_material(
@@ -138,7 +138,7 @@ impl Document {
             self.root.materials.get(material).is_some_and(|stored| uses_set(stored, uv_set));
         self.edit_element("materials", material, |material| {
             let extensions = material["normalTexture"].get("extensions").filter(|_| keeps_transform).cloned();
-            let mut new = json!({ "index": texture, "texCoord": uv_set });
+            let mut new = object! { "index": texture, "texCoord": uv_set };
             if let Some(extensions) = extensions {
                 new["extensions"] = extensions;
             }
@@ -168,20 +168,23 @@ fn put_texture(material: &mut Value, used: MaterialTexture, texture: Value) {
             let metallic = &mut material["pbrMetallicRoughness"];
             metallic["baseColorTexture"] = texture;
             let old = metallic["baseColorFactor"].get(3).filter(|_| !alpha).cloned();
-            metallic["baseColorFactor"] = json!([1, 1, 1, old.unwrap_or_else(|| 1.into())]);
+            metallic["baseColorFactor"] = {
+                let one = Value::from(1u32);
+                vec![one.clone(), one.clone(), one.clone(), old.unwrap_or(one)].into()
+            };
             if alpha && material.get("alphaMode").is_none() {
                 material["alphaMode"] = "BLEND".into();
             }
         }
         MaterialTexture::Emissive { strength } => {
             material["emissiveTexture"] = texture;
-            material["emissiveFactor"] = json!([1, 1, 1]);
+            material["emissiveFactor"] = vec![1u32; 3].into();
             if strength != 1.0 {
-                material["extensions"][EMISSIVE_STRENGTH] = json!({ "emissiveStrength": strength });
+                material["extensions"][EMISSIVE_STRENGTH] = object! { "emissiveStrength": strength };
             } else if let Some(extensions) = material["extensions"].as_object_mut() {
-                extensions.shift_remove(EMISSIVE_STRENGTH);
+                extensions.remove(EMISSIVE_STRENGTH);
             } else if let Some(members) = material.as_object_mut() {
-                members.shift_remove("extensions");
+                members.remove("extensions");
             }
         }
     }
@@ -203,11 +206,12 @@ fn paint(material: &mut Value, texture: usize) {
     let mut color = normal.clone();
     color["index"] = texture.into();
     if let Some(color) = color.as_object_mut() {
-        color.shift_remove("scale");
+        color.remove("scale");
     }
-    *material = json!({
-        "doubleSided": material.get("doubleSided").unwrap_or(&Value::Bool(false)),
-        "extensions": { UNLIT: {} },
-        "pbrMetallicRoughness": { "baseColorTexture": color, "metallicFactor": 0, "roughnessFactor": 0.9 },
-    });
+    *material = object! {
+        "doubleSided": material.get("doubleSided").cloned().unwrap_or(false.into()),
+        "extensions": object! { UNLIT: object! {} },
+        "pbrMetallicRoughness":
+            object! { "baseColorTexture": color, "metallicFactor": 0u32, "roughnessFactor": 0.9 },
+    };
 }

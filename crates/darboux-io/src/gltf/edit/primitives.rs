@@ -1,11 +1,11 @@
 //! Edits of primitives.
 
-use serde_json::{Map, Value};
+use crate::json::{self, Map, Value};
 
 use crate::Error;
 use crate::error::ContentError;
 use crate::gltf::primitives::append::index_elements;
-use crate::gltf::{Document, NewAccessor, Target, json};
+use crate::gltf::{Document, NewAccessor, Target};
 
 impl Document {
     /// Edits the JSON of a primitive.
@@ -15,7 +15,7 @@ impl Document {
         &mut self,
         mesh: usize,
         primitive: usize,
-        edit: impl FnOnce(&mut Map<String, Value>),
+        edit: impl FnOnce(&mut Map),
     ) -> Result<(), Error> {
         let edited = self.change_primitive(mesh, primitive, |json| {
             if let Some(json) = json.as_object_mut() {
@@ -70,9 +70,9 @@ impl Document {
         let new = NewAccessor::new(elements, Target::Indices).with_metadata_of(old);
         let indices = self.push_in_place_of(old, new);
         self.edit_primitive(mesh, primitive, |json| {
-            json.insert("indices".to_owned(), indices.into());
-            if json.get("mode").is_some_and(|mode| mode != 4) {
-                json.insert("mode".to_owned(), 4.into());
+            json.insert("indices", indices.into());
+            if json.get("mode").is_some_and(|mode| *mode != 4) {
+                json.insert("mode", 4.into());
             }
         })
     }

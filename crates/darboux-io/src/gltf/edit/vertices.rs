@@ -59,7 +59,7 @@ impl Document {
         primitives.iter().try_for_each(|name| {
             self.edit_primitive(name.mesh, name.primitive, |json| {
                 if let Some(attributes) = json.get_mut("attributes").and_then(|value| value.as_object_mut()) {
-                    attributes.insert(semantic.to_owned(), made.into());
+                    attributes.insert(semantic, made.into());
                 }
             })
         })

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use crate::json::Value;
 use darboux::{CornerNormalsRef, NormalSplit, split_normals};
-use serde_json::Value;
 
 use super::compute::{MovedNormals, ShadedPrimitive};
 use super::summary::WrittenNormals;
@@ -149,9 +149,9 @@ impl<'a> NormalWriter<'a> {
                 replace(Some(place), target);
             }
             if let Some(indices) = indices {
-                json.insert("indices".to_owned(), indices.into());
+                json.insert("indices", indices.into());
                 if part.chosen.topology != TriangleMode::Triangles {
-                    json.insert("mode".to_owned(), 4.into());
+                    json.insert("mode", 4.into());
                 }
             }
         })?;

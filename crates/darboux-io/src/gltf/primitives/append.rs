@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use serde_json::Value;
+use crate::json::Value;
 
 use super::canonical::CanonicalAccessors;
 use super::limits;
@@ -108,7 +108,7 @@ pub fn lacks_buffer_view(document: &Document, accessor: usize) -> bool {
 pub fn set_attributes(json: Option<&mut Value>, attributes: &Attributes) {
     let Some(json) = json.and_then(Value::as_object_mut) else { return };
     for (semantic, &accessor) in attributes {
-        json.insert(semantic.clone(), accessor.into());
+        json.insert(semantic, accessor.into());
     }
 }
 

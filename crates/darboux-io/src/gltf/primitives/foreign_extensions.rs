@@ -1,6 +1,6 @@
 //! Finds extensions of a primitive that refer to vertices and are not updated when vertices are split.
 
-use serde_json::Value;
+use crate::json::Value;
 
 use super::name::PrimitiveName;
 use crate::gltf::Document;
@@ -52,7 +52,7 @@ fn mentions_vertices(json: &Value) -> bool {
 #[cfg(test)]
 mod tests {
     use super::affected_extensions;
-    use crate::gltf::json::parse_test as parse;
+    use crate::json::parse_test as parse;
 
     #[test]
     fn extensions_with_vertices_of_their_own_are_named() {

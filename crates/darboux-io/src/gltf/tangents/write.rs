@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use serde_json::Value;
+use crate::json::Value;
 
 use super::encoding::TangentEncoding;
 use super::groups::{Group, GroupMember};
@@ -98,9 +98,9 @@ impl<'a> TangentWriter<'a> {
                 set_attributes(Some(place), target);
             }
             if let Some(indices) = indices {
-                json.insert("indices".to_owned(), indices.into());
+                json.insert("indices", indices.into());
                 if self.group.jobs[member.job].topology != TriangleMode::Triangles {
-                    json.insert("mode".to_owned(), 4.into());
+                    json.insert("mode", 4.into());
                 }
             }
         })?;
