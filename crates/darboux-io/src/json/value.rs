@@ -179,6 +179,7 @@ const INDEXED: usize = 32;
 pub struct Map {
     members: Vec<(Key, Value)>,
     /// The place of each key, in objects with many members.
+    #[expect(clippy::box_collection, reason = "few objects have one, and values stay small")]
     place_of: Option<Box<HashMap<Box<str>, usize>>>,
 }
 

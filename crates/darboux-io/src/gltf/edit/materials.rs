@@ -73,7 +73,7 @@ impl Document {
                 None => {
                     let new = *without_material.entry(*uv_set).or_insert_with(|| self.push_material());
                     self.edit_primitive(primitive.mesh, primitive.primitive, |json| {
-                        json.insert("material".to_owned(), new.into());
+                        json.insert("material", new.into());
                     })?;
                     new
                 }
