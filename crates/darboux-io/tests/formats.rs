@@ -222,6 +222,36 @@ fn other_files_are_named_for_what_they_are() {
     }
 }
 
+/// Whatever the ending says: the content decides, and an empty file is empty.
+#[test]
+fn endings_do_not_decide() {
+    let folder = tempfile::tempdir().unwrap();
+    for (content, name, words) in [
+        ("scene.obj", "a.glb", "OBJ"),
+        ("scene.ply", "a.fbx", "PLY"),
+        ("scene.stl", "a.obj", "STL"),
+        ("scene.glb", "a.ply", "glTF"),
+        ("scene_normal.png", "b.obj", "is an image, not a model"),
+        ("scene.mtl", "c.obj", "is a material library of an OBJ"),
+        ("scene.usda", "d.obj", "is USD, which is not read here"),
+        ("scene.usdz", "d.glb", "is USD, which is not read here"),
+        ("", "e.obj", "is empty"),
+        ("", "e.fbx", "is empty"),
+        ("", "e.glb", "is empty"),
+    ] {
+        let path = folder.path().join(name);
+        fs::write(&path, if content.is_empty() { Vec::new() } else { fs::read(blender(content)).unwrap() })
+            .unwrap();
+        let found = match Document::open(&path, &LoadOptions::default()) {
+            Ok(document) => {
+                document.provenance().map_or("glTF", |provenance| provenance.format.name()).to_owned()
+            }
+            Err(error) => error.to_string(),
+        };
+        assert!(found.contains(words), "{content} as {name}: {found}");
+    }
+}
+
 #[test]
 fn textures_with_paths_of_windows_are_found_by_name() {
     let folder = tempfile::tempdir().unwrap();

@@ -5,6 +5,7 @@ mod fix;
 mod folder;
 mod model;
 mod report;
+mod source;
 mod text;
 
 use std::num::NonZeroUsize;
@@ -14,6 +15,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use darboux_check::{Finding, ReportedFinding, check_document, diagnosis};
+use darboux_io::gltf::Document;
 use darboux_io::system_reason;
 
 use crate::batch;
@@ -150,10 +152,13 @@ fn check_all(inputs: &[&Input], arguments: &CheckArguments, model: &Model) -> Ve
 fn check_file(input: &Input, arguments: &CheckArguments, model: &Model) -> CheckedFile {
     let options = arguments.check_options();
     let name = input.to_string();
-    let reported = |findings: Vec<Finding>, map: Option<ReportedMap>| {
+    let reported = |findings: Vec<Finding>, map: Option<ReportedMap>, document: Option<&Document>| {
         let wanted = findings.into_iter().filter(|finding| arguments.reports(finding.code));
-        let findings: Vec<ReportedFinding> = wanted.map(Into::into).collect();
-        CheckedFile { input: name.clone(), error: None, map, diagnosis: diagnosis(&findings), findings }
+        let mut findings: Vec<ReportedFinding> = wanted.map(Into::into).collect();
+        document.iter().for_each(|document| source::name_places(document, &mut findings));
+        let importer = document.and_then(|document| source::importer_note(document, &findings));
+        let diagnosis = diagnosis(&findings);
+        CheckedFile { input: name.clone(), error: None, map, importer, diagnosis, findings }
     };
     let check = || {
         let source = Source::new(input)?;
@@ -161,12 +166,12 @@ fn check_file(input: &Input, arguments: &CheckArguments, model: &Model) -> Check
             Some(file) => {
                 let checked = model.check_image(&file, &options)?;
                 let map = ReportedMap::of(&checked);
-                Ok(reported(checked.findings, map))
+                Ok(reported(checked.findings, map, None))
             }
             None => {
                 let document = source.load(&arguments.files.reading)?;
                 let findings = check_document(&document, &options).map_err(|error| error.to_string())?;
-                Ok(reported(findings, None))
+                Ok(reported(findings, None, Some(&document)))
             }
         }
     };
@@ -174,5 +179,12 @@ fn check_file(input: &Input, arguments: &CheckArguments, model: &Model) -> Check
 }
 
 fn failed(input: String, sentence: String) -> CheckedFile {
-    CheckedFile { input, error: Some(sentence), map: None, diagnosis: String::new(), findings: Vec::new() }
+    CheckedFile {
+        input,
+        error: Some(sentence),
+        map: None,
+        importer: None,
+        diagnosis: String::new(),
+        findings: Vec::new(),
+    }
 }

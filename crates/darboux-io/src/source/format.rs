@@ -78,13 +78,17 @@ fn is_stl(bytes: &[u8], text: &[u8]) -> bool {
 const STATEMENTS: [&[u8]; 12] =
     [b"v", b"vt", b"vn", b"vp", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"l", b"p"];
 
-/// A text whose first statement that is not a comment is one of OBJ.
+/// A text whose first statement is one of OBJ.
 fn is_obj(bytes: &[u8]) -> bool {
+    first_word(bytes).is_some_and(|word| STATEMENTS.contains(&word))
+}
+
+/// The first word of a text that is not in a comment.
+fn first_word(bytes: &[u8]) -> Option<&[u8]> {
     let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     let lines = text.split(|&byte| byte == b'\n' || byte == b'\r').map(<[u8]>::trim_ascii);
     let mut statements = lines.filter(|line| !line.is_empty() && !line.starts_with(b"#"));
-    let first = statements.next().and_then(|line| line.split(u8::is_ascii_whitespace).next());
-    first.is_some_and(|word| STATEMENTS.contains(&word))
+    statements.next().and_then(|line| line.split(u8::is_ascii_whitespace).next())
 }
 
 /// What a file is that no reader takes: a clause whose subject is the file, with what to do.
@@ -115,7 +119,7 @@ pub fn name_of_other(bytes: &[u8]) -> Option<&'static str> {
         "is a scene of Maya; export the model as .fbx or .glb"
     } else if at(0, b"Ogawa") {
         "is an Alembic file, which is not read; export the model as .glb"
-    } else if starts(b"newmtl") {
+    } else if first_word(bytes) == Some(b"newmtl") {
         "is a material library of an OBJ; give the .obj file"
     } else if at(0, b"\x89PNG") || at(0, b"\xFF\xD8\xFF") || (at(0, b"RIFF") && at(8, b"WEBP")) {
         "is an image, not a model; give the model"

@@ -77,6 +77,9 @@ pub struct CheckedFile {
     pub input: String,
     pub error: Option<String>,
     pub map: Option<ReportedMap>,
+    /// What importers of a format other than glTF make of the mistakes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub importer: Option<&'static str>,
     /// What happened, what it looks like and what to do; empty for a file that cannot be read.
     pub diagnosis: String,
     pub findings: Vec<ReportedFinding>,

@@ -59,6 +59,7 @@ pub fn describe_folded(file: &CheckedFile) -> String {
 /// The name of a file, the diagnosis and the verdict on an image.
 fn head(file: &CheckedFile) -> String {
     let mut text = format!("{}\n  {}\n", printable(&file.input), printable(&file.diagnosis));
+    text.extend(file.importer.map(|note| format!("  {note}\n")));
     if let Some(map) = &file.map {
         text += &format!("  {}\n", verdict(map));
     }
