@@ -9,7 +9,7 @@ use std::path::Path;
 use darboux::Convention;
 use darboux_io::gltf::Document;
 use darboux_io::image::{PngImage, RgbaImage};
-use darboux_io::{Error, system_reason};
+use darboux_io::{Error, FileKind, system_reason};
 
 use crate::batch::plan::Output;
 use crate::batch::report::Status;
@@ -17,7 +17,7 @@ use crate::inputs::Input;
 use crate::interrupt;
 use crate::options::files::FileOptions;
 use crate::options::reading::ReadOptions;
-use crate::paths::{is_image, is_png};
+use crate::paths::{is_gltf, is_image, is_png, is_written_model};
 use crate::terminal::write_stdout;
 use crate::text::command_line;
 
@@ -139,7 +139,8 @@ pub fn save(
     changed: bool,
 ) -> Result<(Status, Vec<String>), String> {
     let sentence = |error: Error| error.to_string();
-    let status = if changed { Status::Written } else { Status::Copied };
+    let is_copy = !changed && document.provenance().is_none() && !is_exchange(output);
+    let status = if is_copy { Status::Copied } else { Status::Written };
     let path = match output {
         Output::Stdout => {
             return match document.write_glb(Path::new(&output.to_string()), io::stdout().lock()) {
@@ -161,6 +162,19 @@ pub fn save(
         written.map_err(sentence)?.iter().map(|path| path.display().to_string()).collect();
     let untouched = files.in_place && written.is_empty();
     Ok((if untouched { Status::Untouched } else { status }, written))
+}
+
+/// Whether an output is a model of another format than glTF.
+fn is_exchange(output: &Output) -> bool {
+    matches!(output, Output::File(path) if !is_gltf(path) && is_written_model(path))
+}
+
+/// The warning about what an output does not hold of a document, if there is anything.
+pub fn left_out(document: &Document, output: &Output) -> Result<Option<String>, String> {
+    let Output::File(path) = output else { return Ok(None) };
+    let Some(kind) = FileKind::of(path) else { return Ok(None) };
+    let phrases = document.left_out(kind).map_err(|error| error.to_string())?;
+    Ok((!phrases.is_empty()).then(|| format!("{output} leaves out: {}", phrases.join("; "))))
 }
 
 /// Writes an image and returns its status and the files written.

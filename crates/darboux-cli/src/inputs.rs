@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use darboux_io::system_reason;
 use walkdir::{DirEntry, WalkDir};
 
-use crate::paths::{canonical, is_model};
+use crate::paths::{canonical, is_gltf};
 
 /// Where a file is read from.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -110,7 +110,7 @@ impl FoundInputs {
         };
         for entry in WalkDir::new(folder).sort_by_file_name().into_iter().filter_entry(is_entered) {
             match entry {
-                Ok(entry) if !entry.file_type().is_file() || !is_model(entry.path()) => {}
+                Ok(entry) if !entry.file_type().is_file() || !is_gltf(entry.path()) => {}
                 Ok(entry)
                     if matches!(mode, SearchMode::SkipOutputs { .. }) && has_output_name(entry.path()) =>
                 {

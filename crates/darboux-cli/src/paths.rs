@@ -5,8 +5,13 @@ use std::path::{Path, PathBuf};
 use darboux_io::FileKind;
 
 /// Whether the extension is that of a glTF model.
-pub fn is_model(path: &Path) -> bool {
-    FileKind::of(path).is_some_and(FileKind::is_model)
+pub fn is_gltf(path: &Path) -> bool {
+    FileKind::of(path).is_some_and(FileKind::is_gltf)
+}
+
+/// Whether the extension is that of a model that can be written.
+pub fn is_written_model(path: &Path) -> bool {
+    FileKind::of(path).is_some_and(FileKind::is_written_model)
 }
 
 /// Whether the extension is .png.

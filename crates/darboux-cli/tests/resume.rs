@@ -84,6 +84,26 @@ fn only_what_changed_is_done_again() {
 }
 
 /// Outputs that are made again and again do not make the journal grow, and compacting loses no record.
+/// The material library of an OBJ and its texture count as parts of it.
+#[test]
+fn companions_of_an_obj_are_noticed() {
+    let (folder, _, out) = library();
+    let models = folder.path().join("objs");
+    fs::create_dir(&models).expect("a folder");
+    for name in ["scene.obj", "scene.mtl", "scene_normal.png"] {
+        fs::copy(asset("blender").join(name), models.join(name)).expect("a copy");
+    }
+    let model = models.join("scene.obj");
+    assert_eq!(statuses(&resume(&model, &out, &[], 0)), ["written"]);
+    assert_eq!(statuses(&resume(&model, &out, &[], 0)), ["up_to_date"]);
+    for name in ["scene.mtl", "scene_normal.png"] {
+        let mut bytes = fs::read(models.join(name)).expect("a companion");
+        bytes.push(b'\n');
+        fs::write(models.join(name), bytes).expect("a companion");
+        assert_eq!(statuses(&resume(&model, &out, &[], 0)), ["written"], "{name}");
+    }
+}
+
 #[test]
 fn the_journal_is_compacted() {
     let (_folder, models, out) = library();

@@ -9,6 +9,7 @@
 //! edit/                                                edits, which all operations write through
 //! inspect, compare, scene, materials, image_uses       descriptions of documents
 //! unused_data, output, save                            writing: what is left out, where the rest goes, files
+//! exchange/                                            writing PLY and OBJ
 //! ```
 
 mod accessors;
@@ -21,6 +22,7 @@ mod document;
 mod edit;
 mod element_type;
 mod elements;
+mod exchange;
 mod file_bytes;
 mod image_uses;
 mod inspect;

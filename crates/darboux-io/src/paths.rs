@@ -18,6 +18,14 @@ pub enum FileKind {
     Glb,
     /// `.gltf`.
     Gltf,
+    /// `.obj`.
+    Obj,
+    /// `.ply`.
+    Ply,
+    /// `.stl`.
+    Stl,
+    /// `.fbx`.
+    Fbx,
     /// `.png`.
     Png,
     /// `.jpg`, `.jpeg`.
@@ -34,6 +42,10 @@ impl FileKind {
         match path.extension()?.to_ascii_lowercase().to_str()? {
             "glb" | "vrm" => Some(Self::Glb),
             "gltf" => Some(Self::Gltf),
+            "obj" => Some(Self::Obj),
+            "ply" => Some(Self::Ply),
+            "stl" => Some(Self::Stl),
+            "fbx" => Some(Self::Fbx),
             "png" => Some(Self::Png),
             "jpeg" | "jpg" => Some(Self::Jpeg),
             "webp" => Some(Self::WebP),
@@ -44,9 +56,30 @@ impl FileKind {
         }
     }
 
-    /// Whether files of this kind hold models.
+    /// Whether files of this kind hold models that this build reads.
     pub fn is_model(self) -> bool {
+        match self {
+            Self::Obj => cfg!(feature = "obj"),
+            Self::Ply => cfg!(feature = "ply"),
+            Self::Stl => cfg!(feature = "stl"),
+            Self::Fbx => cfg!(feature = "fbx"),
+            other => other.is_gltf(),
+        }
+    }
+
+    /// Whether files of this kind hold glTF.
+    pub fn is_gltf(self) -> bool {
         matches!(self, Self::Glb | Self::Gltf)
+    }
+
+    /// Whether documents can be written as files of this kind.
+    pub fn is_written_model(self) -> bool {
+        self.is_gltf() || matches!(self, Self::Obj | Self::Ply)
+    }
+
+    /// Whether files of this kind are images.
+    pub fn is_image(self) -> bool {
+        self.is_decoded_image() || self == Self::OtherImage
     }
 
     /// Whether files of this kind are images that can be decoded (feature `textures`).

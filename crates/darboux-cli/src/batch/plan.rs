@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::inputs::{FoundInputs, Input, UsageError, check_stdin};
 use crate::options::files::FileOptions;
-use crate::paths::{canonical, is_image, is_model, is_png, refuse_missing_folder};
+use crate::paths::{canonical, is_gltf, is_image, is_png, is_written_model, refuse_missing_folder};
 
 /// Where a file is written to.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -44,8 +44,14 @@ pub struct OutputRules<'a> {
 }
 
 impl OutputRules<'_> {
+    /// Whether a name that the user gives can be written.
     fn accepts(self, path: &Path) -> bool {
-        is_model(path) || (self.images && is_png(path))
+        is_written_model(path) || (self.images && is_png(path))
+    }
+
+    /// Whether an output keeps the extension of its input.
+    fn keeps(self, path: &Path) -> bool {
+        is_gltf(path) || (self.images && is_png(path))
     }
 
     /// The extension of the output of an input whose own extension cannot be written.
@@ -122,7 +128,11 @@ fn check_usage(options: &FileOptions, rules: OutputRules<'_>) -> Result<(), Usag
         return Err(UsageError(format!("{} is a folder; use --out-dir", output.display())));
     }
     if !rules.accepts(output) {
-        let extensions = if rules.images { ".glb, .vrm, .gltf or .png" } else { ".glb, .vrm or .gltf" };
+        let extensions = if rules.images {
+            ".glb, .vrm, .gltf, .ply, .obj or .png"
+        } else {
+            ".glb, .vrm, .gltf, .ply or .obj"
+        };
         return Err(UsageError(format!("{} must end in {extensions}", output.display())));
     }
     refuse_missing_folder(output).map_err(UsageError)
@@ -139,11 +149,11 @@ fn output_of(options: &FileOptions, rules: OutputRules<'_>, input: &Input, folde
             let name = || Path::new(path.file_name().unwrap_or_default());
             let below = folder.and_then(|folder| path.strip_prefix(folder).ok());
             let output = out_dir.join(below.unwrap_or_else(name));
-            if rules.accepts(&output) { output } else { output.with_extension(rules.extension_for(path)) }
+            if rules.keeps(&output) { output } else { output.with_extension(rules.extension_for(path)) }
         }
         None if options.in_place => path.clone(),
         None => {
-            let extension = if rules.accepts(path) { path.extension() } else { None };
+            let extension = if rules.keeps(path) { path.extension() } else { None };
             let extension = extension.unwrap_or(OsStr::new(rules.extension_for(path)));
             let mut name = path.file_stem().unwrap_or_default().to_os_string();
             name.push(format!(".{}.", rules.suffix));

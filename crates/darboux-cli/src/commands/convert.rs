@@ -17,7 +17,7 @@ use serde::Serialize;
 use crate::batch::command::{FileCommand, ProcessedFile};
 use crate::batch::plan::{Job, Output};
 use crate::batch::report::{FileReport, Status};
-use crate::documents::{load_any, read_stdin, save, save_image};
+use crate::documents::{left_out, load_any, read_stdin, save, save_image};
 use crate::inputs::{Input, UsageError};
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
@@ -135,7 +135,7 @@ impl FileCommand for ConvertArguments {
             Input::File(path) if is_png(path) || starts_as_png(path) => {
                 self.image(PngImage::open(path, &options).map_err(sentence)?, &job.output)
             }
-            Input::File(path) if FileKind::of(path).is_some_and(|kind| !kind.is_model()) => {
+            Input::File(path) if FileKind::of(path).is_some_and(FileKind::is_image) => {
                 Err(format!("{}: only PNG images can be converted; save it as a PNG first", path.display()))
             }
             Input::File(path) if self.space.is_some() => {
@@ -239,6 +239,7 @@ impl ConvertArguments {
                 to.name
             ));
         }
+        warnings.extend(left_out(&document, &job.output)?);
         let (status, files_written) = save(&document, &job.output, &self.files, document.is_changed())?;
         let summary = ConvertSummary { model: Some(summary), warnings, ..ConvertSummary::default() };
         Ok(ProcessedFile { status, files_written, summary })

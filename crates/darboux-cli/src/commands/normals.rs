@@ -11,7 +11,7 @@ use indicatif::HumanCount;
 use crate::batch::command::{FileCommand, ProcessedFile};
 use crate::batch::plan::Job;
 use crate::batch::report::FileReport;
-use crate::documents::{load, save};
+use crate::documents::{left_out, load, save};
 use crate::inputs::output_suffix;
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
@@ -52,6 +52,7 @@ impl FileCommand for NormalsArguments {
             .map_err(|error| error.to_string())?;
         summary.warnings.splice(0..0, document.warnings().iter().cloned());
         summary.warnings.extend(without_tangents(&summary.primitives));
+        summary.warnings.extend(left_out(&document, &job.output)?);
         let (status, files_written) = save(&document, &job.output, &self.files, summary.written > 0)?;
         Ok(ProcessedFile { status, files_written, summary })
     }

@@ -16,7 +16,7 @@ use crate::batch::command::{FileCommand, ProcessedFile};
 use crate::batch::plan::Job;
 use crate::batch::report::{FileReport, Status};
 use crate::commands::normals::describe_normals;
-use crate::documents::{load, save};
+use crate::documents::{left_out, load, save};
 use crate::gpu::open_early;
 use crate::inputs::{UsageError, output_suffix};
 use crate::options::files::FileOptions;
@@ -100,6 +100,7 @@ impl FileCommand for TangentsArguments {
         tangents.warnings.extend(device.warning());
         let changed = document.is_changed() && (normals.is_some() || tangents.totals.written > 0);
         let device_report = Some(device.report(3 * tangents.totals.triangles));
+        tangents.warnings.extend(left_out(&document, &job.output)?);
         let (status, files_written) = save(&document, &job.output, &self.files, changed)?;
         let source = SourceReport::of(&document);
         let summary = TangentsFileSummary { normals, device: device_report, source, tangents };

@@ -18,6 +18,8 @@ pub struct FileOptions {
     pub inputs: Vec<PathBuf>,
 
     /// Output file for a single input, in an existing folder; - is standard output, as GLB
+    ///
+    /// Its ending is .glb, .vrm, .gltf, .ply or .obj. A PLY holds the faces of the scene and their tangents, an OBJ the faces and materials; a warning lists what is left out.
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: Option<PathBuf>,
 

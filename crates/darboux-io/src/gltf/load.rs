@@ -17,7 +17,7 @@ use super::schema::Root;
 use crate::error::{ContentError, shortened};
 use crate::json::{self, TextLayout};
 use crate::memory_limit::{self, Budget};
-use crate::source::{Built, ModelFiles};
+use crate::source::{Built, ModelFiles, Provenance};
 use crate::{Error, Files, LoadOptions, paths, readers};
 
 impl Document {
@@ -98,7 +98,7 @@ impl Document {
         let document = Self::parse(name, FileBytes::Read(glb), resources, *options);
         let mut document = document.map_err(|error| error.in_file(name))?;
         document.warnings.splice(0..0, warnings);
-        document.provenance = Some(provenance);
+        document.provenance = Some(Provenance { companions: files.into_read(), ..provenance });
         Ok(document)
     }
 

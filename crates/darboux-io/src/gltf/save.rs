@@ -6,9 +6,12 @@ use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use darboux::Convention;
+
 use super::buffers::{BufferSource, ImageFile};
 use super::container::glb;
 use super::document::Document;
+use super::exchange::{self, ExchangeFormat};
 use super::output::{FileUris, OutputLayout};
 use super::resources::{LocatedFile, UriTarget, encode_path, portable};
 use super::schema::Buffer;
@@ -36,7 +39,8 @@ impl Document {
 
     /// Writes the document and, for a `.gltf`, the files that it refers to. Returns the files written, the document last.
     ///
-    /// The extension decides the container: `.glb` (or `.vrm`) or `.gltf`. New data of a `.gltf` goes into a new `.bin` file. Existing
+    /// The extension decides the container: `.glb` (or `.vrm`) or `.gltf`, or the format: `.obj` or `.ply`, which do not hold everything
+    /// ([`Document::left_out`]). New data of a `.gltf` goes into a new `.bin` file, materials of an `.obj` into a new `.mtl` file. Existing
     /// files beside the output are never changed; one with the same content is reused. Missing folders are created. Errors: an existing
     /// output without [`SaveOptions::force`]; the input, or a file that it refers to, as output; a `.gltf` of a GLB that has chunks of
     /// unknown type. After an error, no file is left.
@@ -48,9 +52,18 @@ impl Document {
 
     /// Stages the document as one of several outputs. The files that a `.gltf` needs get their names at once. Errors as of [`Document::save`].
     pub fn stage(&self, path: &Path, options: &SaveOptions, outputs: &mut Outputs) -> Result<(), Error> {
-        let is_glb = is_glb(path)?;
+        let container = Container::of(path)?;
         let target = self.checked_target(path, options)?;
-        self.stage_at(&target, is_glb, options, outputs.staging())
+        self.stage_at(&target, container, options, outputs.staging())
+    }
+
+    /// What a file of a kind does not hold of the document: a noun phrase each, such as `2 cameras`; nothing for glTF. Errors: invalid data.
+    pub fn left_out(&self, kind: FileKind) -> Result<Vec<String>, Error> {
+        match kind {
+            FileKind::Ply => exchange::left_out(self, ExchangeFormat::Ply),
+            FileKind::Obj => exchange::left_out(self, ExchangeFormat::Obj),
+            _ => Ok(Vec::new()),
+        }
     }
 
     /// Replaces the input file, with the same container and permissions. Returns the files written, none without edits.
@@ -72,7 +85,10 @@ impl Document {
         }
         let metadata = fs::metadata(input).map_err(|source| Error::Write { file: input.clone(), source })?;
         paths::refuse_read_only(Path::new(self.name()), &metadata)?;
-        self.write(input, self.container.is_glb, &SaveOptions::default().with_force(true))
+        let container = if self.container.is_glb { Container::Glb } else { Container::Gltf };
+        let mut outputs = Outputs::new(None);
+        self.stage_at(input, container, &SaveOptions::default().with_force(true), outputs.staging())?;
+        outputs.commit()
     }
 
     /// The file of a buffer that an earlier run made for new data, if the document has edits: it gets a new file for that buffer. The old
@@ -102,23 +118,22 @@ impl Document {
     }
 
     fn uses(&self, resolved: &Path) -> bool {
-        self.files().iter().any(|file| file.path == resolved)
-    }
-
-    fn write(&self, target: &Path, is_glb: bool, options: &SaveOptions) -> Result<Vec<PathBuf>, Error> {
-        let mut outputs = Outputs::new(options.run);
-        self.stage_at(target, is_glb, options, outputs.staging())?;
-        outputs.commit()
+        let is_companion = self.companions().iter().any(|file| file == resolved);
+        is_companion || self.files().iter().any(|file| file.path == resolved)
     }
 
     fn stage_at(
         &self,
         target: &Path,
-        is_glb: bool,
+        container: Container,
         options: &SaveOptions,
         staging: &mut Staging,
     ) -> Result<(), Error> {
-        let segments = if is_glb { self.glb_segments()? } else { self.stage_gltf(target, staging)? };
+        let segments = match container {
+            Container::Glb => self.glb_segments()?,
+            Container::Gltf => self.stage_gltf(target, staging)?,
+            Container::Exchange(format) => self.stage_exchange(target, format, staging)?,
+        };
         staging.stage(target, options.force, |file| segments::write(&segments, file))
     }
 
@@ -167,6 +182,63 @@ impl Document {
         Ok(vec![Segment::Owned(layout.json(&uris, &self.layout))])
     }
 
+    /// Writes the material library and the textures of an OBJ beside it. Returns the content of the exchange file.
+    fn stage_exchange(
+        &self,
+        target: &Path,
+        format: ExchangeFormat,
+        staging: &mut Staging,
+    ) -> Result<Vec<Segment<'_>>, Error> {
+        if self.convention()? != Convention::GLTF {
+            let problem =
+                "cannot have vertices in another convention than glTF's; convert them to gltf first";
+            return Err(Error::Output { file: target.to_owned(), problem: problem.into() });
+        }
+        let folder = target.parent().unwrap_or(Path::new(""));
+        let mut names = FileNames { folder, taken: HashSet::from([target.to_owned()]) };
+        let library =
+            Path::new(target.file_stem().unwrap_or(OsStr::new("materials"))).with_added_extension("mtl");
+        let mut textures = vec![None; self.root.images.len()];
+        if format == ExchangeFormat::Obj {
+            for image in exchange::images_of_library(self)? {
+                let Ok(bytes) = self.image_bytes(image) else { continue };
+                let segments = [Segment::Borrowed(&bytes)];
+                let placed = names.place_content(&self.image_file_name(image), staging, &segments)?;
+                textures[image] = Some(placed.to_string_lossy().replace('\\', "/"));
+            }
+        }
+        let mut content = exchange::content(self, format, &portable(&library).to_string_lossy(), &textures)?;
+        if let Some(text) = &content.library {
+            let placed = names.place_content(&library, staging, &[Segment::Borrowed(text.as_bytes())])?;
+            if placed != portable(&library) {
+                content = exchange::content(self, format, &placed.to_string_lossy(), &textures)?;
+            }
+        }
+        Ok(content.segments)
+    }
+
+    /// A file name for an image: that of its file, or its name with the ending of its media type.
+    fn image_file_name(&self, index: usize) -> PathBuf {
+        let image = &self.root.images[index];
+        let file = image.uri.as_deref().and_then(|uri| match self.resources.resolve(uri) {
+            Ok(UriTarget::File(located)) => Some(PathBuf::from(located.path.file_name()?)),
+            _ => None,
+        });
+        file.unwrap_or_else(|| {
+            let name = self.json["images"][index]["name"].as_str().unwrap_or_default();
+            let name = name.rsplit(['/', '\\']).next().filter(|name| !name.is_empty());
+            let name = name.map_or_else(|| format!("image_{index}"), str::to_owned);
+            let extension = match image.mime_type.as_deref() {
+                Some("image/jpeg") => "jpg",
+                Some("image/webp") => "webp",
+                Some("image/ktx2") => "ktx2",
+                _ => "png",
+            };
+            let path = PathBuf::from(name);
+            if FileKind::of(&path).is_some() { path } else { path.with_added_extension(extension) }
+        })
+    }
+
     /// Copies the files that the document refers to into the output's folder, unless that is the document's folder. Returns the files
     /// whose path had to change, with their new URI.
     fn copy_files(
@@ -198,8 +270,13 @@ impl Document {
         if !self.resources.are_on_disk() {
             return Vec::new();
         }
-        let own = self.input.iter().cloned();
+        let own = self.input.iter().chain(self.companions()).cloned();
         own.chain(self.files().into_iter().map(|file| file.path)).collect()
+    }
+
+    /// The files that were read with a model of another format.
+    fn companions(&self) -> &[PathBuf] {
+        self.provenance().map_or(&[], |provenance| &provenance.companions)
     }
 
     /// The files that the document refers to, each once.
@@ -228,15 +305,27 @@ impl Document {
     }
 }
 
-/// Whether the output is a GLB. Errors: its extension is not that of a model.
-fn is_glb(path: &Path) -> Result<bool, Error> {
-    match FileKind::of(path) {
-        Some(FileKind::Glb) => Ok(true),
-        Some(FileKind::Gltf) => Ok(false),
-        _ => {
-            let problem = "has no extension of a model; name it .glb or .gltf".to_owned();
-            Err(Error::Output { file: path.to_owned(), problem })
-        }
+/// How a document is written.
+#[derive(Clone, Copy)]
+enum Container {
+    Glb,
+    Gltf,
+    Exchange(ExchangeFormat),
+}
+
+impl Container {
+    /// The container of an output. Errors: its extension is not that of a model.
+    fn of(path: &Path) -> Result<Self, Error> {
+        Ok(match FileKind::of(path) {
+            Some(FileKind::Glb) => Self::Glb,
+            Some(FileKind::Gltf) => Self::Gltf,
+            Some(FileKind::Ply) => Self::Exchange(ExchangeFormat::Ply),
+            Some(FileKind::Obj) => Self::Exchange(ExchangeFormat::Obj),
+            _ => {
+                let problem = "has no extension of a model; name it .glb, .gltf, .ply or .obj".to_owned();
+                return Err(Error::Output { file: path.to_owned(), problem });
+            }
+        })
     }
 }
 
@@ -254,9 +343,18 @@ impl FileNames<'_> {
         staging: &mut Staging,
         segments: &[Segment<'_>],
     ) -> Result<String, Error> {
+        self.place_content(wanted, staging, segments).map(|relative| encode_path(&relative))
+    }
+
+    /// As [`FileNames::place_segments`], but returns the relative path.
+    fn place_content(
+        &mut self,
+        wanted: &Path,
+        staging: &mut Staging,
+        segments: &[Segment<'_>],
+    ) -> Result<PathBuf, Error> {
         let write = |file: &mut File| segments::write(segments, file);
-        let relative = self.place(wanted, staging, |file| holds(file, segments), write)?;
-        Ok(encode_path(&relative))
+        self.place(wanted, staging, |file| holds(file, segments), write)
     }
 
     /// Puts a file into the folder under the name `wanted` or, if that is taken, `wanted_1`, `wanted_2` and so on. An existing file for

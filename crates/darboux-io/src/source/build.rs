@@ -53,6 +53,7 @@ pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Resu
         faces,
         polygon_rule: options.polygon_rule,
         not_carried: scene.not_carried,
+        companions: Vec::new(),
         primitives: meshes.sources,
     };
     let mut root = json!({

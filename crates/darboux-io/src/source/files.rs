@@ -3,7 +3,7 @@
 //!
 //! Other formats often hold absolute paths of another machine, or paths of Windows. Such a file is looked up by its name in the model's folder.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -35,6 +35,8 @@ pub struct ModelFiles {
     allow_outside: bool,
     allow_outside_name: &'static str,
     lookups_left: Cell<usize>,
+    /// The files that were read from the disk.
+    read: RefCell<Vec<PathBuf>>,
 }
 
 /// A file that exists and may be read.
@@ -55,6 +57,7 @@ impl ModelFiles {
             allow_outside: options.allow_outside,
             allow_outside_name: options.option_names.allow_outside,
             lookups_left: Cell::new(MAX_LOOKUPS),
+            read: RefCell::default(),
         }
     }
 
@@ -118,8 +121,19 @@ impl ModelFiles {
     pub fn read(&self, file: &FoundFile) -> io::Result<Vec<u8>> {
         match &self.source {
             FileSource::Given(given, _) => given.read(&file.name),
-            FileSource::Folder(_) | FileSource::None => paths::read_resolved(&file.path),
+            FileSource::Folder(_) | FileSource::None => {
+                self.read.borrow_mut().push(file.path.clone());
+                paths::read_resolved(&file.path)
+            }
         }
+    }
+
+    /// The files that were read from the disk, links resolved, each once.
+    pub fn into_read(self) -> Vec<PathBuf> {
+        let mut read = self.read.into_inner();
+        read.sort_unstable();
+        read.dedup();
+        read
     }
 
     /// What is wrong with a reference that was not found: a sentence without its last part.

@@ -1,6 +1,7 @@
 //! Where a document came from: its format, the places of its primitives in that file, and the faces before they were cut.
 
 use std::collections::HashMap;
+use std::path::PathBuf;
 
 use serde::Serialize;
 
@@ -21,6 +22,8 @@ pub struct Provenance {
     pub polygon_rule: PolygonRule,
     /// What was not carried over: a noun phrase each, such as `2 cameras`.
     pub not_carried: Vec<String>,
+    /// The files beside it that were read, links resolved: material libraries, textures.
+    pub(crate) companions: Vec<PathBuf>,
     pub(crate) primitives: HashMap<(usize, usize), PrimitiveSource>,
 }
 

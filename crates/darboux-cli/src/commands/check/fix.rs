@@ -20,7 +20,7 @@ use super::report::ReportedEdit;
 use crate::batch::command::{FileCommand, ProcessedFile};
 use crate::batch::plan::{Job, Output};
 use crate::batch::report::{FileReport, Status, SummarySource};
-use crate::documents::{Source, save, save_image};
+use crate::documents::{Source, left_out, save, save_image};
 use crate::inputs::{Input, output_suffix};
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
@@ -265,6 +265,7 @@ impl Repair<'_> {
         let fixed = fix_document(&mut document, findings, &options).map_err(sentence)?;
         let mut warnings = document.warnings().to_vec();
         warnings.extend(self.stale_output(job, fixed.is_changed));
+        warnings.extend(left_out(&document, &job.output)?);
         let is_written = |existing: &Path| {
             let existing = reading.open(existing).ok().and_then(|existing| content(&existing));
             existing.is_some() && existing == content(&document)

@@ -43,8 +43,8 @@ impl ServedModel {
 
     /// The names of the files that are sent: the model, then the companions of an OBJ.
     pub fn names(&self) -> Vec<String> {
-        let keeps_name = matches!(self.kind, ModelKind::Obj(_))
-            || FileKind::of(&self.path).is_some_and(FileKind::is_model);
+        let keeps_name =
+            matches!(self.kind, ModelKind::Obj(_)) || FileKind::of(&self.path).is_some_and(FileKind::is_gltf);
         // What becomes a GLB is called so, for the page goes by the name.
         let path = if keeps_name { self.path.clone() } else { self.path.with_extension("glb") };
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();

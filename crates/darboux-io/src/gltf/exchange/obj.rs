@@ -1,0 +1,183 @@
+//! An OBJ, its objects in the order of the scene, and its material library.
+//!
+//! Numbers are written so that they read back as the same bits.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::fmt::Write;
+
+use super::surfaces::Surface;
+use crate::Error;
+use crate::gltf::{Alpha, Document, Material, TextureUse};
+use crate::image::linear_to_srgb;
+
+/// The materials of an OBJ.
+pub struct Materials {
+    /// The name of each material.
+    pub names: Vec<String>,
+    /// The text of the library.
+    pub library: String,
+}
+
+/// The text. `library`: the file name of the material library.
+pub fn text(surfaces: &[Surface], materials: &Materials, library: &str) -> String {
+    let mut out = format!("# Created by Darboux {}\n", env!("CARGO_PKG_VERSION"));
+    if !materials.names.is_empty() {
+        _ = writeln!(out, "mtllib {library}");
+    }
+    let mut lists = Lists::default();
+    let mut last_name = None;
+    for surface in surfaces {
+        if last_name != Some(&surface.name) {
+            _ = writeln!(out, "o {}", one_line(&surface.name, "Surface"));
+            last_name = Some(&surface.name);
+        }
+        lists.write(surface, materials, &mut out);
+    }
+    out
+}
+
+/// The numbered positions, UVs and normals of the file. Equal ones are written once, so that surfaces stay connected at seams.
+#[derive(Default)]
+struct Lists {
+    positions: Numbered<6>,
+    uvs: Numbered<2>,
+    normals: Numbered<3>,
+}
+
+#[derive(Default)]
+struct Numbered<const N: usize> {
+    numbers: HashMap<[u32; N], usize>,
+}
+
+impl<const N: usize> Numbered<N> {
+    /// The number of a value, which is written if it is new.
+    fn of(&mut self, statement: &str, value: [f32; N], written: &[f32], out: &mut String) -> usize {
+        let next = self.numbers.len() + 1;
+        *self.numbers.entry(value.map(f32::to_bits)).or_insert_with(|| {
+            out.push_str(statement);
+            written.iter().for_each(|number| _ = write!(out, " {number}"));
+            out.push('\n');
+            next
+        })
+    }
+}
+
+impl Lists {
+    fn write(&mut self, surface: &Surface, materials: &Materials, out: &mut String) {
+        let corners: Vec<String> =
+            (0..surface.positions.len()).map(|vertex| self.corner(surface, vertex, out)).collect();
+        if let Some(name) = surface.material.and_then(|material| materials.names.get(material)) {
+            _ = writeln!(out, "usemtl {name}");
+        }
+        let mut rest = surface.corners.as_slice();
+        for &size in &surface.sizes {
+            let (face, after) = rest.split_at(size as usize);
+            out.push('f');
+            face.iter().for_each(|&vertex| _ = write!(out, " {}", corners[vertex as usize]));
+            out.push('\n');
+            rest = after;
+        }
+    }
+
+    /// A corner such as `3/1/2`, after its new values.
+    fn corner(&mut self, surface: &Surface, vertex: usize, out: &mut String) -> String {
+        let [x, y, z] = surface.positions[vertex];
+        let color = surface.colors.as_ref().map(|colors| {
+            let [r, g, b, _] = colors[vertex];
+            [r, g, b].map(|channel| linear_to_srgb(f64::from(channel)) as f32)
+        });
+        let [r, g, b] = color.unwrap_or([0.0; 3]);
+        let value = [x, y, z, r, g, b];
+        let written = if color.is_some() { &value[..] } else { &value[..3] };
+        let mut corner = self.positions.of("v", value, written, out).to_string();
+        let uv = surface.uvs.as_ref().map(|uvs| [uvs[vertex][0], 1.0 - uvs[vertex][1]]);
+        let uv = uv.map(|uv| self.uvs.of("vt", uv, &uv, out).to_string());
+        let normal = surface.normals.as_ref().map(|normals| normals[vertex]);
+        let normal = normal.map(|normal| self.normals.of("vn", normal, &normal, out));
+        match (uv, normal) {
+            (Some(uv), Some(normal)) => _ = write!(corner, "/{uv}/{normal}"),
+            (Some(uv), None) => _ = write!(corner, "/{uv}"),
+            (None, Some(normal)) => _ = write!(corner, "//{normal}"),
+            (None, None) => {}
+        }
+        corner
+    }
+}
+
+/// A name without line breaks; `otherwise` for none.
+fn one_line(name: &str, otherwise: &str) -> String {
+    let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
+    if name.is_empty() { otherwise.to_owned() } else { name }
+}
+
+/// The textures that MTL has a statement for.
+fn textures(material: &Material) -> impl Iterator<Item = (&'static str, &TextureUse)> {
+    [
+        ("map_Kd", &material.base_texture),
+        ("map_Ke", &material.emission_texture),
+        ("map_Pr", &material.metallic_roughness_texture),
+        ("map_Pm", &material.metallic_roughness_texture),
+        ("norm", &material.normal_texture),
+    ]
+    .into_iter()
+    .filter_map(|(statement, texture)| Some((statement, texture.as_ref()?)))
+}
+
+/// The images that materials refer to, ascending.
+pub fn images(document: &Document) -> Result<Vec<usize>, Error> {
+    let materials = document.materials()?;
+    let used = materials.iter().flat_map(textures).filter_map(|(_, texture)| texture.image);
+    let mut images: Vec<usize> = used.collect();
+    images.sort_unstable();
+    images.dedup();
+    Ok(images)
+}
+
+/// The materials of a document. `paths`: the path of each image in the library; none for an image without a file.
+pub fn materials(document: &Document, paths: &[Option<String>]) -> Result<Materials, Error> {
+    let materials = document.materials()?;
+    let names = unique_names(document, materials.len());
+    let mut library = format!("# Created by Darboux {}\n", env!("CARGO_PKG_VERSION"));
+    for (name, material) in names.iter().zip(&materials) {
+        write_material(name, material, paths, &mut library);
+    }
+    Ok(Materials { names, library })
+}
+
+fn write_material(name: &str, material: &Material, paths: &[Option<String>], out: &mut String) {
+    let srgb = |color: [f32; 3]| color.map(|channel| linear_to_srgb(f64::from(channel)) as f32);
+    let [r, g, b, alpha] = material.base_color;
+    let alpha = if material.alpha == Alpha::Opaque { 1.0 } else { alpha };
+    _ = writeln!(out, "\nnewmtl {name}");
+    let colors = BTreeMap::from([("Kd", srgb([r, g, b])), ("Ke", srgb(material.emission))]);
+    for (statement, [r, g, b]) in colors {
+        _ = writeln!(out, "{statement} {r} {g} {b}");
+    }
+    _ = writeln!(out, "d {alpha}\nPr {}\nPm {}", material.roughness, material.metallic);
+    for (statement, texture) in textures(material) {
+        let Some(path) = texture.image.and_then(|image| paths.get(image)?.as_ref()) else { continue };
+        let scale = if statement == "norm" && material.normal_scale != 1.0 {
+            format!("-bm {} ", material.normal_scale)
+        } else {
+            String::new()
+        };
+        _ = writeln!(out, "{statement} {scale}{path}");
+    }
+}
+
+/// A name for each material, without white space, each once: `usemtl` names one.
+fn unique_names(document: &Document, count: usize) -> Vec<String> {
+    let mut taken = HashSet::new();
+    let name_of = |index: usize| {
+        let name = document.json()["materials"][index]["name"].as_str().unwrap_or_default();
+        let name = one_line(name, &format!("Material_{index}")).replace(' ', "_");
+        let mut unique = name.clone();
+        let mut number = 1;
+        while !taken.insert(unique.clone()) {
+            unique = format!("{name}_{number}");
+            number += 1;
+        }
+        unique
+    };
+    (0..count).map(name_of).collect()
+}
