@@ -386,6 +386,27 @@ codes! {
         "Leave the map out."
         Leave "it makes no picture wrong"
     }
+    MapEnlarged "map-enlarged" Warning {
+        "The normal map was enlarged without interpolation: every texel is there several times."
+        "Light changes in square steps from close up, and the map costs the memory of its size without showing more."
+        "The image was resized with nearest-neighbour sampling, as for pixel art, to reach a required size."
+        "Use the map in the size that it was made in, bake it in the larger one, or resize it with bicubic interpolation and normalise it."
+        Leave "the texels between the ones that are left are not in the file"
+    }
+    MapBanding "map-banding" Warning {
+        "The normal map is stored in few levels per channel."
+        "Gentle slopes show bands, most visible in reflections."
+        "The image went through a format of 16 bits per texel (R5G6B5), a palette, or a program that reduced its colours."
+        "Export the map again with 8 or 16 bits per channel."
+        Leave "the levels in between are lost"
+    }
+    MapBlocks "map-blocks" Warning {
+        "The normal map was compressed in blocks so strongly that their borders are in the light."
+        "A grid of squares in reflections, and slopes that are smeared or end in steps."
+        "The image was saved as JPEG with a low quality, or with a block compression for colours (ETC1S, BC1)."
+        "Export the map again as PNG, as JPEG with a quality of 95 and whole colour resolution, or as KTX2 with UASTC."
+        Leave "what the compression took is lost"
+    }
     MapOtherLayout "map-other-layout" Error {
         "The normal map was made for another UV layout."
         "Details are at wrong places, and seams show; with UVs upside down, the whole texture is."
@@ -413,6 +434,20 @@ codes! {
         "A slider for the strength of the bumps was pulled below zero, or it was used to turn an inverted map over."
         "Set the scale to its size without the sign, unless the map has both red and green inverted; then invert these and do the same."
         Leave "whether the map needs it is not in the file"
+    }
+    MapScaleZero "map-scale-zero" Warning {
+        "The scale of the normal texture is 0, so that the map does nothing."
+        "A smooth surface; the map costs memory."
+        "A slider for the strength of the bumps was pulled to 0 to hide them, or an exporter wrote a strength that it did not know as 0."
+        "Set the scale to 1, or leave the normal map out."
+        Leave "how strong the bumps should be is not in the file"
+    }
+    MapScaleExtreme "map-scale-extreme" Warning {
+        "The scale of the normal texture makes its slopes more than four times as steep."
+        "Bumps that are far too strong: gentle slopes look like walls, and noise of the map like gravel."
+        "The strength was given in percent or in the units of another program, or it makes up for a map of too gentle slopes."
+        "Set the scale to 1, or bake the map with the height that is wanted."
+        Leave "how strong the bumps should be is not in the file"
     }
     [Transforms]
     TransformMirrors "transform-mirrors" Warning {

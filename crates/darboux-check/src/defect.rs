@@ -135,6 +135,10 @@ pub enum Fault {
     },
     /// The negative scale of the normal texture.
     MapScaleNegative(f64),
+    /// The scale of the normal texture is 0.
+    MapScaleZero(f64),
+    /// The large scale of the normal texture.
+    MapScaleExtreme(f64),
 }
 
 /// A known difference from MikkTSpace's tangents.
@@ -214,6 +218,8 @@ impl Fault {
             Self::Map(fault) => fault.code(),
             Self::TransformMirrors { .. } => Code::TransformMirrors,
             Self::MapScaleNegative(_) => Code::MapScaleNegative,
+            Self::MapScaleZero(_) => Code::MapScaleZero,
+            Self::MapScaleExtreme(_) => Code::MapScaleExtreme,
         }
     }
 

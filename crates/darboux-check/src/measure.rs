@@ -17,5 +17,6 @@ pub mod reordered;
 pub mod reversal;
 pub mod reversed;
 pub mod seams;
+pub mod storage;
 pub mod turned;
 pub mod values;

@@ -116,7 +116,10 @@ fn said(fault: &Fault, severity: crate::severity::Severity) -> Said {
         | Fault::UvMirrored(_)
         | Fault::UvOverlapping { .. } => uvs::said(fault),
         Fault::Map(fault) => maps::said(fault),
-        Fault::TransformMirrors { .. } | Fault::MapScaleNegative(_) => materials::said(fault),
+        Fault::TransformMirrors { .. }
+        | Fault::MapScaleNegative(_)
+        | Fault::MapScaleZero(_)
+        | Fault::MapScaleExtreme(_) => materials::said(fault),
         _ => tangents::said(fault, severity),
     }
 }

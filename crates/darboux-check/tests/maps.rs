@@ -5,9 +5,11 @@ mod support;
 use darboux::BitangentDirection;
 use darboux_check::{CheckOptions, Code, Finding, FixOptions, Severity, check_document, check_map, fix_map};
 use darboux_io::LoadOptions;
+use darboux_io::gltf::Document;
 use support::baked::baked_models;
+use support::container::with_json;
 use support::maps::{Map, healthy_map, png};
-use support::models::healthy_models;
+use support::models::{Model, healthy_models};
 
 /// A change of a texel.
 type Change = fn([u8; 3]) -> [u8; 3];
@@ -241,4 +243,31 @@ fn detail_of_another_convention_is_named() {
     );
     let fixed = fix_map("map", &file, &LoadOptions::default(), &FixOptions::default());
     assert!(fixed.expect("a map").image.is_none());
+}
+
+/// A map in WebP, which the texture names in EXT_texture_webp only: its texels are judged as those of a PNG are.
+#[test]
+fn maps_of_the_extension_for_webp_are_judged() {
+    let mut model = healthy_models().remove(9);
+    let named = |model: &Model, is_inverted: bool| {
+        let texel = |&[r, g, b]: &[u8; 3]| [r, if is_inverted { 255 - g } else { g }, b];
+        let texels: Vec<[u8; 3]> = model.map.texels.iter().map(texel).collect();
+        let side = texels.len().isqrt() as u32;
+        let mut file = Vec::new();
+        let encoder = image_webp::WebPEncoder::new(&mut file);
+        encoder.encode(texels.as_flattened(), side, side, image_webp::ColorType::Rgb8).expect("an image");
+        let model = Model { map: Map { file, ..model.map.clone() }, ..model.clone() };
+        let glb = with_json(&model.glb(), |json| {
+            json["images"][0]["mimeType"] = "image/webp".into();
+            json["extensionsUsed"] = serde_json::json!(["EXT_texture_webp"]);
+            json["textures"][0] = serde_json::json!({"extensions": {"EXT_texture_webp": {"source": 0}}});
+        });
+        let document = Document::from_bytes("webp", glb, None, &LoadOptions::default()).expect("a valid GLB");
+        let findings = check_document(&document, &CheckOptions::default()).expect("a valid document");
+        codes(&findings.into_iter().filter(|found| found.severity > Severity::Info).collect::<Vec<_>>())
+    };
+    assert_eq!(named(&model, false), []);
+    assert_eq!(named(&model, true), [(Code::MapGreenFlipped, Severity::Error)]);
+    model.map = model.map.through(|[r, ..]| [r; 3]);
+    assert_eq!(named(&model, false), [(Code::MapHeight, Severity::Error)]);
 }

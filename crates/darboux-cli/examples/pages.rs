@@ -259,6 +259,26 @@ const SAID: &[(Code, &str)] = &[
         "the scale of a normal texture may be negative, but what that means is not clear",
     ),
     (
+        Code::MapScaleZero,
+        "the strength of the normal map is not copied out of the file, or not into it (KhronosGroup/glTF-Blender-IO 241, assimp/assimp 1693)",
+    ),
+    (
+        Code::MapScaleExtreme,
+        "the exporter ignores that the bump map is set to 10 %, and it becomes far too strong (BabylonJS/Exporters 311)",
+    ),
+    (
+        Code::MapEnlarged,
+        "upscaling normal maps with the nearest neighbour breaks them (luanti-org/luanti PR 7144)",
+    ),
+    (
+        Code::MapBanding,
+        "the normal map has stair steps, as from too few bits (RodZill4/material-maker 84, kmkolasinski/AwesomeBump 127)",
+    ),
+    (
+        Code::MapBlocks,
+        "there should not be any squares on the wall: they are compression artifacts of the normal map (mrdoob/three.js 8235, Neos-Metaverse/NeosPublic 498)",
+    ),
+    (
         Code::TransformMirrors,
         "the light seems to turn with the texture, in one viewer and not in the others (KhronosGroup/glTF-Sample-Assets 156, panda3d/panda3d 808)",
     ),
@@ -287,6 +307,11 @@ const NO_PICTURE: &[(Code, &str)] = &[
         "the renderer of these pictures normalises the vectors, so that nothing would be seen",
     ),
     (Code::MapScaleNegative, "it looks as if red and green were both inverted: dents for bumps"),
+    (Code::MapScaleZero, "the surface is smooth, as without a normal map"),
+    (Code::MapScaleExtreme, "the bumps are those of the healthy model, only steeper"),
+    (Code::MapEnlarged, "the texels of the map are smaller than the pixels of these pictures"),
+    (Code::MapBanding, "steps of two to four degrees are seen in reflections only"),
+    (Code::MapBlocks, "the blocks of the map are smaller than ten pixels of these pictures"),
     (Code::MapDetailFlipped, "the detail is finer than the pixels of these pictures"),
     (Code::MapFlatOff, "a lean of two degrees is seen in reflections only"),
 ];

@@ -57,9 +57,9 @@ Of the gradients {decided_percent:.2} % are decided, and {wrong_percent:.2} % wr
 {others}
 ## Confidence
 
-The confidence is 1 / (1 + exp(-s)), or at most 93 % without a verdict. The score s weighs the votes of the tiles, the relief and the second witness, with weights that were fitted to
-[real maps](real-normal-maps.md), not to these fields. Where the texels do not rule out that red and green are exchanged, it is lower; before they are seen, the odds against that
-are 30 to 1. This is how it does on the fields of odd numbers. They include {gentle_fields} fields whose slopes are {slope} times as large, about one code of 8 bits, and whose sides are at
+The confidence is 1 / (1 + exp(-s)), below 97 % without a verdict, and at most 60 % where the relief and the second witness contradict each other. The score s weighs the votes of the
+tiles, the relief and the second witness, with weights that were fitted to [real maps](real-normal-maps.md), not to these fields. Where the texels do not rule out that red and green are
+exchanged, it is lower; before they are seen, the odds against that are 90 to 1. This is how it does on the fields of odd numbers. They include {gentle_fields} fields whose slopes are {slope} times as large, about one code of 8 bits, and whose sides are at
 most {gentle_side}: without them hardly any sign is wrong.
 
 {calibration}",

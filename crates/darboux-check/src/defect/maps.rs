@@ -6,6 +6,7 @@ use crate::code::Code;
 use crate::measure::contradiction::Contradiction;
 use crate::measure::reordered::Reordered;
 use crate::measure::seams::{Layout, SeamFit};
+use crate::measure::storage::{BlockSteps, Enlargement, FewLevels};
 
 /// A number of texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -177,6 +178,12 @@ pub enum MapFault {
     },
     /// In percent, the texels of the commonest colour.
     Flat(f64),
+    /// Every texel is there several times.
+    Enlarged(Enlargement),
+    /// The channels have few levels.
+    Banding(FewLevels),
+    /// The borders of the blocks of a compression show.
+    Blocks(BlockSteps),
     /// The map fits the seams of the meshes in another layout, and not as it is.
     OtherLayout {
         layout: Layout,
@@ -206,6 +213,9 @@ impl MapFault {
             Self::FlatOff { .. } => Code::MapFlatOff,
             Self::Flat(_) => Code::MapFlat,
             Self::OtherLayout { .. } => Code::MapOtherLayout,
+            Self::Enlarged(_) => Code::MapEnlarged,
+            Self::Banding(_) => Code::MapBanding,
+            Self::Blocks(_) => Code::MapBlocks,
         }
     }
 

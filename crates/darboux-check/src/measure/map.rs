@@ -11,6 +11,7 @@ use crate::measure::contradiction::Contradiction;
 use crate::measure::facets::Arrangement;
 use crate::measure::mesh_votes::MeshVotes;
 use crate::measure::reordered::Reordered;
+use crate::measure::storage::Storage;
 
 /// The normal map of a material, or one that is checked alone.
 pub struct Map {
@@ -36,6 +37,8 @@ pub struct Map {
     pub reordered: Option<Reordered>,
     /// Whether most texels have other lengths than 1, and red and green are light and dark together, as in pictures.
     pub is_picture: bool,
+    /// What storage did to the texels.
+    pub storage: Storage,
     /// Where green should point.
     pub wanted: BitangentDirection,
     /// What the facets of the meshes that use the map say; none for a map that is checked alone.
@@ -121,6 +124,7 @@ impl Map {
                     contradiction,
                     reordered,
                     is_picture,
+                    storage: Storage::of(&image, file),
                     wanted,
                     facets,
                     assumed: None,
@@ -164,6 +168,7 @@ impl Map {
             contradiction: None,
             reordered: None,
             is_picture: false,
+            storage: Storage::default(),
             wanted,
             facets: None,
             assumed: None,

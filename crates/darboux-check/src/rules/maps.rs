@@ -36,6 +36,9 @@ pub const RULES: &[MapRule] = &[
     negative_z,
     flat_off,
     flat,
+    enlarged,
+    banding,
+    blocks,
 ];
 
 /// The share of texels, in percent, above which vectors are worth a warning.
@@ -312,11 +315,40 @@ fn flat(map: &Map) -> Option<Defect> {
     is_plain.then(|| defect(MapFault::Flat(percent(judgement, judgement.commonest_count))))
 }
 
+/// Steps from which on storage is worth a warning, in degrees.
+const MIN_STEP: f64 = 1.5;
+const MIN_BLOCK_STEP: f64 = 3.0;
+
+fn enlarged(map: &Map) -> Option<Defect> {
+    of_kind(map, Kind::Normals)?;
+    let found = map.storage.enlargement?;
+    Some(of_step(MapFault::Enlarged(found), found.step, MIN_STEP))
+}
+
+fn banding(map: &Map) -> Option<Defect> {
+    of_kind(map, Kind::Normals).filter(|judgement| judgement.verdict != MapVerdict::Flat)?;
+    let found = map.storage.few_levels?;
+    Some(of_step(MapFault::Banding(found), found.step, MIN_STEP))
+}
+
+/// The borders of the texels of an enlarged map are no borders of blocks.
+fn blocks(map: &Map) -> Option<Defect> {
+    of_kind(map, Kind::Normals)?;
+    let found = map.storage.block_steps.filter(|_| map.storage.enlargement.is_none())?;
+    Some(of_step(MapFault::Blocks(found), found.degrees, MIN_BLOCK_STEP))
+}
+
+/// The defect with the severity of the steps that it adds: information where they are smaller than `visible`.
+fn of_step(fault: MapFault, step: f64, visible: f64) -> Defect {
+    defect(fault).with_severity(if step >= visible { Severity::Warning } else { Severity::Info })
+}
+
 #[cfg(test)]
 mod tests {
     use darboux::{BitangentDirection, TexelLayout, judge_normal_map};
 
     use super::*;
+    use crate::measure::storage::Storage;
 
     /// Waves along u, v and both, as `[x, y]`; `is_exchanged` exchanges red and green, and green is inverted before.
     fn map(is_exchanged: bool) -> Map {
@@ -345,6 +377,7 @@ mod tests {
             contradiction: None,
             reordered: None,
             is_picture: false,
+            storage: Storage::default(),
             wanted: BitangentDirection::Up,
             facets,
             assumed: None,

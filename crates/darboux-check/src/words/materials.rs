@@ -18,6 +18,19 @@ pub fn said(fault: &Fault) -> Said {
             "normalTexture.scale is negative, so that red and green of its normal map are both inverted",
         )
         .with("scale", *scale, ""),
+        Fault::MapScaleZero(scale) => {
+            Said::new("normalTexture.scale hides the bumps of its normal map").with("scale", *scale, "")
+        }
+        Fault::MapScaleExtreme(scale) => Said::new(
+            "normalTexture.scale makes the slopes of its normal map far steeper than they are in the map",
+        )
+        .with("scale", *scale, "")
+        .with("what a slope of 10 degrees becomes", steepened(10.0, *scale), "degrees"),
         _ => unreachable!("a fault of a material"),
     }
+}
+
+/// The angle of a slope, in degrees, after the scale.
+fn steepened(degrees: f64, scale: f64) -> f64 {
+    (scale.abs() * degrees.to_radians().tan()).atan().to_degrees()
 }

@@ -173,4 +173,36 @@ pub const MAP_MISTAKES: &[MapMistake] = &[
         make: |map| map.with_texels(vec![[128, 128, 255]; map.texels.len()]),
         tolerance: None,
     },
+    MapMistake {
+        code: Code::MapEnlarged,
+        how: "half the size, enlarged with nearest-neighbour sampling",
+        make: |map| {
+            let side = map.texels.len().isqrt();
+            let texel = |i: usize| map.texels[i / side / 2 * 2 * side + i % side / 2 * 2];
+            map.with_texels((0..map.texels.len()).map(texel).collect())
+        },
+        tolerance: None,
+    },
+    MapMistake {
+        code: Code::MapBanding,
+        how: "stored as R5G6B5",
+        make: |map| {
+            let code = |byte: u8, bits: u32| byte >> (8 - bits) << (8 - bits) | byte >> bits & (0xFF >> bits);
+            let texel = |[r, g, b]: &[u8; 3]| [code(*r, 5), code(*g, 6), code(*b, 5)];
+            map.with_texels(map.texels.iter().map(texel).collect())
+        },
+        tolerance: None,
+    },
+    MapMistake {
+        code: Code::MapBlocks,
+        how: "saved as JPEG of quality 20",
+        make: |map| {
+            let side = map.texels.len().isqrt();
+            let jpeg = Storage::Jpeg { quality: 20, halves_colors: true };
+            map.with_texels(
+                jpeg.store([side; 2], map.texels.iter().map(|texel| texel.map(f32::from)).collect()),
+            )
+        },
+        tolerance: None,
+    },
 ];

@@ -301,6 +301,22 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
+        code: Code::MapScaleZero,
+        how: "normalTexture.scale of 0",
+        make: |model| {
+            model.normal_scale = 0.0;
+            true
+        },
+    },
+    Mistake {
+        code: Code::MapScaleExtreme,
+        how: "normalTexture.scale of 20",
+        make: |model| {
+            model.normal_scale = 20.0;
+            true
+        },
+    },
+    Mistake {
         code: Code::TransformMirrors,
         how: "KHR_texture_transform with scale 1, -1",
         make: |model| {

@@ -107,7 +107,10 @@ impl<const N: usize> NormalMapJudge<N> {
         let evidence = score::combine_levels(&self.evidence.levels);
         let mut judgement = self.evidence.texel_counts.judgement();
         evidence.write(&mut judgement);
-        let holds_no_normals = judgement.holds_no_normals() && !evidence.is_clear_gradient();
+        // Values that went through the transfer function of sRGB are too long for normals, and their slopes are still those of a surface.
+        let is_gradient = evidence.is_clear_gradient()
+            || judgement.srgb_mistake().is_some() && evidence.verdict().is_direction();
+        let holds_no_normals = judgement.holds_no_normals() && !is_gradient;
         let (verdict, confidence) = if self.evidence.texel_counts.is_flat() {
             (MapVerdict::Flat, 1.0)
         } else if judgement.is_grey() || judgement.is_object_space() || holds_no_normals {

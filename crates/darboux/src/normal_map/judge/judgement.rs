@@ -30,6 +30,11 @@ impl MapVerdict {
             Self::CannotTell => "cannot_tell",
         }
     }
+
+    /// Whether the map is in one of the two conventions.
+    pub(super) fn is_direction(self) -> bool {
+        matches!(self, Self::OpenGl | Self::DirectX)
+    }
 }
 
 /// The verdict on a normal map and the counts behind it.
@@ -40,8 +45,8 @@ impl MapVerdict {
 pub struct MapJudgement {
     /// The verdict.
     pub verdict: MapVerdict,
-    /// An estimate of the probability that the verdict is right, at least 0.5, as if red and green were exchanged in one of 31 maps; for
-    /// `CannotTell` that of the likelier of OpenGL and DirectX, at most 0.93; for `Flat` 1. It was fitted to blocks of real maps:
+    /// An estimate of the probability that the verdict is right, at least 0.5, as if red and green were exchanged in one of 91 maps; for
+    /// `CannotTell` that of the likelier of OpenGL and DirectX, at most 0.97; for `Flat` 1. It was fitted to blocks of real maps:
     /// docs/notes/real-normal-maps.md compares it with the share of right verdicts.
     pub confidence: f32,
     /// The mean correlation of the tiles, from -1 (DirectX) to 1 (OpenGL), of the map or of one of its halvings: of those whose mean has
@@ -131,9 +136,9 @@ impl MapJudgement {
     }
 
     /// True for maps in object space: unit vectors, of which more than a tenth have a negative z. A steep map in tangent space can have them, too:
-    /// then the vectors still point along z on average, and are slopes of a surface.
+    /// then the vectors still point along z on average, or against it where blue was inverted, and are slopes of a surface.
     pub fn is_object_space(&self) -> bool {
-        let is_steep = self.mean[2] > 0.5 && self.relief_correlation.abs() >= 0.3;
+        let is_steep = self.mean[2].abs() > 0.5 && self.relief_correlation.abs() >= 0.3;
         let is_turned = self.share(self.negative_z) > 0.1 && !is_steep;
         !self.is_grey() && is_turned && self.share(self.not_unit) < 0.5
     }
