@@ -195,13 +195,22 @@ pub const MAP_MISTAKES: &[MapMistake] = &[
     },
     MapMistake {
         code: Code::MapBlocks,
-        how: "saved as JPEG of quality 20",
+        how: "waves, 70 % of the way to the means of blocks of 8 x 8 texels, as in a strongly compressed JPEG",
         make: |map| {
             let side = map.texels.len().isqrt();
-            let jpeg = Storage::Jpeg { quality: 20, halves_colors: true };
-            map.with_texels(
-                jpeg.store([side; 2], map.texels.iter().map(|texel| texel.map(f32::from)).collect()),
-            )
+            let wave = |i: usize| {
+                let (x, y) = ((i % side) as f32 / 7.0, (i / side) as f32 / 9.0);
+                let vector = [-0.4 * x.cos() * y.sin(), 0.31 * x.sin() * y.cos(), 1.0];
+                let length = vector.iter().map(|x| x * x).sum::<f32>().sqrt();
+                vector.map(|x| 127.5 + 127.5 * x / length)
+            };
+            let texel = |i: usize| {
+                let (left, top) = (i % side / 8 * 8, i / side / 8 * 8);
+                let block = (0..64).map(|k| wave((top + k / 8) * side + left + k % 8));
+                let sums = block.fold([0.0; 3], |sum, texel| [0, 1, 2].map(|c| sum[c] + texel[c]));
+                [0, 1, 2].map(|c| (0.3 * wave(i)[c] + 0.7 * sums[c] / 64.0).round() as u8)
+            };
+            map.with_texels((0..map.texels.len()).map(texel).collect())
         },
         tolerance: None,
     },
