@@ -16,6 +16,7 @@ use crate::commands::missing::MissingArguments;
 use crate::commands::normals::arguments::{self as normals, NormalsArguments};
 #[cfg(feature = "gpu")]
 use crate::commands::render::arguments::{self as render, RenderArguments};
+use crate::commands::report::arguments::{self as report, ReportArguments};
 use crate::commands::tangents::arguments::{self as tangents, TangentsArguments};
 #[cfg(feature = "view")]
 use crate::commands::view::arguments::{self as view, ViewArguments};
@@ -70,6 +71,9 @@ pub enum Command {
         mut_arg("force", |force| force.requires("fix"))
     )]
     Check(CheckArguments),
+    /// Write what is wrong with models as one HTML file with pictures
+    #[command(long_about = report::ABOUT, after_long_help = report::EXAMPLES)]
+    Report(ReportArguments),
     /// Bake the detail of high-poly models into maps of a low-poly model
     #[cfg(feature = "bake")]
     #[command(long_about = bake::ABOUT, after_long_help = bake::EXAMPLES)]

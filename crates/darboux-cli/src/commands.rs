@@ -15,6 +15,7 @@ pub mod missing;
 pub mod normals;
 #[cfg(feature = "gpu")]
 pub mod render;
+pub mod report;
 pub mod tangents;
 #[cfg(feature = "view")]
 pub mod view;

@@ -68,6 +68,7 @@ fn run_command(command: &Command) -> u8 {
         Command::Normals(arguments) => batch::run(arguments),
         Command::Convert(arguments) => batch::run(arguments),
         Command::Check(arguments) => commands::check::run(arguments),
+        Command::Report(arguments) => commands::report::run(arguments),
         Command::Compare(arguments) => commands::compare::run(arguments),
         Command::Inspect(arguments) => commands::inspect::run(arguments),
         #[cfg(feature = "bake")]

@@ -51,6 +51,7 @@ const PARTS: [(&str, &[&str]); 4] = [
             "docs/gpu.md",
             "docs/shaders.md",
             "docs/render.md",
+            "docs/report.md",
             "docs/bake.md",
             "docs/security.md",
         ],

@@ -1,34 +1,31 @@
 //! `darboux check`: prints what is wrong with models and normal maps.
 
 pub mod arguments;
+pub mod checks;
 mod fix;
 mod folder;
-mod model;
-mod report;
+mod groups;
+pub mod html;
+pub mod model;
+pub mod report;
 mod source;
 mod text;
 
-use std::num::NonZeroUsize;
 use std::path::Path;
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 
-use darboux_check::{Finding, ReportedFinding, check_document, diagnosis};
-use darboux_io::gltf::Document;
 use darboux_io::system_reason;
 
 use crate::batch;
-use crate::documents::Source;
 use crate::exit;
 use crate::inputs::{FoundInputs, Input, SearchMode, UsageError, check_stdin, find_inputs};
 use crate::json::to_json;
-use crate::net;
 use crate::terminal::{Messages, write_stdout};
-use arguments::CheckArguments;
+use arguments::{CheckArguments, FailOn};
+use checks::Checks;
 use fix::Repair;
+use html::Page;
 use model::Model;
-use report::{CheckReport, CheckedFile, ReportedMap};
+use report::{CheckReport, CheckedFile};
 
 /// Runs the command and returns its exit code.
 pub fn run(arguments: &CheckArguments) -> u8 {
@@ -40,8 +37,12 @@ pub fn run(arguments: &CheckArguments) -> u8 {
         messages.error(&sentence);
         return exit::USAGE;
     }
-    if let Some(code) = arguments.only.iter().find(|code| arguments.allow.contains(code)) {
-        messages.error(&format!("--only and --allow both name {code}; name it once"));
+    let refused = arguments.findings.refuse_contradictions().and_then(|()| match &arguments.report {
+        Some(path) => html::refuse(path, &arguments.files.inputs),
+        None => Ok(()),
+    });
+    if let Err(UsageError(sentence)) = refused {
+        messages.error(&sentence);
         return exit::USAGE;
     }
     let found = find_inputs(&arguments.files.inputs, SearchMode::All);
@@ -57,23 +58,28 @@ pub fn run(arguments: &CheckArguments) -> u8 {
     if arguments.fix {
         return batch::run(&Repair { arguments, model });
     }
-    let mut files: Vec<CheckedFile> = found
-        .failed
-        .iter()
-        .map(|(path, reason)| {
-            let maps = folder::maps_instead(path).map_or(String::new(), |clause| format!("; {clause}"));
-            failed(path.display().to_string(), format!("{}: {reason}{maps}", path.display()))
-        })
-        .collect();
-    files.extend(check_all(&inputs, arguments, &model));
+    let checks = Checks {
+        findings: &arguments.findings,
+        model,
+        reading: arguments.files.reading,
+        jobs: arguments.files.jobs,
+    };
+    let files = checks.check_found(&found);
     files.iter().filter_map(|file| file.error.as_ref()).for_each(|error| messages.error(error));
-    let code = exit_code(&files, arguments);
+    let code = exit_code(&files, arguments.findings.fail_on);
     let report = CheckReport::new(files);
+    if let Some(path) = &arguments.report {
+        let page = Page { report: &report, checks: &checks, pictures: html::DEFAULT_PICTURES };
+        if let Err(sentence) = page.write(path, true) {
+            messages.error(&sentence);
+            return exit::FAILED;
+        }
+    }
     let text = match (arguments.messages.json, arguments.messages.quiet) {
         (true, _) => to_json(&report),
         (false, is_quiet) => {
             let describe = |file| match (is_quiet, arguments.files.verbose) {
-                (true, _) => text::failures(file, arguments.fail_on),
+                (true, _) => text::failures(file, arguments.findings.fail_on),
                 (false, true) => text::describe(file),
                 (false, false) => text::describe_folded(file),
             };
@@ -94,7 +100,7 @@ pub fn run(arguments: &CheckArguments) -> u8 {
 
 /// Names the images of folders that are probably normal maps and that no model uses.
 fn warn_of_unused_maps(found: &FoundInputs, arguments: &CheckArguments, messages: &Messages) {
-    for folder in arguments.files.inputs.iter().filter(|path| path.is_dir() && !arguments.no_maps) {
+    for folder in arguments.files.inputs.iter().filter(|path| path.is_dir() && !arguments.findings.no_maps) {
         let of_folder = found.files.iter().filter(|(_, from)| from.as_ref() == Some(folder));
         let models: Vec<&Path> = of_folder
             .filter_map(|(input, _)| match input {
@@ -117,74 +123,10 @@ fn print(messages: &Messages, text: &[u8], code: u8) -> u8 {
     }
 }
 
-fn exit_code(files: &[CheckedFile], arguments: &CheckArguments) -> u8 {
+/// 1 if a file cannot be read or has a finding as severe as `fail_on`, otherwise 0.
+pub fn exit_code(files: &[CheckedFile], fail_on: FailOn) -> u8 {
     let fails = |file: &CheckedFile| {
-        file.error.is_some()
-            || file.findings.iter().any(|finding| arguments.fail_on.includes(finding.severity))
+        file.error.is_some() || file.findings.iter().any(|finding| fail_on.includes(finding.severity))
     };
     if files.iter().any(fails) { exit::FAILED } else { exit::DONE }
-}
-
-/// Checks files, several at the same time, in the order of the inputs.
-fn check_all(inputs: &[&Input], arguments: &CheckArguments, model: &Model) -> Vec<CheckedFile> {
-    let next = AtomicUsize::new(0);
-    let checked: Vec<OnceLock<CheckedFile>> = inputs.iter().map(|_| OnceLock::new()).collect();
-    let work = || {
-        loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            let Some(input) = inputs.get(number) else { return };
-            // Every number is taken once.
-            _ = checked[number].set(check_file(input, arguments, model));
-        }
-    };
-    let cores = || thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let jobs = arguments.files.jobs.map_or_else(cores, |jobs| usize::from(jobs.get()));
-    thread::scope(|scope| {
-        for _ in 1..jobs.min(inputs.len()) {
-            // Without a further thread, this one does the work.
-            _ = thread::Builder::new().spawn_scoped(scope, work);
-        }
-        work();
-    });
-    checked.into_iter().filter_map(OnceLock::into_inner).collect()
-}
-
-fn check_file(input: &Input, arguments: &CheckArguments, model: &Model) -> CheckedFile {
-    let options = arguments.check_options();
-    let name = input.to_string();
-    let reported = |findings: Vec<Finding>, map: Option<ReportedMap>, document: Option<&Document>| {
-        let wanted = findings.into_iter().filter(|finding| arguments.reports(finding.code));
-        let mut findings: Vec<ReportedFinding> = wanted.map(Into::into).collect();
-        document.iter().for_each(|document| source::name_places(document, &mut findings));
-        let importer = document.and_then(|document| source::importer_note(document, &findings));
-        let diagnosis = diagnosis(&findings);
-        CheckedFile { input: name.clone(), error: None, map, importer, diagnosis, findings }
-    };
-    let check = || {
-        let source = Source::new(input)?;
-        match source.image()? {
-            Some(file) => {
-                let checked = model.check_image(&file, &options)?;
-                let map = ReportedMap::of(&checked);
-                Ok(reported(checked.findings, map, None))
-            }
-            None => {
-                let document = source.load(&arguments.files.reading)?;
-                let findings = check_document(&document, &options).map_err(|error| error.to_string())?;
-                Ok(reported(findings, None, Some(&document)))
-            }
-        }
-    };
-    net::catch(input, check).unwrap_or_else(|sentence: String| failed(name.clone(), sentence))
-}
-
-fn failed(input: String, sentence: String) -> CheckedFile {
-    CheckedFile {
-        input,
-        error: Some(sentence),
-        map: None,
-        importer: None,
-        diagnosis: String::new(),
-        findings: Vec::new(),
-    }
 }

@@ -4,4 +4,4 @@ pub mod arguments;
 mod draw;
 mod legend;
 
-pub use draw::run;
+pub use draw::{no_adapter, run};

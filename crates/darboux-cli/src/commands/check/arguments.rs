@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use darboux::{BitangentDirection, Choice, Method};
 use darboux_check::{AssumedMap, CheckOptions, Code, Severity};
 
+use crate::inputs::UsageError;
 use crate::options::choice::choice;
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
@@ -37,6 +38,7 @@ Examples:
   darboux check brick_normal.png --model wall.glb    does it fit this model?
   darboux check brick_normal.png --model wall.glb --fix
   darboux check level.glb --allow tangent-other-recipe,map-flat
+  darboux check models/ --report report.html         with pictures, for a pull request
   darboux check --explain tangent-sign-flipped
   darboux check model.glb --fix                      writes model.fixed.glb
   darboux check model.glb --fix --assume map=directx what the file does not decide
@@ -44,16 +46,9 @@ Examples:
   darboux check models/ --fix --in-place --only tangent-sign-flipped,map-green-flipped
   darboux check models/ --json | jq '.files[].findings[] | select(.severity == \"error\")'";
 
-/// Which files are checked, and for what.
+/// What is checked, and which findings are reported.
 #[derive(Debug, Args)]
-pub struct CheckArguments {
-    #[command(flatten)]
-    pub files: FileOptions,
-
-    /// Print the meaning of a code and exit
-    #[arg(long, value_name = "CODE", value_parser = code(), hide_possible_values = true, conflicts_with = "inputs")]
-    pub explain: Option<Code>,
-
+pub struct FindingOptions {
     /// Report these codes only
     #[arg(
         long,
@@ -90,13 +85,27 @@ pub struct CheckArguments {
     #[arg(long, value_name = "WHAT", value_parser = assumption(), help_heading = "Findings")]
     pub assume: Option<AssumedMap>,
 
-    /// The model that the images are normal maps of: its faces tell inverted green from inverted red, and its tangents, normals and UVs are checked, too
-    #[arg(long, value_name = "MODEL", help_heading = "Findings")]
-    pub model: Option<PathBuf>,
-
     /// Do not decode normal maps: they are taken to be right
     #[arg(long, help_heading = "Findings")]
     pub no_maps: bool,
+}
+
+/// Which files are checked, and for what.
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    #[command(flatten)]
+    pub files: FileOptions,
+
+    /// Print the meaning of a code and exit
+    #[arg(long, value_name = "CODE", value_parser = code(), hide_possible_values = true, conflicts_with = "inputs")]
+    pub explain: Option<Code>,
+
+    #[command(flatten)]
+    pub findings: FindingOptions,
+
+    /// The model that the images are normal maps of: its faces tell inverted green from inverted red, and its tangents, normals and UVs are checked, too
+    #[arg(long, value_name = "MODEL", help_heading = "Findings")]
+    pub model: Option<PathBuf>,
 
     /// Repair what is found, and write the result
     ///
@@ -132,6 +141,12 @@ pub struct CheckArguments {
     )]
     pub normals: ShadingChoice,
 
+    /// Write what is found as one HTML file with pictures, which needs no network
+    ///
+    /// The same file as `darboux report` writes. An existing report is replaced.
+    #[arg(long, value_name = "FILE", conflicts_with = "fix", help_heading = "Messages")]
+    pub report: Option<PathBuf>,
+
     #[command(flatten)]
     pub messages: MessageOptions,
 }
@@ -147,13 +162,21 @@ fn assumption() -> impl TypedValueParser<Value = AssumedMap> {
     PossibleValuesParser::new(names).try_map(|name| name.trim_start_matches("map=").parse::<AssumedMap>())
 }
 
-impl CheckArguments {
+impl FindingOptions {
     /// The options of the check.
     pub fn check_options(&self) -> CheckOptions {
         CheckOptions::default()
             .with_green(self.convention.into())
             .with_maps(!self.no_maps)
             .with_assumed_map(self.assume)
+    }
+
+    /// Refuses a code that is both wanted and not.
+    pub fn refuse_contradictions(&self) -> Result<(), UsageError> {
+        match self.only.iter().find(|code| self.allow.contains(code)) {
+            Some(code) => Err(UsageError(format!("--only and --allow both name {code}; name it once"))),
+            None => Ok(()),
+        }
     }
 
     /// Whether findings with a code are reported and repaired.

@@ -86,7 +86,7 @@ impl FileCommand for Repair<'_> {
 
     fn fails(&self, summary: &SummarySource<FixSummary>) -> bool {
         let mut left = Outcome::all_of(summary).into_iter().filter(|finding| !finding.repaired);
-        left.any(|finding| self.arguments.fail_on.includes(finding.severity))
+        left.any(|finding| self.arguments.findings.fail_on.includes(finding.severity))
     }
 
     fn note_up_to_date(recorded: &Map<String, Value>) -> Option<String> {
@@ -242,9 +242,9 @@ fn other_views(json: &Value, binary: &[u8]) -> Option<Vec<Vec<u8>>> {
 
 impl CheckArguments {
     fn fix_options(&self) -> FixOptions {
-        let codes = Code::ALL.iter().copied().filter(|&code| self.reports(code));
+        let codes = Code::ALL.iter().copied().filter(|&code| self.findings.reports(code));
         FixOptions::default()
-            .with_check(self.check_options())
+            .with_check(self.findings.check_options())
             .with_tangents(TangentOptions::from(self.method))
             .with_normals(self.normals.options())
             .with_codes(codes)
@@ -257,7 +257,8 @@ impl Repair<'_> {
         let CheckArguments { files, .. } = self.arguments;
         let reading = &files.reading;
         let mut document = source.load(reading)?;
-        let findings = check_document(&document, &self.arguments.check_options()).map_err(sentence)?;
+        let findings =
+            check_document(&document, &self.arguments.findings.check_options()).map_err(sentence)?;
         let options = self.arguments.fix_options();
         if self.arguments.dry_run {
             return self.planned(&document, findings, &options).map_err(sentence);
@@ -285,7 +286,7 @@ impl Repair<'_> {
         options: &FixOptions,
     ) -> Result<ProcessedFile<FixSummary>, darboux_io::Error> {
         let planned = plan_repair(document, &findings, options)?.into_iter().map(Into::into).collect();
-        let reported = findings.into_iter().filter(|finding| self.arguments.reports(finding.code));
+        let reported = findings.into_iter().filter(|finding| self.arguments.findings.reports(finding.code));
         let findings: Vec<ReportedFinding> = reported.map(Into::into).collect();
         let summary = FixSummary {
             diagnosis: diagnosis(&findings),
@@ -367,7 +368,7 @@ impl Repair<'_> {
     }
 
     fn summary(&self, fixed: Vec<FixedFinding>, warnings: Vec<String>) -> FixSummary {
-        let reported = fixed.into_iter().filter(|fixed| self.arguments.reports(fixed.finding.code));
+        let reported = fixed.into_iter().filter(|fixed| self.arguments.findings.reports(fixed.finding.code));
         let findings: Vec<ReportedFinding> = reported.map(Into::into).collect();
         FixSummary { diagnosis: diagnosis(&findings), findings, planned: None, warnings }
     }

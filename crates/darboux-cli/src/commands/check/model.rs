@@ -15,9 +15,14 @@ use crate::paths::is_image;
 pub struct Model(Option<Result<ModelOfMaps, String>>);
 
 impl Model {
+    /// No model: images are checked alone.
+    pub fn none() -> Self {
+        Self(None)
+    }
+
     /// Reads and checks the model once for all images. Errors: an input is no image.
     pub fn of(arguments: &CheckArguments, inputs: &[&Input]) -> Result<Self, UsageError> {
-        let Some(model) = &arguments.model else { return Ok(Self(None)) };
+        let Some(model) = &arguments.model else { return Ok(Self::none()) };
         let may_be_image = |input: &Input| match input {
             Input::File(path) => is_image(path),
             Input::Stdin => true,

@@ -5,6 +5,7 @@ use std::cmp::Reverse;
 use darboux_check::{Code, Evidence, ReportedFinding, Severity};
 
 use super::arguments::FailOn;
+use super::groups::{by_kind, by_severity};
 use super::report::{CheckTotals, CheckedFile, DirectionsByModel, ReportedMap};
 use crate::text::{counted, printable};
 
@@ -27,17 +28,8 @@ pub fn describe(file: &CheckedFile) -> String {
 
 /// The findings in a file by severity and code, with the first place of each, and what is worth knowing in one line.
 pub fn describe_folded(file: &CheckedFile) -> String {
-    let mut groups: Vec<Vec<&ReportedFinding>> = Vec::new();
-    for finding in by_severity(&file.findings) {
-        let is_same =
-            |other: &ReportedFinding| (other.severity, other.code) == (finding.severity, finding.code);
-        match groups.iter_mut().find(|group| is_same(group[0])) {
-            Some(group) => group.push(finding),
-            None => groups.push(vec![finding]),
-        }
-    }
     let (known, severe): (Vec<_>, Vec<_>) =
-        groups.into_iter().partition(|group| group[0].severity <= Severity::Info);
+        by_kind(&file.findings).into_iter().partition(|group| group[0].severity <= Severity::Info);
     let mut text = head(file);
     for group in severe {
         let further = match group.len() {
@@ -110,14 +102,8 @@ pub fn failures(file: &CheckedFile, fail_on: FailOn) -> String {
     failures.map(line).collect()
 }
 
-/// The errors first, then warnings, then what is worth knowing; causes before what follows from them.
-fn by_severity(findings: &[ReportedFinding]) -> Vec<&ReportedFinding> {
-    let mut sorted: Vec<&ReportedFinding> = findings.iter().collect();
-    sorted.sort_by_key(|finding| Reverse(finding.severity));
-    sorted
-}
-
-fn verdict(map: &ReportedMap) -> String {
+/// The verdict on an image as a clause.
+pub fn verdict(map: &ReportedMap) -> String {
     let percent = 100.0 * map.confidence;
     if let Some(DirectionsByModel { red, green }) = map.by_model {
         let convention = if green == "up" { "OpenGL" } else { "DirectX" };
@@ -169,7 +155,8 @@ fn lines(finding: &ReportedFinding) -> String {
     text
 }
 
-fn number(evidence: &Evidence) -> String {
+/// A number with its name and unit.
+pub fn number(evidence: &Evidence) -> String {
     let Evidence { what, value, unit, .. } = evidence;
     let digits = if value.fract() == 0.0 { 0 } else { 3 };
     let space = if unit.is_empty() { "" } else { " " };

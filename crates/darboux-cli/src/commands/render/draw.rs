@@ -293,7 +293,8 @@ fn with_name(name: &str, warning: String) -> String {
     if warning.starts_with(name) { warning } else { format!("{name}: {warning}") }
 }
 
-fn no_adapter(error: GpuError) -> String {
+/// What to do where there is no adapter.
+pub fn no_adapter(error: GpuError) -> String {
     match error {
         GpuError::NoAdapter => {
             "no graphics adapter was found; install a driver for Vulkan, Metal or Direct3D 12 (Mesa's lavapipe works without a GPU)"
