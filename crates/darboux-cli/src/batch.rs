@@ -9,7 +9,9 @@ pub mod journal;
 mod one_file;
 pub mod plan;
 pub mod report;
+mod tally;
 
+use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -18,7 +20,6 @@ use std::thread;
 use std::time::Instant;
 
 use crate::inputs::{SearchMode, UsageError, find_inputs};
-use crate::json::print_report;
 use crate::memory::JobMemory;
 use crate::paths::canonical;
 use crate::terminal::{Messages, stdout_is_terminal};
@@ -28,7 +29,8 @@ use command::FileCommand;
 use journal::{Earlier, Journal};
 use one_file::{FinishedFile, JournalEntry, process_file};
 use plan::{Job, Output, OutputRules, plan_jobs};
-use report::{BatchReport, FileReport, Status, SummarySource};
+use report::{FileReport, Status, SummarySource};
+use tally::Tally;
 
 /// With more files than this, each file gets one line.
 const MAX_DETAILED_FILES: usize = 10;
@@ -55,19 +57,19 @@ pub fn run<W: FileCommand>(command: &W) -> u8 {
     messages.start(jobs.iter().map(|job| job.input.byte_length()).sum());
     let folder = files.out_dir.as_deref().filter(|_| files.resume);
     let journal = folder.map(|folder| Journal::open(folder, files.run)).transpose();
-    let brief = is_brief(command, jobs.len());
-    let reports = journal.and_then(|journal| process_all(command, &jobs, journal.as_ref(), &messages));
-    messages.end_progress();
-    match reports {
-        Ok(reports) => {
-            let files = found.failed.into_iter().map(FileReport::not_searched).chain(reports).collect();
-            finish(command, BatchReport::new(W::NAME, files), brief, &messages, start)
-        }
+    let journal = match journal {
+        Ok(journal) => journal,
         Err(sentence) => {
+            messages.end_progress();
             messages.error(&sentence);
-            exit::FAILED
+            return exit::FAILED;
         }
-    }
+    };
+    let mut tally = Tally::new(command, is_brief(command, jobs.len()));
+    found.failed.into_iter().map(FileReport::not_searched).for_each(|report| tally.add(&report));
+    let processed = process_all(command, &jobs, journal.as_ref(), &messages, &mut tally);
+    messages.end_progress();
+    tally.finish(processed, &messages, start)
 }
 
 /// The message about files of a folder that are named like outputs of earlier runs.
@@ -97,7 +99,8 @@ fn process_all<W: FileCommand>(
     jobs: &[Job],
     journal: Option<&Journal>,
     messages: &Messages,
-) -> Result<Vec<FileReport<W::Summary>>, String> {
+    tally: &mut Tally<'_, W>,
+) -> Result<(), String> {
     let next = AtomicUsize::new(0);
     let memory = JobMemory::of_process();
     let work = Work { command, journal, memory: &memory, messages };
@@ -107,9 +110,7 @@ fn process_all<W: FileCommand>(
         let index = *together.get(next.fetch_add(1, Ordering::Relaxed))?;
         Some((index, work.process(&jobs[index])))
     };
-    let finished = jobs.iter().map(|_| None).collect();
-    let mut results =
-        Results::<W> { journal, messages, brief: is_brief(command, jobs.len()), finished, printed: 0 };
+    let mut results = Results { journal, messages, tally, waiting: BTreeMap::new(), printed: 0 };
     thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
         let mut workers = 0;
@@ -139,7 +140,7 @@ fn process_all<W: FileCommand>(
         for index in alone {
             results.add(index, work.process(&jobs[index])?)?;
         }
-        Ok(results.into_reports())
+        Ok(())
     })
 }
 
@@ -201,33 +202,31 @@ fn is_brief(command: &impl FileCommand, files: usize) -> bool {
     files > MAX_DETAILED_FILES && !command.files().verbose
 }
 
-/// Collects finished files, which arrive in any order, and prints them in the order of the jobs.
-struct Results<'a, W: FileCommand> {
+/// Takes finished files, which arrive in any order, and prints and counts them in the order of the jobs. Then they are dropped, so that a run over
+/// many files does not need more and more memory.
+struct Results<'a, 'w, W: FileCommand> {
     journal: Option<&'a Journal>,
     messages: &'a Messages,
-    brief: bool,
-    /// The reports in the order of the jobs; `None` for a file that is not finished.
-    finished: Vec<Option<FileReport<W::Summary>>>,
+    tally: &'a mut Tally<'w, W>,
+    /// The reports of finished files that come after one that is not finished, by the numbers of their jobs.
+    waiting: BTreeMap<usize, FileReport<W::Summary>>,
     /// The number of leading reports that were printed.
     printed: usize,
 }
 
-impl<W: FileCommand> Results<'_, W> {
+impl<W: FileCommand> Results<'_, '_, W> {
     fn add(&mut self, index: usize, file: FinishedFile<W::Summary>) -> Result<(), String> {
         let FinishedFile { report, record } = file;
         if let (Some(journal), Some(record)) = (self.journal, record) {
             journal.add(&record)?;
         }
-        self.finished[index] = Some(report);
-        while let Some(Some(report)) = self.finished.get(self.printed) {
-            print_file::<W>(report, self.brief, self.messages);
+        self.waiting.insert(index, report);
+        while let Some(report) = self.waiting.remove(&self.printed) {
+            print_file::<W>(&report, self.tally.brief, self.messages);
+            self.tally.add(&report);
             self.printed += 1;
         }
         Ok(())
-    }
-
-    fn into_reports(self) -> Vec<FileReport<W::Summary>> {
-        self.finished.into_iter().flatten().collect()
     }
 }
 
@@ -261,7 +260,9 @@ fn print_file<W: FileCommand>(report: &FileReport<W::Summary>, brief: bool, mess
     let warnings = W::warnings(summary);
     if brief {
         let separator = if report.status == Status::Written { ": " } else { ", " };
-        let total = W::total(std::slice::from_ref(report));
+        let mut counts = W::Totals::default();
+        W::count(&mut counts, report);
+        let total = W::total(&counts);
         let warnings = nonzero_counts([(warnings.len(), "warning", "warnings")]);
         return messages.say(&format!("{outcome}{separator}{total}{warnings}"));
     }
@@ -274,47 +275,4 @@ fn print_file<W: FileCommand>(report: &FileReport<W::Summary>, brief: bool, mess
     }
     W::lines(summary).iter().for_each(|line| messages.say(&format!("  {line}")));
     warnings.iter().for_each(|warning| messages.warn(&format!("{input}: {warning}")));
-}
-
-/// Prints errors, the totals and the report; returns the exit code. `brief`: each file was printed in one line.
-fn finish<W: FileCommand>(
-    command: &W,
-    report: BatchReport<W::Summary>,
-    brief: bool,
-    messages: &Messages,
-    start: Instant,
-) -> u8 {
-    report.files.iter().filter_map(|file| file.error.as_ref()).for_each(|error| messages.error(error));
-    for file in report.files.iter().filter(|_| command.messages().quiet) {
-        let errors = file.summary.this_run().map(W::errors).unwrap_or_default();
-        errors.iter().for_each(|error| messages.error(&format!("{}: {error}", file.input)));
-    }
-    let totals = &report.totals;
-    if totals.failed < totals.files || totals.files > 1 {
-        let done = counted(totals.files - totals.failed, "file", "files");
-        let failed = nonzero_counts([(totals.failed, "file failed", "files failed")]);
-        let seconds = start.elapsed().as_secs_f32();
-        let total = W::total(&report.files);
-        let warnings = hidden_warnings(command, &report, brief);
-        messages.summary(&format!("{total} in {done}{failed}; {seconds:.2} s{warnings}"));
-    }
-    let printed = print_report(&report, command.messages().json, messages);
-    if printed != exit::DONE {
-        return printed;
-    }
-    if report.totals.failed > 0 || report.files.iter().any(|file| command.fails(&file.summary)) {
-        exit::FAILED
-    } else {
-        exit::DONE
-    }
-}
-
-/// The number of warnings that were not printed.
-fn hidden_warnings<W: FileCommand>(command: &W, report: &BatchReport<W::Summary>, brief: bool) -> String {
-    let summaries = report.files.iter().filter_map(|file| file.summary.this_run());
-    let count: usize = summaries.map(|summary| W::warnings(summary).len()).sum();
-    if count == 0 || !(brief || command.messages().quiet) {
-        return String::new();
-    }
-    format!("; {}, which --verbose prints", counted(count, "warning", "warnings"))
 }

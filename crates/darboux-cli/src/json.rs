@@ -1,12 +1,9 @@
 //! JSON reports as text, and the version that they carry. json.txt documents their fields.
 
-use std::io;
-
-use darboux_io::system_reason;
 use serde::Serialize;
 
-use crate::exit;
-use crate::terminal::{Messages, write_stdout};
+#[cfg(any(feature = "bake", feature = "gpu"))]
+use crate::terminal::Messages;
 
 /// The version of Darboux.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -18,15 +15,19 @@ pub fn to_json(report: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {
     Ok(text)
 }
 
-/// Prints the report of a run that succeeded, if JSON is asked for. Returns the exit code.
+/// Prints the report of a bake or a picture that succeeded, if JSON is asked for. Returns the exit code.
+#[cfg(any(feature = "bake", feature = "gpu"))]
 pub fn print_report(report: &impl Serialize, json: bool, messages: &Messages) -> u8 {
+    use crate::exit;
+    use crate::terminal::write_stdout;
+
     if !json {
         return exit::DONE;
     }
-    match to_json(report).map_err(io::Error::from).and_then(|text| write_stdout(&text)) {
+    match to_json(report).map_err(std::io::Error::from).and_then(|text| write_stdout(&text)) {
         Ok(()) => exit::DONE,
         Err(error) => {
-            messages.error(&format!("the report cannot be written: {}", system_reason(&error)));
+            messages.error(&format!("the report cannot be written: {}", darboux_io::system_reason(&error)));
             exit::FAILED
         }
     }

@@ -1056,6 +1056,15 @@ fn jobs_that_cannot_be_right_are_refused() {
     refused(&format!("{entry}sise = 3\n"), "bake[0]: unexpected argument '--sise'");
     refused(&format!("{entry}{entry}"), "is written by two bakes");
     refused(&format!("{entry}when = 1979-05-27\n"), "neither text nor a number");
+    refused(&"[".repeat(100_000), "line 1");
+    refused(&format!("{entry}{}", "# long\n".repeat(700_000)), "has more than 4 MiB");
+    // A path that begins with a dash is no option.
+    fs::write(&job, "[[bake]]\nlow = \"--force\"\nhigh = \"-x\"\noutput = \"-o\"\n").expect("a file");
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_darboux"));
+    let output =
+        command.args(["bake", "job.toml"]).current_dir(pair.folder.path()).output().expect("it runs");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(stderr.contains("--force: cannot be read"), "{stderr}");
     // One bad model does not stop the other.
     fs::write(pair.path("bad.glb"), "no model").expect("a file");
     fs::write(&job, format!("{entry}[[bake]]\nlow = \"bad.glb\"\nhigh = \"high.glb\"\noutput = \"b.png\"\n"))

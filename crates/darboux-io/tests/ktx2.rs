@@ -86,6 +86,12 @@ fn other_formats_and_damaged_files_are_refused() {
         let mut small = DecodeLimits::default();
         small = small.with_max_side(32);
         assert!(matches!(RgbaImage::decode(file, &small), Err(DecodeError::TooLarge { .. })));
+        // Extremes in the header and in the descriptor of the data format, at which the crate ktx2 panics.
+        for (at, value) in (12..200).flat_map(|at| [0, 4, 255].map(|value| (at, value))) {
+            let mut damaged = file.to_vec();
+            damaged[at] = value;
+            _ = decode(&damaged);
+        }
         // Any byte may be damaged: there is an image or a sentence, and no panic.
         for at in (12..file.len()).step_by(1 + file.len() / 400) {
             let mut damaged = file.to_vec();

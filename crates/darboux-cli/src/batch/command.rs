@@ -16,6 +16,8 @@ use crate::terminal::FileProgress;
 pub trait FileCommand: Sync {
     /// The part of a file's report that only this command has.
     type Summary: Default + Send + Serialize;
+    /// What the command counts over the files of a run.
+    type Totals: Default;
 
     /// The name of the subcommand.
     const NAME: &'static str;
@@ -74,8 +76,11 @@ pub trait FileCommand: Sync {
     /// The warnings of a file, one sentence each.
     fn warnings(summary: &Self::Summary) -> &[String];
 
+    /// Adds a file to the totals of a run.
+    fn count(totals: &mut Self::Totals, file: &FileReport<Self::Summary>);
+
     /// The totals of a run in words.
-    fn total(files: &[FileReport<Self::Summary>]) -> String;
+    fn total(totals: &Self::Totals) -> String;
 }
 
 /// The result of processing one file.

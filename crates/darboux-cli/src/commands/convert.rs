@@ -65,6 +65,7 @@ struct SpaceSummary {
 
 impl FileCommand for ConvertArguments {
     type Summary = ConvertSummary;
+    type Totals = usize;
 
     const NAME: &'static str = "convert";
     const IMAGES: bool = true;
@@ -154,9 +155,12 @@ impl FileCommand for ConvertArguments {
         &summary.warnings
     }
 
-    fn total(files: &[FileReport<ConvertSummary>]) -> String {
-        let changed = files.iter().filter(|file| file.status == Status::Written).count();
-        format!("{} changed", counted(changed, "file", "files"))
+    fn count(changed: &mut usize, file: &FileReport<ConvertSummary>) {
+        *changed += usize::from(file.status == Status::Written);
+    }
+
+    fn total(changed: &usize) -> String {
+        format!("{} changed", counted(*changed, "file", "files"))
     }
 }
 

@@ -21,6 +21,7 @@ use arguments::NormalsArguments;
 
 impl FileCommand for NormalsArguments {
     type Summary = NormalsSummary;
+    type Totals = NormalsCounts;
 
     const NAME: &'static str = "normals";
     const IMAGES: bool = false;
@@ -65,12 +66,24 @@ impl FileCommand for NormalsArguments {
         &summary.warnings
     }
 
-    fn total(files: &[FileReport<NormalsSummary>]) -> String {
-        let summaries = || files.iter().filter_map(|file| file.summary.this_run());
-        let written: usize = summaries().map(|summary| summary.written).sum();
-        let all: usize = summaries().map(|summary| summary.primitives.len()).sum();
-        format!("{} got normals, {} did not", counted(written, "primitive", "primitives"), all - written)
+    fn count(totals: &mut NormalsCounts, file: &FileReport<NormalsSummary>) {
+        if let Some(summary) = file.summary.this_run() {
+            totals.written += summary.written;
+            totals.primitives += summary.primitives.len();
+        }
     }
+
+    fn total(totals: &NormalsCounts) -> String {
+        let without = totals.primitives - totals.written;
+        format!("{} got normals, {without} did not", counted(totals.written, "primitive", "primitives"))
+    }
+}
+
+/// The primitives of the files of a run.
+#[derive(Default)]
+pub struct NormalsCounts {
+    primitives: usize,
+    written: usize,
 }
 
 fn normals_options(arguments: &NormalsArguments) -> AddNormalsOptions {

@@ -29,6 +29,7 @@ use summary::{DeviceReport, SourceReport, TangentsFileSummary};
 
 impl FileCommand for TangentsArguments {
     type Summary = TangentsFileSummary;
+    type Totals = TangentsCounts;
 
     const NAME: &'static str = "tangents";
     const IMAGES: bool = false;
@@ -127,23 +128,32 @@ impl FileCommand for TangentsArguments {
         &summary.tangents.warnings
     }
 
-    fn total(files: &[FileReport<TangentsFileSummary>]) -> String {
-        let sum = |of: fn(&TangentsTotals) -> usize,
-                   files: &mut dyn Iterator<Item = &FileReport<TangentsFileSummary>>| {
-            files.filter_map(|file| Some(of(&file.summary.this_run()?.tangents.totals))).sum::<usize>()
-        };
-        let (changed, same): (Vec<_>, Vec<_>) = files.iter().partition(|file| file.status == Status::Written);
-        let had = match sum(|totals| totals.written, &mut same.into_iter()) {
-            0 => String::new(),
-            had => format!(", {had} unchanged"),
-        };
-        format!(
-            "{} got tangents{had}, {} kept, {} skipped",
-            counted(sum(|totals| totals.written, &mut changed.into_iter()), "primitive", "primitives"),
-            sum(|totals| totals.kept, &mut files.iter()),
-            sum(|totals| totals.skipped, &mut files.iter()),
-        )
+    fn count(counts: &mut TangentsCounts, file: &FileReport<TangentsFileSummary>) {
+        let Some(summary) = file.summary.this_run() else { return };
+        let TangentsTotals { written, kept, skipped, .. } = summary.tangents.totals;
+        let count = if file.status == Status::Written { &mut counts.written } else { &mut counts.unchanged };
+        *count += written;
+        counts.kept += kept;
+        counts.skipped += skipped;
     }
+
+    fn total(counts: &TangentsCounts) -> String {
+        let TangentsCounts { written, unchanged, kept, skipped } = counts;
+        let had = if *unchanged == 0 { String::new() } else { format!(", {unchanged} unchanged") };
+        let written = counted(*written, "primitive", "primitives");
+        format!("{written} got tangents{had}, {kept} kept, {skipped} skipped")
+    }
+}
+
+/// The primitives of the files of a run.
+#[derive(Default)]
+pub struct TangentsCounts {
+    /// Of files that were written.
+    written: usize,
+    /// Those whose tangents would have been the same, of files that were not changed.
+    unchanged: usize,
+    kept: usize,
+    skipped: usize,
 }
 
 /// Suggests --normals for primitives without normals.

@@ -8,6 +8,9 @@ use super::decoding::{DecodeError, DecodeLimits, broken, rgba, texel_count, to_b
 
 /// Decodes the largest level of the first layer to its width, its height and its texels.
 pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<(u32, u32, Vec<[u8; 4]>), DecodeError> {
+    if !has_sound_descriptor(file) {
+        return Err(broken("its header is damaged"));
+    }
     let reader = Reader::new(file).map_err(|_| broken("its header is damaged"))?;
     let header = reader.header();
     let (width, height) = (header.pixel_width, header.pixel_height.max(1));
@@ -30,6 +33,23 @@ pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<(u32, u32, Vec<[u8; 
         return Err(broken(&format!("it has {} texels instead of {count}", texels.len())));
     }
     Ok((width, height, texels))
+}
+
+/// Whether the data format descriptor has whole blocks with sizes of texel blocks below 256. The crate `ktx2` 0.5 panics at others.
+fn has_sound_descriptor(file: &[u8]) -> bool {
+    let word = |at: usize| Some(u32::from_le_bytes(*file.get(at..)?.first_chunk()?) as usize);
+    let (Some(start), Some(length)) = (word(48), word(52)) else { return false };
+    let Some(mut blocks) = file.get(start..).and_then(|file| file.get(4..length)) else { return false };
+    while let Some(header) = blocks.first_chunk::<8>() {
+        let size = usize::from(u16::from_le_bytes([header[6], header[7]]));
+        let Some(block) = blocks.get(8..size) else { return false };
+        let is_basic = header[..6] == [0, 0, 0, 0, 2, 0];
+        if is_basic && (block.len() < 16 || block[4..8].contains(&255)) {
+            return false;
+        }
+        blocks = &blocks[size..];
+    }
+    blocks.is_empty()
 }
 
 fn decode_basis(file: &[u8]) -> Result<Vec<[u8; 4]>, DecodeError> {

@@ -74,6 +74,18 @@ fn is_stl(bytes: &[u8], text: &[u8]) -> bool {
     is_binary || (text.starts_with(b"solid") && (has_word(b"facet") || has_word(b"endsolid")))
 }
 
+/// A file whose first facet is one of a binary STL: numbers that are finite, not all zero, and a normal of length 1 or 0. Its length is wrong,
+/// since [`detect`] takes it otherwise.
+fn is_cut_stl(bytes: &[u8]) -> bool {
+    let Some(facet) = bytes.get(84..132) else { return false };
+    let numbers: Vec<f64> =
+        facet.as_chunks::<4>().0.iter().map(|bytes| f64::from(f32::from_le_bytes(*bytes))).collect();
+    let length = numbers[..3].iter().map(|x| x * x).sum::<f64>().sqrt();
+    let is_normal = length == 0.0 || (length - 1.0).abs() < 1e-3;
+    let is_position = |x: &f64| *x == 0.0 || (1e-20..1e20).contains(&x.abs());
+    is_normal && numbers[3..].iter().all(is_position) && numbers[3..].iter().any(|&x| x != 0.0)
+}
+
 /// The first words of statements that only an OBJ has.
 const STATEMENTS: [&[u8]; 12] =
     [b"v", b"vt", b"vn", b"vp", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"l", b"p"];
@@ -125,6 +137,8 @@ pub fn name_of_other(bytes: &[u8]) -> Option<&'static str> {
         "is an image, not a model; give the model"
     } else if at(0, b"%PDF") {
         "is a PDF, not a model; give the model"
+    } else if is_cut_stl(bytes) {
+        "is an STL that is cut off or counts its facets wrongly; export or download it again"
     } else {
         return None;
     })

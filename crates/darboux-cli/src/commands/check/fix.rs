@@ -48,6 +48,7 @@ pub struct Repair<'a> {
 
 impl FileCommand for Repair<'_> {
     type Summary = FixSummary;
+    type Totals = FixCounts;
 
     const NAME: &'static str = "check";
     const IMAGES: bool = true;
@@ -108,27 +109,46 @@ impl FileCommand for Repair<'_> {
         &summary.warnings
     }
 
-    fn total(files: &[FileReport<FixSummary>]) -> String {
-        let this_run = files.iter().filter_map(|file| file.summary.this_run());
-        if this_run.clone().any(|summary| summary.planned.is_some()) {
-            let edits = this_run.filter_map(|summary| summary.planned.as_ref()).map(Vec::len).sum();
+    fn count(counts: &mut FixCounts, file: &FileReport<FixSummary>) {
+        let planned = file.summary.this_run().and_then(|summary| summary.planned.as_ref());
+        if let Some(edits) = planned {
+            *counts.planned.get_or_insert_default() += edits.len();
+        }
+        let is_this_run = file.summary.this_run().is_some();
+        for finding in Outcome::all_of(&file.summary) {
+            let is_beyond = finding.remains() && !finding.fixable;
+            let is_info = !finding.repaired && !finding.is_left() && !finding.remains();
+            counts.repaired += usize::from(finding.repaired && is_this_run);
+            counts.left += usize::from(finding.is_left());
+            counts.beyond += usize::from(is_beyond);
+            counts.infos += usize::from(is_info);
+        }
+    }
+
+    fn total(counts: &FixCounts) -> String {
+        if let Some(edits) = counts.planned {
             return format!("{} planned", counted(edits, "edit", "edits"));
         }
-        let repaired =
-            this_run.flat_map(|summary| &summary.findings).filter(|finding| finding.repaired == Some(true));
-        let all: Vec<Outcome> = files.iter().flat_map(|file| Outcome::all_of(&file.summary)).collect();
-        let count =
-            |is_counted: fn(Outcome) -> bool| all.iter().filter(|finding| is_counted(**finding)).count();
-        let left = count(Outcome::is_left);
-        let beyond = count(|finding| finding.remains() && !finding.fixable);
-        let infos = count(|finding| !finding.repaired && !finding.is_left() && !finding.remains());
-        let repaired = counted(repaired.count(), "finding repaired", "findings repaired");
-        let left = match left {
+        let repaired = counted(counts.repaired, "finding repaired", "findings repaired");
+        let left = match counts.left {
             0 => String::new(),
             left => format!("{left} left although --fix repairs such ones, "),
         };
+        let FixCounts { beyond, infos, .. } = counts;
         format!("{repaired}, {left}{beyond} that --fix cannot repair, {infos} only worth knowing")
     }
+}
+
+/// The findings of the files of a run.
+#[derive(Default)]
+pub struct FixCounts {
+    /// The edits that are planned; `None` where repairs are made.
+    planned: Option<usize>,
+    /// In this run.
+    repaired: usize,
+    left: usize,
+    beyond: usize,
+    infos: usize,
 }
 
 /// What became of a finding, in this run or in an earlier one.

@@ -3,14 +3,20 @@
 //! Each table of `[[bake]]` is a run of the command: `low`, `high` and `output`, and any option by its name without dashes. `[defaults]` has what entries
 //! leave out. Paths are relative to the file.
 
-use std::fs;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 use clap::Parser;
+use darboux_io::system_reason;
 use toml::{Table, Value};
 
 use super::entry::Entry;
 use crate::commands::bake::arguments::BakeArguments;
+use crate::regular_file::{Links, open_regular};
+
+/// The longest job. Its tables take fifty times as much memory.
+const MAX_LENGTH: u64 = 4 << 20;
 
 /// The keys whose values are paths.
 const PATHS: [&str; 8] =
@@ -29,7 +35,11 @@ struct CommandLine {
 /// Reads the entries. Errors are one sentence each.
 pub fn entries(path: &Path) -> Result<Vec<Entry>, String> {
     let shown = path.display();
-    let text = fs::read_to_string(path).map_err(|error| format!("{shown}: cannot be read: {error}"))?;
+    let text =
+        read_text(path).map_err(|error| format!("{shown}: cannot be read: {}", system_reason(&error)))?;
+    if text.len() as u64 > MAX_LENGTH {
+        return Err(format!("{shown}: has more than 4 MiB; divide the job"));
+    }
     let job: Table = text.parse().map_err(|error: toml::de::Error| {
         let line = error.span().map_or(0, |span| text[..span.start].lines().count().max(1));
         format!("{shown}: line {line}: {}; correct it", error.message())
@@ -53,6 +63,14 @@ pub fn entries(path: &Path) -> Result<Vec<Entry>, String> {
         read(&all, folder).map_err(|problem| format!("{at}: {problem}"))
     };
     tables.iter().enumerate().map(entry).collect()
+}
+
+/// A text, or the part of a longer one that shows that it is too long.
+fn read_text(path: &Path) -> io::Result<String> {
+    let file = open_regular(path, File::options().read(true), Links::Follow)?;
+    let mut text = String::new();
+    file.take(MAX_LENGTH + 1).read_to_string(&mut text)?;
+    Ok(text)
 }
 
 /// The error is a clause.
@@ -103,7 +121,8 @@ fn first_line(message: &str) -> String {
     line.trim_start_matches("error: ").to_owned()
 }
 
-/// A path of a job, relative to the job's folder.
+/// A path of a job, relative to the job's folder. One that begins with a dash is no option.
 fn in_folder(folder: &Path, path: &str) -> String {
+    let folder = if folder.as_os_str().is_empty() && path.starts_with('-') { Path::new(".") } else { folder };
     folder.join(path).display().to_string()
 }
