@@ -1059,7 +1059,7 @@ fn jobs_that_cannot_be_right_are_refused() {
     refused(&"[".repeat(100_000), "line 1");
     refused(&format!("{entry}{}", "# long\n".repeat(700_000)), "has more than 4 MiB");
     // A path that begins with a dash is no option.
-    fs::write(&job, "[[bake]]\nlow = \"--force\"\nhigh = \"-x\"\noutput = \"-o\"\n").expect("a file");
+    fs::write(&job, "[[bake]]\nlow = \"--force\"\nhigh = \"-x\"\noutput = \"-o.png\"\n").expect("a file");
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_darboux"));
     let output =
         command.args(["bake", "job.toml"]).current_dir(pair.folder.path()).output().expect("it runs");
