@@ -247,3 +247,45 @@ fn the_curvature_beside_an_edge_is_that_of_the_walk() {
         assert!((found - radius * mean).abs() < bound, "{column}: {found}, not {}", radius * mean);
     }
 }
+
+/// The sides of a box around the origin, with the normals outwards, or inwards for a room.
+fn cube(half: f32, is_room: bool) -> Shape {
+    let mut cube = Shape::default();
+    for axis in 0..3 {
+        for side in [-1.0, 1.0f32] {
+            let corner = |s: f32, t: f32| {
+                let mut at = [0.0; 3];
+                at[axis] = side * half;
+                at[(axis + 1) % 3] = s * half;
+                at[(axis + 2) % 3] = side * t * half;
+                at
+            };
+            let mut corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+            if is_room {
+                corners.reverse();
+            }
+            cube = joined(cube, &rectangle(corners));
+        }
+    }
+    cube
+}
+
+#[test]
+fn a_box_in_a_box_is_closed_and_has_the_thickness_of_its_walls() {
+    let mut low = plate();
+    low.positions.iter_mut().for_each(|p| *p = [0.1 * p[0], 0.1 * p[1], 1.0]);
+    // A solid box in a room: no ray leaves it; with a reach of D those of a cosine below the gap over D are open.
+    let room = joined(cube(1.0, false), &cube(3.0, true));
+    let closed = options(8, MapKind::Occlusion).with_occlusion(256, f32::INFINITY);
+    assert!(largest_error(&baked(&low, &room, &closed), MapKind::Occlusion, 0.0) == 0.0);
+    let near = options(8, MapKind::Occlusion).with_occlusion(1024, 2.5);
+    let found = mean(&baked(&low, &room, &near), MapKind::Occlusion);
+    assert!((found - (2.0f64 / 2.5).powi(2)).abs() < 0.004, "{found}");
+    // A hollow box: the wall is 0.2 thick, and rays that are longer than D count as D: the mean of min(d / u, D) for the cosine u with the density 2 u.
+    let hollow = joined(cube(1.0, false), &cube(0.8, true));
+    let (wall, reach) = (0.2, 0.5);
+    let limited =
+        options(8, MapKind::Thickness).with_occlusion(1024, f32::INFINITY).with_thickness_distance(0.5);
+    let found = mean(&baked(&low, &hollow, &limited), MapKind::Thickness);
+    assert!((found - (2.0 * wall - wall * wall / reach)).abs() < 0.003, "{found}");
+}
