@@ -51,8 +51,12 @@ impl LeftOut {
         };
         let is_partial = |semantic: &str| (1..surfaces.len()).contains(&having(semantic));
         let partial = SHARED.into_iter().filter(|(semantic, _)| is_partial(semantic)).map(|(_, name)| name);
-        let mut extensions: BTreeSet<&str> =
-            json["extensionsUsed"].as_array().into_iter().flatten().filter_map(|name| name.as_str()).collect();
+        let mut extensions: BTreeSet<&str> = json["extensionsUsed"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .filter_map(|name| name.as_str())
+            .collect();
         HARMLESS.iter().for_each(|name| _ = extensions.remove(name));
         let is_ply = format == ExchangeFormat::Ply;
         Ok(Self {
