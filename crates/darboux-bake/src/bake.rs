@@ -13,6 +13,7 @@ use crate::images::{Band, Images, TexelState};
 use crate::layout::{BLOCK, Layout};
 use crate::limits::{MAX_SAMPLES_PER_AXIS, MAX_SIDE};
 use crate::maps::{MapList, Units, has_palette, is_label};
+use crate::prepared::check_surfaces;
 use crate::samples::pattern;
 use crate::{
     BakeError, BakeOptions, BakeReport, CurvatureRadius, HighSurface, IdColor, LowSurface, MapKind,
@@ -83,39 +84,41 @@ pub fn bake(
     PreparedSurfaces::new(low, high, options.memory_limit, context)?.bake(options, context, progress)
 }
 
-/// Bakes surfaces whose hierarchies are built.
-pub(crate) fn bake_prepared(
-    surfaces: &PreparedSurfaces<'_>,
-    options: &BakeOptions,
-    context: &mut Context,
-    progress: &mut (dyn FnMut(BakeProgress) + Send),
-) -> Result<Baked, BakeError> {
-    check_options(options)?;
-    let PreparedSurfaces { space, low, high, groups } = surfaces;
-    let mut budget = Budget::new(options.memory_limit);
-    budget.add(memory::of_bake(high, options))?;
-    let options = &surfaces.options_in_box(options);
-    let layout = Layout::new(low, options.size, options.surface_convention, options.udim, &mut budget)?;
-    let mut images = Images::background(options, &budget)?;
-    let needs_charts = options.maps.has(MapKind::UvIslands);
-    let stages = Bake {
-        low,
-        groups,
-        layout: &layout,
-        options,
-        maps: MapList::new(options),
-        charts: if needs_charts { Charts::of(low) } else { Charts::default() },
-        units: Units {
-            conversion: options.surface_convention.generated().to(options.map_convention),
-            space: *space,
-        },
-        samples: pattern(options.samples_per_axis),
-    };
-    let mut report = bake_bands(&stages, &mut images, context, progress)?;
-    fill(&mut images, options.padding, context)?;
-    let legends = color_labels(&mut images, options);
-    count_triangles(&mut report, low, high, &layout, groups);
-    Ok(Baked { images, report, legends })
+impl PreparedSurfaces<'_> {
+    /// As [`bake()`].
+    pub fn bake(
+        &self,
+        options: &BakeOptions,
+        context: &mut Context,
+        progress: &mut (dyn FnMut(BakeProgress) + Send),
+    ) -> Result<Baked, BakeError> {
+        check_options(options)?;
+        let PreparedSurfaces { space, low, high, groups } = self;
+        let mut budget = Budget::new(options.memory_limit);
+        budget.add(memory::of_bake(high, options))?;
+        let options = &self.options_in_box(options);
+        let layout = Layout::new(low, options.size, options.surface_convention, options.udim, &mut budget)?;
+        let mut images = Images::background(options, &budget)?;
+        let needs_charts = options.maps.has(MapKind::UvIslands);
+        let stages = Bake {
+            low,
+            groups,
+            layout: &layout,
+            options,
+            maps: MapList::new(options),
+            charts: if needs_charts { Charts::of(low) } else { Charts::default() },
+            units: Units {
+                conversion: options.surface_convention.generated().to(options.map_convention),
+                space: *space,
+            },
+            samples: pattern(options.samples_per_axis),
+        };
+        let mut report = bake_bands(&stages, &mut images, context, progress)?;
+        fill(&mut images, options.padding, context)?;
+        let legends = color_labels(&mut images, options);
+        count_triangles(&mut report, low, high, &layout, groups);
+        Ok(Baked { images, report, legends })
+    }
 }
 
 pub(crate) fn check_options(options: &BakeOptions) -> Result<(), BakeError> {
@@ -168,16 +171,6 @@ fn check_map_options(options: &BakeOptions) -> Result<(), BakeError> {
         Some((what, expected, found, _)) => Err(BakeError::Option { what, expected, found }),
         None => Ok(()),
     }
-}
-
-pub(crate) fn check_surfaces(low: &[LowSurface<'_>], high: &[HighSurface<'_>]) -> Result<(), BakeError> {
-    if low.iter().all(|surface| surface.triangle_count() == 0) {
-        return Err(BakeError::NoLowTriangles);
-    }
-    if high.iter().all(|surface| surface.triangle_count() == 0) {
-        return Err(BakeError::NoHighTriangles);
-    }
-    Ok(())
 }
 
 /// Bakes all bands of the images, on all threads.

@@ -6,7 +6,8 @@ use darboux::{Convention, UvOrigin};
 
 use crate::budget::Budget;
 use crate::samples::STEPS;
-use crate::{BakeError, LowSurface, Udim};
+use crate::udim::Udim;
+use crate::{BakeError, LowSurface};
 
 /// Texels per side of a block.
 pub const BLOCK: usize = 32;

@@ -24,6 +24,7 @@ mod charts;
 mod color_texture;
 mod common_box;
 mod coverage;
+mod covered_tiles;
 mod crossing;
 mod error;
 mod face;
@@ -64,6 +65,7 @@ pub use auto_cage::{AutoCage, AutoCageOptions, auto_cage};
 pub use bake::{BakeProgress, Baked, bake};
 pub use cage::{default_cage_offset, inflated_cage, inflated_cage_by};
 pub use color_texture::ColorTexture;
+pub use covered_tiles::udims_of;
 pub use crossing::crossing_triangles;
 pub use error::BakeError;
 pub use images::{Images, TexelState};
@@ -81,7 +83,7 @@ pub use report::BakeReport;
 pub use skew::SkewCorrection;
 pub use space::{ConvertedSpace, NormalSpace, SpaceOptions, convert_space};
 pub use surface::{HighSurface, LowSurface, SurfaceLabels};
-pub use udim::{Udim, udims_of};
+pub use udim::Udim;
 pub use verify::{ErrorStatistics, Mistake, Verification, VerifiedPlace, check_verification, verify};
 
 /// The example of README.md compiles.

@@ -2,15 +2,10 @@
 
 use darboux::Context;
 
-use crate::bake::{bake_prepared, check_surfaces};
 use crate::budget::Budget;
 use crate::common_box::CommonBox;
 use crate::high::HighGroup;
-use crate::verify::verify_prepared;
-use crate::{
-    BakeError, BakeOptions, BakeProgress, Baked, CurvatureRadius, HighSurface, Images, LowSurface,
-    NormalTexture, Verification, memory,
-};
+use crate::{BakeError, BakeOptions, CurvatureRadius, HighSurface, LowSurface, memory};
 
 /// Low and high surfaces with all that does not depend on the options of a bake: bakes with other options, of other UDIM tiles or with another cage
 /// skip what costs most of the time before the first ray.
@@ -62,28 +57,6 @@ impl<'a> PreparedSurfaces<'a> {
         &self.low
     }
 
-    /// As [`bake`](crate::bake()).
-    pub fn bake(
-        &self,
-        options: &BakeOptions,
-        context: &mut Context,
-        progress: &mut (dyn FnMut(BakeProgress) + Send),
-    ) -> Result<Baked, BakeError> {
-        bake_prepared(self, options, context, progress)
-    }
-
-    /// As [`verify`](crate::verify()).
-    pub fn verify(
-        &self,
-        baked: &Images,
-        written: &NormalTexture,
-        options: &BakeOptions,
-        context: &mut Context,
-        progress: &mut (dyn FnMut(BakeProgress) + Send),
-    ) -> Result<Verification, BakeError> {
-        verify_prepared(self, baked, written, options, context, progress)
-    }
-
     /// The options with their distances in the box.
     pub(crate) fn options_in_box(&self, options: &BakeOptions) -> BakeOptions {
         let space = self.space;
@@ -112,4 +85,15 @@ fn box_around(low: &[LowSurface<'_>]) -> CommonBox {
 /// The number of groups that the low surfaces use.
 fn group_count(low: &[LowSurface<'_>]) -> usize {
     low.iter().map(|surface| surface.group + 1).max().unwrap_or(0)
+}
+
+/// Refuses surfaces without triangles.
+pub(crate) fn check_surfaces(low: &[LowSurface<'_>], high: &[HighSurface<'_>]) -> Result<(), BakeError> {
+    if low.iter().all(|surface| surface.triangle_count() == 0) {
+        return Err(BakeError::NoLowTriangles);
+    }
+    if high.iter().all(|surface| surface.triangle_count() == 0) {
+        return Err(BakeError::NoHighTriangles);
+    }
+    Ok(())
 }

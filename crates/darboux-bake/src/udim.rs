@@ -2,12 +2,6 @@
 
 use std::fmt;
 
-use darboux::Convention;
-
-use crate::budget::Budget;
-use crate::layout::Layout;
-use crate::{BakeError, LowSurface};
-
 /// A tile of the UV plane: 1001 + column + 10 * row, with columns 0 to 9 to the right and rows upwards.
 ///
 /// Rows are counted in the direction in which images are seen: with glTF's UVs, whose v points down, the tile above the first has v from -1 to 0.
@@ -37,13 +31,11 @@ impl Udim {
         [i32::from(self.0 % Self::COLUMNS), -i32::from(self.0 / Self::COLUMNS)]
     }
 
-    fn of_tile([column, row]: [i32; 2]) -> Result<Self, BakeError> {
+    /// The tile at a column and a row as the image has them; none where it has no number.
+    pub(crate) fn of_tile([column, row]: [i32; 2]) -> Option<Self> {
         let is_known =
             (0..i32::from(Self::COLUMNS)).contains(&column) && (0..i32::from(Self::ROWS)).contains(&-row);
-        if !is_known {
-            return Err(BakeError::NoUdim { tile: [column, -row] });
-        }
-        Ok(Self((column + i32::from(Self::COLUMNS) * -row) as u16))
+        is_known.then_some(Self((column + i32::from(Self::COLUMNS) * -row) as u16))
     }
 }
 
@@ -51,21 +43,4 @@ impl fmt::Display for Udim {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.number().fmt(f)
     }
-}
-
-/// The tiles that the charts of low surfaces cover, in the order of their numbers.
-///
-/// Triangles across more than 16 tiles do not count, because they are not baked. Errors: charts where no tile has a number; more memory than
-/// `memory_limit` bytes.
-pub fn udims_of(
-    low: &[LowSurface<'_>],
-    convention: Convention,
-    memory_limit: Option<u64>,
-) -> Result<Vec<Udim>, BakeError> {
-    // Tiles of this many texels: corners are exact to 1/256 of one, and triangles smaller than that have no area.
-    let layout = Layout::new(low, [4096; 2], convention, None, &mut Budget::new(memory_limit))?;
-    let mut tiles: Vec<Udim> =
-        layout.covered_tiles(low).into_iter().map(Udim::of_tile).collect::<Result<_, _>>()?;
-    tiles.sort();
-    Ok(tiles)
 }

@@ -14,9 +14,10 @@ mod summary;
 
 use darboux::Context;
 
-use crate::bake::{check_options, check_surfaces, for_each_band};
+use crate::bake::{check_options, for_each_band};
 use crate::budget::Budget;
 use crate::layout::Layout;
+use crate::prepared::check_surfaces;
 use crate::{
     BakeError, BakeOptions, BakeProgress, HighSurface, Images, LowSurface, MapKind, NormalTexture,
     PreparedSurfaces, memory,
@@ -50,37 +51,39 @@ pub fn verify(
         .verify(baked, written, options, context, progress)
 }
 
-/// Verifies with surfaces whose hierarchies are built.
-pub(crate) fn verify_prepared(
-    surfaces: &PreparedSurfaces<'_>,
-    baked: &Images,
-    written: &NormalTexture,
-    options: &BakeOptions,
-    context: &mut Context,
-    progress: &mut (dyn FnMut(BakeProgress) + Send),
-) -> Result<Verification, BakeError> {
-    let PreparedSurfaces { low, high, groups, .. } = surfaces;
-    let Plan { layout, cell_side } = Plan::new(low, high, options)?;
-    let unrounded = baked.vectors(MapKind::Normal).map(<[_]>::to_vec);
-    let unrounded = unrounded.filter(|_| baked.size == options.size && written.size() == options.size);
-    let unrounded = unrounded.ok_or(BakeError::NoMaps)?;
-    let unrounded =
-        NormalTexture::new(options.size, unrounded, options.map_convention, options.surface_convention)?;
-    let options = &surfaces.options_in_box(options);
-    let points = Points {
-        low,
-        groups,
-        layout: &layout,
-        options,
-        states: &baked.states,
-        written,
-        unrounded: &unrounded,
-        cell_side,
-    };
-    let mut bands: Vec<(usize, BandPoints)> =
-        (0..points.band_count()).map(|row| (row, BandPoints::default())).collect();
-    for_each_band(context, &mut bands, progress, |(row, band)| *band = points.band(*row))?;
-    Ok(summarize(bands.into_iter().map(|(_, band)| band).collect(), points.heat_size()))
+impl PreparedSurfaces<'_> {
+    /// As [`verify()`].
+    pub fn verify(
+        &self,
+        baked: &Images,
+        written: &NormalTexture,
+        options: &BakeOptions,
+        context: &mut Context,
+        progress: &mut (dyn FnMut(BakeProgress) + Send),
+    ) -> Result<Verification, BakeError> {
+        let PreparedSurfaces { low, high, groups, .. } = self;
+        let Plan { layout, cell_side } = Plan::new(low, high, options)?;
+        let unrounded = baked.vectors(MapKind::Normal).map(<[_]>::to_vec);
+        let unrounded = unrounded.filter(|_| baked.size == options.size && written.size() == options.size);
+        let unrounded = unrounded.ok_or(BakeError::NoMaps)?;
+        let unrounded =
+            NormalTexture::new(options.size, unrounded, options.map_convention, options.surface_convention)?;
+        let options = &self.options_in_box(options);
+        let points = Points {
+            low,
+            groups,
+            layout: &layout,
+            options,
+            states: &baked.states,
+            written,
+            unrounded: &unrounded,
+            cell_side,
+        };
+        let mut bands: Vec<(usize, BandPoints)> =
+            (0..points.band_count()).map(|row| (row, BandPoints::default())).collect();
+        for_each_band(context, &mut bands, progress, |(row, band)| *band = points.band(*row))?;
+        Ok(summarize(bands.into_iter().map(|(_, band)| band).collect(), points.heat_size()))
+    }
 }
 
 /// Refuses, before anything is baked, what [`verify`] would refuse after the bake: options out of range, no triangles, more memory than the limit.

@@ -10,6 +10,7 @@ mod one_file;
 pub mod plan;
 pub mod report;
 mod tally;
+pub mod task_result;
 
 use std::collections::BTreeMap;
 use std::num::NonZero;

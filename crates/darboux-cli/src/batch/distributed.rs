@@ -9,13 +9,13 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 use darboux_io::RunId;
 use serde::{Deserialize, Serialize};
-use serde_json::value::RawValue;
 
 use super::command::FileCommand;
 use super::journal::{Journal, Record};
 use super::one_file::{JournalEntry, process_file};
 use super::plan::{Job, Output, OutputRules, plan_jobs};
 use super::report::FileReport;
+use super::task_result::{TaskResult, Unread, sentence_of};
 use crate::command_line::{Arguments, Command};
 use crate::commands::tangents::arguments::TangentsArguments;
 use crate::commands::tangents::summary::TangentsFileSummary;
@@ -47,16 +47,6 @@ enum AnyTask {
     Tangents(Task),
     #[cfg(feature = "bake")]
     Bake(crate::commands::bake::job::distributed::BakeTask),
-}
-
-/// The result of a task whose report stays as it is.
-pub type Unread<'a> = TaskResult<&'a RawValue>;
-
-/// The result of a task. `R` is the type of the report.
-#[derive(Serialize, Deserialize)]
-pub struct TaskResult<R> {
-    report: R,
-    pub record: Option<Record>,
 }
 
 impl DistributedBatch {
@@ -168,13 +158,6 @@ fn parsed(inputs: &[PathBuf], folder: &Path, options: &[String]) -> Result<Tange
         Command::Tangents(arguments) => Ok(arguments),
         _ => Err("the command is not tangents".into()),
     }
-}
-
-/// The first paragraph of clap's message, without the usage hints.
-pub fn sentence_of(error: &clap::Error) -> String {
-    let text = error.to_string();
-    let lines: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).map(str::trim).collect();
-    lines.join(" ").trim_start_matches("error: ").to_owned()
 }
 
 fn json(value: &impl Serialize) -> Result<String, String> {

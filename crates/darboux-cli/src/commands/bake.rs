@@ -16,6 +16,7 @@ mod report;
 mod run;
 mod single;
 mod skew;
+mod tile_names;
 mod tiles;
 mod verified;
 mod write;

@@ -1,5 +1,6 @@
 //! Writes documents as PLY and OBJ, which hold the surfaces of a scene and little else. What they cannot hold is listed.
 
+mod format;
 mod left_out;
 mod obj;
 mod ply;
@@ -10,18 +11,13 @@ use super::segments::Segment;
 use crate::Error;
 use left_out::LeftOut;
 
+pub(super) use format::ExchangeFormat;
+
 /// A PLY or an OBJ, and what it leaves out.
 pub(super) struct ExchangeFile<'a> {
     pub segments: Vec<Segment<'a>>,
     /// The text of the material library of an OBJ, if there are materials.
     pub library: Option<String>,
-}
-
-/// A format that holds the surfaces of a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ExchangeFormat {
-    Ply,
-    Obj,
 }
 
 /// The content of an exchange file. `library`: the name of the material library. `textures`: the path of each image as the library spells it.

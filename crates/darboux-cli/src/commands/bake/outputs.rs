@@ -8,7 +8,7 @@ use darboux_bake::{IdSource, MapKind};
 use super::arguments::{BakeArguments, Pack};
 use super::cage_file::is_glb;
 use super::encode::FileKind;
-use super::tiles;
+use super::tile_names;
 use crate::paths::{is_png, refuse_missing_folder};
 
 /// The chosen maps, each once, with their files.
@@ -50,8 +50,8 @@ pub fn refuse_outputs(arguments: &BakeArguments) -> Result<(), String> {
         return Err(format!("{shown}: --verify reads the map as renderers do; choose a PNG"));
     }
     refuse_other_results(arguments)?;
-    tiles::check(arguments)?;
-    if tiles::has_place(&arguments.output) {
+    tile_names::check(arguments)?;
+    if tile_names::has_place(&arguments.output) {
         // The tiles are known when the low model was read.
         return Ok(());
     }

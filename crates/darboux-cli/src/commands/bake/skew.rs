@@ -7,8 +7,6 @@ use darboux_bake::{BakeError, ColorTexture, LowSurface, SkewCorrection};
 use darboux_io::image::{DecodeLimits, RgbaImage};
 use darboux_io::system_reason;
 
-use super::arguments::BakeArguments;
-
 /// What `--skew` names.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SkewChoice {
@@ -25,8 +23,8 @@ pub enum Skew {
 
 impl Skew {
     /// Reads the map. None without `--skew`. Errors are one sentence each.
-    pub fn read(arguments: &BakeArguments) -> Result<Option<Self>, String> {
-        let path = match &arguments.skew {
+    pub fn read(choice: Option<&SkewChoice>) -> Result<Option<Self>, String> {
+        let path = match choice {
             None => return Ok(None),
             Some(SkewChoice::Amount(amount)) => return Ok(Some(Self::Amount(*amount))),
             Some(SkewChoice::Image(path)) => path,

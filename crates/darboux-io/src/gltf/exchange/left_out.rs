@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::ExchangeFormat;
+use super::format::ExchangeFormat;
 use crate::Error;
 use crate::gltf::Document;
 
