@@ -80,6 +80,24 @@ fn have_the_same_frames() {
     }
 }
 
+/// A context remembers nothing of a mesh without UV area in a later mesh to which the fast path does not apply.
+#[test]
+fn have_the_same_frames_after_a_mesh_without_uv_area() {
+    let mut flat = families::grid(6, 5, false, true);
+    flat.uvs.fill([0.5; 2]);
+    let mut not_finite = families::grid(2, 2, false, true);
+    not_finite.positions[0][0] = f32::NAN;
+    let (options, mut context) = (TangentOptions::default(), Context::new());
+    let mut tangents = vec![[0.0; 4]; flat.corner_count()];
+    write_tangents(&flat.view(), &options, &mut context, &mut tangents).unwrap();
+    let mut frames = vec![Frame::default(); not_finite.corner_count()];
+    let report = write_frames(&not_finite.view(), &options, &mut context, &mut frames).unwrap();
+    let own = generate_frames(&not_finite.view(), &options);
+    assert_eq!(report, own.report);
+    let bits = |frame: &Frame| frame.tangent.map(f32::to_bits);
+    assert!(frames.iter().map(bits).eq(own.corners.per_corner().iter().map(bits)));
+}
+
 #[test]
 fn of_another_length_are_left_alone() {
     let [mesh, ..] = meshes();

@@ -224,6 +224,8 @@ impl FastPath {
     ) -> Option<()> {
         let threads = limits.thread_count(triangle_count(mesh));
         self.workers.resize_with(threads, Worker::default);
+        // Those of an earlier mesh, where this one ends before the pass.
+        self.flat_vertices.clear();
         let threshold_cosine = cosine_of_degrees(options.threshold);
         if threshold_cosine >= LARGEST_COSINE || threshold_cosine.is_nan() {
             return None;
