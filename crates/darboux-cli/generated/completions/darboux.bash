@@ -46,6 +46,9 @@ _darboux() {
             darboux,render)
                 cmd="darboux__subcmd__render"
                 ;;
+            darboux,report)
+                cmd="darboux__subcmd__report"
+                ;;
             darboux,tangents)
                 cmd="darboux__subcmd__tangents"
                 ;;
@@ -59,7 +62,7 @@ _darboux() {
 
     case "${cmd}" in
         darboux)
-            opts="-h -V --help --version tangents normals convert check bake compare inspect render view methods devices completions"
+            opts="-h -V --help --version tangents normals convert check report bake compare inspect render view methods devices completions"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -73,7 +76,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__bake)
-            opts="-o -q -h --high --output --map --size --bits --dither --pack --samples --convention --padding --ao-rays --ao-distance --ao-falloff --ao-weights --ao-own-part --thickness-distance --curvature-radius --id-from --texture --world-direction --distance --cage-offset --cage --match --back-faces --no-high-maps --method --bitangent --uv-set --material --normals --write-model --verify --heat-map --heat-model --heat-range --suffixes --resume --jobs --force --allow-outside --memory-limit --polygons --json --quiet --help"
+            opts="-o -q -h --high --output --map --size --bits --dither --pack --samples --convention --padding --ao-rays --ao-distance --ao-falloff --ao-weights --ao-own-part --thickness-distance --curvature-radius --id-from --texture --world-direction --distance --cage-offset --cage --auto-cage --offset-colors --skew --write-cage --match --back-faces --no-high-maps --method --bitangent --uv-set --material --normals --write-model --verify --heat-map --heat-model --heat-range --suffixes --resume --jobs --force --allow-outside --memory-limit --polygons --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -171,6 +174,18 @@ _darboux() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --auto-cage)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --skew)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --write-cage)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --match)
                     COMPREPLY=($(compgen -W "nearest name" -- "${cur}"))
                     return 0
@@ -231,7 +246,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__check)
-            opts="-v -q -o -h --resume --retry --jobs --verbose --allow-outside --memory-limit --polygons --explain --only --allow --fail-on --convention --assume --model --no-maps --fix --dry-run --method --normals --json --quiet --output --out-dir --in-place --force --help"
+            opts="-v -q -o -h --resume --retry --jobs --verbose --allow-outside --memory-limit --polygons --explain --only --allow --fail-on --convention --assume --no-maps --model --fix --dry-run --method --normals --report --json --quiet --output --out-dir --in-place --force --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -250,15 +265,15 @@ _darboux() {
                     return 0
                     ;;
                 --explain)
-                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-detail-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-other-layout conventions-cancel map-unreadable map-scale-negative transform-mirrors" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-detail-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-enlarged map-banding map-blocks map-other-layout conventions-cancel map-unreadable map-scale-negative map-scale-zero map-scale-extreme transform-mirrors" -- "${cur}"))
                     return 0
                     ;;
                 --only)
-                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-detail-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-other-layout conventions-cancel map-unreadable map-scale-negative transform-mirrors" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-detail-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-enlarged map-banding map-blocks map-other-layout conventions-cancel map-unreadable map-scale-negative map-scale-zero map-scale-extreme transform-mirrors" -- "${cur}"))
                     return 0
                     ;;
                 --allow)
-                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-detail-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-other-layout conventions-cancel map-unreadable map-scale-negative transform-mirrors" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-detail-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-enlarged map-banding map-blocks map-other-layout conventions-cancel map-unreadable map-scale-negative map-scale-zero map-scale-extreme transform-mirrors" -- "${cur}"))
                     return 0
                     ;;
                 --fail-on)
@@ -282,6 +297,10 @@ _darboux() {
                     return 0
                     ;;
                 --normals)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --report)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -583,6 +602,60 @@ _darboux() {
                     ;;
                 --background)
                     COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --memory-limit)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --polygons)
+                    COMPREPLY=($(compgen -W "blender fan ears" -- "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        darboux__subcmd__report)
+            opts="-o -q -h --output --force --pictures --only --allow --fail-on --convention --assume --no-maps --allow-outside --memory-limit --polygons --quiet --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --output)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                -o)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --pictures)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --only)
+                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-detail-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-enlarged map-banding map-blocks map-other-layout conventions-cancel map-unreadable map-scale-negative map-scale-zero map-scale-extreme transform-mirrors" -- "${cur}"))
+                    return 0
+                    ;;
+                --allow)
+                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding normal-other-axes uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-detail-flipped map-red-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-enlarged map-banding map-blocks map-other-layout conventions-cancel map-unreadable map-scale-negative map-scale-zero map-scale-extreme transform-mirrors" -- "${cur}"))
+                    return 0
+                    ;;
+                --fail-on)
+                    COMPREPLY=($(compgen -W "error warning never" -- "${cur}"))
+                    return 0
+                    ;;
+                --convention)
+                    COMPREPLY=($(compgen -W "opengl directx" -- "${cur}"))
+                    return 0
+                    ;;
+                --assume)
+                    COMPREPLY=($(compgen -W "map=opengl map=directx map=red-inverted" -- "${cur}"))
                     return 0
                     ;;
                 --memory-limit)
