@@ -63,7 +63,9 @@ pub fn pair_line(pair: &PairRow) -> String {
 /// Why two mistakes are not both named. Empty for pairs without a known reason.
 pub fn why_missed(pair: [Code; 2]) -> &'static str {
     let has = |code| pair.contains(&code);
-    if has(Code::TangentZero) {
+    if has(Code::MapGreenFlipped) && (has(Code::TangentSignFlipped) || has(Code::NormalAgainstWinding)) {
+        "the two cancel, and are one finding"
+    } else if has(Code::TangentZero) {
         "the second mistake gives the tangent that was zero another value"
     } else if has(Code::TangentNotPerpendicular) && has(Code::TangentRotated) {
         "the cross product with the normal is perpendicular again, and too short"
