@@ -307,11 +307,6 @@ const NO_PICTURE: &[(Code, &str)] = &[
         "the renderer of these pictures normalises the vectors, so that nothing would be seen",
     ),
     (Code::MapScaleNegative, "it looks as if red and green were both inverted: dents for bumps"),
-    (Code::MapScaleZero, "the surface is smooth, as without a normal map"),
-    (Code::MapScaleExtreme, "the bumps are those of the healthy model, only steeper"),
-    (Code::MapEnlarged, "the texels of the map are smaller than the pixels of these pictures"),
-    (Code::MapBanding, "steps of two to four degrees are seen in reflections only"),
-    (Code::MapBlocks, "the blocks of the map are smaller than ten pixels of these pictures"),
     (Code::MapDetailFlipped, "the detail is finer than the pixels of these pictures"),
     (Code::MapFlatOff, "a lean of two degrees is seen in reflections only"),
 ];

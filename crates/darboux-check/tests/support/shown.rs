@@ -3,6 +3,7 @@
 use darboux::Method;
 use darboux_check::Code;
 
+use super::maps::Map;
 use super::models::Model;
 
 /// The healthy model of the pictures with a large mistake; none where the mistake of the tests can be seen, or none can be made.
@@ -46,11 +47,27 @@ pub fn shown_mistake(healthy: &Model, code: Code) -> Option<Model> {
             (0..texels.len()).filter(|i| is_speck(*i)).for_each(|i| texels[i] = [150, 110, 40]);
             model.map = model.map.with_texels(texels);
         }
+        Code::MapEnlarged => model.map = of_blocks(&model.map, 16, 1.0),
+        Code::MapBlocks => model.map = of_blocks(&model.map, 16, 0.8),
+        Code::MapBanding => model.map = model.map.through(|texel| texel.map(|x| (7.0 * x).round() / 7.0)),
         // What viewers show that go on without the image.
         Code::MapUnreadable => model.map = model.map.through(|_| [0.5, 0.5, 1.0]),
         _ => return None,
     }
     Some(model)
+}
+
+/// The map with its texels moved to the means of blocks, by a part of the way.
+fn of_blocks(map: &Map, block: usize, part: f32) -> Map {
+    let side = map.texels.len().isqrt();
+    let texel = |i: usize| {
+        let (left, top) = (i % side / block * block, i / side / block * block);
+        let inside = (0..block * block).map(|k| map.texels[(top + k / block) * side + left + k % block]);
+        let sums = inside.fold([0.0; 3], |sum, texel| [0, 1, 2].map(|c| sum[c] + f32::from(texel[c])));
+        let mean = sums.map(|sum| sum / (block * block) as f32);
+        [0, 1, 2].map(|c| ((1.0 - part) * f32::from(map.texels[i][c]) + part * mean[c]).round() as u8)
+    };
+    map.with_texels((0..map.texels.len()).map(texel).collect())
 }
 
 /// A drawing of a UV layout, as SVG, for what cannot be seen on a model; none for other codes. Mirrored triangles are orange, and what lies below
