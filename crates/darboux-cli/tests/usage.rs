@@ -42,7 +42,7 @@ fn what_does_not_fit_together_is_refused() {
         &["tangents", a, b, "-o", "x.glb"],
         &["tangents", dir, "-o", "x.glb"],
         &["tangents", a, "-o", dir],
-        &["tangents", a, "-o", "x.obj"],
+        &["tangents", a, "-o", "x.fbx"],
         &["tangents", a, "-o", "mistyped/x.glb"],
         &["tangents", a, "--jobs", "0"],
         &["compare", a],
