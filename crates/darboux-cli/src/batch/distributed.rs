@@ -15,7 +15,7 @@ use super::journal::{Journal, Record};
 use super::one_file::{JournalEntry, process_file};
 use super::plan::{Job, Output, OutputRules, plan_jobs};
 use super::report::FileReport;
-use super::task_result::{TaskResult, Unread, sentence_of};
+use super::task_result::{TaskResult, record, sentence_of};
 use crate::command_line::{Arguments, Command};
 use crate::commands::tangents::arguments::TangentsArguments;
 use crate::commands::tangents::summary::TangentsFileSummary;
@@ -102,9 +102,7 @@ impl DistributedBatch {
 
     /// Adds the result of a task to the journal. Errors: the result was not made by [`run_task`]; the journal cannot be written.
     pub fn record(&self, result: &str) -> Result<(), String> {
-        let result: Unread<'_> =
-            serde_json::from_str(result).map_err(|error| format!("the result cannot be parsed: {error}"))?;
-        result.record.map_or(Ok(()), |record| self.journal.add(&record))
+        record(&self.journal, result)
     }
 
     /// Removes the temporary files of killed workers and unlocks the journal. No worker may be running.

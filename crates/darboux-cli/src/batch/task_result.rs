@@ -3,16 +3,21 @@
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
-use super::journal::Record;
-
-/// The result of a task whose report stays as it is.
-pub type Unread<'a> = TaskResult<&'a RawValue>;
+use super::journal::{Journal, Record};
 
 /// The result of a task. `R` is the type of the report.
 #[derive(Serialize, Deserialize)]
 pub struct TaskResult<R> {
     pub report: R,
     pub record: Option<Record>,
+}
+
+/// Adds the result of a task to a journal. Errors: it is no result; the journal cannot be written.
+pub fn record(journal: &Journal, result: &str) -> Result<(), String> {
+    // The report stays text.
+    let result: TaskResult<&RawValue> =
+        serde_json::from_str(result).map_err(|error| format!("the result cannot be parsed: {error}"))?;
+    result.record.map_or(Ok(()), |record| journal.add(&record))
 }
 
 /// The first paragraph of clap's message, without the usage hints.

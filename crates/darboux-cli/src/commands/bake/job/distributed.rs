@@ -12,7 +12,7 @@ use super::entry::Entry;
 use super::run::{BakedEntry, Earlier, bake_entry, check_entries, folder_of};
 use super::{Work, work_of};
 use crate::batch::journal::{Journal, Record};
-use crate::batch::task_result::{Unread, sentence_of};
+use crate::batch::task_result::{record, sentence_of};
 use crate::command_line::{Arguments, Command};
 use crate::commands::bake::arguments::BakeArguments;
 use crate::commands::bake::report::BakeReport;
@@ -94,9 +94,7 @@ impl DistributedJob {
 
     /// Adds the result of a task to the journal. Errors: the result was not made by [`run_task`](crate::run_task); the journal cannot be written.
     pub fn record(&self, result: &str) -> Result<(), String> {
-        let result: Unread<'_> =
-            serde_json::from_str(result).map_err(|error| format!("the result cannot be parsed: {error}"))?;
-        result.record.map_or(Ok(()), |record| self.journal.add(&record))
+        record(&self.journal, result)
     }
 
     /// Removes the temporary files of killed workers and unlocks the journal. No worker may be running.
