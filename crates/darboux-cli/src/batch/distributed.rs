@@ -115,11 +115,23 @@ impl DistributedBatch {
 /// Processes the file of a task, or bakes the entry of a job. The result of one that fails holds the reason. Errors: the task was not made by
 /// [`DistributedBatch::open`] or by that of a job.
 pub fn run_task(task: &str) -> Result<String, String> {
-    let task = match parse_task(task)? {
-        AnyTask::Tangents(task) => task,
+    match parse_task(task)? {
+        AnyTask::Tangents(task) => run_tangents_task(task),
         #[cfg(feature = "bake")]
-        AnyTask::Bake(task) => return crate::commands::bake::job::distributed::run_bake_task(task),
-    };
+        AnyTask::Bake(task) => crate::commands::bake::job::distributed::run_bake_task(task),
+    }
+}
+
+/// The result of a task that could not be run, for example because its worker was lost at every attempt. Errors: those of [`run_task`].
+pub fn failed_task(task: &str, reason: &str) -> Result<String, String> {
+    match parse_task(task)? {
+        AnyTask::Tangents(task) => failed_tangents_task(&task, reason),
+        #[cfg(feature = "bake")]
+        AnyTask::Bake(task) => crate::commands::bake::job::distributed::failed_bake_task(task, reason),
+    }
+}
+
+fn run_tangents_task(task: Task) -> Result<String, String> {
     let mut arguments = parsed(std::slice::from_ref(&task.input), &task.folder, &task.options)?;
     arguments.files.run = RunId(task.run);
     let job = Job { input: Input::File(task.input), output: Output::File(task.output) };
@@ -128,15 +140,7 @@ pub fn run_task(task: &str) -> Result<String, String> {
     json(&TaskResult { report: finished.report, record: finished.record })
 }
 
-/// The result of a task that could not be run, for example because its worker was lost at every attempt. Errors: those of [`run_task`].
-pub fn failed_task(task: &str, reason: &str) -> Result<String, String> {
-    let task = match parse_task(task)? {
-        AnyTask::Tangents(task) => task,
-        #[cfg(feature = "bake")]
-        AnyTask::Bake(task) => {
-            return crate::commands::bake::job::distributed::failed_bake_task(task, reason);
-        }
-    };
+fn failed_tangents_task(task: &Task, reason: &str) -> Result<String, String> {
     let input = task.input.display().to_string();
     let sentence = format!("{input}: {reason}");
     json(&TaskResult { report: FileReport::<TangentsFileSummary>::failed(input, sentence), record: None })
