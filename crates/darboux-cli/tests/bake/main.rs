@@ -1,0 +1,10 @@
+//! `darboux bake`: what it writes, what it advises and what it refuses.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod jobs;
+mod maps;
+mod models;
+mod pair;
+mod rays;
+mod spaces;

@@ -1,0 +1,331 @@
+//! The models that are read and written: OBJ, materials, tangents, texture transforms, transfer, errors by vertex.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use crate::common::{Run, darboux, text};
+use crate::pair::{FULL, Pair, edited, json_of, near, plate};
+
+#[test]
+fn verification_prints_degrees_and_draws_them() {
+    let pair = Pair::new();
+    let heat = pair.path("heat.png");
+    let run = pair.bake(&["--verify", "--heat-map", text(&heat), "--json"]).exits(0);
+    for words in ["error in degrees", "by rounding to its bits", "inside charts", "with the other green"] {
+        assert!(run.stderr.contains(words), "{}", run.stderr);
+    }
+    let verification = run.json()["verification"].clone();
+    let number = |of: &Value, name: &str| of[name].as_f64().expect("a number");
+    // The roof has one normal, which 8 bits hold to half a code: below sqrt(3) / 255 radians.
+    let limit = (3f64.sqrt() / 255.0).to_degrees();
+    assert!(number(&verification["all"], "worst") < limit, "{verification}");
+    assert!(number(&verification["all"], "median") > 1e-4, "{verification}");
+    assert_eq!(number(&verification["all"], "points"), 256.0);
+    assert!(
+        (number(&verification["all"], "median") - number(&verification["rounding"], "median")).abs() < 1e-3
+    );
+    assert_eq!(verification["places"][0][0], "inside");
+    assert_eq!(verification["mistakes"][1][0], "other_green");
+    assert_eq!(image::image_dimensions(&heat).expect("a picture"), (16, 16 + 38));
+    // 16 bits are better by 2 to the 8th.
+    let fine = pair.bake(&["--verify", "--force", "--bits", "16", "--json"]).exits(0).json();
+    assert!(number(&fine["verification"]["all"], "worst") < limit / 200.0, "{fine}");
+    assert!(fine["verification"]["heat_map"].is_null());
+    assert!(pair.bake(&["--force", "--json"]).exits(0).json()["verification"].is_null());
+    let no_map = pair.bake(&["--force", "--verify", "--map", "height"]).exits(2).stderr;
+    assert!(no_map.contains("--verify needs a normal map"), "{no_map}");
+    assert!(pair.bake(&["--force", "--heat-map", text(&heat)]).exits(2).stderr.contains("--verify"));
+}
+
+#[test]
+fn errors_are_painted_on_the_model() {
+    let pair = Pair::new();
+    let painted = pair.path("painted.glb");
+    let report = pair.bake(&["--verify", "--heat-model", text(&painted), "--json"]).exits(0).json();
+    assert_eq!(report["verification"]["heat_model"], text(&painted));
+    let glb = fs::read(&painted).expect("a model");
+    let material_of = |glb: &[u8]| {
+        let mut material = Value::Null;
+        edited(glb, |json| material = json["materials"][0].clone());
+        material
+    };
+    let material = material_of(&glb);
+    // Light and a normal map would change the colours.
+    let color = &material["pbrMetallicRoughness"]["baseColorTexture"];
+    assert!(color["texCoord"] == 0 && color["index"].is_u64(), "{material}");
+    assert!(material["normalTexture"].is_null(), "{material}");
+    assert_eq!(material["extensions"]["KHR_materials_unlit"], json!({}), "{material}");
+    let scale = pair.path("painted.scale.png");
+    assert_eq!(image::image_dimensions(&scale).expect("a picture").0, 512);
+    let checked = darboux(&["check", text(&painted), "--json"]);
+    assert!(checked.code < 2, "{}", checked.stderr);
+    fs::write(pair.path("low.glb"), half_size_plate()).expect("a file");
+    let wide = ["--verify", "--heat-model", text(&painted), "--heat-range", "0.1,90", "--force"];
+    let run = pair.bake(&wide).exits(0);
+    let said = [run.stderr, String::from_utf8_lossy(&run.stdout).into_owned()].concat();
+    assert!(said.contains("from 0.1 to 90 degrees"), "{said}");
+    let material = material_of(&fs::read(&painted).expect("a model"));
+    let color = &material["pbrMetallicRoughness"]["baseColorTexture"];
+    assert_eq!(color["extensions"]["KHR_texture_transform"]["scale"], json!([0.5, 0.5]), "{material}");
+    assert!(pair.bake(&["--force", "--heat-model", text(&painted)]).exits(2).stderr.contains("--verify"));
+    let gltf = pair.path("painted.gltf");
+    let refused = pair.bake(&["--force", "--verify", "--heat-model", text(&gltf)]).exits(2).stderr;
+    assert!(refused.contains("must end in .glb"), "{refused}");
+}
+
+#[test]
+fn a_model_is_written_that_bakes_to_the_same_map() {
+    let pair = Pair::new();
+    for (case, method) in [("mikktspace", None), ("lengyel", Some("lengyel"))] {
+        let model = pair.path(&format!("{case}.glb"));
+        let mut more = vec!["--force", "--bits", "16", "--write-model", text(&model), "--json"];
+        more.extend(method.iter().flat_map(|method| ["--method", *method]));
+        let report = pair.bake(&more).exits(0).json();
+        assert_eq!(report["model"], text(&model));
+        let map = fs::read(pair.path("map.png")).expect("a map");
+        let checked = darboux(&["check", text(&model), "--json"]);
+        // The high surface leans as a whole, and so does its map of one colour. Nothing else is found.
+        let checked = checked.json();
+        let findings = checked["files"][0]["findings"].as_array().expect("a list");
+        assert!(findings.iter().all(|finding| finding["code"] == "map-flat-off"), "{findings:?}");
+        let inspected = darboux(&["inspect", text(&model), "--json"]).exits(0).json().to_string();
+        assert!(inspected.contains("\"has_tangents\":true"), "{inspected}");
+        // Its own tangents give the same map.
+        let [high, again] = ["high.glb", "again.png"].map(|name| pair.path(name));
+        let line =
+            ["bake", text(&model), "--high", text(&high), "-o", text(&again), "--size", "16", "--bits", "16"];
+        darboux(&[&line[..], &["--cage-offset", "1", "--force"]].concat()).exits(0);
+        assert_eq!(fs::read(&again).expect("a map"), map, "{case}");
+        // The map lies in the model, byte for byte.
+        let bytes = fs::read(&model).expect("a model");
+        assert!(bytes.windows(map.len()).any(|window| window == map), "{case}");
+    }
+    let model = pair.path("model.glb");
+    let refused = |more: &[&str], what: &str| {
+        let all = ["--force", "--write-model", text(&model)];
+        let stderr = pair.bake(&[&all, more].concat()).exits(2).stderr;
+        assert!(stderr.contains(what), "{stderr}");
+    };
+    refused(&["--convention", "unreal"], "needs a map in glTF's convention");
+    refused(&["--map", "height"], "--write-model needs a map that materials have");
+    let gltf = pair.path("model.gltf");
+    assert!(
+        pair.bake(&["--force", "--write-model", text(&gltf)]).exits(2).stderr.contains("must end in .glb")
+    );
+    assert!(!model.exists() && !gltf.exists());
+}
+
+#[test]
+fn faces_of_an_obj_with_many_corners_are_baked() {
+    let pair = Pair::new();
+    // A plate as one face of eight corners.
+    let corners =
+        "v 0 0 0.2\nv 0.5 0 0.2\nv 1 0 0.2\nv 1 0.5 0.2\nv 1 1 0.2\nv 0.5 1 0.2\nv 0 1 0.2\nv 0 0.5 0.2\n";
+    fs::write(pair.path("n.obj"), format!("{corners}f 1 2 3 4 5 6 7 8\n")).expect("a file");
+    let [low, high, map] = ["low.glb", "n.obj", "map.png"].map(|name| pair.path(name));
+    let line = ["bake", text(&low), "--high", text(&high), "-o", text(&map), "--size", "20", "--json"];
+    let counts = darboux(&[&line[..], &["--cage-offset", "1"]].concat()).exits(0).json()["counts"].clone();
+    let [triangles, missed] = ["high_triangles", "missed_texels"].map(|name| counts[name].clone());
+    assert_eq!((triangles, missed), (json!(6), json!(0)), "{counts}");
+}
+
+#[test]
+fn an_obj_can_be_the_low_model() {
+    let pair = Pair::new();
+    let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n";
+    fs::write(pair.path("low.obj"), format!("{corners}f 1/1/1 2/2/1 3/3/1 4/4/1\n")).expect("a file");
+    let [obj, high, map, model] = ["low.obj", "high.glb", "obj.png", "obj.glb"].map(|name| pair.path(name));
+    let line = ["bake", text(&obj), "--high", text(&high), "-o", text(&map), "--size", "16"];
+    let more = ["--cage-offset", "1", "--bits", "16", "--write-model", text(&model)];
+    darboux(&[&line[..], &more].concat()).exits(0);
+    pair.bake(&["--bits", "16"]).exits(0);
+    assert_eq!(pair.texel("obj.png"), pair.texel("map.png"));
+    let of_model = darboux(&["compare", text(&model), "--method", "mikktspace", "--json"]).exits(0).json();
+    assert_eq!(of_model["verdict"], "identical");
+    let spaces = ["convert", text(&map), "--space", "object", "--model", text(&obj), "--from", "gltf"];
+    let output = pair.path("object.png");
+    darboux(&[&spaces[..], &["--to", "gltf", "-o", text(&output)]].concat()).exits(0);
+}
+
+#[test]
+fn an_obj_can_be_the_high_model() {
+    let pair = Pair::new();
+    let obj = "v 0 0 0\nv 1 0 0.5\nv 1 1 0.5\nv 0 1 0\nf 1 2 3 4\n";
+    fs::write(pair.path("high.obj"), obj).expect("a file");
+    pair.bake(&["--bits", "16"]).exits(0);
+    let expected = fs::read(pair.path("map.png")).expect("a map");
+    let [low, high, map] = ["low.glb", "high.obj", "map.png"].map(|name| pair.path(name));
+    let line = ["bake", text(&low), "--high", text(&high), "-o", text(&map), "--size", "16", "--force"];
+    darboux(&[&line[..], &["--cage-offset", "1", "--bits", "16"]].concat()).exits(0);
+    assert_eq!(fs::read(&map).expect("a map"), expected);
+}
+
+/// The normal map of the first bake becomes that of a high model, which is baked onto the same layout again.
+#[test]
+fn normal_maps_of_high_models_count() {
+    let pair = Pair::new();
+    let mapped = pair.path("mapped.glb");
+    pair.bake(&["--bits", "16", "--write-model", text(&mapped)]).exits(0);
+    let (leaning, _) = pair.texel("map.png");
+    let [low, map] = ["low.glb", "map.png"].map(|name| pair.path(name));
+    let line = ["bake", text(&low), "--high", text(&mapped), "-o", text(&map), "--size", "16", "--force"];
+    let again = |more: &[&str]| {
+        darboux(&[&line[..], &["--cage-offset", "0.01", "--bits", "16"], more].concat()).exits(0);
+        pair.texel("map.png").0
+    };
+    assert!(near(&again(&[]), &leaning, 1.5 / 65535.0));
+    assert!(near(&again(&["--no-high-maps"]), &[0.5, 0.5, 1.0], 1.0 / 65535.0));
+}
+
+/// A plate whose normal map shows its UVs at half their size.
+fn half_size_plate() -> Vec<u8> {
+    edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+        json["meshes"][0]["primitives"][0]["material"] = 0.into();
+        let transform = json!({"KHR_texture_transform": {"scale": [0.5, 0.5]}});
+        json["materials"] = json!([{"normalTexture": {"index": 0, "extensions": transform}}]);
+        json["textures"] = json!([{}]);
+        json["extensionsUsed"] = json!(["KHR_texture_transform"]);
+    })
+}
+
+#[test]
+fn a_material_can_be_chosen_and_several_are_named() {
+    let pair = Pair::new();
+    let two = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+        let primitive = json["meshes"][0]["primitives"][0].clone();
+        json["meshes"][0]["primitives"] = json!([primitive, primitive]);
+        json["meshes"][0]["primitives"][0]["material"] = 0.into();
+        json["meshes"][0]["primitives"][1]["material"] = 1.into();
+        json["materials"] = json!([{}, {}]);
+    });
+    fs::write(pair.path("low.glb"), two).expect("a file");
+    let all = pair.bake(&["--json"]).exits(0);
+    assert!(all.stderr.contains("2 materials share this map"), "{}", all.stderr);
+    let one = pair.bake(&["--json", "--force", "--material", "1"]).exits(0);
+    assert!(!one.stderr.contains("materials share"), "{}", one.stderr);
+    let count = |run: &Run, name: &str| run.json()["counts"][name].clone();
+    assert_eq!(["overlapping_texels", "chart_area"].map(|name| count(&all, name)), [json!(256), json!(512)]);
+    assert_eq!(["overlapping_texels", "chart_area"].map(|name| count(&one, name)), [json!(0), json!(256)]);
+    assert!(all.stderr.contains("are covered 2.00 times on average"), "{}", all.stderr);
+    let none = pair.bake(&["--force", "--material", "2"]).exits(1).stderr;
+    assert!(none.contains("low.glb: no triangles have materials[2]; choose one of 0, 1"), "{none}");
+}
+
+#[test]
+fn the_texture_transform_of_the_low_model_counts() {
+    let pair = Pair::new();
+    fs::write(pair.path("low.glb"), half_size_plate()).expect("a file");
+    let model = pair.path("model.glb");
+    let line = ["--json", "--write-model", text(&model)];
+    let counts = pair.bake(&line).exits(0).json()["counts"].clone();
+    assert_eq!((&counts["charted_texels"], &counts["texels"]), (&json!(64), &json!(256)));
+    // The written model keeps the transform, so that the map fits it.
+    let kept = String::from_utf8_lossy(&fs::read(&model).expect("a model")).contains("\"scale\":[0.5,0.5]");
+    assert!(kept);
+}
+
+#[test]
+fn tangents_of_another_uv_set_are_computed() {
+    let pair = Pair::new();
+    let tangents = ["POSITION", "NORMAL", "TEXCOORD_0", "TANGENT"];
+    let low = edited(&plate([0.0, 0.0], &tangents, 1.0), |json| {
+        json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = 2.into();
+    });
+    fs::write(pair.path("low.glb"), low).expect("a file");
+    let texel = |more: &[&str]| {
+        pair.bake(&[&["--bits", "16", "--force"], more].concat()).exits(0);
+        pair.texel("map.png").0
+    };
+    let [leaning, upright] = [0.5 - 0.5 / 5f64.sqrt(), 0.5 + 1.0 / 5f64.sqrt()];
+    // The file's tangents point up; those of the second set, which has the same UVs, to the right.
+    assert!(near(&texel(&[]), &[0.5, 1.0 - leaning, upright], 1e-5));
+    assert!(near(&texel(&["--uv-set", "1"]), &[leaning, 0.5, upright], 1e-5));
+    let model = pair.path("model.glb");
+    texel(&["--uv-set", "1", "--write-model", text(&model)]);
+    let of_model = darboux(&["compare", text(&model), "--method", "mikktspace", "--json"]).exits(0).json();
+    assert_eq!(of_model["verdict"], "identical");
+}
+
+#[test]
+fn a_model_that_is_low_and_high_is_warned_about_once() {
+    let pair = Pair::new();
+    let broken = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+        json["extensionsUsed"] = json!(["EXT_unheard_of"]);
+    });
+    fs::write(pair.path("low.glb"), broken).expect("a file");
+    let [low, map] = ["low.glb", "map.png"].map(|name| pair.path(name));
+    let line = ["bake", text(&low), "--high", text(&low), "-o", text(&map), "--size", "8", "--json"];
+    let report = darboux(&line).exits(0).json();
+    let warnings: Vec<String> =
+        report["warnings"].as_array().expect("a list").iter().map(Value::to_string).collect();
+    assert_eq!(warnings.iter().collect::<std::collections::HashSet<_>>().len(), warnings.len());
+}
+
+#[test]
+fn tangents_come_from_the_file_unless_a_method_is_named() {
+    let pair = Pair::new();
+    fs::write(pair.path("low.glb"), plate([0.0, 0.0], &["POSITION", "NORMAL", "TEXCOORD_0", "TANGENT"], 1.0))
+        .expect("a file");
+    let [leaning, upright] = [0.5 + 0.5 / 5f64.sqrt(), 0.5 + 1.0 / 5f64.sqrt()];
+    // The file's tangents point up and its bitangents to the left, where the normal leans.
+    pair.bake(&["--bits", "16"]).exits(0);
+    assert!(near(&pair.texel("map.png").0, &[0.5, leaning, upright], 1e-5), "{:?}", pair.texel("map.png"));
+    pair.bake(&["--bits", "16", "--force", "--method", "mikktspace"]).exits(0);
+    assert!(near(&pair.texel("map.png").0, &[1.0 - leaning, 0.5, upright], 1e-5));
+}
+
+/// A high model whose material has colour, roughness, metalness and light.
+fn painted_high(pair: &Pair) {
+    let high = edited(&plate([0.0, 0.0], &["POSITION"], 1.0), |json| {
+        json["meshes"][0]["primitives"][0]["material"] = 0.into();
+        json["materials"] = json!([{
+            "name": "paint",
+            "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 1], "roughnessFactor": 0.25, "metallicFactor": 0.75},
+            "emissiveFactor": [1, 1, 0.5],
+            "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}},
+        }]);
+        json["extensionsUsed"] = json!(["KHR_materials_emissive_strength"]);
+    });
+    fs::write(pair.path("high.glb"), high).expect("a file");
+}
+
+#[test]
+fn materials_are_transferred_and_put_where_gltf_wants_them() {
+    let pair = Pair::new();
+    painted_high(&pair);
+    let model = pair.path("baked.glb");
+    let maps = "normal,ao,base-color,roughness,metalness,emission,id,uv-islands";
+    let report = pair.bake(&["--map", maps, "--write-model", text(&model), "--json"]).exits(0).json();
+    // 0.5 in linear light is 188 in sRGB.
+    assert_eq!(pair.texel("map.base-color.png").0, [1.0, 188.0 / 255.0, 0.0]);
+    assert_eq!(pair.texel("map.roughness.png").0, [64.0 / 255.0]);
+    assert_eq!(pair.texel("map.metalness.png").0, [191.0 / 255.0]);
+    assert_eq!(pair.texel("map.emission.png").0, [1.0, 1.0, 188.0 / 255.0]);
+    assert_eq!(report["maps"][5]["range"][0], json!([0.0, 4.0]));
+    let legend: Value =
+        serde_json::from_slice(&fs::read(pair.path("map.id.json")).expect("a legend")).expect("JSON");
+    assert_eq!((&legend[0]["name"], &legend[0]["texels"]), (&json!("paint"), &json!(256)));
+    assert_eq!(report["legends"].as_array().map(Vec::len), Some(2));
+    let json = json_of(&model);
+    let material = &json["materials"][0];
+    let metallic = &material["pbrMetallicRoughness"];
+    assert_eq!(material["occlusionTexture"]["index"], metallic["metallicRoughnessTexture"]["index"]);
+    assert_eq!(metallic["baseColorFactor"], json!([1, 1, 1, 1]));
+    assert!((&metallic["roughnessFactor"], &metallic["metallicFactor"]) == (&json!(1), &json!(1)));
+    assert_eq!(material["emissiveFactor"], json!([1, 1, 1]));
+    let strength = &material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"];
+    assert_eq!(strength.as_f64(), Some(4.0));
+    assert_eq!(json["textures"].as_array().map(Vec::len), Some(4));
+    // Its materials give the same maps again.
+    let again = pair.path("again.png");
+    let line =
+        ["bake", text(&pair.path("low.glb")), "--high", text(&model), "-o", text(&again)].map(str::to_owned);
+    let line: Vec<&str> = line.iter().map(String::as_str).collect();
+    let more = ["--size", "16", "--cage-offset", "0.01", "--map", "base-color,roughness,metalness"];
+    darboux(&[&line[..], &more].concat()).exits(0);
+    for map in ["base-color", "roughness", "metalness"] {
+        let [first, second] = ["map", "again"].map(|name| fs::read(pair.path(&format!("{name}.{map}.png"))));
+        assert_eq!(first.expect("a map"), second.expect("a map"), "{map}");
+    }
+}
