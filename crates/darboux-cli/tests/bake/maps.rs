@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::json;
 
 use crate::common::{asset, darboux, names_in, text};
-use crate::pair::{FULL, Pair, edited, grey, near, plate};
+use crate::pair::{FULL, LEANING, Pair, edited, grey, half_size_plate, near, painted_high, plate};
 
 #[test]
 fn a_normal_map_is_written_and_not_replaced_unasked() {

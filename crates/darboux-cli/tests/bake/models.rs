@@ -5,7 +5,7 @@ use std::fs;
 use serde_json::{Value, json};
 
 use crate::common::{Run, darboux, text};
-use crate::pair::{FULL, Pair, edited, json_of, near, plate};
+use crate::pair::{FULL, Pair, edited, half_size_plate, json_of, near, painted_high, plate};
 
 #[test]
 fn verification_prints_degrees_and_draws_them() {
@@ -178,17 +178,6 @@ fn normal_maps_of_high_models_count() {
     assert!(near(&again(&["--no-high-maps"]), &[0.5, 0.5, 1.0], 1.0 / 65535.0));
 }
 
-/// A plate whose normal map shows its UVs at half their size.
-fn half_size_plate() -> Vec<u8> {
-    edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
-        json["meshes"][0]["primitives"][0]["material"] = 0.into();
-        let transform = json!({"KHR_texture_transform": {"scale": [0.5, 0.5]}});
-        json["materials"] = json!([{"normalTexture": {"index": 0, "extensions": transform}}]);
-        json["textures"] = json!([{}]);
-        json["extensionsUsed"] = json!(["KHR_texture_transform"]);
-    })
-}
-
 #[test]
 fn a_material_can_be_chosen_and_several_are_named() {
     let pair = Pair::new();
@@ -273,21 +262,6 @@ fn tangents_come_from_the_file_unless_a_method_is_named() {
     assert!(near(&pair.texel("map.png").0, &[0.5, leaning, upright], 1e-5), "{:?}", pair.texel("map.png"));
     pair.bake(&["--bits", "16", "--force", "--method", "mikktspace"]).exits(0);
     assert!(near(&pair.texel("map.png").0, &[1.0 - leaning, 0.5, upright], 1e-5));
-}
-
-/// A high model whose material has colour, roughness, metalness and light.
-fn painted_high(pair: &Pair) {
-    let high = edited(&plate([0.0, 0.0], &["POSITION"], 1.0), |json| {
-        json["meshes"][0]["primitives"][0]["material"] = 0.into();
-        json["materials"] = json!([{
-            "name": "paint",
-            "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 1], "roughnessFactor": 0.25, "metallicFactor": 0.75},
-            "emissiveFactor": [1, 1, 0.5],
-            "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}},
-        }]);
-        json["extensionsUsed"] = json!(["KHR_materials_emissive_strength"]);
-    });
-    fs::write(pair.path("high.glb"), high).expect("a file");
 }
 
 #[test]

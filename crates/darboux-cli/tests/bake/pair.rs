@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use crate::common::{Run, asset, darboux, text};
+use crate::common::{Run, darboux, text};
 
 /// A square plate over [0, 1] x [0, 1] with heights at x = 0 and x = 1, as the bytes of a GLB.
 pub fn plate(heights: [f32; 2], attributes: &[&str], scale: f32) -> Vec<u8> {
@@ -150,3 +150,32 @@ pub fn grey(path: &Path) -> Vec<u8> {
     reader.next_frame(&mut bytes).expect("texels");
     bytes
 }
+
+/// A high model whose material has colour, roughness, metalness and light.
+pub fn painted_high(pair: &Pair) {
+    let high = edited(&plate([0.0, 0.0], &["POSITION"], 1.0), |json| {
+        json["meshes"][0]["primitives"][0]["material"] = 0.into();
+        json["materials"] = json!([{
+            "name": "paint",
+            "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 1], "roughnessFactor": 0.25, "metallicFactor": 0.75},
+            "emissiveFactor": [1, 1, 0.5],
+            "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}},
+        }]);
+        json["extensionsUsed"] = json!(["KHR_materials_emissive_strength"]);
+    });
+    fs::write(pair.path("high.glb"), high).expect("a file");
+}
+
+/// A plate whose normal map shows its UVs at half their size.
+pub fn half_size_plate() -> Vec<u8> {
+    edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+        json["meshes"][0]["primitives"][0]["material"] = 0.into();
+        let transform = json!({"KHR_texture_transform": {"scale": [0.5, 0.5]}});
+        json["materials"] = json!([{"normalTexture": {"index": 0, "extensions": transform}}]);
+        json["textures"] = json!([{}]);
+        json["extensionsUsed"] = json!(["KHR_texture_transform"]);
+    })
+}
+
+/// A plate that leans along both axes of the image, as an OBJ.
+pub const LEANING: &str = "v 0 0 0\nv 1 0 0.5\nv 1 1 0.2\nv 0 1 -0.3\nf 1 2 3 4\n";

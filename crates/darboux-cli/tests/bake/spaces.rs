@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::{darboux, text};
-use crate::pair::{Pair, near, plate};
+use crate::pair::{LEANING, Pair, near};
 
 #[test]
 fn object_space_maps_become_tangent_space_ones_and_back() {
@@ -39,9 +39,6 @@ fn object_space_maps_become_tangent_space_ones_and_back() {
         "cannot be used with --space",
     );
 }
-
-/// A plate that leans along both axes of the image, as an OBJ.
-const LEANING: &str = "v 0 0 0\nv 1 0 0.5\nv 1 1 0.2\nv 0 1 -0.3\nf 1 2 3 4\n";
 
 /// Both maps of a bake in one convention are converted into every other one.
 #[test]
