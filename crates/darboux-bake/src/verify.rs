@@ -82,7 +82,8 @@ impl PreparedSurfaces<'_> {
         let mut bands: Vec<(usize, BandPoints)> =
             (0..points.band_count()).map(|row| (row, BandPoints::default())).collect();
         for_each_band(context, &mut bands, progress, |(row, band)| *band = points.band(*row))?;
-        Ok(summarize(bands.into_iter().map(|(_, band)| band).collect(), points.heat_size()))
+        let bands = bands.into_iter().map(|(_, band)| band).collect();
+        Ok(summarize(bands, low.len(), points.heat_size()))
     }
 }
 

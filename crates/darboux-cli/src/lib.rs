@@ -7,6 +7,7 @@ mod documents;
 mod exit;
 mod gpu;
 mod heat_scale;
+mod html_page;
 mod inputs;
 mod interrupt;
 mod json;

@@ -19,10 +19,12 @@ use crate::pose::{self, MAX_INFLUENCE_SETS, Vertices};
 use crate::subject::Subject;
 use crate::vertex::SurfaceVertex;
 
-/// The meshes of a document, ready to be drawn.
+/// The meshes of a document, or of several, ready to be drawn.
 pub struct Model<'a> {
-    pub(crate) document: &'a Document,
-    pub(crate) materials: Vec<Material>,
+    /// One, unless models were joined.
+    pub(crate) documents: Vec<&'a Document>,
+    /// Of all documents, each with the index of its document.
+    pub(crate) materials: Vec<(usize, Material)>,
     pub(crate) parts: Vec<Part>,
     /// Whether the tangents are derived from positions and UVs, as some shaders do.
     pub(crate) is_derived: bool,
@@ -65,7 +67,25 @@ impl<'a> Model<'a> {
             }
         }
         let skipped_primitives = skipped_primitives(document, &posed);
-        Ok(Self { document, materials, parts, is_derived: false, skipped_primitives })
+        let materials = materials.into_iter().map(|material| (0, material)).collect();
+        Ok(Self { documents: vec![document], materials, parts, is_derived: false, skipped_primitives })
+    }
+
+    /// The meshes of both models in one scene.
+    pub fn joined_with(mut self, other: Self) -> Self {
+        let (documents, materials) = (self.documents.len(), self.materials.len());
+        let meshes: usize = self.documents.iter().map(|document| document.meshes().len()).sum();
+        self.parts.extend(other.parts.into_iter().map(|mut part| {
+            part.mesh += meshes;
+            part.key[0] += meshes;
+            part.material = part.material.map(|material| material + materials);
+            part
+        }));
+        let later = other.materials.into_iter().map(|(document, material)| (document + documents, material));
+        self.materials.extend(later);
+        self.documents.extend(other.documents);
+        self.skipped_primitives += other.skipped_primitives;
+        self
     }
 
     /// The model with tangents that are derived from positions and UVs, as some shaders do, instead of its own.
@@ -92,8 +112,14 @@ impl<'a> Model<'a> {
             let wrong = mistakes::tangents(mistake, &part.corners, &part.tangent_uvs);
             part.corners.iter_mut().zip(wrong).for_each(|(corner, tangent)| corner.tangent = tangent);
         }
-        let Self { document, is_derived, skipped_primitives, .. } = *self;
-        Model { document, materials: self.materials.clone(), parts, is_derived, skipped_primitives }
+        let Self { documents, materials, is_derived, skipped_primitives, .. } = self;
+        Model {
+            documents: documents.clone(),
+            materials: materials.clone(),
+            parts,
+            is_derived: *is_derived,
+            skipped_primitives: *skipped_primitives,
+        }
     }
 
     /// The model with the angles to the tangents of another model of the same file, for [`View::Angle`](crate::View::Angle).

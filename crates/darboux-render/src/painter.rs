@@ -166,21 +166,21 @@ impl Painter<'_> {
 
     fn side(&self, side: &Side<'_>, columns: [u32; 2], warnings: &mut Vec<String>) -> SideResources {
         let Side { model, .. } = side;
-        let mut textures = Textures::new(self.gpu, model.document);
+        let mut textures: Vec<Textures<'_>> =
+            model.documents.iter().map(|document| Textures::new(self.gpu, document)).collect();
         let is_used = |index| {
             let mut parts = model.parts.iter();
             self.drawing.view().is_lit() && parts.any(|part| part.material == Some(index))
         };
-        let materials = model
-            .materials
-            .iter()
-            .enumerate()
-            .map(|(index, material)| is_used(index).then(|| self.material(material, &mut textures)));
+        let materials = model.materials.iter().enumerate().map(|(index, (document, material))| {
+            is_used(index).then(|| self.material(material, &mut textures[*document]))
+        });
         let materials = materials.collect();
-        let default_material = self.material(&Material::default(), &mut textures);
+        let default_material = self.material(&Material::default(), &mut textures[0]);
         let (lines, line_warning) = self.line_resources(side);
+        let of_textures = textures.into_iter().flat_map(|textures| textures.warnings);
         let side_warnings =
-            model.warnings(self.drawing.subject).into_iter().chain(textures.warnings).chain(line_warning);
+            model.warnings(self.drawing.subject).into_iter().chain(of_textures).chain(line_warning);
         for warning in side_warnings {
             // Two sides of one file have the same warnings.
             if !warnings.contains(&warning) {

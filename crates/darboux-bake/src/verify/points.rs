@@ -52,6 +52,8 @@ pub fn cell_side(layout: &Layout, low: &[LowSurface<'_>]) -> usize {
 #[derive(Clone, Copy, Debug)]
 pub struct PointErrors {
     pub place: VerifiedPlace,
+    /// The low surface.
+    pub surface: u32,
     /// The cell in the picture of errors.
     pub cell: u32,
     pub shown: f32,
@@ -144,6 +146,7 @@ impl Points<'_> {
         let error = |shown: Option<Vector>| shown.map_or(180.0, |shown| degrees(shown, truth));
         band.points.push(PointErrors {
             place: self.kind(place, owner == Some(face.placed)),
+            surface: face.placed.surface,
             cell: self.cell(place),
             shown: degrees(shown, truth),
             rounding: degrees(shown, unrounded),

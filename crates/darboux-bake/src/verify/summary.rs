@@ -16,6 +16,9 @@ pub struct Verification {
     pub rounding: ErrorStatistics,
     /// By what the filter reads at a point.
     pub places: Vec<(VerifiedPlace, ErrorStatistics)>,
+    /// Of each low surface, in their order.
+    #[serde(skip)]
+    pub surfaces: Vec<ErrorStatistics>,
     /// What renderers would show whose frames differ from those of the bake.
     pub mistakes: Vec<(Mistake, ErrorStatistics)>,
     /// Points whose ray hits nothing, so that there is nothing to compare with.
@@ -29,8 +32,8 @@ pub struct Verification {
     pub heat: Vec<f32>,
 }
 
-/// Merges the points of all bands.
-pub fn summarize(bands: Vec<BandPoints>, heat_size: [u32; 2]) -> Verification {
+/// Merges the points of all bands. `surfaces`: the number of low surfaces.
+pub fn summarize(bands: Vec<BandPoints>, surfaces: usize, heat_size: [u32; 2]) -> Verification {
     let points = || bands.iter().flat_map(|band| &band.points);
     let place = |place: VerifiedPlace| {
         let angles = points().filter(|point| point.place == place).map(|point| point.shown).collect();
@@ -43,12 +46,21 @@ pub fn summarize(bands: Vec<BandPoints>, heat_size: [u32; 2]) -> Verification {
         all: ErrorStatistics::of(points().map(|point| point.shown).collect()),
         rounding: ErrorStatistics::of(points().map(|point| point.rounding).collect()),
         places: VerifiedPlace::ALL.into_iter().map(place).collect(),
+        surfaces: by_surface(&bands, surfaces),
         mistakes: Mistake::ALL.into_iter().enumerate().map(mistake).collect(),
         points_without_hit: bands.iter().map(|band| band.without_hit).sum(),
         points_without_frame: bands.iter().map(|band| band.without_frame).sum(),
         heat_size,
         heat: heat(&bands, heat_size),
     }
+}
+
+fn by_surface(bands: &[BandPoints], surfaces: usize) -> Vec<ErrorStatistics> {
+    let mut angles = vec![Vec::new(); surfaces];
+    for point in bands.iter().flat_map(|band| &band.points) {
+        angles[point.surface as usize].push(point.shown);
+    }
+    angles.into_iter().map(ErrorStatistics::of).collect()
 }
 
 /// The largest error of each cell.

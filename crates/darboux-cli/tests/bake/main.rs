@@ -5,6 +5,7 @@ mod common;
 mod jobs;
 mod maps;
 mod models;
+mod page;
 mod pair;
 mod rays;
 mod spaces;

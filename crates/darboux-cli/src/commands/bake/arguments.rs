@@ -207,6 +207,10 @@ pub struct BakeArguments {
     #[arg(long, value_name = "MIN,MAX", requires = "verify", help_heading = "Results")]
     pub heat_range: Option<HeatRange>,
 
+    /// Write an HTML page with pictures of the maps, of errors and misses, and of the low model beside the high ones; it loads nothing
+    #[arg(long, value_name = "HTML", help_heading = "Results")]
+    pub report: Option<PathBuf>,
+
     /// Bake each NAME_low in the folder LOW from NAME_high, with the cage NAME_cage if there is one, into NAME.png in the folder of -o, or in LOW
     #[arg(long, help_heading = "Jobs")]
     pub suffixes: bool,

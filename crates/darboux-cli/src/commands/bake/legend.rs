@@ -1,5 +1,6 @@
 //! What the colours of maps stand for, as a JSON file beside the map.
 
+use darboux::Choice;
 use darboux_bake::{HighModel, IdColor, MapKind};
 use darboux_io::{Outputs, SaveOptions};
 use serde::Serialize;
@@ -7,25 +8,34 @@ use serde::Serialize;
 use super::arguments::BakeArguments;
 use super::outputs::maps_with_legends;
 
-/// A colour, and what it stands for. json.txt documents the fields.
-#[derive(Debug, Serialize)]
-struct LegendEntry<'a> {
-    /// `#rrggbb`.
-    color: String,
-    /// The number of the material, mesh, part or chart.
-    id: u32,
-    /// The name, if it has one.
-    name: Option<&'a str>,
-    texels: u64,
+/// The colours of a map.
+#[derive(Debug)]
+pub struct Legend {
+    /// The name of the map.
+    pub map: &'static str,
+    pub file: String,
+    pub entries: Vec<LegendEntry>,
 }
 
-/// Stages the legends; returns their paths. Errors are one sentence each.
+/// A colour, and what it stands for. json.txt documents the fields.
+#[derive(Debug, Serialize)]
+pub struct LegendEntry {
+    /// `#rrggbb`.
+    pub color: String,
+    /// The number of the material, mesh, part or chart.
+    pub id: u32,
+    /// The name, if it has one.
+    pub name: Option<String>,
+    pub texels: u64,
+}
+
+/// Stages the legends. Errors are one sentence each.
 pub fn stage_legends(
     arguments: &BakeArguments,
     legends: &[(MapKind, Vec<IdColor>)],
     highs: &[HighModel<'_>],
     outputs: &mut Outputs,
-) -> Result<Vec<String>, String> {
+) -> Result<Vec<Legend>, String> {
     let names = HighModel::names_of_all(highs, arguments.content.id_from);
     let mut staged = Vec::new();
     for (map, path) in maps_with_legends(arguments) {
@@ -37,7 +47,7 @@ pub fn stage_legends(
             LegendEntry {
                 color: format!("#{red:02x}{green:02x}{blue:02x}"),
                 id: color.id,
-                name: name.filter(|name| !name.is_empty()),
+                name: name.filter(|name| !name.is_empty()).map(str::to_owned),
                 texels: color.texels,
             }
         };
@@ -47,7 +57,7 @@ pub fn stage_legends(
         let options = SaveOptions::default().with_force(arguments.force);
         let staged_legend = outputs.stage_bytes(&legend_path, format!("{text}\n").as_bytes(), &options);
         staged_legend.map_err(|error| error.to_string())?;
-        staged.push(legend_path.display().to_string());
+        staged.push(Legend { map: map.name(), file: legend_path.display().to_string(), entries });
     }
     Ok(staged)
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use darboux_bake::{Images, LowModel, MapKind};
-use darboux_io::gltf::{AddTangentsOptions, MaterialTexture, add_tangents};
+use darboux_io::gltf::{AddTangentsOptions, Document, MaterialTexture, add_tangents};
 use darboux_io::image::{PngImage, linear_to_srgb};
 use darboux_io::{Outputs, SaveOptions};
 
@@ -13,8 +13,7 @@ use super::write::WrittenMaps;
 
 /// Refuses, before the bake, a model whose tangents `--write-model` cannot write. The error is one sentence.
 pub fn refuse_model(arguments: &BakeArguments, low: &LowModel<'_>) -> Result<(), String> {
-    let has_both = low.with_own_tangents > 0 && low.with_unused_tangents > 0;
-    if arguments.write_model.is_some() && has_both {
+    if arguments.write_model.is_some() && has_mixed_tangents(low) {
         return Err(format!(
             "{}: some primitives were baked with their own tangents and others with computed ones; add --method, which computes all",
             arguments.low.display()
@@ -23,9 +22,12 @@ pub fn refuse_model(arguments: &BakeArguments, low: &LowModel<'_>) -> Result<(),
     Ok(())
 }
 
+/// Whether some primitives were baked with the tangents of the file and others, which have some too, with computed ones.
+pub fn has_mixed_tangents(low: &LowModel<'_>) -> bool {
+    low.with_own_tangents > 0 && low.with_unused_tangents > 0
+}
+
 /// Stages the model and returns its path; none if it was not asked for. Errors are one sentence each.
-///
-/// The model is read again, because the bake still borrows the first one.
 pub fn stage_model(
     arguments: &BakeArguments,
     low: &LowModel<'_>,
@@ -35,11 +37,29 @@ pub fn stage_model(
     outputs: &mut Outputs,
 ) -> Result<Option<String>, String> {
     let Some(path) = &arguments.write_model else { return Ok(None) };
-    let mut document = open_low(arguments, &mut Vec::new())?;
     let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let document = baked_model(arguments, low, images, written.normal.as_ref(), &name, warnings)?;
+    let options = SaveOptions::default().with_force(arguments.force);
+    document.stage(path, &options, outputs).map_err(sentence)?;
+    Ok(Some(path.display().to_string()))
+}
+
+/// The low model with the maps in its materials and the tangents in its vertices. `normal`: in glTF's convention; `name`: of the images. Errors are one
+/// sentence each.
+///
+/// The model is read again, because the bake still borrows the first one.
+pub fn baked_model(
+    arguments: &BakeArguments,
+    low: &LowModel<'_>,
+    images: &Images,
+    normal: Option<&PngImage>,
+    name: &str,
+    warnings: &mut Vec<String>,
+) -> Result<Document, String> {
+    let mut document = open_low(arguments, &mut Vec::new())?;
     let primitives: Vec<_> = low.primitives().map(|(name, uv_set)| (name.clone(), uv_set)).collect();
-    if let Some(map) = &written.normal {
-        document.set_normal_map(map.to_bytes().map_err(sentence)?, &name, &primitives).map_err(sentence)?;
+    if let Some(map) = normal {
+        document.set_normal_map(map.to_bytes().map_err(sentence)?, name, &primitives).map_err(sentence)?;
     }
     for texture in textures_of_material(images)? {
         let name = format!("{name} {}", texture.name);
@@ -53,9 +73,7 @@ pub fn stage_model(
     };
     let tangents = add_tangents(&mut document, &options, &mut |_| {}).map_err(sentence)?;
     warnings.extend(tangents.warnings);
-    let options = SaveOptions::default().with_force(arguments.force);
-    document.stage(path, &options, outputs).map_err(sentence)?;
-    Ok(Some(path.display().to_string()))
+    Ok(document)
 }
 
 /// A texture of the low model's materials.

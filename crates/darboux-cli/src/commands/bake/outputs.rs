@@ -9,6 +9,7 @@ use super::arguments::{BakeArguments, Pack};
 use super::cage_file::is_glb;
 use super::encode::FileKind;
 use super::tile_names;
+use crate::html_page::refuse_no_page;
 use crate::paths::{is_png, refuse_missing_folder};
 
 /// The chosen maps, each once, with their files.
@@ -95,6 +96,9 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
             return Err(format!("{}: the model is a GLB; its name must end in .glb", model.display()));
         }
     }
+    if let Some(page) = &arguments.report {
+        refuse_no_page(page)?;
+    }
     if let Some(cage) = &arguments.write_cage {
         refuse_missing_folder(cage)?;
         if !is_glb(cage) {
@@ -127,9 +131,9 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
 pub fn all_outputs(arguments: &BakeArguments) -> Vec<PathBuf> {
     let maps = maps_of(arguments).into_iter().map(|(_, path)| path).chain(legends_of(arguments));
     let maps = maps.chain(packs_of(arguments).map(|(_, path)| path));
-    let BakeArguments { write_model, heat_map, heat_model, write_cage, .. } = arguments;
+    let BakeArguments { write_model, heat_map, heat_model, write_cage, report, .. } = arguments;
     let scale = heat_model.as_deref().map(scale_of);
-    let others = [write_model, heat_map, heat_model, write_cage].into_iter().flatten().cloned();
+    let others = [write_model, heat_map, heat_model, write_cage, report].into_iter().flatten().cloned();
     maps.chain(others).chain(scale).collect()
 }
 

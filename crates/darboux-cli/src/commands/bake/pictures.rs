@@ -1,6 +1,6 @@
 //! Pictures over the UV layout: where rays missed, and how large errors are.
 
-use darboux_bake::{Baked, TexelState, Verification};
+use darboux_bake::{Baked, Images, TexelState, Verification};
 use darboux_io::Outputs;
 use darboux_io::image::PngImage;
 
@@ -8,6 +8,7 @@ use super::arguments::BakeArguments;
 use super::report::advice;
 use super::write::stage;
 use crate::heat_scale::{HeatRange, ramp};
+use crate::html_page::raster::Raster;
 
 const OUTSIDE: [u8; 3] = [16, 16, 16];
 const HIT: [u8; 3] = [96, 96, 96];
@@ -39,25 +40,29 @@ pub fn misses(
         warnings.push(format!("{shown}: exists and does not show this run; use --force to replace it"));
         return Ok(None);
     }
+    let Raster { size, pixels } = of_misses(&baked.images);
+    let image = PngImage::from_rgb(&path.display().to_string(), size, &pixels);
+    stage(&image.map_err(|error| error.to_string())?, &path, true, outputs).map(Some)
+}
+
+/// The texels without a hit over the UV layout.
+pub fn of_misses(images: &Images) -> Raster {
     let color = |state: &TexelState| match state {
         TexelState::Missed => MISSED,
         TexelState::MissedBehind => MISSED_BEHIND,
         TexelState::Baked => HIT,
         _ => OUTSIDE,
     };
-    let texels: Vec<[u8; 3]> = baked.images.states.iter().map(color).collect();
-    let image = PngImage::from_rgb(&path.display().to_string(), baked.images.size, &texels);
-    stage(&image.map_err(|error| error.to_string())?, &path, true, outputs).map(Some)
+    Raster { size: images.size, pixels: images.states.iter().map(color).collect() }
 }
 
-/// The errors of a verification with the scale below them.
-pub fn heat_map(name: &str, verification: &Verification, range: HeatRange) -> Result<PngImage, String> {
-    let [width, height] = verification.heat_size;
-    let mut texels = heat_colors(verification, range);
-    texels.resize(width as usize * (height as usize + GAP), [0; 3]);
-    texels.extend(range.rows(width as usize).concat());
-    let size = [width, (texels.len() / width as usize) as u32];
-    PngImage::from_rgb(name, size, &texels).map_err(|error| error.to_string())
+/// The errors of a verification with the scale below them. `most`: the longest side of the picture without the scale.
+pub fn heat_map(verification: &Verification, range: HeatRange, most: u32) -> Raster {
+    let errors = Raster { size: verification.heat_size, pixels: heat_colors(verification, range) };
+    let Raster { size: [width, height], mut pixels } = errors.at_most(most);
+    pixels.resize(width as usize * (height as usize + GAP), [0; 3]);
+    pixels.extend(range.rows(width as usize).concat());
+    Raster { size: [width, (pixels.len() / width as usize) as u32], pixels }
 }
 
 /// The errors of a verification without a scale, as a texture. Texels outside the charts have the colour of the texel before them, so that

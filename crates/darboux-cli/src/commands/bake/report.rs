@@ -5,6 +5,7 @@ pub mod advice;
 use serde::Serialize;
 
 use super::cage::Rays;
+use super::seconds::Seconds;
 use super::verified::Verified;
 use super::write::WrittenMap;
 use crate::text::{counted, nonzero_counts};
@@ -32,6 +33,9 @@ pub struct BakeReport {
     /// Of all tiles together.
     pub counts: darboux_bake::BakeReport,
     pub verification: Option<Verified>,
+    pub seconds: Seconds,
+    /// The page.
+    pub report: Option<String>,
     /// One for each tile, where the output's name has `%UDIM%`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tiles: Vec<TileReport>,
@@ -53,7 +57,7 @@ impl BakeReport {
         let maps = self.maps.iter().map(|map| &map.file);
         let pictures = self.verifications().flat_map(Verified::files);
         let misses = self.misses.iter().chain(self.tiles.iter().filter_map(|tile| tile.misses.as_ref()));
-        let models = self.model.iter().chain(&self.cage);
+        let models = self.model.iter().chain(&self.cage).chain(&self.report);
         maps.chain(&self.legends).chain(models).chain(misses).chain(pictures).cloned().collect()
     }
 
@@ -102,6 +106,7 @@ pub fn summary(report: &BakeReport) -> Vec<String> {
     let of_tiles =
         tiles.flat_map(|(udim, verified)| [format!("tile {udim}:")].into_iter().chain(verified.lines()));
     let cage = report.cage.iter().map(|path| format!("{path}: the cage"));
+    let page = report.report.iter().map(|path| format!("{path}: the report"));
     let legends = report.legends.iter().map(|path| format!("{path}: what the colours stand for"));
     report
         .maps
@@ -110,6 +115,7 @@ pub fn summary(report: &BakeReport) -> Vec<String> {
         .chain(legends)
         .chain(model)
         .chain(cage)
+        .chain(page)
         .chain([of_run])
         .chain(verified)
         .chain(of_tiles)

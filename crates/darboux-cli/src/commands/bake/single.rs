@@ -18,8 +18,10 @@ use super::legend::stage_legends;
 use super::model::{refuse_model, stage_model};
 use super::open::open_low;
 use super::outputs::{all_outputs, refuse_outputs};
+use super::page::PageContent;
 use super::pictures;
 use super::report::{BakeReport, TileReport, advice, summary};
+use super::seconds::{Clock, Seconds};
 use super::skew::Skew;
 use super::tiles::{Tile, tiles_of};
 use super::verified::{PROGRESS_UNITS, Verified};
@@ -75,7 +77,7 @@ pub fn bake_files(
     run: Option<RunId>,
     messages: &Messages,
 ) -> Result<BakeReport, String> {
-    let mut warnings = Vec::new();
+    let (mut clock, mut warnings) = (Clock::start(), Vec::new());
     let documents = Documents::open(arguments, &mut warnings)?;
     let corners = documents.corners()?;
     let models = Models::read(arguments, &documents, &corners)?;
@@ -91,6 +93,7 @@ pub fn bake_files(
         let check = check_verification(&surfaces, &high_surfaces, &options(arguments, &rays));
         check.map_err(|error| format!("--verify cannot follow the bake: {error}"))?;
     }
+    let mut seconds = Seconds { reading: clock.lap(), ..Seconds::default() };
     let mut context = context(arguments);
     let prepared = PreparedSurfaces::new(&surfaces, &high_surfaces, memory::available(), &context);
     let prepared = prepared.map_err(text)?;
@@ -102,8 +105,12 @@ pub fn bake_files(
     warnings.extend(advice::of_rays(arguments, &surfaces, models.low.names(), rays.distance()[0]));
     let surfaces = prepared.with_low(&surfaces, &context).map_err(text)?;
 
+    seconds.building = clock.lap();
+
+    let outputs = Outputs::new(run);
+    let page = PageContent::default();
     let mut bake =
-        Run { models: &models, surfaces: &surfaces, context, messages, warnings, outputs: Outputs::new(run) };
+        Run { models: &models, surfaces: &surfaces, context, messages, warnings, clock, page, outputs };
     let cage = stage_cage(arguments, surfaces.low(), models.low.names(), &cages.0, &mut bake.outputs)?;
     let mut report = BakeReport {
         command: "bake",
@@ -120,14 +127,20 @@ pub fn bake_files(
         cage,
         counts: darboux_bake::BakeReport::default(),
         verification: None,
+        seconds,
+        report: None,
         tiles: Vec::new(),
         warnings: Vec::new(),
     };
     for tile in &tiles {
         bake.tile(tile, &options(arguments, &rays).with_udim(tile.udim), &mut report)?;
     }
-    commit(bake.outputs)?;
-    report.warnings = distinct(bake.warnings);
+    let Run { page, mut outputs, warnings, .. } = bake;
+    report.warnings = distinct(warnings);
+    // The pictures of the page need memory, too.
+    drop(surfaces);
+    report.report = page.stage(arguments, &report, &mut outputs)?;
+    commit(outputs)?;
     Ok(report)
 }
 
@@ -138,6 +151,8 @@ struct Run<'a> {
     context: Context,
     messages: &'a Messages,
     warnings: Vec<String>,
+    clock: Clock,
+    page: PageContent,
     outputs: Outputs,
 }
 
@@ -150,19 +165,25 @@ impl Run<'_> {
         let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
         let baked = self.surfaces.bake(options, &mut self.context, &mut tell).map_err(text)?;
         drop(tell);
+        report.seconds.rays += self.clock.lap();
         if let Some(reason) = advice::failure(&baked.report, arguments, low.elongation()) {
             return Err(udim.map_or(reason.clone(), |udim| format!("tile {udim}: {reason}")));
         }
         let outputs = &mut self.outputs;
-        let written = stage_maps(arguments, &baked.images, options, outputs)?;
+        let mut written = stage_maps(arguments, &baked.images, options, outputs)?;
         let misses = pictures::misses(arguments, &baked, &mut self.warnings, outputs)?;
-        report.legends.extend(stage_legends(arguments, &baked.legends, &self.models.highs, outputs)?);
+        let legends = stage_legends(arguments, &baked.legends, &self.models.highs, outputs)?;
+        report.legends.extend(legends.iter().map(|legend| legend.file.clone()));
         report.model = stage_model(arguments, low, &baked.images, &written, &mut self.warnings, outputs)?;
+        self.page.add(arguments, low, &baked, &mut written, legends, udim.is_some());
+        report.seconds.writing += self.clock.lap();
+        let names: Vec<&str> = low.names().collect();
         let verification = match &written.normal {
             Some(normal) if arguments.verify => {
                 let mut verified = Verified::new(
                     arguments,
                     self.surfaces,
+                    &names,
                     &baked.images,
                     normal,
                     options,
@@ -175,6 +196,7 @@ impl Run<'_> {
             }
             _ => None,
         };
+        report.seconds.verifying += self.clock.lap();
         let advice = advice::of_report(&baked.report, arguments, low.elongation(), misses.as_deref());
         let named = |warning: String| udim.map_or(warning.clone(), |udim| format!("tile {udim}: {warning}"));
         self.warnings.extend(advice.into_iter().map(named));

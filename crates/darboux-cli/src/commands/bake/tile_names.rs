@@ -17,7 +17,10 @@ pub fn has_place(path: &Path) -> bool {
 
 /// Refuses names of images that do not go together, and results that tiles do not have. The error is one sentence.
 pub fn check(arguments: &BakeArguments) -> Result<(), String> {
-    let BakeArguments { output, heat_map, heat_model, write_model, .. } = arguments;
+    let BakeArguments { output, heat_map, heat_model, write_model, report, .. } = arguments;
+    if let Some(page) = report.as_deref().filter(|path| has_place(path)) {
+        return Err(format!("{}: one page has all tiles; leave %UDIM% out", page.display()));
+    }
     if !has_place(output) {
         let misplaced =
             [heat_map, heat_model, write_model].into_iter().flatten().find(|path| has_place(path));

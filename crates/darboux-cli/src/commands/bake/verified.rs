@@ -15,6 +15,7 @@ use super::outputs::scale_of;
 use super::pictures;
 use super::write::stage;
 use crate::heat_scale::HeatRange;
+use crate::html_page::raster::Raster;
 use crate::terminal::Messages;
 
 /// The share of the progress bar that comparing has, and so has baking.
@@ -24,12 +25,26 @@ pub const PROGRESS_UNITS: u64 = 1 << 20;
 #[derive(Debug, Serialize)]
 pub struct Verified {
     #[serde(flatten)]
-    errors: Verification,
+    pub errors: Verification,
+    /// By part of the low model.
+    pub parts: Vec<PartErrors>,
     #[serde(skip)]
     range: HeatRange,
     heat_map: Option<String>,
     heat_model: Option<String>,
 }
+
+/// The errors of a part of the low model.
+#[derive(Debug, Serialize)]
+pub struct PartErrors {
+    /// Of its node or mesh; empty where neither has one.
+    pub name: String,
+    #[serde(flatten)]
+    pub errors: ErrorStatistics,
+}
+
+/// The longest side of the picture of errors in a page.
+const PAGE_SIDE: u32 = 512;
 
 impl Verified {
     /// Verifies a map and draws its errors. Errors are one sentence each.
@@ -37,6 +52,7 @@ impl Verified {
     pub fn new(
         arguments: &BakeArguments,
         surfaces: &PreparedSurfaces<'_>,
+        names: &[&str],
         baked: &Images,
         map: &PngImage,
         options: &BakeOptions,
@@ -55,11 +71,14 @@ impl Verified {
         let fitting = || HeatRange::fitting(errors.heat.iter().map(|&degrees| f64::from(degrees)));
         let range = arguments.heat_range.unwrap_or_else(fitting);
         let draw = |path: &std::path::PathBuf| {
-            let picture = pictures::heat_map(&path.display().to_string(), &errors, range)?;
-            stage(&picture, path, arguments.force, outputs)
+            let Raster { size, pixels } = pictures::heat_map(&errors, range, u32::MAX);
+            let picture = PngImage::from_rgb(&path.display().to_string(), size, &pixels);
+            stage(&picture.map_err(|error| error.to_string())?, path, arguments.force, outputs)
         };
         let heat_map = arguments.heat_map.as_ref().map(draw).transpose()?;
-        Ok(Self { errors, range, heat_map, heat_model: None })
+        let part = |(&name, &errors): (&&str, &ErrorStatistics)| PartErrors { name: name.to_owned(), errors };
+        let parts = names.iter().zip(&errors.surfaces).map(part).collect();
+        Ok(Self { errors, parts, range, heat_map, heat_model: None })
     }
 
     /// Stages the low model with these errors as its colours, if that was asked for. Errors are one sentence each.
@@ -77,23 +96,34 @@ impl Verified {
         Ok(())
     }
 
+    /// The errors over the UV layout, for a page.
+    pub fn picture(&self) -> Raster {
+        pictures::heat_map(&self.errors, self.range, PAGE_SIDE)
+    }
+
     /// The pictures and models that were written.
     pub fn files(&self) -> impl Iterator<Item = &String> {
         self.heat_map.iter().chain(&self.heat_model)
     }
 
+    /// The statistics with their names, indented below the first one where they are a part of it.
+    pub fn rows(&self) -> impl Iterator<Item = (&'static str, &ErrorStatistics)> {
+        let Verification { all, rounding, places, mistakes, .. } = &self.errors;
+        let found = places.iter().filter(|(_, errors)| errors.points > 0);
+        let of_places = found.map(|(place, errors)| (name_of_place(*place), errors));
+        let of_mistakes = mistakes.iter().map(|(mistake, errors)| (name_of_mistake(*mistake), errors));
+        [("the written map", all), ("  by rounding to its bits", rounding)]
+            .into_iter()
+            .chain(of_places)
+            .chain(of_mistakes)
+    }
+
     /// The statistics as a table.
     pub fn lines(&self) -> Vec<String> {
-        let Verification {
-            all, rounding, places, mistakes, points_without_hit, points_without_frame, ..
-        } = &self.errors;
+        let Verification { all, points_without_hit, points_without_frame, .. } = &self.errors;
         let mut lines =
             vec![format!("{:44}{:>9}{:>9}{:>9}{:>9}", "error in degrees", "median", "mean", "95 %", "worst")];
-        lines.push(line("the written map", all));
-        lines.push(line("  by rounding to its bits", rounding));
-        let found = places.iter().filter(|(_, errors)| errors.points > 0);
-        lines.extend(found.map(|(place, errors)| line(name_of_place(*place), errors)));
-        lines.extend(mistakes.iter().map(|(mistake, errors)| line(name_of_mistake(*mistake), errors)));
+        lines.extend(self.rows().map(|(what, errors)| line(what, errors)));
         for (count, what) in [
             (points_without_hit, "points have no high surface to compare with"),
             (points_without_frame, "points have no tangent frame"),

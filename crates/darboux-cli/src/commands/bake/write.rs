@@ -13,6 +13,8 @@ use super::dither::BlueNoise;
 use super::encode::{Channels, Encoding, FileKind};
 use super::files::{Notes, file_bytes, png};
 use super::outputs::{maps_of, packs_of};
+use super::thumbnail::thumbnail;
+use crate::html_page::raster::Raster;
 use crate::interrupt;
 
 /// A map that was written.
@@ -32,8 +34,10 @@ pub struct WrittenMap {
 #[derive(Debug, Default)]
 pub struct WrittenMaps {
     pub maps: Vec<WrittenMap>,
-    /// The normal map, if it was chosen.
+    /// The normal map, if it was chosen and something uses it.
     pub normal: Option<PngImage>,
+    /// For `--report`: a picture of each map.
+    pub pictures: Vec<Raster>,
 }
 
 /// Stages an image and returns its path. Errors are one sentence each.
@@ -69,6 +73,7 @@ pub fn stage_maps(
             let shown = path.display().to_string();
             let bytes = file_bytes(kind, &shown, channels, bits, &notes, noise)?;
             outputs.stage_bytes(path, &bytes, &save).map_err(|error| error.to_string())?;
+            written.pictures.extend(arguments.report.is_some().then(|| thumbnail(channels)));
             written.maps.push(WrittenMap { map: name.to_owned(), file: shown, udim, bits, range });
             Ok::<_, String>(())
         };
@@ -84,7 +89,8 @@ pub fn stage_maps(
         let range = encodings.iter().flat_map(|(_, encoding)| encoding.range.clone()).collect();
         stage_file(&path, &pack.name, bits, &Channels::packed(&encodings, images), range)?;
     }
-    if arguments.map.contains(&MapKind::Normal) && (arguments.verify || arguments.write_model.is_some()) {
+    let BakeArguments { map, verify, write_model, report, .. } = arguments;
+    if map.contains(&MapKind::Normal) && (*verify || write_model.is_some() || report.is_some()) {
         let encoding = encoding(MapKind::Normal);
         let channels = Channels::of_map(MapKind::Normal, &encoding, images);
         let bits = if kind == FileKind::Png { arguments.bits.unwrap_or(8) } else { 16 };

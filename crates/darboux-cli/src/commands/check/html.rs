@@ -16,38 +16,33 @@ use darboux_io::{Outputs, SaveOptions};
 
 use super::checks::Checks;
 use super::report::{CheckReport, CheckedFile};
+use crate::html_page::{HtmlPage, escaped, refuse_no_page};
 use crate::inputs::{Input, UsageError};
 use crate::interrupt;
-use crate::paths::refuse_missing_folder;
 use crate::text::counted;
 #[cfg(not(feature = "gpu"))]
 use no_painter::Painter;
 #[cfg(feature = "gpu")]
 use painter::Painter;
 use pictures::Pictures;
-use shared::{escaped, worst};
+use shared::worst;
 
 /// The number of files that have pictures, unless another one is chosen.
 pub const DEFAULT_PICTURES: usize = 20;
 
+/// Rules beside those of all pages.
 const STYLE: &str = include_str!("html/report.css");
 const SCRIPT: &str = include_str!("html/report.js");
 
 /// Refuses an output that is no HTML file in an existing folder, and standard input, whose model cannot be read again for pictures.
 pub fn refuse(output: &Path, inputs: &[PathBuf]) -> Result<(), UsageError> {
-    let is_html = output
-        .extension()
-        .is_some_and(|extension| ["html", "htm"].iter().any(|name| extension.eq_ignore_ascii_case(name)));
-    if !is_html {
-        let name = output.display();
-        return Err(UsageError(format!("{name}: the report is a page; its name must end in .html")));
-    }
+    refuse_no_page(output).map_err(UsageError)?;
     if inputs.iter().any(|input| input == Path::new("-")) {
         return Err(UsageError(
             "a report reads models twice; save standard input to a file first".to_owned(),
         ));
     }
-    refuse_missing_folder(output).map_err(UsageError)
+    Ok(())
 }
 
 /// A report as a page.
@@ -77,16 +72,15 @@ impl Page<'_> {
         };
         let sections: String = files.iter().enumerate().map(of_file).collect();
         let contents = if files.len() < 2 { String::new() } else { contents(files) };
-        let version = self.report.version;
-        format!(
-            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-            <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-            <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n\
-            <title>Darboux report</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>Darboux report</h1>\n<p>{}</p>\n</header>\n\
-            {contents}<main>\n{sections}</main>\n<footer><p>Written by darboux {version}. This file is complete: it loads nothing.</p></footer>\n\
-            <script>\n{SCRIPT}</script>\n</body>\n</html>\n",
-            escaped(&summary(self.report))
-        )
+        let page = HtmlPage {
+            title: "Darboux report",
+            summary: &summary(self.report),
+            contents,
+            main: sections,
+            style: STYLE,
+            script: SCRIPT,
+        };
+        page.text()
     }
 
     /// Draws the worst files with findings, by their numbers.

@@ -19,8 +19,8 @@ use crate::regular_file::{Links, open_regular};
 const MAX_LENGTH: u64 = 4 << 20;
 
 /// The keys whose values are paths.
-const PATHS: [&str; 8] =
-    ["low", "high", "output", "cage", "write-cage", "write-model", "heat-map", "heat-model"];
+const PATHS: [&str; 9] =
+    ["low", "high", "output", "cage", "write-cage", "write-model", "heat-map", "heat-model", "report"];
 
 /// Options whose value is one text of several elements, with commas.
 const LISTS: [&str; 5] = ["map", "size", "distance", "world-direction", "heat-range"];

@@ -31,6 +31,7 @@ pub fn entries(arguments: &BakeArguments) -> Result<Vec<Entry>, String> {
         arguments.high = pair.high;
         arguments.output = output.join(format!("{name}.png"));
         arguments.write_model = arguments.write_model.map(|_| output.join(format!("{name}.baked.glb")));
+        arguments.report = arguments.report.map(|_| output.join(format!("{name}.report.html")));
         arguments.write_cage = arguments.write_cage.map(|_| output.join(format!("{name}.cage.glb")));
         if pair.cage.is_some() {
             (arguments.cage, arguments.cage_offset, arguments.distance) = (pair.cage, None, None);

@@ -6,7 +6,8 @@ use super::super::groups::by_kind;
 use super::super::report::CheckedFile;
 use super::super::text;
 use super::pictures::{Pair, Pictures};
-use super::shared::{escaped, worst};
+use super::shared::worst;
+use crate::html_page::{escaped, with_code};
 use crate::text::counted;
 
 /// The number of places of a kind of finding that are written in full.
@@ -32,7 +33,7 @@ pub fn section(number: usize, file: &CheckedFile, pictures: Pictures) -> String 
     );
     match &file.error {
         Some(error) => html += &format!("<p class=\"diagnosis\">{}</p>\n", escaped(error)),
-        None => html += &format!("<p class=\"diagnosis\">{}</p>\n", in_words(&file.diagnosis)),
+        None => html += &format!("<p class=\"diagnosis\">{}</p>\n", with_code(&file.diagnosis)),
     }
     if let Some(map) = &file.map {
         html += &format!("<p>The map: {}.</p>\n", escaped(&text::verdict(map)));
@@ -95,7 +96,7 @@ fn card(group: &[&ReportedFinding]) -> String {
     if *severity > Severity::Info {
         html += &format!("<p><b>Looks like:</b> {}</p>\n", escaped(looks_like));
     }
-    html += &format!("<p><b>Cure:</b> {}</p>\n<p>{}</p>\n", in_words(&group[0].cure), with_fix(group));
+    html += &format!("<p><b>Cure:</b> {}</p>\n<p>{}</p>\n", with_code(&group[0].cure), with_fix(group));
     if group.len() > 1 {
         let more: String = group[1..].iter().take(PLACES).map(|finding| place(finding)).collect();
         let rest = match group.len().saturating_sub(1 + PLACES) {
@@ -132,14 +133,4 @@ fn with_fix(group: &[&ReportedFinding]) -> String {
         }
         (_, None) => "<code>--fix</code> repairs it.".to_owned(),
     }
-}
-
-/// Sentences with `code` in HTML.
-fn in_words(text: &str) -> String {
-    let mut html = String::new();
-    for (number, part) in text.split('`').enumerate() {
-        let part = escaped(part);
-        html += &if number % 2 == 1 { format!("<code>{part}</code>") } else { part };
-    }
-    html
 }

@@ -1,20 +1,14 @@
 //! Draws a model as it is in its file and as `--fix` repairs it, from the side on which they differ most.
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-use darboux::{NormalOptions, Shading};
 use darboux_check::{FixOptions, check_document, fix_document};
 use darboux_gpu::Gpu;
-use darboux_io::gltf::{AddNormalsOptions, AddTangentsOptions, Document, add_normals, add_tangents};
-use darboux_io::image::PngImage;
-use darboux_render::{Camera, HeatScale, Mistakes, Model, RenderOptions, Side, View, render};
+use darboux_render::Model;
 
 use super::super::checks::Checks;
 use super::pictures::{Pair, Pictures};
-use crate::commands::render::no_adapter;
 use crate::documents::load;
-use crate::gpu::without_driver_messages;
-use crate::heat_scale::{ENDS, FLIP, RAMP};
+use crate::html_page::drawing::{complete, draw, open_adapter};
+use crate::html_page::raster::Raster;
 use crate::inputs::Input;
 use crate::net;
 
@@ -41,7 +35,6 @@ const SEEN: u8 = 14;
 const LEAST: usize = 3;
 /// The side of the cells in which differing pixels are counted.
 const CELL: u32 = 40;
-const BACKGROUND: [u8; 3] = [51, 55, 62];
 
 /// Draws the models of a check.
 pub struct Painter<'a> {
@@ -53,8 +46,7 @@ pub struct Painter<'a> {
 impl<'a> Painter<'a> {
     /// Opens an adapter.
     pub fn open(checks: &'a Checks<'a>) -> Self {
-        let gpu = without_driver_messages(|| pollster::block_on(Gpu::open())).map_err(no_adapter);
-        Self { checks, gpu }
+        Self { checks, gpu: open_adapter() }
     }
 
     /// Draws a model.
@@ -79,9 +71,9 @@ impl<'a> Painter<'a> {
         complete(&mut original).map_err(sentence)?;
         let before = Model::read(&original).map_err(sentence)?;
         if !is_changed {
-            let picture = Raster::draw(gpu, &before, CAMERAS[0], SIZE)?;
+            let picture = draw(gpu, &before, &before, CAMERAS[0], SIZE)?;
             let why = "The model as it is in the file. Nothing that was found is repaired without guessing, so there is no second picture.";
-            return picture.png().map(|png| Pictures::One { png, size: SIZE, why: why.to_owned() });
+            return picture.address().map(|png| Pictures::One { png, size: SIZE, why: why.to_owned() });
         }
         complete(&mut repaired).map_err(sentence)?;
         let after = Model::read(&repaired).map_err(sentence)?;
@@ -89,38 +81,30 @@ impl<'a> Painter<'a> {
     }
 }
 
-/// Adds the normals and tangents that are missing, as renderers do.
-fn complete(document: &mut Document) -> Result<(), darboux_io::Error> {
-    let flat = NormalOptions::new().with_shading(Shading::Flat);
-    add_normals(document, &AddNormalsOptions::default().with_normals(flat), &mut |_| {})?;
-    add_tangents(document, &AddTangentsOptions::default(), &mut |_| {})?;
-    Ok(())
-}
-
 /// Draws both models from the camera with the largest difference: whole, and where they differ most.
 fn pairs(gpu: &Gpu, before: &Model<'_>, after: &Model<'_>) -> Result<Pictures, String> {
     let mut best = (0, CAMERAS[0]);
     for camera in CAMERAS {
         let [a, b] = both(gpu, before, after, camera, TRIAL)?;
-        let differing = a.differing(&b).count();
-        if differing > best.0 {
-            best = (differing, camera);
+        let count = differing(&a, &b).count();
+        if count > best.0 {
+            best = (count, camera);
         }
     }
-    let (differing, camera) = best;
-    if differing < LEAST {
-        let picture = Raster::draw(gpu, before, camera, SIZE)?;
+    let (count, camera) = best;
+    if count < LEAST {
+        let picture = draw(gpu, before, before, camera, SIZE)?;
         let why = format!(
             "The file and the repaired file look alike from {} sides in this light: the repair changes numbers, not this picture.",
             CAMERAS.len()
         );
-        return picture.png().map(|png| Pictures::One { png, size: SIZE, why });
+        return picture.address().map(|png| Pictures::One { png, size: SIZE, why });
     }
     let [a, b] = both(gpu, before, after, camera, SIZE.map(|side| REDUCTION * side))?;
-    let share = 100.0 * a.differing(&b).count() as f64 / a.pixels.len() as f64;
-    let corner = a.worst_window(&b);
-    let close = [&a, &b].map(|raster| raster.window(corner));
-    let whole = [a, b].map(|raster| raster.reduced());
+    let share = 100.0 * differing(&a, &b).count() as f64 / a.pixels.len() as f64;
+    let corner = worst_window(&a, &b);
+    let close = [&a, &b].map(|raster| window(raster, corner));
+    let whole = [a, b].map(|raster| raster.reduced(REDUCTION));
     let share = format!("The whole model; {share:.1} % of the pixels differ visibly");
     let closer = format!("{REDUCTION} times closer, where they differ most");
     Ok(Pictures::Pairs(vec![pair(closer, &close)?, pair(share, &whole)?]))
@@ -128,9 +112,9 @@ fn pairs(gpu: &Gpu, before: &Model<'_>, after: &Model<'_>) -> Result<Pictures, S
 
 /// Both pictures, with the slider where they differ.
 fn pair(caption: String, [before, after]: &[Raster; 2]) -> Result<Pair, String> {
-    let middle = f64::from(before.middle_of_difference(after)[0]);
+    let middle = f64::from(middle_of_difference(before, after)[0]);
     let split = (100.0 * middle / f64::from(SIZE[0])).round().clamp(10.0, 90.0) as u32;
-    Ok(Pair { caption, before: before.png()?, after: after.png()?, size: SIZE, split })
+    Ok(Pair { caption, before: before.address()?, after: after.address()?, size: SIZE, split })
 }
 
 /// The same view of both models.
@@ -141,93 +125,52 @@ fn both(
     camera: [f64; 2],
     size: [u32; 2],
 ) -> Result<[Raster; 2], String> {
-    Ok([Raster::draw(gpu, before, camera, size)?, Raster::draw(gpu, after, camera, size)?])
+    Ok([draw(gpu, before, before, camera, size)?, draw(gpu, after, after, camera, size)?])
 }
 
-/// Pixels, row by row.
-struct Raster {
-    size: [u32; 2],
-    pixels: Vec<[u8; 3]>,
+/// The numbers of the pixels that differ visibly between two pictures.
+fn differing(a: &Raster, b: &Raster) -> impl Iterator<Item = usize> {
+    let pairs = a.pixels.iter().zip(&b.pixels).enumerate();
+    pairs.filter(|(_, (a, b))| (0..3).any(|i| a[i].abs_diff(b[i]) > SEEN)).map(|(number, _)| number)
 }
 
-impl Raster {
-    fn draw(gpu: &Gpu, model: &Model<'_>, [yaw, pitch]: [f64; 2], size: [u32; 2]) -> Result<Self, String> {
-        let heat = HeatScale { ends: ENDS.map(|end| end as f32), ramp: RAMP, flip: FLIP, none: [0; 3] };
-        let options = RenderOptions::new(View::Shaded, size, heat)
-            .with_camera(Camera { yaw, pitch, zoom: 1.0 })
-            .with_background(BACKGROUND);
-        let side = Side { model, mistakes: Mistakes::default() };
-        let picture = render(gpu, side, None, &options).map_err(|error| error.to_string())?;
-        Ok(Self { size, pixels: picture.pixels })
+/// The corner of the window of [`SIZE`] with the most pixels that differ.
+fn worst_window(a: &Raster, b: &Raster) -> [u32; 2] {
+    let [across, down] = a.size.map(|side| (side / CELL) as usize);
+    let mut cells = vec![0usize; across * down];
+    for number in differing(a, b) {
+        let [x, y] = [number as u32 % a.size[0], number as u32 / a.size[0]].map(|at| at / CELL);
+        cells[y as usize * across + x as usize] += 1;
     }
+    let [wide, high] = SIZE.map(|side| (side / CELL) as usize);
+    let sum = |x: usize, y: usize| -> usize {
+        (y..y + high).map(|row| cells[row * across + x..][..wide].iter().sum::<usize>()).sum()
+    };
+    let corners = (0..=down - high).flat_map(|y| (0..=across - wide).map(move |x| (x, y)));
+    let (x, y) = corners.max_by_key(|&(x, y)| sum(x, y)).unwrap_or_default();
+    let corner = [x, y].map(|cell| cell as u32 * CELL);
+    let middle = middle_of_difference(&window(a, corner), &window(b, corner));
+    [0, 1].map(|i| (corner[i] + middle[i]).saturating_sub(SIZE[i] / 2).min(a.size[i] - SIZE[i]))
+}
 
-    /// The numbers of the pixels that differ visibly from another picture's.
-    fn differing(&self, other: &Self) -> impl Iterator<Item = usize> {
-        let pairs = self.pixels.iter().zip(&other.pixels).enumerate();
-        pairs.filter(|(_, (a, b))| (0..3).any(|i| a[i].abs_diff(b[i]) > SEEN)).map(|(number, _)| number)
+/// The mean place of the pixels that differ; the middle of the picture where none does.
+fn middle_of_difference(a: &Raster, b: &Raster) -> [u32; 2] {
+    let width = u64::from(a.size[0]);
+    let (mut sums, mut count) = ([0u64; 2], 0u64);
+    for number in differing(a, b) {
+        sums[0] += number as u64 % width;
+        sums[1] += number as u64 / width;
+        count += 1;
     }
+    if count == 0 { a.size.map(|side| side / 2) } else { sums.map(|sum| (sum / count) as u32) }
+}
 
-    /// The corner of the window of [`SIZE`] with the most pixels that differ.
-    fn worst_window(&self, other: &Self) -> [u32; 2] {
-        let [across, down] = self.size.map(|side| (side / CELL) as usize);
-        let mut cells = vec![0usize; across * down];
-        for number in self.differing(other) {
-            let [x, y] = [number as u32 % self.size[0], number as u32 / self.size[0]].map(|at| at / CELL);
-            cells[y as usize * across + x as usize] += 1;
-        }
-        let [wide, high] = SIZE.map(|side| (side / CELL) as usize);
-        let sum = |x: usize, y: usize| -> usize {
-            (y..y + high).map(|row| cells[row * across + x..][..wide].iter().sum::<usize>()).sum()
-        };
-        let corners = (0..=down - high).flat_map(|y| (0..=across - wide).map(move |x| (x, y)));
-        let (x, y) = corners.max_by_key(|&(x, y)| sum(x, y)).unwrap_or_default();
-        let corner = [x, y].map(|cell| cell as u32 * CELL);
-        let middle = self.window(corner).middle_of_difference(&other.window(corner));
-        [0, 1].map(|i| (corner[i] + middle[i]).saturating_sub(SIZE[i] / 2).min(self.size[i] - SIZE[i]))
-    }
-
-    /// The mean place of the pixels that differ; the middle of the picture where none does.
-    fn middle_of_difference(&self, other: &Self) -> [u32; 2] {
-        let width = u64::from(self.size[0]);
-        let (mut sums, mut count) = ([0u64; 2], 0u64);
-        for number in self.differing(other) {
-            sums[0] += number as u64 % width;
-            sums[1] += number as u64 / width;
-            count += 1;
-        }
-        if count == 0 { self.size.map(|side| side / 2) } else { sums.map(|sum| (sum / count) as u32) }
-    }
-
-    /// A part of [`SIZE`].
-    fn window(&self, [left, top]: [u32; 2]) -> Self {
-        let [width, height] = SIZE;
-        let row = |y: u32| {
-            let start = ((top + y) * self.size[0] + left) as usize;
-            &self.pixels[start..start + width as usize]
-        };
-        Self { size: SIZE, pixels: (0..height).flat_map(|y| row(y).to_vec()).collect() }
-    }
-
-    /// The mean colours of squares of [`REDUCTION`] pixels.
-    fn reduced(&self) -> Self {
-        let [width, height] = self.size.map(|side| side / REDUCTION);
-        let mean = |x: u32, y: u32, channel: usize| {
-            let in_square = (0..REDUCTION * REDUCTION).map(|at| {
-                let [dx, dy] = [at % REDUCTION, at / REDUCTION];
-                let number = (REDUCTION * y + dy) * self.size[0] + REDUCTION * x + dx;
-                u32::from(self.pixels[number as usize][channel])
-            });
-            (in_square.sum::<u32>() / (REDUCTION * REDUCTION)) as u8
-        };
-        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
-        let pixels = pixels.map(|[x, y]| [0, 1, 2].map(|channel| mean(x, y, channel))).collect();
-        Self { size: [width, height], pixels }
-    }
-
-    /// The address that holds the picture as a PNG.
-    fn png(&self) -> Result<String, String> {
-        let image = PngImage::from_rgb("the picture", self.size, &self.pixels);
-        let bytes = image.and_then(|image| image.to_bytes()).map_err(|error| error.to_string())?;
-        Ok(format!("data:image/png;base64,{}", STANDARD.encode(bytes)))
-    }
+/// A part of [`SIZE`].
+fn window(raster: &Raster, [left, top]: [u32; 2]) -> Raster {
+    let [width, height] = SIZE;
+    let row = |y: u32| {
+        let start = ((top + y) * raster.size[0] + left) as usize;
+        &raster.pixels[start..start + width as usize]
+    };
+    Raster { size: SIZE, pixels: (0..height).flat_map(|y| row(y).to_vec()).collect() }
 }
