@@ -3,6 +3,7 @@
 #[cfg(feature = "gpu")]
 pub mod drawing;
 mod html_text;
+#[cfg(any(feature = "bake", feature = "gpu"))]
 pub mod raster;
 
 use std::path::Path;

@@ -35,6 +35,7 @@ impl Raster {
     }
 
     /// The picture with no side longer than `most` pixels.
+    #[cfg(feature = "bake")]
     pub fn at_most(self, most: u32) -> Self {
         match self.size[0].max(self.size[1]).div_ceil(most) {
             0 | 1 => self,
