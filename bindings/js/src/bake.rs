@@ -1,12 +1,12 @@
-//! `bakeModels` of `darboux/bake`: maps of a low model from the detail of high ones; and what `bake` shares with it.
+//! `bakeModels` of `darboux/bake`: maps of a low model from the detail of high ones; and what its other functions share with it.
 
 use std::collections::BTreeMap;
 
 use darboux::{Choice, Context, Convention};
 use darboux_bake::{
     BakeOptions, BakeProgress, BakeReport, Baked, Bitangent, CurvatureRadius, HighModel, HighModelOptions,
-    IdColor, IdSource, LowModel, LowModelOptions, LowSurface, MapKind, MapSet, bake, default_cage_offset,
-    group_by_name, inflated_cage,
+    HighSurface, IdColor, IdSource, LowModel, LowModelOptions, LowSurface, MapKind, MapSet, Udim, bake,
+    default_cage_offset, group_by_name, inflated_cage,
 };
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
@@ -74,7 +74,7 @@ pub extern "C" fn baked_states() -> *const u8 {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Options {
-    size: [u32; 2],
+    pub size: [u32; 2],
     cage_offset: Option<f32>,
     pub distance: Option<[f32; 2]>,
     /// Numbers in [`MapKind::ALL`].
@@ -82,8 +82,13 @@ pub struct Options {
     samples: u32,
     is_per_vertex: bool,
     convention: String,
+    /// Of the map that is converted.
+    source_convention: String,
     mesh_convention: String,
-    padding: Option<u32>,
+    /// Whether a map becomes one in object space.
+    pub to_object: bool,
+    pub padding: Option<u32>,
+    udim: Option<u32>,
     back_faces: bool,
     material: Option<usize>,
     uv_set: Option<usize>,
@@ -100,6 +105,53 @@ pub struct Options {
     id_from: String,
     world_direction: [f32; 3],
     texture: Option<String>,
+}
+
+impl Options {
+    pub fn convention(&self) -> Result<Convention, String> {
+        self.convention.parse().map_err(|error| format!("convention: {error}"))
+    }
+
+    pub fn source_convention(&self) -> Result<Convention, String> {
+        self.source_convention.parse().map_err(|error| format!("sourceConvention: {error}"))
+    }
+
+    pub fn mesh_convention(&self) -> Result<Convention, String> {
+        self.mesh_convention.parse().map_err(|error| format!("meshConvention: {error}"))
+    }
+
+    pub fn bitangent(&self) -> Bitangent {
+        if self.is_per_vertex { Bitangent::PerVertex } else { Bitangent::PerPixel }
+    }
+
+    /// The tile that is worked on; none for all.
+    pub fn udim(&self) -> Result<Option<Udim>, String> {
+        let known = |number| {
+            Udim::from_number(number)
+                .ok_or_else(|| format!("udim is {number}; it must be a number of a tile, 1001 to 9990"))
+        };
+        self.udim.map(known).transpose()
+    }
+}
+
+/// What was chosen for models or meshes before the work on them.
+#[derive(Default)]
+pub struct Setup {
+    pub diagonal: f64,
+    pub distance: [f32; 2],
+    pub has_cage: bool,
+    pub warnings: Vec<String>,
+    /// Of what the colours of [`MapKind::Id`] stand for.
+    pub id_names: Vec<String>,
+    /// Of the low surfaces.
+    pub part_names: Vec<String>,
+}
+
+/// The surfaces that are worked on.
+pub struct Surfaces<'a> {
+    pub low: &'a [LowSurface<'a>],
+    pub high: &'a [HighSurface<'a>],
+    pub settings: &'a BakeOptions,
 }
 
 /// What a bake reports beside its images.
@@ -124,11 +176,19 @@ pub struct LegendEntry {
     texels: u64,
 }
 
+impl Report {
+    pub fn new(baked: &Baked, setup: Setup) -> Self {
+        let Setup { diagonal, distance, has_cage, warnings, id_names, .. } = setup;
+        let legends = legends(baked, &id_names);
+        Self { counts: baked.report, diagonal, distance, has_cage, warnings, legends }
+    }
+}
+
 /// The legends of a bake. `names`: of what the colours of [`MapKind::Id`] stand for.
-pub fn legends(baked: &Baked, names: &[&str]) -> BTreeMap<&'static str, Vec<LegendEntry>> {
+fn legends(baked: &Baked, names: &[String]) -> BTreeMap<&'static str, Vec<LegendEntry>> {
     let entry = |kind: MapKind, color: &IdColor| LegendEntry {
         id: color.id,
-        name: names.get(color.id as usize).filter(|_| kind == MapKind::Id).map(|&name| name.to_owned()),
+        name: names.get(color.id as usize).filter(|_| kind == MapKind::Id).cloned(),
         color: color.color,
         texels: color.texels,
     };
@@ -138,10 +198,11 @@ pub fn legends(baked: &Baked, names: &[&str]) -> BTreeMap<&'static str, Vec<Lege
     baked.legends.iter().map(of_map).collect()
 }
 
+/// A report, or one sentence why there is none.
 #[derive(Serialize)]
-enum Outcome {
+pub enum Outcome<R> {
     #[serde(rename = "report")]
-    Report(Report),
+    Report(R),
     #[serde(rename = "error")]
     Error(String),
 }
@@ -151,15 +212,22 @@ enum Outcome {
 pub extern "C" fn bake_models() -> *const u8 {
     with_arena(|arena| {
         let arrays = &mut arena.bake;
-        let result = bake_files(&arrays.files, &arrays.options, &mut arena.context);
-        put_outcome(arrays, result)
+        let result = with_models(&arrays.files, &arrays.options, &mut arena.context, bake_surfaces);
+        put_baked(arrays, result)
     })
 }
 
+/// Bakes surfaces. Errors: one sentence.
+pub fn bake_surfaces(surfaces: Surfaces<'_>, context: &mut Context) -> Result<Baked, String> {
+    let Surfaces { low, high, settings } = surfaces;
+    bake(low, high, settings, context, &mut tell).map_err(text)
+}
+
 /// Keeps the images and the report of a bake, or the sentence why there is none. Returns the address of the JSON.
-pub fn put_outcome(arrays: &mut BakeArrays, result: Result<(Baked, Report), String>) -> *const u8 {
+pub fn put_baked(arrays: &mut BakeArrays, result: Result<(Baked, Setup), String>) -> *const u8 {
     let outcome = match result {
-        Ok((baked, report)) => {
+        Ok((baked, setup)) => {
+            let report = Report::new(&baked, setup);
             arrays.states = baked.images.states.iter().map(|state| state.number()).collect();
             arrays.images = baked.images;
             Outcome::Report(report)
@@ -178,16 +246,20 @@ pub fn tell(BakeProgress { done, total }: BakeProgress) {
     progress(done, total);
 }
 
-/// Reads the models and bakes them. Errors: one sentence.
-fn bake_files(files: &[Vec<u8>], options: &[u8], context: &mut Context) -> Result<(Baked, Report), String> {
+/// Reads the models and works on their surfaces. Errors: one sentence.
+pub fn with_models<T>(
+    files: &[Vec<u8>],
+    options: &[u8],
+    context: &mut Context,
+    work: impl FnOnce(Surfaces<'_>, &mut Context) -> Result<T, String>,
+) -> Result<(T, Setup), String> {
     let options = read_options(options)?;
     let (low_file, high_files) = files.split_first().ok_or("there is no model to bake")?;
     let low_document = open("the low model", low_file)?;
     let high_documents: Vec<_> =
         high_files.iter().map(|file| open("the high model", file)).collect::<Result<_, _>>()?;
     let low_corners = low_document.corners().map_err(sentence)?;
-    let low_options = LowModelOptions::default().with_uv_set(options.uv_set).with_material(options.material);
-    let low = LowModel::read(&low_document, &low_corners, &low_options).map_err(sentence)?;
+    let low = LowModel::read(&low_document, &low_corners, &low_options(&options)).map_err(sentence)?;
     let high_corners: Vec<_> =
         high_documents.iter().map(Document::corners).collect::<Result<_, _>>().map_err(sentence)?;
     let high_options = HighModelOptions::default()
@@ -195,19 +267,33 @@ fn bake_files(files: &[Vec<u8>], options: &[u8], context: &mut Context) -> Resul
         .with_maps(chosen_maps(&options))
         .with_texture(options.texture.clone());
     let highs = HighModel::read_all(&high_documents, &high_corners, &high_options).map_err(sentence)?;
-    let mut report = Report {
-        counts: BakeReport::default(),
+    let source = options.id_from.parse::<IdSource>().unwrap_or_default();
+    let mut setup = Setup {
         diagonal: low.diagonal(),
         distance: distance(&options, low.diagonal()),
         has_cage: options.distance.is_none(),
         warnings: warnings(&low, &highs),
-        legends: BTreeMap::new(),
+        id_names: HighModel::names_of_all(&highs, source).into_iter().map(str::to_owned).collect(),
+        part_names: low.names().map(str::to_owned).collect(),
     };
-    let baked = bake_read(&low, &highs, &options, &mut report, context)?;
-    report.counts = baked.report;
-    let source = options.id_from.parse::<IdSource>().unwrap_or_default();
-    report.legends = legends(&baked, &HighModel::names_of_all(&highs, source));
-    Ok((baked, report))
+    let done = with_read(&low, &highs, &options, &mut setup, context, work)?;
+    Ok((done, setup))
+}
+
+/// Reads the low model and works on its surfaces. Errors: one sentence.
+pub fn with_low_model<T>(
+    files: &[Vec<u8>],
+    options: &Options,
+    work: impl FnOnce(&[LowSurface<'_>]) -> Result<T, String>,
+) -> Result<T, String> {
+    let document = open("the model", files.first().ok_or("there is no model")?)?;
+    let corners = document.corners().map_err(sentence)?;
+    let low = LowModel::read(&document, &corners, &low_options(options)).map_err(sentence)?;
+    work(&low.surfaces().map_err(sentence)?)
+}
+
+fn low_options(options: &Options) -> LowModelOptions {
+    LowModelOptions::default().with_uv_set(options.uv_set).with_material(options.material)
 }
 
 fn chosen_maps(options: &Options) -> MapSet {
@@ -216,14 +302,15 @@ fn chosen_maps(options: &Options) -> MapSet {
     MapSet::of(&kinds)
 }
 
-/// Bakes models that were read.
-fn bake_read(
+/// Works on models that were read.
+fn with_read<T>(
     low: &LowModel<'_>,
     highs: &[HighModel<'_>],
     options: &Options,
-    report: &mut Report,
+    setup: &mut Setup,
     context: &mut Context,
-) -> Result<Baked, String> {
+    work: impl FnOnce(Surfaces<'_>, &mut Context) -> Result<T, String>,
+) -> Result<T, String> {
     let mut low_surfaces = low.surfaces().map_err(sentence)?;
     let mut high_surfaces = HighModel::surfaces_of_all(highs).map_err(sentence)?;
     if options.matches_names {
@@ -231,10 +318,10 @@ fn bake_read(
         if high_surfaces.is_empty() {
             return Err(unpaired.join("; "));
         }
-        report.warnings.extend(unpaired);
+        setup.warnings.extend(unpaired);
     }
-    let cages = match report.has_cage {
-        true => cages(&low_surfaces, report.distance[0])?,
+    let cages = match setup.has_cage {
+        true => cages(&low_surfaces, setup.distance[0])?,
         false => Vec::new(),
     };
     let mut placed = Vec::with_capacity(low_surfaces.len());
@@ -244,24 +331,20 @@ fn bake_read(
             None => surface,
         });
     }
-    let settings = bake_settings(options, report.distance)?;
-    bake(&placed, &high_surfaces, &settings, context, &mut tell).map_err(text)
+    let settings = bake_settings(options, setup.distance)?;
+    work(Surfaces { low: &placed, high: &high_surfaces, settings: &settings }, context)
 }
 
 pub fn bake_settings(options: &Options, distance: [f32; 2]) -> Result<BakeOptions, String> {
-    let convention: Convention =
-        options.convention.parse().map_err(|error| format!("convention: {error}"))?;
-    let mesh_convention: Convention =
-        options.mesh_convention.parse().map_err(|error| format!("meshConvention: {error}"))?;
-    let bitangent = if options.is_per_vertex { Bitangent::PerVertex } else { Bitangent::PerPixel };
     Ok(BakeOptions::new(options.size, distance)
         .with_maps(chosen_maps(options))
         .with_samples_per_axis(options.samples)
         .with_back_faces(options.back_faces)
-        .with_bitangent(bitangent)
-        .with_surface_convention(mesh_convention)
-        .with_map_convention(convention)
+        .with_bitangent(options.bitangent())
+        .with_surface_convention(options.mesh_convention()?)
+        .with_map_convention(options.convention()?)
         .with_padding(options.padding)
+        .with_udim(options.udim()?)
         .with_occlusion(options.ao_rays, options.ao_distance.unwrap_or(f32::INFINITY))
         .with_occlusion_falloff(options.ao_falloff.parse().map_err(|error| format!("aoFalloff: {error}"))?)
         .with_occlusion_weights(options.ao_weights.parse().map_err(|error| format!("aoWeights: {error}"))?)

@@ -1,5 +1,6 @@
 //! Inputs and outputs that only the functions of `darboux/bake` have.
 
+use darboux::{Channel, TexelLayout};
 use darboux_bake::Images;
 use serde::Serialize;
 
@@ -15,6 +16,11 @@ pub struct BakeArrays {
     pub high_positions: Vec<f32>,
     pub high_normals: Option<Vec<f32>>,
     pub high_indices: Option<Vec<u32>>,
+    /// The map of a bake that is verified, three floats per texel, and its states.
+    pub given_normals: Vec<f32>,
+    pub given_states: Vec<u8>,
+    /// The map as a file has it.
+    pub given_map: GivenMap,
     /// The options, as JSON.
     pub options: Vec<u8>,
     /// The report, as JSON.
@@ -22,6 +28,38 @@ pub struct BakeArrays {
     pub images: Images,
     /// One per texel, as numbers.
     pub states: Vec<u8>,
+    /// The errors of a verification, one per texel.
+    pub heat: Vec<f32>,
+    /// The result of a conversion.
+    pub converted: Vec<[f32; 3]>,
+}
+
+/// A normal map: three components per texel, as floats or as codes; none without floats.
+pub enum GivenMap {
+    Floats(Vec<f32>),
+    Bytes(Vec<u8>),
+    Words(Vec<u16>),
+}
+
+impl Default for GivenMap {
+    fn default() -> Self {
+        Self::Floats(Vec::new())
+    }
+}
+
+impl GivenMap {
+    /// The vectors of all texels.
+    pub fn vectors(&self) -> Vec<[f32; 3]> {
+        match self {
+            Self::Floats(floats) => floats.as_chunks().0.to_vec(),
+            Self::Bytes(codes) => decoded(codes),
+            Self::Words(codes) => decoded(codes),
+        }
+    }
+}
+
+fn decoded<C: Channel>(codes: &[C]) -> Vec<[f32; 3]> {
+    codes.as_chunks::<3>().0.iter().map(|&texel| TexelLayout::RGB.vector(texel)).collect()
 }
 
 impl BakeArrays {

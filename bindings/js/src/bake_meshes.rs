@@ -3,10 +3,10 @@
 //! The low mesh lies in the arena as the meshes of other functions do.
 
 use darboux::{Context, Indices, Mesh, Strided, TangentOptions, write_tangents};
-use darboux_bake::{Baked, HighSurface, LowSurface, bake, inflated_cage};
+use darboux_bake::{HighSurface, LowSurface, inflated_cage};
 
 use crate::arena::{Arena, with_arena};
-use crate::bake::{Report, bake_settings, distance, legends, put_outcome, read_options, tell, text};
+use crate::bake::{Setup, Surfaces, bake_settings, bake_surfaces, distance, put_baked, read_options, text};
 use crate::bake_arrays::BakeArrays;
 use crate::inputs::resized;
 use crate::mesh_arrays::{Surface, Vertices, rows};
@@ -46,19 +46,48 @@ pub extern "C" fn high_indices(corners: usize) -> *mut u32 {
 pub extern "C" fn bake_meshes() -> *const u8 {
     with_arena(|arena| {
         let Arena { vertices, surface, bake: arrays, context, .. } = arena;
-        let result = bake_arrays(vertices, surface, arrays, context);
-        put_outcome(arrays, result)
+        let result = with_meshes((vertices, surface), arrays, context, bake_surfaces);
+        put_baked(arrays, result)
     })
 }
 
-/// Errors: one sentence.
-fn bake_arrays(
-    vertices: &Vertices,
-    surface: &Surface,
+/// Works on the meshes in the arena. Errors: one sentence.
+pub fn with_meshes<T>(
+    low: (&Vertices, &Surface),
     arrays: &BakeArrays,
     context: &mut Context,
-) -> Result<(Baked, Report), String> {
+    work: impl FnOnce(Surfaces<'_>, &mut Context) -> Result<T, String>,
+) -> Result<(T, Setup), String> {
     let options = read_options(&arrays.options)?;
+    with_low_mesh(low, arrays, context, |low, context| {
+        let distance = distance(&options, low.diagonal());
+        let inflated = match (&arrays.cage, options.distance) {
+            (None, None) => Some(inflated_cage(low.mesh(), distance[0]).map_err(text)?),
+            _ => None,
+        };
+        let cage = arrays.cage.as_deref().map(rows).or(inflated.as_deref());
+        let placed = cage.map_or(Ok(low), |cage| low.with_cage(cage)).map_err(text)?;
+        let high = high_surface(arrays)?;
+        let settings = bake_settings(&options, distance)?;
+        let done = work(Surfaces { low: &[placed], high: &[high], settings: &settings }, context)?;
+        let setup = Setup {
+            diagonal: low.diagonal(),
+            distance,
+            has_cage: cage.is_some(),
+            part_names: vec![String::new()],
+            ..Setup::default()
+        };
+        Ok((done, setup))
+    })
+}
+
+/// Works on the low mesh in the arena. Errors: one sentence.
+pub fn with_low_mesh<T>(
+    (vertices, surface): (&Vertices, &Surface),
+    arrays: &BakeArrays,
+    context: &mut Context,
+    work: impl FnOnce(LowSurface<'_>, &mut Context) -> Result<T, String>,
+) -> Result<T, String> {
     let (normals, uvs) = (rows(&vertices.normals), rows(&surface.uvs));
     let mesh = Mesh::triangles(vertices.positions(), normals, uvs, surface.indices());
     let mesh = mesh.map_err(|error| format!("the low mesh: {error}"))?;
@@ -66,26 +95,7 @@ fn bake_arrays(
         Some(given) => rows(given).to_vec(),
         None => generated_tangents(&mesh, context)?,
     };
-    let low = LowSurface::new(mesh, &tangents).map_err(text)?;
-    let distance = distance(&options, low.diagonal());
-    let inflated = match (&arrays.cage, options.distance) {
-        (None, None) => Some(inflated_cage(&mesh, distance[0]).map_err(text)?),
-        _ => None,
-    };
-    let cage = arrays.cage.as_deref().map(rows).or(inflated.as_deref());
-    let placed = cage.map_or(Ok(low), |cage| low.with_cage(cage)).map_err(text)?;
-    let high = high_surface(arrays)?;
-    let settings = bake_settings(&options, distance)?;
-    let baked = bake(&[placed], &[high], &settings, context, &mut tell).map_err(text)?;
-    let report = Report {
-        counts: baked.report,
-        diagonal: low.diagonal(),
-        distance,
-        has_cage: cage.is_some(),
-        warnings: Vec::new(),
-        legends: legends(&baked, &[]),
-    };
-    Ok((baked, report))
+    work(LowSurface::new(mesh, &tangents).map_err(text)?, context)
 }
 
 /// MikkTSpace's tangents, as `generateTangents` gives them without options.

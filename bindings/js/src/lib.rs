@@ -17,6 +17,8 @@ mod bake;
 #[cfg(feature = "bake")]
 mod bake_arrays;
 #[cfg(feature = "bake")]
+mod bake_maps;
+#[cfg(feature = "bake")]
 mod bake_meshes;
 #[cfg(feature = "check")]
 mod check;

@@ -35,7 +35,10 @@ function squareMesh(slope) {
 const bytes = (...arguments_) => new Uint8Array(square(...arguments_));
 const results = [];
 
-for (const [name, { bake, bakeModels, TEXEL_STATES }] of Object.entries(forms)) {
+/** The codes of a map as a file of 8 or 16 bits has them. */
+const codes = (vectors, bits) => (bits === 8 ? Uint8Array : Uint16Array).from(vectors, (c) => Math.round((c + 1) * (2 ** bits - 1) / 2));
+
+for (const [name, { bake, bakeModels, TEXEL_STATES, verify, verifyModels, convertSpace, convertSpaceOfModel, udimTiles, udimTilesOfModel }] of Object.entries(forms)) {
   test(`${name}: a slope leans the normal against it`, () => {
     const progress = [];
     const maps = ['normal', 'object-normal', 'height', 'ao', 'position'];
@@ -128,6 +131,60 @@ for (const [name, { bake, bakeModels, TEXEL_STATES }] of Object.entries(forms)) 
     const [low, high] = ['a_low', 'b_high'].map((name) => bytes(0, { name }));
     assert.throws(() => bakeModels(low, high, { match: 'name' }), /^Error: no part of the high models belongs to a_low; .*; no part of the low model belongs to b_high/);
     assert.equal(bakeModels(bytes(0), bytes(0), { size: [4, 4] }).report.missedTexels, 0, 'and the next call works');
+  });
+
+  test(`${name}: the error of a map is told in degrees`, () => {
+    const [pair, options] = [[squareMesh(0), squareMesh(0.5)], { distance: [1, 1] }];
+    const baked = bake(...pair, { ...options, size: [64, 32] });
+    const exact = verify(...pair, baked, options);
+    assert.ok(exact.all.points === 64 * 32 && exact.all.worst < 1e-3 && exact.rounding.worst === 0);
+    assert.deepEqual([exact.heatSize, exact.heat.length, exact.pointsWithoutHit, exact.parts.length], [[64, 32], 64 * 32, 0, 1]);
+    const written = verify(...pair, baked, { ...options, written: codes(baked.normal, 8) });
+    assert.ok(written.all.median > 1e-3 && written.all.median < 0.4 && written.inside.points + written.border.points === 64 * 32);
+    assert.ok(Math.abs(written.all.median - written.rounding.median) < 1e-3 && written.otherGreen.median < 0.8);
+    const fine = verify(...pair, baked, { ...options, written: codes(baked.normal, 16) });
+    assert.ok(fine.all.median < written.all.median / 100, `${fine.all.median}`);
+    // Models have the same numbers, and names.
+    const files = [bytes(0, { name: 'a_low' }), bytes(0.5, { name: 'a_high' })];
+    const progress = [];
+    const ofModels = verifyModels(...files, bakeModels(...files, { ...options, size: [64, 32] }), { ...options, onProgress: (done) => progress.push(done) });
+    assert.deepEqual({ ...ofModels, parts: [{ ...ofModels.parts[0], name: '' }] }, exact);
+    assert.ok(ofModels.parts[0].name === 'a_low' && progress.at(-1) === 1);
+    assert.throws(() => verify(...pair, bake(...pair, { ...options, size: [4, 4], maps: ['height'] }), options), { name: 'RangeError', message: /^baked has no normal map/ });
+    assert.throws(() => verify(...pair, baked, { ...options, written: new Float32Array(6) }), /^Error: .*2048/);
+    assert.throws(() => verify(...pair, baked, { written: [1, 2, 3] }), { name: 'TypeError', message: /^written/ });
+    assert.throws(() => verify(...pair, { ...baked, states: baked.states.map(() => 9) }, options), /^Error: baked.states has numbers that no state has/);
+  });
+
+  test(`${name}: maps go from space to space`, () => {
+    const [low, options] = [squareMesh(0), { size: [16, 16], sourceConvention: 'gltf' }];
+    const baked = bake(low, squareMesh(0.5), { size: [16, 16], distance: [1, 1], maps: ['normal', 'object-normal'] });
+    const close = (found, expected, by = 1e-6) => assert.ok(found.every((c, at) => Math.abs(c - expected[at]) < by));
+    const tangent = convertSpace(low, baked.objectNormal, { ...options, to: 'tangent' });
+    close(tangent.texels, baked.normal);
+    assert.deepEqual([tangent.chartedTexels, tangent.overlappingTexels, tangent.invalidTexels], [256, 0, 0]);
+    close(convertSpace(low, tangent.texels, { ...options, to: 'object' }).texels, baked.objectNormal);
+    close(convertSpace(low, codes(baked.objectNormal, 16), { ...options, to: 'tangent' }).texels, baked.normal, 1e-4);
+    const model = convertSpaceOfModel(bytes(0), baked.objectNormal, { ...options, to: 'tangent', convention: 'directx' });
+    close(model.texels.map((c, at) => (at % 3 === 1 ? -c : c)), baked.normal);
+    assert.throws(() => convertSpace(low, baked.objectNormal, { ...options, to: 'world' }), { name: 'RangeError', message: /^to is 'world'; it must be one of 'tangent', 'object'$/ });
+    assert.throws(() => convertSpace(low, baked.objectNormal, { to: 'tangent', size: [4, 4] }), /^Error: .*256/);
+    assert.throws(() => convertSpace(low, baked.objectNormal, { ...options, to: 'object', sourceConvention: 'quake' }), /^Error: sourceConvention: /);
+    assert.throws(() => convertSpace(low, baked.objectNormal), TypeError);
+  });
+
+  test(`${name}: tiles are baked one by one`, () => {
+    const low = squareMesh(0);
+    low.uvs = low.uvs.map((c, at) => c + (at % 2 ? -1 : 3));
+    const [tile] = udimTiles(low);
+    assert.equal(tile, 1014);
+    assert.equal(bake(low, squareMesh(0.5), { size: [8, 4], distance: [1, 1], udim: tile }).report.chartedTexels, 32);
+    assert.equal(bake(low, squareMesh(0.5), { size: [8, 4], distance: [1, 1], udim: 1001 }).report.chartedTexels, 0);
+    assert.deepEqual(udimTilesOfModel(bytes(0)), [1001]);
+    const baked = bakeModels(bytes(0), bytes(0.5), { size: [8, 4], distance: [1, 1], udim: 1001 });
+    assert.deepEqual(baked, bakeModels(bytes(0), bytes(0.5), { size: [8, 4], distance: [1, 1] }));
+    assert.throws(() => bake(low, low, { udim: 12 }), /^Error: udim is 12; it must be a number of a tile, 1001 to 9990$/);
+    assert.throws(() => bake(low, low, { udim: 1.5 }), RangeError);
   });
 
   test(`${name}: an error of onProgress ends the bake, and the next call works`, () => {

@@ -151,11 +151,13 @@ pub const GROUPS: &[(&str, &[Row])] = &[
             "bake surfaces": ["darboux_bake::bake"]; []; []; ["bake"]; ["bake:bake"]; [],
             "bake models": ["darboux_bake::LowModel::surfaces", "darboux_bake::HighModel::surfaces"]; []; []; [];
                 ["bake:bakeModels"]; ["darboux bake"],
-            "errors of a baked map in degrees": ["darboux_bake::verify"]; []; []; ["verify"]; []; ["darboux bake"],
+            "errors of a baked map in degrees": ["darboux_bake::verify"]; []; []; ["verify"];
+                ["bake:verify", "bake:verifyModels"]; ["darboux bake"],
             "a cage that is made": ["darboux_bake::auto_cage"]; []; []; ["auto_cage"]; []; ["darboux bake"],
-            "UDIM tiles": ["darboux_bake::udims_of"]; []; []; ["udim_tiles"]; []; ["darboux bake"],
+            "UDIM tiles": ["darboux_bake::udims_of"]; []; []; ["udim_tiles"];
+                ["bake:udimTiles", "bake:udimTilesOfModel"]; ["darboux bake"],
             "object-space maps to tangent space, and back": ["darboux_bake::convert_space"]; []; [];
-                ["convert_space"]; [];
+                ["convert_space"]; ["bake:convertSpace", "bake:convertSpaceOfModel"];
                 ["darboux convert"],
             "draw": ["darboux_render::render"]; []; []; []; []; ["darboux render"],
         ],

@@ -1,0 +1,73 @@
+// The options of `darboux/bake` as the JSON that its module reads.
+
+import { checkType, choice } from './core/checks.js';
+import { FALLOFFS, ID_SOURCES, KINDS, WEIGHTS, type BakeModelsOptions, type BakeOptions } from './bake-types.js';
+import type { Convention } from './types.js';
+
+/** Options that `bakeModels` does not have. */
+interface OtherOptions {
+  meshConvention?: Convention | null | undefined;
+  sourceConvention?: Convention | null | undefined;
+  /** Whether a map becomes one in object space. */
+  toObject?: boolean;
+}
+
+/** Width and height in texels. */
+export function sizeOf({ size }: BakeOptions): readonly [number, number] {
+  return size ?? [1024, 1024];
+}
+
+/** Errors: a value that is not an array of two. */
+function checkPair(name: string, pair: readonly [number, number] | null | undefined): void {
+  if (pair == null) return;
+  checkType(name, pair, ['Array']);
+  if (pair.length !== 2) throw new RangeError(`${name} has ${(pair as readonly number[]).length} elements; it must have 2`);
+}
+
+/** The options as the JSON that the module reads. Errors: numbers that JSON or the module does not have. */
+export function optionsText(options: BakeModelsOptions, { meshConvention, sourceConvention, toObject }: OtherOptions = {}): string {
+  const { cageOffset, distance, maps, samples, padding, material, uvSet, udim, aoRays, aoDistance } = options;
+  checkPair('size', options.size);
+  checkPair('distance', distance);
+  if (maps != null) checkType('maps', maps, ['Array']);
+  const whole = { width: sizeOf(options)[0], height: sizeOf(options)[1], samples: samples ?? 1, padding, material, uvSet, udim, aoRays: aoRays ?? 64 };
+  for (const [name, value] of Object.entries(whole)) {
+    if (value != null && !(Number.isInteger(value) && value >= 0 && value < 2 ** 32)) throw new RangeError(`${name} is ${value}; it must be a whole number from 0 on`);
+  }
+  const [x, y, z] = options.worldDirection ?? [0, 1, 0];
+  const { thicknessDistance, curvatureRadius } = options;
+  const lengths = { cageOffset, aoDistance, thicknessDistance, curvatureRadius, 'worldDirection[0]': x, 'worldDirection[1]': y, 'worldDirection[2]': z, 'the first distance': distance?.[0], 'the second distance': distance?.[1] };
+  for (const [name, value] of Object.entries(lengths)) {
+    if (value != null && !Number.isFinite(value)) throw new RangeError(`${name} is ${value}; it must be a finite number`);
+  }
+  return JSON.stringify({
+    size: sizeOf(options),
+    cageOffset: cageOffset ?? null,
+    distance: distance ?? null,
+    maps: (maps ?? ['normal']).map((kind) => choice('maps', kind, KINDS.map(([kind]) => kind))),
+    samples: whole.samples,
+    isPerVertex: choice('bitangent', options.bitangent, ['pixel', 'vertex'], 'pixel') === 1,
+    convention: options.convention ?? 'gltf',
+    sourceConvention: sourceConvention ?? 'gltf',
+    meshConvention: meshConvention ?? 'gltf',
+    toObject: toObject ?? false,
+    udim: udim ?? null,
+    padding: padding ?? null,
+    backFaces: Boolean(options.backFaces),
+    material: material ?? null,
+    uvSet: uvSet ?? null,
+    matchesNames: choice('match', options.match, ['nearest', 'name'], 'nearest') === 1,
+    highMaps: options.highMaps ?? true,
+    aoRays: whole.aoRays,
+    aoDistance: aoDistance ?? null,
+    aoFalloff: FALLOFFS[choice('aoFalloff', options.aoFalloff, FALLOFFS, 'none')],
+    aoWeights: WEIGHTS[choice('aoWeights', options.aoWeights, WEIGHTS, 'cosine')],
+    ownPartOnly: Boolean(options.aoOwnPart),
+    thicknessDistance: options.thicknessDistance ?? null,
+    curvatureRadius: options.curvatureRadius ?? 4,
+    isCurvatureInTexels: choice('curvatureUnit', options.curvatureUnit, ['texels', 'distance'], 'texels') === 0,
+    idFrom: ID_SOURCES[choice('idFrom', options.idFrom, ID_SOURCES, 'material')],
+    worldDirection: options.worldDirection ?? [0, 1, 0],
+    texture: options.texture ?? null,
+  });
+}
