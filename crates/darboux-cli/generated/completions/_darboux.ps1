@@ -216,6 +216,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--heat-map', '--heat-map', [CompletionResultType]::ParameterName, 'Draw these errors over the UV layout, with their scale below')
             [CompletionResult]::new('--heat-model', '--heat-model', [CompletionResultType]::ParameterName, 'Write the low model painted with these errors, unlit, and beside it a PNG of their scale; `darboux render` and every viewer show it')
             [CompletionResult]::new('--heat-range', '--heat-range', [CompletionResultType]::ParameterName, 'The ends of the scale of errors in degrees; by default those that fit the errors')
+            [CompletionResult]::new('--report', '--report', [CompletionResultType]::ParameterName, 'Write an HTML page with pictures of the maps, of errors and misses, and of the low model beside the high ones; it loads nothing')
             [CompletionResult]::new('--jobs', '--jobs', [CompletionResultType]::ParameterName, 'How many threads work; by default one per processor core')
             [CompletionResult]::new('--memory-limit', '--memory-limit', [CompletionResultType]::ParameterName, 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use')
             [CompletionResult]::new('--polygons', '--polygons', [CompletionResultType]::ParameterName, 'How faces of five and more corners are cut, in formats that have them')

@@ -531,6 +531,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand bake" -l write-model -d 
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l heat-map -d 'Draw these errors over the UV layout, with their scale below' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l heat-model -d 'Write the low model painted with these errors, unlit, and beside it a PNG of their scale; `darboux render` and every viewer show it' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l heat-range -d 'The ends of the scale of errors in degrees; by default those that fit the errors' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l report -d 'Write an HTML page with pictures of the maps, of errors and misses, and of the low model beside the high ones; it loads nothing' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l jobs -d 'How many threads work; by default one per processor core' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l polygons -d 'How faces of five and more corners are cut, in formats that have them' -r -f -a "blender\t'as Blender cuts them for its exporters'
