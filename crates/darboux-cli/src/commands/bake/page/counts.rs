@@ -23,7 +23,7 @@ pub fn misses(counts: &Counts, raster: &Raster) -> Result<String, String> {
     Ok(sentence + &figure(raster, "Texels without a hit are red or orange", "")?)
 }
 
-/// Three tables.
+/// The settings, the counts and the times, each as a table.
 pub fn tables(arguments: &BakeArguments, report: &BakeReport) -> String {
     let settings = table("setting", &settings(arguments, report), false);
     let counts = table("count", &counts(&report.counts), true);

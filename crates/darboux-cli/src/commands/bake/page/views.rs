@@ -16,15 +16,15 @@ const SIZE: [u32; 2] = [512, 384];
 /// The sides, in words, with the degrees around the models and above the horizon.
 const SIDES: [(&str, [f64; 2]); 4] = [
     ("front left", [30.0, 20.0]),
-    ("right front", [-60.0, 20.0]),
-    ("right back", [210.0, 20.0]),
-    ("left back", [120.0, 20.0]),
+    ("front right", [-60.0, 20.0]),
+    ("back right", [210.0, 20.0]),
+    ("back left", [120.0, 20.0]),
 ];
 
 /// The most triangles of high models that are drawn: each takes 600 bytes.
 const MOST_TRIANGLES: u64 = 1_000_000;
 
-/// Draws both. `low`: with its maps. Errors: a clause why there are no pictures.
+/// Draws the high models and the low one. `low`: with its maps. Errors: a clause why there are no pictures.
 pub fn draw(arguments: &BakeArguments, low: &Document, high_triangles: u64) -> Result<Vec<View>, String> {
     if high_triangles > MOST_TRIANGLES {
         return Err(format!(
