@@ -28,6 +28,8 @@ pub struct OptionNames {
     pub allow_outside: &'static str,
     /// The name of [`AddTangentsOptions::apply_texture_transform`](crate::gltf::AddTangentsOptions::apply_texture_transform).
     pub apply_texture_transform: &'static str,
+    /// What to do about a file whose format this build does not read: a clause.
+    pub missing_reader: &'static str,
 }
 
 impl Default for OptionNames {
@@ -36,6 +38,7 @@ impl Default for OptionNames {
             memory_limit: "LoadOptions::memory_limit",
             allow_outside: "LoadOptions::allow_outside",
             apply_texture_transform: "AddTangentsOptions::apply_texture_transform",
+            missing_reader: "export the model as .glb, or build darboux-io with the feature of that format",
         }
     }
 }
@@ -57,6 +60,12 @@ impl OptionNames {
     #[must_use]
     pub const fn with_apply_texture_transform(self, apply_texture_transform: &'static str) -> Self {
         Self { apply_texture_transform, ..self }
+    }
+
+    /// These names with another advice for [`OptionNames::missing_reader`].
+    #[must_use]
+    pub const fn with_missing_reader(self, missing_reader: &'static str) -> Self {
+        Self { missing_reader, ..self }
     }
 }
 

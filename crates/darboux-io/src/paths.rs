@@ -9,6 +9,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use crate::Error;
+use crate::source::SourceFormat;
 
 /// The kind of a file by its extension, in upper or lower case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +27,8 @@ pub enum FileKind {
     Stl,
     /// `.fbx`.
     Fbx,
+    /// `.usd`, `.usda`, `.usdc`, `.usdz`.
+    Usd,
     /// `.png`.
     Png,
     /// `.jpg`, `.jpeg`.
@@ -36,24 +39,56 @@ pub enum FileKind {
     OtherImage,
 }
 
+/// The endings of each kind: the one list of formats, from which messages, help and folder searches come.
+const ENDINGS: [(FileKind, &[&str]); 11] = [
+    (FileKind::Gltf, &["gltf"]),
+    (FileKind::Glb, &["glb", "vrm"]),
+    (FileKind::Obj, &["obj"]),
+    (FileKind::Ply, &["ply"]),
+    (FileKind::Stl, &["stl"]),
+    (FileKind::Fbx, &["fbx"]),
+    (FileKind::Usd, &["usd", "usda", "usdc", "usdz"]),
+    (FileKind::Png, &["png"]),
+    (FileKind::Jpeg, &["jpeg", "jpg"]),
+    (FileKind::WebP, &["webp"]),
+    (FileKind::OtherImage, &["avif", "bmp", "dds", "exr", "ktx2", "psd", "tga", "tif", "tiff"]),
+];
+
+/// The endings of the kinds that `is_listed` accepts.
+fn endings(is_listed: impl Fn(FileKind) -> bool) -> String {
+    let listed = ENDINGS.iter().filter(|(kind, _)| is_listed(*kind)).flat_map(|(_, endings)| *endings);
+    listed.map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ")
+}
+
 impl FileKind {
     /// The kind of a path; none for other extensions and for none.
     pub fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_ascii_lowercase().to_str()? {
-            "glb" | "vrm" => Some(Self::Glb),
-            "gltf" => Some(Self::Gltf),
-            "obj" => Some(Self::Obj),
-            "ply" => Some(Self::Ply),
-            "stl" => Some(Self::Stl),
-            "fbx" => Some(Self::Fbx),
-            "png" => Some(Self::Png),
-            "jpeg" | "jpg" => Some(Self::Jpeg),
-            "webp" => Some(Self::WebP),
-            "avif" | "bmp" | "dds" | "exr" | "ktx2" | "psd" | "tga" | "tif" | "tiff" => {
-                Some(Self::OtherImage)
-            }
-            _ => None,
-        }
+        let extension = path.extension()?.to_ascii_lowercase();
+        let extension = extension.to_str()?;
+        ENDINGS.iter().find(|(_, endings)| endings.contains(&extension)).map(|&(kind, _)| kind)
+    }
+
+    /// The endings of files that hold models which this build reads, such as `.gltf, .glb, .vrm, .obj`.
+    pub fn model_endings() -> String {
+        endings(Self::is_model)
+    }
+
+    /// The endings of files that documents can be written as.
+    pub fn written_endings() -> String {
+        endings(Self::is_written_model)
+    }
+
+    /// The name of a format of models that this crate knows, whether this build reads it or not.
+    pub fn format_name(self) -> Option<&'static str> {
+        Some(match self {
+            Self::Glb | Self::Gltf => "glTF",
+            Self::Obj => SourceFormat::Obj.name(),
+            Self::Ply => SourceFormat::Ply.name(),
+            Self::Stl => SourceFormat::Stl.name(),
+            Self::Fbx => SourceFormat::Fbx.name(),
+            Self::Usd => SourceFormat::Usd.name(),
+            Self::Png | Self::Jpeg | Self::WebP | Self::OtherImage => return None,
+        })
     }
 
     /// Whether files of this kind hold models that this build reads.
@@ -85,6 +120,20 @@ impl FileKind {
     /// Whether files of this kind are images that can be decoded (feature `textures`).
     pub fn is_decoded_image(self) -> bool {
         matches!(self, Self::Png | Self::Jpeg | Self::WebP)
+    }
+}
+
+/// What is wrong with an output of a kind that documents are not written as: a clause whose subject is the file.
+pub fn wrong_output(kind: Option<FileKind>) -> String {
+    let endings = FileKind::written_endings();
+    match kind.and_then(|kind| Some((kind, kind.format_name()?))) {
+        Some((FileKind::Usd, _)) => format!(
+            "is named as USD, which is not written here; end its name in one of {endings}, or use darboux.usd in Python"
+        ),
+        Some((_, format)) => {
+            format!("is named as {format}, which is not written; end its name in one of {endings}")
+        }
+        None => format!("has no ending of a model; end its name in one of {endings}"),
     }
 }
 

@@ -3,11 +3,17 @@
 //! ```text
 //! header    the elements and their properties
 //! values    numbers one after the other: text, or binary
-//! read      vertices and faces as a scene
+//! layout    what the properties of a vertex are
+//! read      vertices, and everything as a scene
+//! faces     faces and strips, with the UVs and textures of their corners
+//! textures  the textures that comments name
 //! ```
 
+mod faces;
 mod header;
+mod layout;
 mod read;
+mod textures;
 mod values;
 
 pub(crate) use read::read;

@@ -8,8 +8,10 @@ use crate::source::{self, Built, ModelFiles, SourceFormat, SourceScene};
 ///
 /// Errors: the file is broken; it is of a format without a reader, which the error names.
 pub fn read(bytes: &[u8], files: &ModelFiles, options: &LoadOptions) -> Option<Result<Built, ContentError>> {
+    // Editors of Windows begin a text with a byte order mark, which belongs to no statement.
+    let bytes = source::without_byte_order_mark(bytes);
     let first = bytes.iter().find(|byte| !byte.is_ascii_whitespace());
-    if bytes.starts_with(b"glTF") || first == Some(&b'{') || bytes.starts_with(b"\xEF\xBB\xBF{") {
+    if bytes.starts_with(b"glTF") || first == Some(&b'{') {
         return None;
     }
     let Some(format) = source::detect(bytes) else {
@@ -41,9 +43,9 @@ fn scene(
         )),
         #[allow(unreachable_patterns, reason = "with all readers, no format is left")]
         other => {
-            _ = (files, options);
-            let problem =
-                format!("is {}, whose reader is not in this build; convert the file to .glb", other.name());
+            _ = files;
+            let advice = options.option_names.missing_reader;
+            let problem = format!("is {}, which this build does not read; {advice}", other.name());
             Err(ContentError::unsupported("", problem))
         }
     }

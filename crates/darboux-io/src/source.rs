@@ -4,6 +4,7 @@
 //! format      which format a file has, by its content
 //! scene       what a reader returns: nodes, meshes of polygons, materials, skins, as the file has them
 //! files       the textures and libraries that a model refers to, under the rules of glTF
+//! smoothing   normals by smoothing groups, where a file has none
 //! polygons/   faces of more than three corners are cut
 //! vertices    corners with the same attributes become one vertex
 //! build/      the glTF, and its provenance
@@ -18,6 +19,7 @@ mod format;
 mod polygons;
 mod provenance;
 pub(crate) mod scene;
+mod smoothing;
 mod vertices;
 
 pub use format::SourceFormat;
@@ -26,10 +28,11 @@ pub use provenance::{FaceCounts, PrimitiveSource, Provenance};
 
 pub(crate) use build::{Built, build};
 pub(crate) use files::{FileSource, FoundFile, ModelFiles};
-pub(crate) use format::{detect, name_of_other};
+pub(crate) use format::{detect, name_of_other, without_byte_order_mark};
 pub(crate) use scene::{
     CornerValues, FaceSizes, NormalMap, SourceImage, SourceMaterial, SourceMesh, SourceScene, SourceTexture,
     SourceUvSet,
 };
 #[cfg(feature = "fbx")]
 pub(crate) use scene::{SourceMorph, SourceNode, SourceSkin, VertexWeights};
+pub(crate) use smoothing::MadeNormals;

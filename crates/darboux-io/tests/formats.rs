@@ -331,3 +331,176 @@ fn polygons_are_cut_as_blender_cuts_them() {
     assert_eq!(at, found.len());
     assert_eq!(different, [0; 0]);
 }
+
+/// Editors of Windows begin a text with a byte order mark.
+#[test]
+fn byte_order_marks_are_no_part_of_a_text() {
+    let ascii = square("ascii");
+    let marked = [b"\xEF\xBB\xBF", &ascii[..]].concat();
+    assert!(read(marked).to_glb().unwrap() == read(ascii).to_glb().unwrap());
+    let stl = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+    let marked = read(format!("\u{FEFF}{stl}"));
+    assert_eq!(marked.json()["meshes"][0]["name"], "a");
+    assert!(marked.to_glb().unwrap() == read(stl).to_glb().unwrap());
+}
+
+/// An ASCII PLY of a triangle: the properties of a vertex and of a face, and their numbers after `x y z` and the indices.
+fn triangle_ply(
+    comments: &str,
+    vertex: &[&str],
+    vertices: [&str; 3],
+    face: &[&str],
+    numbers: &str,
+) -> String {
+    let lines = |names: &[&str]| names.iter().map(|name| format!("property {name}\n")).collect::<String>();
+    let [a, b, c] = vertices;
+    format!(
+        "ply\nformat ascii 1.0\n{comments}element vertex 3\n{}{}element face 1\n{}{}end_header\n0 0 0 {a}\n1 0 0 {b}\n0 1 0 {c}\n3 0 1 2 {numbers}\n",
+        lines(&["float x", "float y", "float z"]),
+        lines(vertex),
+        lines(&["list uchar int vertex_indices"]),
+        lines(face),
+    )
+}
+
+#[test]
+fn uvs_of_ply_are_read_under_all_names() {
+    for [u, v] in [
+        ["s", "t"],
+        ["u", "v"],
+        ["texture_u", "texture_v"],
+        ["texcoord_u", "texcoord_v"],
+        ["tu", "tv"],
+        ["tx", "ty"],
+    ] {
+        let properties = [format!("float {u}"), format!("float {v}")];
+        let properties = properties.each_ref().map(|property| &**property);
+        let document = read(triangle_ply("", &properties, ["0 0", "1 0", "0 0.75"], &[], ""));
+        assert_eq!(document.warnings(), [""; 0]);
+        let uvs = document.corners().unwrap()[0].vectors::<2>("TEXCOORD_0").unwrap();
+        assert_eq!(uvs, Some(vec![[0.0, 1.0], [1.0, 1.0], [0.0, 0.25]]), "{u} {v}");
+    }
+    // Two pairs are two sets.
+    let document = read(triangle_ply(
+        "",
+        &["float s", "float t", "float s1", "float t1"],
+        ["0 0 2 0", "1 0 2 0", "0 1 2 1"],
+        &[],
+        "",
+    ));
+    let sets = ["TEXCOORD_0", "TEXCOORD_1"]
+        .map(|set| document.corners().unwrap()[0].vectors::<2>(set).unwrap().unwrap()[2]);
+    assert_eq!(sets, [[0.0, 0.0], [2.0, 0.0]]);
+    assert_eq!(document.json()["meshes"][0]["extras"]["uvSetNames"], ["s t", "s1 t1"]);
+}
+
+/// MeshLab writes the UVs of corners, and the number of a texture for each face.
+#[test]
+fn uvs_and_textures_of_faces_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::copy(blender("scene_normal.png"), folder.path().join("b.png")).unwrap();
+    let comments = "comment TextureFile a.png\ncomment TextureFile b.png\n";
+    let header = |faces: &str| {
+        format!(
+            "ply\nformat ascii 1.0\n{comments}element vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n{faces}end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+        )
+    };
+    let [indices, uvs, number] =
+        ["list uchar int vertex_indices", "list uchar float texcoord", "int texnumber"]
+            .map(|property| format!("property {property}\n"));
+    let orders = [
+        (header(&[&*indices, &uvs, &number].concat()), "3 0 1 2 6 0 0 1 0 1 1 1\n3 0 2 3 6 0 0 1 1 0 1 0\n"),
+        (header(&[&*uvs, &number, &indices].concat()), "6 0 0 1 0 1 1 1 3 0 1 2\n6 0 0 1 1 0 1 0 3 0 2 3\n"),
+    ];
+    for (header, faces) in orders {
+        fs::write(folder.path().join("a.ply"), format!("{header}{faces}")).unwrap();
+        let document = open(&folder.path().join("a.ply"));
+        let warnings = document.warnings();
+        assert!(warnings.len() == 1 && warnings[0].contains("\"a.png\" is not in"), "{warnings:?}");
+        let json = document.json();
+        assert_eq!(json["materials"].as_array().unwrap().len(), 2);
+        assert!(json["materials"][1]["pbrMetallicRoughness"]["baseColorTexture"].is_object());
+        let primitives = json["meshes"][0]["primitives"].as_array().unwrap();
+        assert_eq!([0, 1].map(|i| primitives[i]["material"].as_u64().unwrap()), [1, 0]);
+        let corners = document.corners().unwrap();
+        let uvs = [0, 1].map(|i| corners[i].vectors::<2>("TEXCOORD_0").unwrap().unwrap()[2]);
+        assert_eq!(uvs, [[1.0, 0.0], [0.0, 0.0]]);
+    }
+    // A face without UVs is a warning, and the others keep theirs.
+    let header = header(&[&*indices, &uvs, &number].concat());
+    let document = read(format!("{header}3 0 1 2 6 0 0 1 0 1 1 1\n3 0 2 3 0 -1\n"));
+    let corners = document.corners().unwrap();
+    assert_eq!([0, 1].map(|i| corners[i].vectors::<2>("TEXCOORD_0").unwrap().is_some()), [true, false]);
+}
+
+/// What a PLY has and glTF does not is listed.
+#[test]
+fn properties_of_ply_that_are_lost_are_listed() {
+    let not_carried = |ply: String| read(ply).provenance().unwrap().not_carried.clone();
+    let ply =
+        triangle_ply("", &["float nx", "float ny", "float quality"], ["0 0 1"; 3], &["uchar red"], "255");
+    assert_eq!(not_carried(ply), ["the vertex properties nx, ny, quality", "the face property red"]);
+    let ply = triangle_ply(
+        "",
+        &["float s", "float t"],
+        ["0 0", "1 0", "0 1"],
+        &["list uchar float texcoord"],
+        "6 0 0 1 0 1 1",
+    );
+    assert_eq!(not_carried(ply), ["the UVs of vertices, which those of the faces replace"]);
+    let ply = triangle_ply("comment TextureFile a.png\ncomment TextureFile b.png\n", &[], [""; 3], &[], "");
+    assert_eq!(not_carried(ply), ["1 textures after the first, which no face names"]);
+    let ply = triangle_ply("", &["uchar red", "uchar green"], ["1 2"; 3], &[], "");
+    assert_eq!(not_carried(ply), ["the vertex properties red, green"]);
+    let with_edges = triangle_ply("", &[], [""; 3], &[], "")
+        .replace("end_header", "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header")
+        + "0 1\n";
+    assert_eq!(not_carried(with_edges), ["1 edge, an element that is not read"]);
+}
+
+#[test]
+fn colours_of_vertices_are_linear() {
+    let ply = triangle_ply("", &["uchar r", "uchar g", "uchar b", "uchar a"], ["0 255 188 51"; 3], &[], "");
+    let document = read(ply);
+    assert_eq!(document.warnings(), [""; 0]);
+    let [r, g, b, a] = document.corners().unwrap()[0].vectors::<4>("COLOR_0").unwrap().unwrap()[0];
+    assert!(r == 0.0 && g == 1.0 && (b - 0.5029).abs() < 1e-3 && (a - 0.2).abs() < 1e-6, "{r} {g} {b} {a}");
+}
+
+/// A binary STL of two triangles with the same winding.
+fn binary_stl(header: &[u8], normals: [[f32; 3]; 2], attributes: [u16; 2]) -> Vec<u8> {
+    let mut stl = header.to_vec();
+    stl.resize(80, 0);
+    stl.extend(2u32.to_le_bytes());
+    for (normal, attribute) in normals.into_iter().zip(attributes) {
+        let numbers = [&normal[..], &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]].concat();
+        stl.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
+        stl.extend(attribute.to_le_bytes());
+    }
+    stl
+}
+
+/// Normals and colours of facets are not carried over, and it is said where they hold anything.
+#[test]
+fn normals_and_colours_of_facets_are_listed() {
+    let up = [0.0, 0.0, 1.0];
+    let slanted = [0.6, 0.0, 0.8];
+    let against = "1 facet's normal points against the winding, which decides; if the model looks inside out, turn its faces over";
+    let not_carried = |stl: Vec<u8>| {
+        let document = read(stl);
+        let provenance = document.provenance().unwrap().not_carried.clone();
+        let others = document.warnings().iter().filter(|warning| !warning.starts_with("not carried over"));
+        (provenance, others.cloned().collect::<Vec<_>>())
+    };
+    let none = (Vec::<String>::new(), Vec::<String>::new());
+    assert_eq!(not_carried(binary_stl(b"a", [up, [0.0; 3]], [0; 2])), none);
+    let (lost, _) = not_carried(binary_stl(b"a", [up, slanted], [0; 2]));
+    assert_eq!(lost, ["the normals of 1 facet, which are not those of the winding"]);
+    assert_eq!(not_carried(binary_stl(b"a", [up, [0.0, 0.0, -2.0]], [0; 2])).1, [against]);
+    let (lost, _) = not_carried(binary_stl(b"a", [up; 2], [0x8123, 0]));
+    assert_eq!(lost, ["the attributes of 1 facet, such as colours"]);
+    let (lost, _) = not_carried(binary_stl(b"COLOR=\x80\x80\x80\xFF", [up; 2], [0; 2]));
+    assert_eq!(lost, ["the colour of all facets in the header"]);
+    let ascii = "solid a\nfacet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+    assert_eq!(not_carried(ascii.into()).1, [against]);
+}

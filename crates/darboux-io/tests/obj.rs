@@ -187,3 +187,88 @@ fn repeated_libraries_are_loaded_once() {
     let warnings = model.warnings();
     assert_eq!((model.materials().unwrap().len(), warnings.len()), (1, 1), "{warnings:?}");
 }
+
+/// Editors of Windows begin a text with three bytes that belong to no statement.
+#[test]
+fn byte_order_marks_belong_to_no_statement() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.mtl"), "\u{FEFF}newmtl a\nKd 1 1 1\n").unwrap();
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib a.mtl\nusemtl a\nf 1 2 3\n";
+    fs::write(folder.path().join("a.obj"), format!("\u{FEFF}{obj}")).unwrap();
+    let model = open(&folder.path().join("a.obj"));
+    assert_eq!(model.warnings(), [""; 0]);
+    assert_eq!(model.json()["materials"][0]["name"], "a");
+    assert_eq!(model.corners().unwrap()[0].vectors::<3>("POSITION").unwrap().unwrap()[1], [1.0, 0.0, 0.0]);
+    let generator = |text: String| {
+        let model = Document::from_bytes("a", text.into_bytes(), None, &LoadOptions::default()).unwrap();
+        model.provenance().unwrap().generator.clone()
+    };
+    assert_eq!(generator(format!("\u{FEFF}# Program\n{obj}")).as_deref(), Some("Program"));
+    let utf16: Vec<u8> = format!("\u{FEFF}{obj}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let error = Document::from_bytes("a", utf16, None, &LoadOptions::default()).unwrap_err().to_string();
+    assert!(error.contains("is a text in UTF-16, which is not read; save it in UTF-8"), "{error}");
+}
+
+/// Two quads that meet at a right angle along the edge of positions 2 and 3, each with its statement before it; `normals` follows the position of each corner
+/// of the first.
+fn fold(first: &str, second: &str, normals: &str) -> (Vec<[f32; 3]>, Vec<String>) {
+    let positions = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\nvn 0 0 5\n";
+    let [a, b, c, d] = [1, 2, 3, 4].map(|position| format!("{position}{normals}"));
+    let obj = format!("{positions}{first}\nf {a} {b} {c} {d}\n{second}\nf 2 5 6 3\n");
+    let model = Document::from_bytes("a", obj.into_bytes(), None, &LoadOptions::default()).unwrap();
+    let normals = model.corners().unwrap()[0].vectors::<3>("NORMAL").unwrap().unwrap_or_default();
+    (normals, model.warnings().to_vec())
+}
+
+/// A file without normals gets them by its smoothing groups.
+#[test]
+fn smoothing_groups_make_normals() {
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let (up, right, between) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [half, 0.0, half]);
+    let made = "1 mesh has no normals; they were made by its smoothing groups";
+    let close = |found: &[[f32; 3]], expected: &[[f32; 3]]| {
+        // Triangles of the first quad, then of the second.
+        let mut kinds: Vec<[f32; 3]> = Vec::new();
+        for normal in found {
+            let is_known =
+                kinds.iter().any(|kind| kind.iter().zip(normal).all(|(a, b)| (a - b).abs() < 1e-6));
+            if !is_known {
+                kinds.push(*normal);
+            }
+        }
+        let is_expected = |kind: &[f32; 3]| {
+            expected.iter().any(|normal| normal.iter().zip(kind).all(|(a, b)| (a - b).abs() < 1e-6))
+        };
+        assert!(found.len() == 12 && kinds.len() == expected.len(), "{kinds:?}");
+        assert!(kinds.iter().all(is_expected), "{kinds:?}");
+    };
+    for (first, second, expected) in [
+        ("s 1", "", &[up, right, between][..]),
+        ("s 7", "s 7", &[up, right, between]),
+        ("s 1", "s 2", &[up, right]),
+        ("s off", "", &[up, right]),
+        ("s 0", "s off", &[up, right]),
+        ("s 1", "s off", &[up, right]),
+        ("", "s 1", &[up, right]),
+    ] {
+        let (normals, warnings) = fold(first, second, "");
+        close(&normals, expected);
+        assert_eq!(warnings, [made], "{first} {second}");
+    }
+    // Without groups, normals are absent, and glTF's are flat.
+    assert_eq!(fold("", "", ""), (Vec::new(), Vec::new()));
+    // Normals that the file has are kept.
+    let (normals, warnings) = fold("s 1", "", "//1");
+    assert_eq!(warnings, ["1 mesh lacks normals at some corners; those were made by its smoothing groups"]);
+    assert_eq!(normals.iter().filter(|normal| **normal == [0.0, 0.0, 5.0]).count(), 6);
+    close(&normals, &[[0.0, 0.0, 5.0], right, between]);
+}
+
+/// All corners of a flat face have the same bits, which tangents need.
+#[test]
+fn corners_of_flat_faces_have_the_same_bits() {
+    let obj = "s off\nv 0 0 0\nv 3 0.1 0.7\nv 2.5 2 1\nv -0.3 1.7 0.2\nf 1 2 3 4\ns 3\nf 4 3 2 1\n";
+    let model = Document::from_bytes("a", obj.into(), None, &LoadOptions::default()).unwrap();
+    let normals = model.corners().unwrap()[0].vectors::<3>("NORMAL").unwrap().unwrap();
+    assert!(normals[..6].iter().all(|normal| *normal == normals[0]), "{normals:?}");
+}

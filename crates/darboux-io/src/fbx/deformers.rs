@@ -1,8 +1,9 @@
 //! Skins and blend shapes of meshes.
 
-use ufbx::{BlendShape, Matrix, Mesh, Node, SkinWeight, Vec3};
+use ufbx::{BlendShape, Matrix, Mesh, Node, SkinWeight, SkinningMethod, Vec3};
 
 use super::geometry::vector;
+use crate::error::shortened;
 use crate::source::{CornerValues, SourceMorph, SourceSkin, VertexWeights};
 
 /// The most influences of a vertex that are kept: readers of glTF take four or eight.
@@ -10,11 +11,12 @@ const MAX_INFLUENCES: usize = 8;
 
 /// The skin of a mesh, and the weights of its vertices; none without bones. `lacks` gets a noun phrase for what is left out.
 pub fn skin(mesh: &Mesh, lacks: &mut Vec<String>) -> Option<(SourceSkin, Vec<VertexWeights>)> {
+    let name = &*shortened(&mesh.element.name);
     let mut skins = mesh.skin_deformers.into_iter();
     let skin = skins.next()?;
     let others = skins.count();
     if others > 0 {
-        lacks.push(format!("{others} further skins of {:?}", &*mesh.element.name));
+        lacks.push(format!("{others} further skins of {:?}", name));
     }
     let bones: Vec<(&Node, &Matrix)> = skin
         .clusters
@@ -23,7 +25,7 @@ pub fn skin(mesh: &Mesh, lacks: &mut Vec<String>) -> Option<(SourceSkin, Vec<Ver
         .collect();
     // Indices of joints have 16 bits in glTF.
     if bones.is_empty() || bones.len() != skin.clusters.count || bones.len() > usize::from(u16::MAX) {
-        lacks.push(format!("the skin of {:?}, which lacks bones", &*mesh.element.name));
+        lacks.push(format!("the skin of {:?}, which lacks bones", name));
         return None;
     }
     let influences = |vertex: usize| -> &[SkinWeight] {
@@ -35,8 +37,18 @@ pub fn skin(mesh: &Mesh, lacks: &mut Vec<String>) -> Option<(SourceSkin, Vec<Ver
     if most > MAX_INFLUENCES {
         lacks.push(format!(
             "all but the {MAX_INFLUENCES} largest of up to {most} weights of the vertices of {:?}",
-            &*mesh.element.name
+            name
         ));
+    }
+    let unweighted = (0..mesh.vertices.count).filter(|&vertex| influences(vertex).is_empty()).count();
+    if unweighted > 0 {
+        let vertices = if unweighted == 1 { "1 vertex".to_owned() } else { format!("{unweighted} vertices") };
+        lacks.push(format!(
+            "the place of {vertices} of {name:?} without weights, which follow the first joint"
+        ));
+    }
+    if matches!(skin.skinning_method, SkinningMethod::DualQuaternion | SkinningMethod::BlendedDqLinear) {
+        lacks.push(format!("the dual quaternions of the skin of {name:?}, which is linear in glTF"));
     }
     let mut sets = vec![VertexWeights::default(); most.clamp(1, MAX_INFLUENCES).div_ceil(4)];
     for vertex in 0..mesh.vertices.count {
@@ -73,22 +85,26 @@ fn add_influences(sets: &mut [VertexWeights], influences: &[SkinWeight]) {
 
 /// The blend shapes of a mesh at their full weight. `lacks` gets a noun phrase for shapes between the rest and a full weight.
 pub fn morphs(mesh: &Mesh, lacks: &mut Vec<String>) -> Vec<SourceMorph> {
+    let name = &*shortened(&mesh.element.name);
     let channels = || mesh.blend_deformers.into_iter().flat_map(|deformer| &deformer.channels);
     let in_between: usize = channels().map(|channel| channel.keyframes.count.saturating_sub(1)).sum();
     if in_between > 0 {
-        lacks.push(format!("{in_between} shapes between other shapes of {:?}", &*mesh.element.name));
+        lacks.push(format!("{in_between} shapes between other shapes of {:?}", name));
     }
     channels()
         .filter_map(|channel| {
             let shape = channel.target_shape.as_ref()?;
             let (of_channel, of_shape) = (&*channel.element.name, &*shape.element.name);
+            // A channel reaches its shape at the shape's full weight, and glTF at 1.
+            let full = channel.keyframes.into_iter().last().map_or(1.0, |keyframe| keyframe.target_weight);
+            let weight = if full > 0.0 { channel.weight / full } else { channel.weight };
             let has_normals = shape.normal_offsets.iter().any(|offset| vector(offset) != [0.0; 3]);
             let normals = || CornerValues::of_positions(offsets(mesh, shape, &shape.normal_offsets));
             Some(SourceMorph {
                 name: if of_channel.is_empty() { of_shape } else { of_channel }.to_owned(),
                 positions: offsets(mesh, shape, &shape.position_offsets),
                 normals: has_normals.then(normals),
-                weight: channel.weight as f32,
+                weight: weight as f32,
             })
         })
         .collect()

@@ -1,6 +1,6 @@
 //! The faces of a mesh with the values of their corners, in single precision.
 
-use ufbx::{List, Mesh, UvSet, Vec2, Vec3, VertexVec2, VertexVec3, VertexVec4};
+use ufbx::{List, Mesh, SubdivisionDisplayMode, UvSet, Vec2, Vec3, VertexVec2, VertexVec3, VertexVec4};
 
 use crate::source::{CornerValues, FaceSizes, SourceMesh, SourceUvSet};
 
@@ -24,6 +24,10 @@ pub struct Losses {
     pub has_made_normals: bool,
     /// Whether there are tangents without a sign: neither bitangents nor a fourth component. They are left out.
     pub has_tangents_without_sign: bool,
+    /// Whether UV sets after the first have tangents.
+    pub has_further_tangents: bool,
+    /// Whether the file shows the mesh as a subdivision surface.
+    pub is_subdivided: bool,
 }
 
 /// Reads the faces, the positions and all attributes of corners into `to`.
@@ -46,6 +50,8 @@ pub fn fill(mesh: &Mesh, to: &mut SourceMesh) -> Losses {
     Losses {
         lines_and_points,
         has_made_normals: mesh.generated_normals,
+        has_further_tangents: mesh.uv_sets.iter().skip(1).any(|set| set.vertex_tangent.exists),
+        is_subdivided: mesh.subdivision_display_mode != SubdivisionDisplayMode::Disabled,
         has_tangents_without_sign: mesh.vertex_tangent.exists && to.tangents.is_none(),
     }
 }

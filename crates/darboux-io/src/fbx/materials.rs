@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use darboux::BitangentDirection;
-use ufbx::{Exporter, MaterialMap, Scene, Texture, TextureFile};
+use ufbx::{Exporter, MaterialMap, Scene, ShaderType, Texture, TextureFile, WrapMode};
 
 use crate::error::shortened;
 use crate::image::{DecodeLimits, RgbaImage};
@@ -42,18 +42,28 @@ impl<'a> MaterialReader<'a> {
     /// `uv_sets`: the names of the UV sets of the meshes with the material.
     pub fn material(&mut self, material: &ufbx::Material, uv_sets: &[String]) -> SourceMaterial {
         let (pbr, fbx) = (&material.pbr, &material.fbx);
-        let opacity = scalar(&pbr.opacity, 1.0);
-        let [r, g, b] = color(&pbr.base_color, &pbr.base_factor).unwrap_or([1.0; 3]);
-        self.list_other_textures(material);
+        let opacity = opacity(material);
+        self.list_losses(material);
+        let base_color_texture = self.texture(&pbr.base_color, uv_sets);
+        let emissive_texture = self.texture(&pbr.emission_color, uv_sets);
+        // A texture replaces the colour in FBX and is multiplied by it in glTF.
+        let [r, g, b] = match base_color_texture {
+            Some(_) => [scalar(&pbr.base_factor, 1.0); 3],
+            None => color(&pbr.base_color, &pbr.base_factor).unwrap_or([1.0; 3]),
+        };
+        let emissive = match emissive_texture {
+            Some(_) => Some([scalar(&pbr.emission_factor, 1.0); 3]),
+            None => color(&pbr.emission_color, &pbr.emission_factor),
+        };
         SourceMaterial {
             name: material.element.name.to_string(),
             base_color: Some([r, g, b, opacity]),
-            base_color_texture: self.texture(&pbr.base_color, uv_sets),
+            base_color_texture,
             metallic: Some(scalar(&pbr.metalness, 0.0)),
-            roughness: Some(scalar(&pbr.roughness, 1.0)),
+            roughness: Some(roughness(material)),
             normal_map: self.normal_map(material, uv_sets),
-            emissive: color(&pbr.emission_color, &pbr.emission_factor).filter(|color| *color != [0.0; 3]),
-            emissive_texture: self.texture(&pbr.emission_color, uv_sets),
+            emissive: emissive.filter(|color| *color != [0.0; 3]),
+            emissive_texture,
             occlusion_texture: self.texture(&pbr.ambient_occlusion, uv_sets),
             is_double_sided: material.features.double_sided.enabled,
             is_transparent: opacity < 1.0 || fbx.transparency_color.texture.is_some(),
@@ -88,8 +98,10 @@ impl<'a> MaterialReader<'a> {
         Some(NormalMap { texture, scale: None, green: self.green })
     }
 
-    fn list_other_textures(&mut self, material: &ufbx::Material) {
-        let pbr = &material.pbr;
+    /// Lists the textures and layers of shading that have no place in glTF's metallic-roughness.
+    fn list_losses(&mut self, material: &ufbx::Material) {
+        let (pbr, fbx) = (&material.pbr, &material.fbx);
+        let name = shortened(&material.element.name);
         let maps = [
             ("metalness", &pbr.metalness),
             ("roughness", &pbr.roughness),
@@ -100,9 +112,45 @@ impl<'a> MaterialReader<'a> {
             ("tangent", &pbr.tangent_map),
             ("coat normal", &pbr.coat_normal),
         ];
-        for (name, _) in maps.into_iter().filter(|(_, map)| map.texture_enabled && map.texture.is_some()) {
-            self.not_carried
-                .push(format!("the {name} texture of material {:?}", shortened(&material.element.name)));
+        // Some maps are one texture under several names: it is listed once.
+        let mut known: Vec<(bool, u32)> = [
+            &pbr.base_color,
+            &pbr.emission_color,
+            &pbr.ambient_occlusion,
+            &pbr.normal_map,
+            &fbx.normal_map,
+            &fbx.bump,
+        ]
+        .into_iter()
+        .filter_map(identity_of_map)
+        .collect();
+        for (map_name, map) in maps {
+            // The base colour's texture has opacity in its alpha.
+            if let Some(id) = identity_of_map(map).filter(|id| map_name != "opacity" || !known.contains(id)) {
+                self.not_carried.push(format!("the {map_name} texture of material {name:?}"));
+                known.push(id);
+            }
+        }
+        for other in &material.textures {
+            let id = identity(&other.texture);
+            if !known.contains(&id) {
+                let property = shortened(&other.material_prop);
+                self.not_carried.push(format!("the texture of {property} of material {name:?}"));
+                known.push(id);
+            }
+        }
+        let layers = [
+            ("coat", &pbr.coat_factor),
+            ("sheen", &pbr.sheen_factor),
+            ("transmission", &pbr.transmission_factor),
+            ("subsurface scattering", &pbr.subsurface_factor),
+            ("thin film", &pbr.thin_film_factor),
+        ];
+        for (layer, factor) in layers {
+            let is_opacity = layer == "transmission" && is_classic(material);
+            if !is_opacity && scalar(factor, 0.0) > 0.0 && !factor.feature_disabled {
+                self.not_carried.push(format!("the {layer} of material {name:?}"));
+            }
         }
     }
 
@@ -112,9 +160,15 @@ impl<'a> MaterialReader<'a> {
         let with_file = if texture.has_file { texture } else { texture.file_textures.into_iter().next()? };
         let image = self.image(with_file.file_index)?;
         let uv_set = uv_sets.iter().position(|name| *name == *texture.uv_set).unwrap_or(0);
-        if with_file.has_uv_transform {
-            self.not_carried.push(format!("the scale, rotation or offset of {}", self.images[image].name));
-        }
+        let name = &self.images[image].name;
+        let layers = texture.file_textures.count;
+        let losses = [
+            (with_file.has_uv_transform, "the scale, rotation or offset of"),
+            ((with_file.wrap_u, with_file.wrap_v) != (WrapMode::Repeat, WrapMode::Repeat), "the clamping of"),
+            (!texture.has_file && layers > 1, "the layers of a texture but"),
+        ];
+        let losses = losses.into_iter().filter(|(is_lost, _)| *is_lost);
+        self.not_carried.extend(losses.map(|(_, what)| format!("{what} {name}")));
         Some(SourceTexture { image, uv_set, transform: None })
     }
 
@@ -159,6 +213,41 @@ impl<'a> MaterialReader<'a> {
             }
         }
     }
+}
+
+/// The opacity. Lambert's and Phong's materials have the opposite: a factor and a colour. Programs write 1 and white for opaque materials, too, so that a
+/// material without any opacity is opaque.
+fn opacity(material: &ufbx::Material) -> f32 {
+    let (pbr, fbx) = (&material.pbr, &material.fbx);
+    if !is_classic(material) {
+        return scalar(&pbr.opacity, 1.0);
+    }
+    let [r, g, b] = color(&fbx.transparency_color, &fbx.transparency_factor).unwrap_or([0.0; 3]);
+    let opacity = 1.0 - (r + g + b) / 3.0;
+    if opacity > 0.0 && opacity < 1.0 { opacity } else { 1.0 }
+}
+
+/// Whether the shading is Lambert's or Phong's, without Blender's extensions.
+fn is_classic(material: &ufbx::Material) -> bool {
+    matches!(material.shader_type, ShaderType::FbxLambert | ShaderType::FbxPhong)
+}
+
+/// The roughness; some programs write its inverse.
+fn roughness(material: &ufbx::Material) -> f32 {
+    let pbr = &material.pbr;
+    match material.features.roughness_as_glossiness.enabled {
+        true if pbr.glossiness.has_value => 1.0 - scalar(&pbr.glossiness, 0.0),
+        _ => scalar(&pbr.roughness, 1.0),
+    }
+}
+
+/// What tells textures apart: their file, or their place in the scene.
+fn identity(texture: &Texture) -> (bool, u32) {
+    (texture.has_file, if texture.has_file { texture.file_index } else { texture.element.typed_id })
+}
+
+fn identity_of_map(map: &MaterialMap) -> Option<(bool, u32)> {
+    map.texture.as_deref().filter(|_| map.texture_enabled).map(identity)
 }
 
 fn scalar(map: &MaterialMap, default: f32) -> f32 {

@@ -3,14 +3,16 @@
 use std::collections::HashMap;
 
 use darboux::{Axes, Axis};
-use ufbx::{CoordinateAxis, Mesh, Node, Scene};
+use ufbx::{CoordinateAxis, Mesh, Node, PropFlags, Scene};
 
 use super::deformers;
 use super::geometry::{self, Losses};
 use super::materials::MaterialReader;
 use crate::error::{ContentError, shortened};
 use crate::memory_limit::Budget;
-use crate::source::{ModelFiles, SourceFormat, SourceMesh, SourceNode, SourceScene, VertexWeights};
+use crate::source::{
+    MadeNormals, ModelFiles, SourceFormat, SourceMesh, SourceNode, SourceScene, VertexWeights,
+};
 
 /// A mesh and the materials that a node gives it. Nodes with the same share one mesh.
 type MeshUse = (u32, Vec<u32>);
@@ -136,13 +138,18 @@ fn add_losses(losses: &[Losses], made: &mut SourceScene) {
         "mesh's tangents, which have no bitangents and so no sign",
         "meshes' tangents, which have no bitangents and so no sign",
     ));
-    match count(|lost| lost.has_made_normals) {
-        0 => {}
-        1 => made.warnings.push("1 mesh has no normals; they were made by its smoothing groups".to_owned()),
-        n => made
-            .warnings
-            .push(format!("{n} meshes have no normals; they were made by their smoothing groups")),
-    }
+    made.not_carried.extend(counted(
+        count(|lost| lost.has_further_tangents),
+        "mesh's tangents of UV sets after the first",
+        "meshes' tangents of UV sets after the first",
+    ));
+    made.not_carried.extend(counted(
+        count(|lost| lost.is_subdivided),
+        "subdivision surface, which is read as its cage",
+        "subdivision surfaces, which are read as their cages",
+    ));
+    let normals = MadeNormals { all: count(|lost| lost.has_made_normals), some: 0 };
+    made.warnings.extend(normals.warnings());
 }
 
 fn add_materials(scene: &Scene, files: &ModelFiles, made: &mut SourceScene) {
@@ -183,13 +190,16 @@ fn node(
 
 /// The names of a node's parents and its own, from the root on.
 fn path(node: &Node) -> String {
-    // Helpers are nodes that ufbx makes.
-    let is_named =
-        |node: &&Node| !(node.is_root || node.is_geometry_transform_helper || node.is_scale_helper);
+    let is_named = |node: &&Node| !is_helper(node);
     let above = std::iter::successors(Some(node), |node| node.parent.as_deref());
     let mut names: Vec<String> = above.filter(is_named).map(|node| shortened(&node.element.name)).collect();
     names.reverse();
     shortened(&names.join("/"))
+}
+
+/// Whether ufbx made the node.
+fn is_helper(node: &Node) -> bool {
+    node.is_root || node.is_geometry_transform_helper || node.is_scale_helper
 }
 
 /// The name of a mesh: its own, or that of its node where exporters leave it empty.
@@ -200,6 +210,12 @@ fn mesh_name(mesh: &Mesh, node: &Node) -> String {
 /// Noun phrases for what the scene has and is not read.
 fn left_out(scene: &Scene) -> impl Iterator<Item = String> {
     let curves = scene.line_curves.count + scene.nurbs_curves.count + scene.nurbs_surfaces.count;
+    let nodes =
+        |is: fn(&Node) -> bool| scene.nodes.into_iter().filter(|node| !is_helper(node) && is(node)).count();
+    let hidden = nodes(|node| !node.visible);
+    let is_custom =
+        |node: &Node| node.element.props.props.iter().any(|p| p.flags.has_any(PropFlags::USER_DEFINED));
+    let with_properties = nodes(is_custom);
     [
         (scene.anim_stacks.count, "animation", "animations"),
         (scene.cameras.count, "camera", "cameras"),
@@ -207,6 +223,13 @@ fn left_out(scene: &Scene) -> impl Iterator<Item = String> {
         (curves, "curve or NURBS surface", "curves and NURBS surfaces"),
         (scene.cache_deformers.count, "geometry cache", "geometry caches"),
         (scene.constraints.count, "constraint", "constraints"),
+        (
+            scene.lod_groups.count,
+            "choice of a level of detail: all levels are shown",
+            "choices of levels of detail: all levels are shown",
+        ),
+        (hidden, "hidden node, which is shown", "hidden nodes, which are shown"),
+        (with_properties, "node's custom properties", "nodes' custom properties"),
     ]
     .into_iter()
     .filter_map(|(count, one, several)| counted(count, one, several))

@@ -321,8 +321,8 @@ impl Container {
             Some(FileKind::Gltf) => Self::Gltf,
             Some(FileKind::Ply) => Self::Exchange(ExchangeFormat::Ply),
             Some(FileKind::Obj) => Self::Exchange(ExchangeFormat::Obj),
-            _ => {
-                let problem = "has no extension of a model; name it .glb, .gltf, .ply or .obj".to_owned();
+            kind => {
+                let problem = paths::wrong_output(kind);
                 return Err(Error::Output { file: path.to_owned(), problem });
             }
         })

@@ -110,6 +110,8 @@ impl<'a> Materials<'a> {
                 *self.lost.entry(statement.to_owned()).or_default() += 1;
             }
         }
+        let emissive_texture = self.texture(library, material.emissive_map.as_ref());
+        let emissive = material.emissive.map(linear).filter(|color| *color != [0.0; 3]);
         let packed = material.roughness_map.as_ref().filter(|_| is_packed);
         SourceMaterial {
             name: material.name.clone(),
@@ -119,8 +121,9 @@ impl<'a> Materials<'a> {
             roughness: material.roughness.or_else(|| material.shininess.map(roughness)),
             metallic_roughness_texture: self.texture(library, packed),
             normal_map: self.normal_map(library, material),
-            emissive: material.emissive.map(linear).filter(|color| *color != [0.0; 3]),
-            emissive_texture: self.texture(library, material.emissive_map.as_ref()),
+            // A map without a colour shines as it is.
+            emissive: emissive.or(emissive_texture.as_ref().map(|_| [1.0; 3])),
+            emissive_texture,
             is_transparent: alpha.is_some(),
             ..SourceMaterial::default()
         }

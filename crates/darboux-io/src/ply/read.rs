@@ -1,13 +1,13 @@
-//! Reads the elements of a PLY: vertices, faces and strips of triangles.
+//! Reads the elements of a PLY: vertices here, faces in their file, others to skip them.
 
+use super::faces::FaceReader;
 use super::header::{self, Element, Encoding, Header, NumberType, Property};
+use super::layout::{VertexLayout, VertexProperty, layout};
+use super::textures;
 use super::values::{Values, decode};
-use crate::error::{ContentError, system_reason};
+use crate::error::{ContentError, shortened};
 use crate::image::srgb_to_linear;
-use crate::source::{
-    CornerValues, FaceSizes, ModelFiles, SourceFormat, SourceImage, SourceMaterial, SourceMesh, SourceScene,
-    SourceTexture, SourceUvSet,
-};
+use crate::source::{CornerValues, ModelFiles, SourceFormat, SourceMesh, SourceScene, SourceUvSet};
 
 /// Reads a PLY. Errors: a header that is none; numbers that are cut off or none; no faces.
 pub fn read(bytes: &[u8], files: &ModelFiles) -> Result<SourceScene, ContentError> {
@@ -24,7 +24,9 @@ pub fn read(bytes: &[u8], files: &ModelFiles) -> Result<SourceScene, ContentErro
             return Err(cut_off(element, 0));
         }
         match &*element.name {
-            "vertex" => read_vertices(element, header.encoding, &mut values, &mut mesh, &mut scene)?,
+            "vertex" if mesh.positions.is_empty() => {
+                read_vertices(element, header.encoding, &mut values, &mut mesh, &mut scene)?
+            }
             "face" | "tristrips" => faces.read(element, &mut values, &mut scene)?,
             _ => skip(element, &mut values, &mut scene)?,
         }
@@ -33,13 +35,13 @@ pub fn read(bytes: &[u8], files: &ModelFiles) -> Result<SourceScene, ContentErro
         let advice = "bake and tangents need faces; export the model as a mesh";
         return Err(ContentError::invalid("", format!("is a PLY without faces, a point cloud; {advice}")));
     }
-    faces.finish(&mut mesh);
-    add_texture(&header, files, &mut mesh, &mut scene);
+    let textures = textures::add(&header, files, &mut scene);
+    faces.finish(textures, &mut mesh, &mut scene);
     scene.meshes.push(mesh);
     Ok(scene)
 }
 
-fn cut_off(element: &Element, index: usize) -> ContentError {
+pub fn cut_off(element: &Element, index: usize) -> ContentError {
     let place = format!("{} {index}", element.name);
     let count = element.count;
     ContentError::invalid(
@@ -58,47 +60,12 @@ fn generator(header: &Header) -> Option<String> {
     header.comments.iter().find_map(after)
 }
 
-/// What a property of a vertex is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum VertexProperty {
-    Position(usize),
-    Normal(usize),
-    Uv(usize),
-    Color(usize),
-    Tangent(usize),
-    Other,
-}
-
-/// The names that programs give to properties. Tangents have the names that this crate writes.
-fn vertex_property(name: &str) -> VertexProperty {
-    use VertexProperty::{Color, Normal, Other, Position, Tangent, Uv};
-    match name {
-        "x" => Position(0),
-        "y" => Position(1),
-        "z" => Position(2),
-        "nx" | "normal_x" => Normal(0),
-        "ny" | "normal_y" => Normal(1),
-        "nz" | "normal_z" => Normal(2),
-        "s" | "u" | "texture_u" | "tx_u" | "s0" => Uv(0),
-        "t" | "v" | "texture_v" | "tx_v" | "t0" => Uv(1),
-        "red" | "r" | "diffuse_red" => Color(0),
-        "green" | "g" | "diffuse_green" => Color(1),
-        "blue" | "b" | "diffuse_blue" => Color(2),
-        "alpha" | "a" => Color(3),
-        "tangent_x" => Tangent(0),
-        "tangent_y" => Tangent(1),
-        "tangent_z" => Tangent(2),
-        "tangent_w" => Tangent(3),
-        _ => Other,
-    }
-}
-
 /// The vertices while they are read.
 #[derive(Debug, Default)]
 struct VertexLists {
     positions: Vec<[f32; 3]>,
     normals: Vec<[f32; 3]>,
-    uvs: Vec<[f32; 2]>,
+    uv_sets: Vec<Vec<[f32; 2]>>,
     colors: Vec<[f32; 4]>,
     tangents: Vec<[f32; 4]>,
 }
@@ -110,36 +77,14 @@ fn read_vertices(
     mesh: &mut SourceMesh,
     scene: &mut SourceScene,
 ) -> Result<(), ContentError> {
-    let kinds: Vec<VertexProperty> =
-        element
-            .properties
-            .iter()
-            .map(|property| {
-                if property.length.is_some() {
-                    VertexProperty::Other
-                } else {
-                    vertex_property(&property.name)
-                }
-            })
-            .collect();
-    let has = |property: VertexProperty| kinds.contains(&property);
-    if ![0, 1, 2].iter().all(|&axis| has(VertexProperty::Position(axis))) {
-        return Err(ContentError::invalid("element vertex", "has no x, y and z; export the file again"));
-    }
-    let mut lists = VertexLists::default();
-    lists.positions.resize(element.count, [0.0; 3]);
-    if [0, 1, 2].iter().all(|&axis| has(VertexProperty::Normal(axis))) {
-        lists.normals.resize(element.count, [0.0; 3]);
-    }
-    if [0, 1].iter().all(|&axis| has(VertexProperty::Uv(axis))) {
-        lists.uvs.resize(element.count, [0.0; 2]);
-    }
-    if [0, 1, 2].iter().all(|&channel| has(VertexProperty::Color(channel))) {
-        lists.colors.resize(element.count, [1.0; 4]);
-    }
-    if [0, 1, 2, 3].iter().all(|&axis| has(VertexProperty::Tangent(axis))) {
-        lists.tangents.resize(element.count, [0.0; 4]);
-    }
+    let VertexLayout { kinds, uv_sets, has_normals, has_colors, has_tangents } = layout(element)
+        .ok_or_else(|| ContentError::invalid("element vertex", "has no x, y and z; export the file again"))?;
+    let count = element.count;
+    let mut lists = VertexLists { positions: vec![[0.0; 3]; count], ..VertexLists::default() };
+    lists.uv_sets.resize_with(uv_sets.len(), || vec![[0.0; 2]; count]);
+    lists.normals.resize(if has_normals { count } else { 0 }, [0.0; 3]);
+    lists.colors.resize(if has_colors { count } else { 0 }, [1.0; 4]);
+    lists.tangents.resize(if has_tangents { count } else { 0 }, [0.0; 4]);
     match (encoding, row_size(element)) {
         (Encoding::LittleEndian | Encoding::BigEndian, Some(size)) => {
             let rows = values.bytes(size * element.count).ok_or_else(|| cut_off(element, 0))?;
@@ -155,12 +100,22 @@ fn read_vertices(
         }
     }
     let others = element.properties.iter().zip(&kinds).filter(|(_, kind)| **kind == VertexProperty::Other);
-    let names: Vec<&str> = others.map(|(property, _)| &*property.name).collect();
-    if !names.is_empty() {
-        scene.not_carried.push(format!("the vertex properties {}", names.join(", ")));
-    }
-    lists.finish(mesh);
+    scene.not_carried.extend(properties("vertex", others.map(|(property, _)| &*property.name)));
+    lists.finish(uv_sets, mesh);
     Ok(())
+}
+
+/// A noun phrase for properties that are not carried over; none for none.
+pub fn properties<'a>(element: &str, names: impl Iterator<Item = &'a str>) -> Option<String> {
+    const MOST: usize = 20;
+    let names: Vec<String> = names.map(shortened).collect();
+    let (shown, others) = names.split_at(names.len().min(MOST));
+    Some(match (shown, others.len()) {
+        ([], _) => return None,
+        ([name], _) => format!("the {element} property {name}"),
+        (_, 0) => format!("the {element} properties {}", shown.join(", ")),
+        (_, others) => format!("the {element} properties {} and {others} others", shown.join(", ")),
+    })
 }
 
 /// The number of bytes of a binary row; none if it has lists.
@@ -173,7 +128,7 @@ fn row_size(element: &Element) -> Option<usize> {
 }
 
 /// The value of a property; the last one of a list, which is 0 for an empty list.
-fn next(property: &Property, values: &mut Values<'_>) -> Option<f64> {
+pub fn next(property: &Property, values: &mut Values<'_>) -> Option<f64> {
     let Some(length) = property.length else { return values.next(property.number) };
     let count = values.next(length)?;
     let mut last = 0.0;
@@ -212,11 +167,7 @@ impl VertexLists {
                     normal[axis] = value as f32;
                 }
             }
-            VertexProperty::Uv(axis) => {
-                if let Some(uv) = self.uvs.get_mut(vertex) {
-                    uv[axis] = value as f32;
-                }
-            }
+            VertexProperty::Uv(set, axis) => self.uv_sets[set][vertex][axis] = value as f32,
             VertexProperty::Color(channel) => {
                 if let Some(color) = self.colors.get_mut(vertex) {
                     let value = value / number.full_intensity();
@@ -233,116 +184,18 @@ impl VertexLists {
         }
     }
 
-    fn finish(self, mesh: &mut SourceMesh) {
+    /// Moves everything into the mesh. `uv_sets`: their names.
+    fn finish(self, uv_sets: Vec<String>, mesh: &mut SourceMesh) {
         mesh.positions = self.positions;
         mesh.normals = (!self.normals.is_empty()).then(|| CornerValues::of_positions(self.normals));
         mesh.tangents = (!self.tangents.is_empty()).then(|| CornerValues::of_positions(self.tangents));
         if !self.colors.is_empty() {
             mesh.colors.push(CornerValues::of_positions(self.colors));
         }
-        if !self.uvs.is_empty() {
-            mesh.uv_sets.push(SourceUvSet { name: String::new(), uvs: CornerValues::of_positions(self.uvs) });
-        }
+        let uv_sets = uv_sets.into_iter().zip(self.uv_sets);
+        let uv_sets = uv_sets.map(|(name, uvs)| SourceUvSet { name, uvs: CornerValues::of_positions(uvs) });
+        mesh.uv_sets.extend(uv_sets);
     }
-}
-
-/// The faces while they are read.
-#[derive(Debug, Default)]
-struct FaceReader {
-    corners: Vec<u32>,
-    sizes: Vec<u32>,
-    /// UVs of corners, which MeshLab writes as `texcoord`.
-    uvs: Vec<[f32; 2]>,
-    has_larger: bool,
-    lacks_uvs: bool,
-}
-
-impl FaceReader {
-    fn read(
-        &mut self,
-        element: &Element,
-        values: &mut Values<'_>,
-        scene: &mut SourceScene,
-    ) -> Result<(), ContentError> {
-        let is_strip = element.name == "tristrips";
-        let is_list = |property: &Property| property.length.is_some();
-        let is_indices = |property: &Property| {
-            is_list(property) && ["vertex_indices", "vertex_index"].contains(&&*property.name)
-        };
-        let is_uvs = |property: &Property| is_list(property) && property.name == "texcoord";
-        let mut list = Vec::new();
-        for face in 0..element.count {
-            let before = self.corners.len();
-            for property in &element.properties {
-                let failed = || cut_off(element, face);
-                if is_indices(property) {
-                    read_list(property, values, &mut list).ok_or_else(failed)?;
-                    if is_strip { self.add_strips(&list) } else { self.add_face(&list) }
-                } else if is_uvs(property) {
-                    read_list(property, values, &mut list).ok_or_else(failed)?;
-                    self.add_uvs(&list, self.corners.len() - before);
-                } else {
-                    next(property, values).ok_or_else(failed)?;
-                }
-            }
-            self.lacks_uvs |= self.uvs.len() != self.corners.len();
-        }
-        let is_other = |property: &&Property| !is_indices(property) && !is_uvs(property);
-        let names: Vec<&str> =
-            element.properties.iter().filter(is_other).map(|property| &*property.name).collect();
-        if !names.is_empty() {
-            scene.not_carried.push(format!("the face properties {}", names.join(", ")));
-        }
-        Ok(())
-    }
-
-    fn add_face(&mut self, list: &[f64]) {
-        self.corners.extend(list.iter().map(|&index| index_of(index)));
-        self.has_larger |= list.len() != 3;
-        self.sizes.push(list.len() as u32);
-    }
-
-    /// Adds strips of triangles, which -1 separates. Every second triangle is reversed.
-    fn add_strips(&mut self, list: &[f64]) {
-        for strip in list.split(|&index| index < 0.0) {
-            for (at, window) in strip.windows(3).enumerate() {
-                let [a, b, c] = [0, 1 + at % 2, 2 - at % 2].map(|i| index_of(window[i]));
-                if a != b && b != c && a != c {
-                    self.corners.extend([a, b, c]);
-                    self.sizes.push(3);
-                }
-            }
-        }
-    }
-
-    fn add_uvs(&mut self, list: &[f64], corners: usize) {
-        let uvs = list.as_chunks().0.iter().map(|&[u, v]| [u as f32, v as f32]);
-        self.uvs.extend(uvs.take(corners));
-    }
-
-    fn finish(self, mesh: &mut SourceMesh) {
-        mesh.corners = self.corners;
-        mesh.faces = if self.has_larger { FaceSizes::Sizes(self.sizes) } else { FaceSizes::Triangles };
-        if !self.lacks_uvs {
-            mesh.uv_sets =
-                vec![SourceUvSet { name: "texcoord".to_owned(), uvs: CornerValues::of_corners(self.uvs) }];
-        }
-    }
-}
-
-/// A vertex's index. Numbers that are none become an index that does not exist, which the builder refuses.
-fn index_of(index: f64) -> u32 {
-    if (0.0..f64::from(u32::MAX)).contains(&index) { index as u32 } else { u32::MAX }
-}
-
-/// Reads a list into `list`. None: it is cut off.
-fn read_list(property: &Property, values: &mut Values<'_>, list: &mut Vec<f64>) -> Option<()> {
-    list.clear();
-    let count = values.next(property.length?)?;
-    for _ in 0..count as usize {
-        list.push(values.next(property.number)?);
-    }
-    Some(())
 }
 
 fn skip(element: &Element, values: &mut Values<'_>, scene: &mut SourceScene) -> Result<(), ContentError> {
@@ -352,46 +205,8 @@ fn skip(element: &Element, values: &mut Values<'_>, scene: &mut SourceScene) -> 
         }
     }
     if element.count > 0 {
-        scene.not_carried.push(format!("the element {}", element.name));
+        let (count, name) = (element.count, shortened(&element.name));
+        scene.not_carried.push(format!("{count} {name}, an element that is not read"));
     }
     Ok(())
-}
-
-/// The texture of a comment such as `TextureFile wood.png`, which MeshLab writes.
-fn add_texture(header: &Header, files: &ModelFiles, mesh: &mut SourceMesh, scene: &mut SourceScene) {
-    let names: Vec<&str> = header
-        .comments
-        .iter()
-        .filter_map(|comment| {
-            let rest = comment.strip_prefix("comment")?.trim_start();
-            let (word, name) = rest.split_once(char::is_whitespace)?;
-            word.eq_ignore_ascii_case("TextureFile").then_some(name.trim())
-        })
-        .collect();
-    let Some(name) = names.first() else { return };
-    if names.len() > 1 {
-        scene.not_carried.push(format!("{} textures after the first", names.len() - 1));
-    }
-    let Some(file) = files.find("", name) else {
-        scene.warnings.push(format!("{}; the texture is left out", files.problem(name)));
-        return;
-    };
-    scene.warnings.extend(ModelFiles::by_name_warning(name, &file));
-    match files.read(&file) {
-        Ok(bytes) => {
-            scene.images.push(SourceImage { name: file.name, bytes });
-            let texture = SourceTexture { image: 0, ..SourceTexture::default() };
-            scene.materials.push(SourceMaterial {
-                base_color_texture: Some(texture),
-                metallic: Some(0.0),
-                ..SourceMaterial::default()
-            });
-            mesh.material = Some(0);
-        }
-        Err(error) => scene.warnings.push(format!(
-            "{}: cannot be read: {}; the texture is left out",
-            file.name,
-            system_reason(&error)
-        )),
-    }
 }

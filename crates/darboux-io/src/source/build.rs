@@ -17,6 +17,7 @@ use serde_json::{Value, json};
 use super::polygons::Cutter;
 use super::provenance::Provenance;
 use super::scene::SourceScene;
+use super::smoothing;
 use crate::LoadOptions;
 use crate::error::ContentError;
 use crate::gltf::{container, segments};
@@ -36,6 +37,7 @@ pub struct Built {
 /// Errors: a scene without faces; indices out of range; more primitives than the memory limit permits; more than the 4 GiB that a GLB can hold.
 pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Result<Built, ContentError> {
     let mut warnings = std::mem::take(&mut scene.warnings);
+    warnings.extend(smoothing::add_normals(&mut scene.meshes).warnings());
     let mut data = DataBuilder::default();
     let mut cutter = Cutter::new(options.polygon_rule);
     let limit = options.budget(size, 0);

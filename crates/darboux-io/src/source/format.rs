@@ -32,10 +32,15 @@ impl SourceFormat {
 /// The start of a file that is enough to recognise its format.
 const HEAD: usize = 4096;
 
-/// The format of a file; none for glTF and for what is not recognised.
+/// A text without the byte order mark of UTF-8 at its start.
+pub fn without_byte_order_mark(text: &[u8]) -> &[u8] {
+    text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text)
+}
+
+/// The format of a file without a byte order mark; none for glTF and for what is not recognised.
 pub fn detect(bytes: &[u8]) -> Option<SourceFormat> {
     let head = &bytes[..bytes.len().min(HEAD)];
-    let text = head.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(head).trim_ascii_start();
+    let text = head.trim_ascii_start();
     if head.starts_with(b"Kaydara FBX Binary") || is_ascii_fbx(text) {
         return Some(SourceFormat::Fbx);
     }
@@ -51,8 +56,12 @@ pub fn detect(bytes: &[u8]) -> Option<SourceFormat> {
     is_obj(bytes).then_some(SourceFormat::Obj)
 }
 
+/// A text that says so in its first comment, or whose first statement is FBX's.
 fn is_ascii_fbx(text: &[u8]) -> bool {
-    text.starts_with(b"; FBX") || text.starts_with(b"FBXHeaderExtension")
+    let lines = text.split(|&byte| byte == b'\n' || byte == b'\r').map(<[u8]>::trim_ascii);
+    let mut statements = lines.filter(|line| !line.is_empty() && !line.starts_with(b";"));
+    text.starts_with(b"; FBX")
+        || statements.next().is_some_and(|line| line.starts_with(b"FBXHeaderExtension"))
 }
 
 /// A zip archive whose first member is a stage of USD.
@@ -97,8 +106,7 @@ fn is_obj(bytes: &[u8]) -> bool {
 
 /// The first word of a text that is not in a comment.
 fn first_word(bytes: &[u8]) -> Option<&[u8]> {
-    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    let lines = text.split(|&byte| byte == b'\n' || byte == b'\r').map(<[u8]>::trim_ascii);
+    let lines = bytes.split(|&byte| byte == b'\n' || byte == b'\r').map(<[u8]>::trim_ascii);
     let mut statements = lines.filter(|line| !line.is_empty() && !line.starts_with(b"#"));
     statements.next().and_then(|line| line.split(u8::is_ascii_whitespace).next())
 }
@@ -135,6 +143,8 @@ pub fn name_of_other(bytes: &[u8]) -> Option<&'static str> {
         "is a material library of an OBJ; give the .obj file"
     } else if at(0, b"\x89PNG") || at(0, b"\xFF\xD8\xFF") || (at(0, b"RIFF") && at(8, b"WEBP")) {
         "is an image, not a model; give the model"
+    } else if at(0, b"\xFF\xFE") || at(0, b"\xFE\xFF") {
+        "is a text in UTF-16, which is not read; save it in UTF-8"
     } else if at(0, b"%PDF") {
         "is a PDF, not a model; give the model"
     } else if is_cut_stl(bytes) {
