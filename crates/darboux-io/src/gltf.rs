@@ -31,6 +31,7 @@ mod materials;
 mod normals;
 mod objects_only;
 mod output;
+mod portable_names;
 mod primitives;
 mod progress;
 mod references;

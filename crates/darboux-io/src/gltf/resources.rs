@@ -5,7 +5,6 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
-use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
@@ -201,18 +200,6 @@ fn normalised(path: &str) -> Option<PathBuf> {
     files::normalised(Path::new(path)).filter(|path| !path.as_os_str().is_empty())
 }
 
-/// A relative path for a new file beside a document: `path` with `_` in place of whatever a URI cannot spell or a reader refuses.
-///
-/// These are bytes that are not UTF-8, control characters, and the characters `:` and `\`.
-pub fn portable(path: &Path) -> PathBuf {
-    let part = |part: &OsStr| {
-        let text = part.to_string_lossy();
-        let is_portable = |c: char| !c.is_control() && !matches!(c, ':' | '\\' | char::REPLACEMENT_CHARACTER);
-        text.chars().map(|c| if is_portable(c) { c } else { '_' }).collect::<String>()
-    };
-    path.iter().map(part).collect()
-}
-
 /// Decodes the text after `data:`. The error is a clause that says what is wrong and what to do.
 pub fn decode_data_uri(data: &str) -> Result<Vec<u8>, String> {
     let (kind, content) = data.split_once(',').ok_or("the data URI has no comma; export the file again")?;
@@ -234,7 +221,7 @@ pub fn encode_data_uri(media_type: &str, bytes: &[u8]) -> String {
     format!("data:{media_type};base64,{encoded}")
 }
 
-/// The URI of a [`portable`] relative path.
+/// The URI of a relative path that [`portable`](super::portable_names::portable) gave.
 pub fn encode_path(path: &Path) -> String {
     const RESERVED: &AsciiSet =
         &CONTROLS.add(b' ').add(b'"').add(b'#').add(b'%').add(b'<').add(b'>').add(b'?').add(b':').add(b'\\');
@@ -270,6 +257,7 @@ fn shortened(uri: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gltf::portable_names::portable;
 
     #[test]
     fn paths_that_leave_the_folder_are_not_normalised() {
@@ -299,7 +287,6 @@ mod tests {
             assert_eq!(scheme(&uri), None, "{name:?}");
             assert_eq!(decoded_path(&uri).and_then(|path| normalised(&path)), Some(portable), "{name:?}");
         }
-        assert_eq!(portable(Path::new("maps/my color.png")), Path::new("maps/my color.png"));
     }
 
     #[test]

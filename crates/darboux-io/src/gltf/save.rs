@@ -13,7 +13,8 @@ use super::container::glb;
 use super::document::Document;
 use super::exchange::{self, ExchangeFormat};
 use super::output::{FileUris, OutputLayout};
-use super::resources::{LocatedFile, UriTarget, encode_path, portable};
+use super::portable_names::{Numbers, image_stem, portable};
+use super::resources::{LocatedFile, UriTarget, encode_path};
 use super::schema::Buffer;
 use super::segments::{self, Segment};
 use crate::error::ContentError;
@@ -158,7 +159,7 @@ impl Document {
             return Err(ContentError::unsupported("", problem).in_file(self.name()));
         }
         let folder = target.parent().unwrap_or(Path::new(""));
-        let mut names = FileNames { folder, taken: HashSet::from([target.to_owned()]) };
+        let mut names = FileNames::new(folder, target);
         let in_file = |error: ContentError| error.in_file(self.name());
         let layout = OutputLayout::gltf(self).map_err(in_file)?;
         // Without edits the text stays as it was, with everything that it refers to.
@@ -195,7 +196,7 @@ impl Document {
             return Err(Error::Output { file: target.to_owned(), problem: problem.into() });
         }
         let folder = target.parent().unwrap_or(Path::new(""));
-        let mut names = FileNames { folder, taken: HashSet::from([target.to_owned()]) };
+        let mut names = FileNames::new(folder, target);
         let library =
             Path::new(target.file_stem().unwrap_or(OsStr::new("materials"))).with_added_extension("mtl");
         let mut textures = vec![None; self.root.images.len()];
@@ -204,7 +205,7 @@ impl Document {
                 let Ok(bytes) = self.image_bytes(image) else { continue };
                 let segments = [Segment::Borrowed(&bytes)];
                 let placed = names.place_content(&self.image_file_name(image), staging, &segments)?;
-                textures[image] = Some(placed.to_string_lossy().replace('\\', "/"));
+                textures[image] = Some(path_in_library(&placed));
             }
         }
         let mut content = exchange::content(self, format, &portable(&library).to_string_lossy(), &textures)?;
@@ -226,8 +227,7 @@ impl Document {
         });
         file.unwrap_or_else(|| {
             let name = self.json["images"][index]["name"].as_str().unwrap_or_default();
-            let name = name.rsplit(['/', '\\']).next().filter(|name| !name.is_empty());
-            let name = name.map_or_else(|| format!("image_{index}"), str::to_owned);
+            let name = image_stem(name).map_or_else(|| format!("image_{index}"), str::to_owned);
             let extension = match image.mime_type.as_deref() {
                 Some("image/jpeg") => "jpg",
                 Some("image/webp") => "webp",
@@ -235,7 +235,11 @@ impl Document {
                 _ => "png",
             };
             let path = PathBuf::from(name);
-            if FileKind::of(&path).is_some() { path } else { path.with_added_extension(extension) }
+            if FileKind::of(&path).is_some_and(FileKind::is_image) {
+                path
+            } else {
+                path.with_added_extension(extension)
+            }
         })
     }
 
@@ -329,13 +333,24 @@ impl Container {
     }
 }
 
+/// The path of a texture as a material library spells it. A path that begins as an option does, or with white space, begins with the folder.
+fn path_in_library(path: &Path) -> String {
+    let path = path.to_string_lossy().replace('\\', "/");
+    if path.starts_with(|c: char| c == '-' || c.is_whitespace()) { format!("./{path}") } else { path }
+}
+
 /// The names of files beside an output. No existing file is changed.
 struct FileNames<'a> {
     folder: &'a Path,
     taken: HashSet<PathBuf>,
+    numbers: Numbers,
 }
 
-impl FileNames<'_> {
+impl<'a> FileNames<'a> {
+    fn new(folder: &'a Path, target: &Path) -> Self {
+        Self { folder, taken: HashSet::from([target.to_owned()]), numbers: Numbers::default() }
+    }
+
     /// Puts a new file into the folder, as [`FileNames::place`] does. Returns its URI.
     fn place_segments(
         &mut self,
@@ -371,9 +386,12 @@ impl FileNames<'_> {
         let wanted = portable(wanted);
         let stem = wanted.file_stem().unwrap_or_default().to_string_lossy();
         let extension = wanted.extension().map(|text| format!(".{}", text.to_string_lossy()));
-        let mut relative = wanted.clone();
         let (mut write, mut written) = (Some(write), None);
-        for number in 1u32.. {
+        for number in self.numbers.first(&wanted).. {
+            let relative = match number {
+                0 => wanted.clone(),
+                _ => wanted.with_file_name(format!("{stem}_{number}{}", extension.as_deref().unwrap_or(""))),
+            };
             let path = self.folder.join(&relative);
             let failed = |source| Error::Write { file: path.clone(), source };
             if !self.taken.contains(&path) {
@@ -395,8 +413,9 @@ impl FileNames<'_> {
                     return Ok(relative);
                 }
             }
-            relative =
-                wanted.with_file_name(format!("{stem}_{number}{}", extension.as_deref().unwrap_or("")));
+            if self.taken.contains(&path) {
+                self.numbers.take(&wanted, number);
+            }
         }
         let problem = "and its numbered variants exist; clear the folder".to_owned();
         Err(Error::Output { file: self.folder.join(wanted), problem })

@@ -104,9 +104,16 @@ impl Lists {
     }
 }
 
-/// A name without line breaks; `otherwise` for none.
+/// The most characters of a name. Names are written once for every surface, so that a long one would be written very often.
+const LONGEST_NAME: usize = 1000;
+
+/// A name that a statement can end with: without line breaks, other control characters, and the mark of a continued line; `otherwise` for none.
 fn one_line(name: &str, otherwise: &str) -> String {
+    let name: String =
+        name.chars().take(LONGEST_NAME).map(|c| if c.is_control() { ' ' } else { c }).collect();
     let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
+    let end = name.trim_end_matches('\\').len();
+    let name = name[..end].to_owned() + &"_".repeat(name.len() - end);
     if name.is_empty() { otherwise.to_owned() } else { name }
 }
 
@@ -168,14 +175,16 @@ fn write_material(name: &str, material: &Material, paths: &[Option<String>], out
 /// A name for each material, without white space, each once: `usemtl` names one.
 fn unique_names(document: &Document, count: usize) -> Vec<String> {
     let mut taken = HashSet::new();
+    // The next number of each name, so that many equal names take no more time each than the first.
+    let mut next_number: HashMap<String, u32> = HashMap::new();
     let name_of = |index: usize| {
         let name = document.json()["materials"][index]["name"].as_str().unwrap_or_default();
         let name = one_line(name, &format!("Material_{index}")).replace(' ', "_");
         let mut unique = name.clone();
-        let mut number = 1;
+        let number = next_number.entry(name.clone()).or_insert(1);
         while !taken.insert(unique.clone()) {
             unique = format!("{name}_{number}");
-            number += 1;
+            *number += 1;
         }
         unique
     };
