@@ -263,6 +263,9 @@ impl Fault {
     }
 }
 
+/// Whether a defect is one of outliers, its code, and its place: primitive, material and image.
+pub type Sameness = (bool, Code, (Option<(usize, usize)>, Option<usize>, Option<usize>));
+
 impl Defect {
     /// A defect at no place yet, with the code's usual severity.
     pub fn new(fault: Fault) -> Self {
@@ -319,9 +322,13 @@ impl Defect {
     /// Whether two defects say the same of the same place. Tangents that are not those of the method that made the others are one thing, and that
     /// method is another.
     pub fn is_same(&self, other: &Self) -> bool {
-        let is_of_outliers = |defect: &Self| matches!(defect.fault, Fault::TangentOutliers { .. });
-        is_of_outliers(self) == is_of_outliers(other)
-            && self.code() == other.code()
-            && self.place.is_same(&other.place)
+        self.sameness() == other.sameness()
+    }
+
+    /// What two defects have in common that are the same ([`Defect::is_same`]).
+    pub fn sameness(&self) -> Sameness {
+        let primitive = self.place.primitive.as_ref().map(|name| (name.mesh, name.primitive));
+        let place = (primitive, self.place.material, self.place.image);
+        (matches!(self.fault, Fault::TangentOutliers { .. }), self.code(), place)
     }
 }

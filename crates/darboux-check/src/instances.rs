@@ -26,23 +26,32 @@ fn surface_key(document: &Document, name: &PrimitiveName) -> SurfaceKey {
     (attributes, targets, primitive.indices, primitive.mode, primitive.material, primitive.materials())
 }
 
-/// The primitive that a place names, and all with the same data.
-pub fn primitives_at(document: &Document, place: &Place) -> Vec<PrimitiveName> {
-    let Some(named) = &place.primitive else { return Vec::new() };
-    if place.same_as == 0 {
-        return vec![named.clone()];
-    }
-    let key = surface_key(document, named);
-    let mut names = Vec::new();
-    for (index, mesh) in document.meshes().iter().enumerate() {
-        for primitive in 0..mesh.primitives.len() {
-            let name = PrimitiveName { mesh: index, mesh_name: mesh.name.clone(), primitive };
-            if surface_key(document, &name) == key {
-                names.push(name);
+/// The primitives with the same data, for many places at once.
+pub struct Groups(BTreeMap<SurfaceKey, Vec<PrimitiveName>>);
+
+impl Groups {
+    /// The groups that these places name. The places must be those of the document as it is now.
+    pub fn of<'a>(document: &Document, mut places: impl Iterator<Item = &'a Place>) -> Self {
+        let mut groups: BTreeMap<SurfaceKey, Vec<PrimitiveName>> = BTreeMap::new();
+        if places.any(|place| place.same_as > 0) {
+            for (index, mesh) in document.meshes().iter().enumerate() {
+                for primitive in 0..mesh.primitives.len() {
+                    let name = PrimitiveName::new(index, mesh, primitive);
+                    groups.entry(surface_key(document, &name)).or_default().push(name);
+                }
             }
         }
+        Self(groups)
     }
-    names
+
+    /// The primitive that a place names, and all with the same data.
+    pub fn at(&self, document: &Document, place: &Place) -> Vec<PrimitiveName> {
+        let Some(named) = &place.primitive else { return Vec::new() };
+        if place.same_as == 0 {
+            return vec![named.clone()];
+        }
+        self.0.get(&surface_key(document, named)).cloned().unwrap_or_default()
+    }
 }
 
 /// The primitives that differ in data or materials, each with the number of later ones that do not.

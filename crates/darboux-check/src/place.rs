@@ -18,13 +18,6 @@ pub struct Place {
     pub image: Option<usize>,
 }
 
-impl Place {
-    /// Whether two places are one, whatever number of further primitives has the same data.
-    pub(crate) fn is_same(&self, other: &Self) -> bool {
-        (&self.primitive, self.material, self.image) == (&other.primitive, other.material, other.image)
-    }
-}
-
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.primitive, self.image, self.material) {

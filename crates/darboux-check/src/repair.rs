@@ -21,12 +21,12 @@ pub use maps::{FixedMap, fix_map, fix_map_on_model};
 pub use options::FixOptions;
 pub use outcome::{Change, FixedDocument, FixedFinding};
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use darboux_io::Error;
 use darboux_io::gltf::Document;
 
-use crate::defect::Defect;
+use crate::defect::{Defect, Sameness};
 use crate::finding::Finding;
 use crate::place::Place;
 use crate::words::edits;
@@ -77,7 +77,8 @@ pub fn fix_document(
     options: &FixOptions,
 ) -> Result<FixedDocument, Error> {
     let before: Vec<Defect> = findings.into_iter().flat_map(|finding| finding.defects).collect();
-    let promised: Vec<Defect> = before.iter().filter(|defect| defect.is_fixable()).cloned().collect();
+    let promised: HashSet<Sameness> =
+        before.iter().filter(|defect| defect.is_fixable()).map(Defect::sameness).collect();
     let (of_images, of_surfaces): (Vec<Defect>, Vec<Defect>) =
         before.into_iter().partition(|defect| defect.place.image.is_some());
     let left = LeftPairs::new(document, &of_images, &of_surfaces, options)?;
@@ -86,7 +87,7 @@ pub fn fix_document(
     fixed.is_changed |= of_images.iter().any(|image| image.repaired);
     fixed.findings.extend(of_images);
     for fixed in &mut fixed.findings {
-        let is_promised = |defect: &Defect| promised.iter().any(|promised| promised.is_same(defect));
+        let is_promised = |defect: &Defect| promised.contains(&defect.sameness());
         fixed.was_fixable |= fixed.finding.defects.iter().any(is_promised);
     }
     fixed.findings = outcome::joined(fixed.findings);

@@ -68,7 +68,7 @@ impl From<Finding> for ReportedFinding {
             severity: finding.severity,
             place,
             mesh,
-            mesh_name: primitive.and_then(|name| name.mesh_name),
+            mesh_name: primitive.and_then(|name| name.shown_mesh_name()),
             primitive: number,
             same_as,
             material,

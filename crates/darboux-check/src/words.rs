@@ -11,6 +11,9 @@ mod said;
 mod tangents;
 mod uvs;
 
+use std::collections::HashMap;
+use std::hash::Hash;
+
 use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Fault, Obstacle};
 use crate::finding::Finding;
@@ -89,16 +92,20 @@ pub fn findings(defects: Vec<Defect>) -> Vec<Finding> {
 }
 
 /// The elements in groups of one key, each at the place of its first element; those without a key are alone.
-pub fn grouped<T, K: PartialEq>(elements: Vec<T>, key: impl Fn(&T) -> Option<K>) -> Vec<Vec<T>> {
-    let mut groups: Vec<(Option<K>, Vec<T>)> = Vec::new();
+pub fn grouped<T, K: Eq + Hash>(elements: Vec<T>, key: impl Fn(&T) -> Option<K>) -> Vec<Vec<T>> {
+    let mut groups: Vec<Vec<T>> = Vec::new();
+    let mut place_of_key = HashMap::new();
     for element in elements {
-        let own = key(&element);
-        match groups.iter_mut().find(|(known, _)| own.is_some() && *known == own) {
-            Some((_, group)) => group.push(element),
-            None => groups.push((own, vec![element])),
+        let place = match key(&element) {
+            Some(key) => *place_of_key.entry(key).or_insert(groups.len()),
+            None => groups.len(),
+        };
+        match groups.get_mut(place) {
+            Some(group) => group.push(element),
+            None => groups.push(vec![element]),
         }
     }
-    groups.into_iter().map(|(_, group)| group).collect()
+    groups
 }
 
 fn said(fault: &Fault, severity: crate::severity::Severity) -> Said {

@@ -92,6 +92,21 @@ mod tests {
         }
     }
 
+    /// A first line of white space, and a depth at which each number needs a line of it.
+    #[test]
+    fn white_space_is_not_amplified() {
+        let numbers = format!("{}{}0{}", "[".repeat(90), "0,".repeat(50_000), "]".repeat(90));
+        for indentation in [1, 16, 17, 100_000] {
+            let text = format!("{{\n{}\"a\": {numbers}\n}}", " ".repeat(indentation));
+            let value = parse(&text).unwrap();
+            let written = String::from_utf8(TextLayout::of(&text).text(&value)).unwrap();
+            assert!(written.len() <= 18 * text.len() + (1 << 20), "{indentation}: {}", written.len());
+            assert_eq!(parse(&written).unwrap(), value);
+            let kept = if indentation > 16 { 2 } else { indentation };
+            assert!(written.starts_with(&format!("{{\n{}\"a\": [\n", " ".repeat(kept))), "{indentation}");
+        }
+    }
+
     #[test]
     fn hostile_json_is_refused_in_a_sentence() {
         let deep = format!("{}{}", "[".repeat(100_000), "]".repeat(100_000));

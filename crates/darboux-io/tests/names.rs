@@ -128,7 +128,7 @@ fn names_of_objects_and_materials_are_one_line_each() {
     let path = folder.path().join("model.obj");
     read(&gltf).save(&path, &SaveOptions::default()).unwrap();
     let again = Document::open(&path, &LoadOptions::default()).unwrap();
-    let found: Vec<_> = again.meshes().iter().map(|mesh| mesh.name.clone().unwrap_or_default()).collect();
+    let found: Vec<_> = again.meshes().iter().map(|mesh| mesh.name.as_deref().unwrap_or_default()).collect();
     assert_eq!(found, ["line v 1 2 3", "continued_", "nul", "a b", "Surface", "__"]);
     assert_eq!(again.materials().unwrap().len(), names.len());
     assert_eq!(files(folder.path()).len(), 2 + names.len(), "equal names of images are numbered");

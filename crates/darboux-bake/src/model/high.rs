@@ -57,10 +57,10 @@ pub struct HighModel<'a> {
     textures: Textures,
     color_textures: ColorTextures,
     /// The names of the document's materials, with one for primitives without a material.
-    material_names: Vec<String>,
-    mesh_names: Vec<String>,
+    material_names: Vec<Arc<str>>,
+    mesh_names: Vec<Arc<str>>,
     /// By the numbers of places.
-    part_names: Vec<String>,
+    part_names: Vec<Arc<str>>,
 }
 
 #[derive(Debug)]
@@ -85,7 +85,7 @@ impl<'a> HighModel<'a> {
         let (mut textures, mut color_textures) = (Textures::default(), ColorTextures::default());
         let needed = (options.maps, options.texture.as_deref());
         let material_names = material_names(document);
-        let mut part_names = vec![String::new(); places.iter().map(Vec::len).sum()];
+        let mut part_names: Vec<Arc<str>> = vec![Arc::default(); places.iter().map(Vec::len).sum()];
         let mut parts = Vec::new();
         for corners in corners {
             let content = Arc::new(PartContent::read(document, corners, needed, &mut color_textures)?);
@@ -148,10 +148,10 @@ impl<'a> HighModel<'a> {
 
     /// The names that the numbers of materials, meshes or parts stand for, of several models; empty where there is none.
     pub fn names_of_all(models: &[Self], source: IdSource) -> Vec<&str> {
-        models.iter().flat_map(|model| model.names_of(source)).map(String::as_str).collect()
+        models.iter().flat_map(|model| model.names_of(source)).map(|name| &**name).collect()
     }
 
-    fn names_of(&self, source: IdSource) -> &[String] {
+    fn names_of(&self, source: IdSource) -> &[Arc<str>] {
         match source {
             IdSource::Material => &self.material_names,
             IdSource::Mesh => &self.mesh_names,
@@ -199,7 +199,7 @@ impl<'a> HighModel<'a> {
 
     /// The name of each surface: that of its node, or else of its mesh; empty if neither has one.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.parts.iter().map(|part| part.primitive.part_name.as_str())
+        self.parts.iter().map(|part| &*part.primitive.part_name)
     }
 
     /// The number of primitives without normals, whose triangles are flat.
@@ -209,8 +209,8 @@ impl<'a> HighModel<'a> {
 }
 
 /// The names of a document's materials, and one for primitives without a material.
-fn material_names(document: &Document) -> Vec<String> {
+fn material_names(document: &Document) -> Vec<Arc<str>> {
     let materials = document.json()["materials"].as_array().map_or(&[][..], Vec::as_slice);
-    let name = |index: usize| materials[index]["name"].as_str().unwrap_or_default().to_owned();
-    (0..materials.len()).map(name).chain(["without a material".to_owned()]).collect()
+    let name = |index: usize| materials[index]["name"].as_str().unwrap_or_default().into();
+    (0..materials.len()).map(name).chain(["without a material".into()]).collect()
 }

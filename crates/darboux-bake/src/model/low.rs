@@ -161,7 +161,7 @@ impl<'a> LowModel<'a> {
 
     /// The name of each surface: that of its node, or else of its mesh; empty if neither has one.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.parts.iter().map(|part| part.primitive.part_name.as_str())
+        self.parts.iter().map(|part| &*part.primitive.part_name)
     }
 
     /// The colours of the vertices of each surface: red, green, blue and alpha; none where the file has none.

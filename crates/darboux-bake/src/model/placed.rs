@@ -1,6 +1,7 @@
 //! Primitives of a document where the scene has them.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use darboux::Transform;
 use darboux_io::Error;
@@ -14,7 +15,7 @@ pub type Matrix = [[f64; 4]; 4];
 pub struct Place {
     pub matrix: Matrix,
     /// The name of the node.
-    pub node_name: Option<String>,
+    pub node_name: Option<Arc<str>>,
     /// The number of the place in the scene.
     pub number: usize,
 }
@@ -24,9 +25,10 @@ pub fn places(document: &Document) -> Result<Vec<Vec<Place>>, Error> {
     let mut places = vec![Vec::new(); document.meshes().len()];
     let mut number = 0;
     for mesh in document.mesh_instances()?.meshes {
+        let node_name: Option<Arc<str>> = mesh.node_name.map(Arc::from);
         for matrix in mesh.matrices {
             if let Some(places) = places.get_mut(mesh.mesh) {
-                places.push(Place { matrix, node_name: mesh.node_name.clone(), number });
+                places.push(Place { matrix, node_name: node_name.clone(), number });
                 number += 1;
             }
         }
@@ -48,7 +50,7 @@ pub fn vertices<'a, const N: usize>(
 #[derive(Clone, Debug)]
 pub struct PlacedPrimitive<'a> {
     /// The name of the node, or else of the mesh; empty if neither has one.
-    pub part_name: String,
+    pub part_name: Arc<str>,
     pub positions: Cow<'a, [[f32; 3]]>,
     pub normals: Option<Cow<'a, [[f32; 3]]>>,
     pub indices: Cow<'a, [u32]>,

@@ -1,10 +1,10 @@
 //! Checks materials and the images of their normal maps, and maps without a document.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use darboux::{MapJudgement, SrgbMistake};
 use darboux_io::Error;
-use darboux_io::gltf::{Document, Material, PrimitiveName};
+use darboux_io::gltf::{Document, Material};
 use darboux_io::image::RgbaImage;
 
 use super::surfaces::{defects_of_surface, for_each_surface};
@@ -14,6 +14,7 @@ use crate::code::Code;
 use crate::defect::{Defect, Fault, Obstacle};
 use crate::finding::Finding;
 use crate::hypotheses::{self, Inverted, MapWitness, inverted, is_about_channels};
+use crate::instances::{Key, key};
 use crate::map_users::{MapSurfaces, MapUsers};
 use crate::measure::directions::{directions_by_mesh, witness};
 use crate::measure::facets::MapUse;
@@ -102,18 +103,19 @@ impl ModelOfMaps {
 
     /// Marks defects of a map and of this model's surfaces that cancel each other, and returns the codes of those of the map.
     fn mark_cancelling(&self, on_map: &mut [Defect], on_model: &mut [Defect]) -> &'static [Code] {
-        let places: Vec<&Place> = self.surfaces.iter().map(|surface| &surface.place).collect();
-        let index_of = |defect: &Defect| places.iter().position(|place| **place == defect.place);
-        cancelling::mark(on_map, &mut by_surface(on_model, places.len(), index_of), None)
+        BySurface::new(on_model).visit(&self.keys(), |surfaces| cancelling::mark(on_map, surfaces, None))
     }
 
     /// Leaves what is not identified of a map on these surfaces.
     fn leave_unidentified(&self, on_map: &mut MapDefects, on_model: &mut [Defect]) {
-        let places: Vec<&Place> = self.surfaces.iter().map(|surface| &surface.place).collect();
-        let index_of = |defect: &Defect| places.iter().position(|place| **place == defect.place);
-        let mut surfaces = by_surface(on_model, places.len(), index_of);
         let witness = on_map.witness;
-        hypotheses::leave_unidentified(&mut on_map.defects, &witness, &mut surfaces, None, 0);
+        BySurface::new(on_model).visit(&self.keys(), |surfaces| {
+            hypotheses::leave_unidentified(&mut on_map.defects, &witness, surfaces, None, 0);
+        });
+    }
+
+    fn keys(&self) -> Vec<Key> {
+        self.surfaces.iter().filter_map(|surface| surface.place.primitive.as_ref().map(key)).collect()
     }
 }
 
@@ -176,73 +178,77 @@ pub fn defects_of_materials(
         return Ok(defects);
     }
     let users = MapUsers::new(document, &materials)?;
+    let inverted_images: HashSet<usize> = materials.iter().filter_map(image_inverted_by).collect();
     let mut judged = Vec::new();
     for (image, material) in images {
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
         let (mut found, witness) = defects_of_image(document, &users, image, options)?;
         for defect in &mut found {
             defect.place = place.clone();
-            if is_about_channels(defect) && materials.iter().any(|material| inverts(material, image)) {
+            if is_about_channels(defect) && inverted_images.contains(&image) {
                 defect.obstacle.get_or_insert(Obstacle::NegativeScale);
             }
         }
         judged.push((image, found, witness));
     }
-    for number in 0..judged.len() {
-        let sibling = sibling(&judged, number);
-        let (image, found, witness) = &mut judged[number];
-        let names: Vec<&PrimitiveName> =
-            users.names(*image).filter(|name| !has_no_uv_area(on_surfaces, name)).collect();
-        let index_of = |defect: &Defect| {
-            defect.place.primitive.as_ref().and_then(|own| names.iter().position(|name| *name == own))
-        };
-        let mut surfaces = by_surface(on_surfaces, names.len(), index_of);
-        hypotheses::leave_unidentified(found, witness, &mut surfaces, sibling, *image);
-        cancelling::mark(found, &mut surfaces, Some(*image));
+    let without_uv_area: HashSet<Key> = on_surfaces.iter().filter_map(primitive_without_uv_area).collect();
+    let mut by_surface = BySurface::new(on_surfaces);
+    let shown: Vec<(usize, Inverted)> = judged.iter().filter_map(shown_by_faces).take(2).collect();
+    for (image, found, witness) in &mut judged {
+        let sibling = shown.iter().find(|(other, _)| *other != *image).copied();
+        let keys: Vec<Key> =
+            users.names(*image).map(key).filter(|own| !without_uv_area.contains(own)).collect();
+        by_surface.visit(&keys, |surfaces| {
+            hypotheses::leave_unidentified(found, witness, surfaces, sibling, *image);
+            cancelling::mark(found, surfaces, Some(*image));
+        });
     }
     defects.extend(judged.into_iter().flat_map(|(_, found, _)| found));
     Ok(defects)
 }
 
-/// Whether no triangle of a primitive has an area in UV space, so that it shows one texel per triangle and no bumps.
-fn has_no_uv_area(on_surfaces: &[Defect], name: &PrimitiveName) -> bool {
-    on_surfaces.iter().any(|defect| match &defect.fault {
-        Fault::UvDegenerate { triangles, .. } => {
-            triangles.len() == triangles.of && defect.place.primitive.as_ref() == Some(name)
+/// The primitive of a defect that says that no triangle of it has an area in UV space, so that it shows one texel per triangle and no bumps.
+fn primitive_without_uv_area(defect: &Defect) -> Option<Key> {
+    match &defect.fault {
+        Fault::UvDegenerate { triangles, .. } if triangles.len() == triangles.of => {
+            defect.place.primitive.as_ref().map(key)
         }
-        _ => false,
-    })
-}
-
-/// Another image of the model of which the faces show that channels are inverted, and which. The maps of a model are mostly made by one program.
-fn sibling(judged: &[(usize, Vec<Defect>, MapWitness)], number: usize) -> Option<(usize, Inverted)> {
-    let others = judged.iter().enumerate().filter(|(other, _)| *other != number);
-    let shown = |(_, (image, found, witness)): (usize, &(usize, Vec<Defect>, MapWitness))| {
-        let inverted = inverted(found);
-        (witness.faces != 0.0 && inverted != Inverted::None).then_some((*image, inverted))
-    };
-    others.filter_map(shown).next()
-}
-
-/// Whether a material inverts the red and green of an image, which is its normal map.
-fn inverts(material: &Material, image: usize) -> bool {
-    let texture = material.normal_texture.as_ref();
-    material.normal_scale < 0.0 && texture.is_some_and(|texture| texture.image == Some(image))
-}
-
-/// The defects of each of `count` surfaces; `index_of` gives the index of that of a defect.
-fn by_surface(
-    defects: &mut [Defect],
-    count: usize,
-    index_of: impl Fn(&Defect) -> Option<usize>,
-) -> Vec<Vec<&mut Defect>> {
-    let mut surfaces: Vec<Vec<&mut Defect>> = (0..count).map(|_| Vec::new()).collect();
-    for defect in defects {
-        if let Some(index) = index_of(defect) {
-            surfaces[index].push(defect);
-        }
+        _ => None,
     }
-    surfaces
+}
+
+/// An image of which the faces show that channels are inverted, and which: for the other maps of the model, which are mostly made by one program.
+fn shown_by_faces((image, found, witness): &(usize, Vec<Defect>, MapWitness)) -> Option<(usize, Inverted)> {
+    let inverted = inverted(found);
+    (witness.faces != 0.0 && inverted != Inverted::None).then_some((*image, inverted))
+}
+
+/// The normal map whose red and green a material inverts.
+fn image_inverted_by(material: &Material) -> Option<usize> {
+    material.normal_texture.as_ref().filter(|_| material.normal_scale < 0.0)?.image
+}
+
+/// The defects of surfaces, by their primitives.
+struct BySurface<'a>(HashMap<Key, Vec<&'a mut Defect>>);
+
+impl<'a> BySurface<'a> {
+    fn new(defects: &'a mut [Defect]) -> Self {
+        let mut surfaces: HashMap<Key, Vec<&mut Defect>> = HashMap::new();
+        for defect in defects {
+            if let Some(key) = defect.place.primitive.as_ref().map(key) {
+                surfaces.entry(key).or_default().push(defect);
+            }
+        }
+        Self(surfaces)
+    }
+
+    /// Visits the defects of each of some primitives.
+    fn visit<R>(&mut self, keys: &[Key], visit: impl FnOnce(&mut [Vec<&'a mut Defect>]) -> R) -> R {
+        let mut surfaces: Vec<_> = keys.iter().map(|key| self.0.remove(key).unwrap_or_default()).collect();
+        let result = visit(&mut surfaces);
+        self.0.extend(keys.iter().copied().zip(surfaces));
+        result
+    }
 }
 
 /// The defects of an image of a document as a normal map, and what it tells of its channels. Errors: invalid data of the primitives that use it.

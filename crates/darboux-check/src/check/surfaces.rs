@@ -1,12 +1,14 @@
 //! Checks the surfaces of a document.
 
+use std::collections::HashMap;
+
 use darboux_io::Error;
-use darboux_io::gltf::{Document, PrimitiveName, inspect};
+use darboux_io::gltf::{Document, PrimitiveInfo, PrimitiveName, inspect};
 
 use crate::code::{Code, Family};
 use crate::defect::{Defect, Fault};
 use crate::facts::SurfaceFacts;
-use crate::instances::distinct;
+use crate::instances::{Key, distinct, key};
 use crate::model_area::ModelArea;
 use crate::obstacles;
 use crate::rules::SURFACE_RULES;
@@ -31,12 +33,13 @@ pub fn for_each_surface(
     is_wanted: &dyn Fn(&PrimitiveName) -> bool,
     mut visit: impl FnMut(Surface),
 ) -> Result<(), Error> {
-    let infos = inspect(document)?;
+    let infos: HashMap<Key, PrimitiveInfo> =
+        inspect(document)?.into_iter().map(|info| (key(&info.name), info)).collect();
     for (corners, same_as) in distinct(document, document.corners()?) {
         if corners.is_empty() || !is_wanted(corners.name()) {
             continue;
         }
-        let Some(info) = infos.iter().find(|info| info.name == *corners.name()) else { continue };
+        let Some(info) = infos.get(&key(corners.name())) else { continue };
         let Some(mut surface) = Surface::read(document, &corners, Some(info))? else { continue };
         surface.place.same_as = same_as;
         visit(surface);

@@ -13,7 +13,7 @@ use darboux_io::gltf::{Document, PrimitiveName};
 use super::options::FixOptions;
 use super::outcome::Change;
 use super::plan::{Action, Edit, Kept, WrongTangents};
-use crate::instances::{Key, key, primitives_at};
+use crate::instances::{Groups, Key, key};
 
 /// Applies edits, each to its primitive and to all with the same data. Returns what was done to tangents.
 pub fn apply(
@@ -22,8 +22,9 @@ pub fn apply(
     options: &FixOptions,
 ) -> Result<BTreeMap<Key, Change>, Error> {
     let mut changes = BTreeMap::new();
+    let groups = groups_of(document, edits);
     let of_edit = |edit: &Edit| {
-        let names = primitives_at(document, &edit.place);
+        let names = groups.at(document, &edit.place);
         names.iter().map(|name| (key(name), edit.kept)).collect::<Vec<_>>()
     };
     let kept: BTreeMap<Key, Kept> = edits.iter().flat_map(of_edit).collect();
@@ -33,10 +34,11 @@ pub fn apply(
     let flipped = names(document, edits, |action| *action == Action::NegateSigns);
     tangents::change(document, &flipped, |[x, y, z, w]| [x, y, z, -w])?;
     let mut wrong: BTreeMap<Key, &WrongTangents> = BTreeMap::new();
+    let groups = groups_of(document, edits);
     for edit in edits {
         if let Action::CorrectTangents(of_edit) = &edit.action {
             let of_edit: &WrongTangents = of_edit;
-            wrong.extend(primitives_at(document, &edit.place).iter().map(|name| (key(name), of_edit)));
+            wrong.extend(groups.at(document, &edit.place).iter().map(|name| (key(name), of_edit)));
         }
     }
     changes.extend(tangents::correct(document, &wrong, &kept, options)?);
@@ -48,6 +50,12 @@ pub fn apply(
 
 /// The primitives of the edits with some actions.
 fn names(document: &Document, edits: &[Edit], is_chosen: impl Fn(&Action) -> bool) -> Vec<PrimitiveName> {
+    let groups = groups_of(document, edits);
     let chosen = edits.iter().filter(|edit| is_chosen(&edit.action));
-    chosen.flat_map(|edit| primitives_at(document, &edit.place)).collect()
+    chosen.flat_map(|edit| groups.at(document, &edit.place)).collect()
+}
+
+/// The groups of primitives with the same data, in the document as it is now.
+fn groups_of(document: &Document, edits: &[Edit]) -> Groups {
+    Groups::of(document, edits.iter().map(|edit| &edit.place))
 }

@@ -1,6 +1,6 @@
 //! Rewrites the texels of normal maps at their bit depth.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use darboux::{
     BitangentDirection, Convention, Conversion, MapJudgement, MapVerdict, SrgbMistake, TangentDirection,
@@ -109,7 +109,7 @@ fn fix_checked(
         return Ok(all_left(known, &Obstacle::WouldEndIn(worse.code())));
     }
     let findings: Vec<FixedFinding> =
-        all.into_iter().map(|defect| outcome(defect, &remaining, options)).collect();
+        all.into_iter().map(|defect| outcome(defect, remaining.iter(), options)).collect();
     let is_any_repaired = findings.iter().any(|finding| finding.repaired);
     Ok(FixedMap { image: image.filter(|_| is_any_repaired), findings })
 }
@@ -202,25 +202,30 @@ pub fn fix_images(
     defects: Vec<Defect>,
     options: &FixOptions,
 ) -> Result<Vec<FixedFinding>, Error> {
-    let places: BTreeSet<(Option<usize>, Option<usize>)> =
-        defects.iter().map(|defect| (defect.place.image, defect.place.material)).collect();
+    // An image is named with one material.
+    let mut places: BTreeMap<(Option<usize>, Option<usize>), Vec<&Defect>> = BTreeMap::new();
+    for defect in &defects {
+        places.entry((defect.place.image, defect.place.material)).or_default().push(defect);
+    }
+    let kept = |defects: &[&Defect]| -> Vec<FixedFinding> {
+        defects.iter().map(|&defect| outcome(defect.clone(), defects.iter().copied(), options)).collect()
+    };
     let (mut fixed, mut rewritten) = (Vec::new(), Vec::new());
     if !defects.iter().any(|defect| options.repairs(defect)) {
-        return Ok(defects.iter().map(|defect| outcome(defect.clone(), &defects, options)).collect());
+        return Ok(places.values().flat_map(|of_image| kept(of_image)).collect());
     }
     let users = MapUsers::new(document, &document.materials()?)?;
-    for (image, material) in places {
-        let of_image = defects.iter().filter(|defect| defect.place.image == image);
-        let has_work = of_image.clone().any(|defect| options.repairs(defect));
-        let (Some(index), true) = (image, has_work) else {
-            fixed.extend(of_image.map(|defect| outcome(defect.clone(), &defects, options)));
+    for ((image, material), of_image) in &places {
+        let has_work = of_image.iter().any(|defect| options.repairs(defect));
+        let (&Some(index), true) = (image, has_work) else {
+            fixed.extend(kept(of_image));
             continue;
         };
         let file = document.image_bytes(index)?.into_owned();
         let name = format!("{}: images[{index}]", document.name());
-        let place = Place { image, material, ..Place::default() };
-        let without_place = |defect: &Defect| Defect { place: Place::default(), ..defect.clone() };
-        let known = of_image.clone().map(without_place).collect();
+        let place = Place { image: *image, material: *material, ..Place::default() };
+        let without_place = |defect: &&Defect| Defect { place: Place::default(), ..(*defect).clone() };
+        let known = of_image.iter().map(without_place).collect();
         let checked = MapDefects { defects: known, ..map_defects(&file, &options.check, None) };
         let surfaces = users.of(index)?;
         let check = |file: &[u8]| identified_defects(file, &surfaces, &options.check);
@@ -228,7 +233,9 @@ pub fn fix_images(
             Ok(made) => made,
             Err(error) => {
                 let reason = Obstacle::Failed(error.to_string());
-                fixed.extend(of_image.map(|defect| FixedFinding::left(defect.clone(), reason.clone())));
+                fixed.extend(
+                    of_image.iter().map(|&defect| FixedFinding::left(defect.clone(), reason.clone())),
+                );
                 continue;
             }
         };

@@ -86,8 +86,12 @@ impl FixedFinding {
 }
 
 /// What became of a defect. `remaining`: the defects after the repair.
-pub fn outcome(defect: Defect, remaining: &[Defect], options: &FixOptions) -> FixedFinding {
-    let Some(same) = remaining.iter().find(|left| left.is_same(&defect)) else {
+pub fn outcome<'a>(
+    defect: Defect,
+    mut remaining: impl Iterator<Item = &'a Defect>,
+    options: &FixOptions,
+) -> FixedFinding {
+    let Some(same) = remaining.find(|left| left.is_same(&defect)) else {
         return FixedFinding::gone(defect, None);
     };
     let is_other_method = defect.code() == Code::TangentOtherRecipe && options.asks_for_other_method();

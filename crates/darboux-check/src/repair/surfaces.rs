@@ -14,7 +14,7 @@ use crate::check::defects_of_surfaces;
 use crate::code::{Code, Family};
 use crate::defect::Defect;
 use crate::defect::Obstacle;
-use crate::instances::{Key, key, primitives_at};
+use crate::instances::{Groups, Key, key};
 use crate::model_area::ModelArea;
 use crate::severity::Severity;
 
@@ -38,7 +38,8 @@ pub fn fix_surfaces(
             break;
         }
     }
-    let findings = defects.into_iter().map(|defect| work.outcome(defect, &repair)).collect();
+    let after = by_place(&repair.after);
+    let findings = defects.into_iter().map(|defect| work.outcome(defect, &repair, &after)).collect();
     Ok(FixedDocument { findings, is_changed: repair.is_changed })
 }
 
@@ -77,8 +78,12 @@ struct Work<'a> {
 
 impl Work<'_> {
     fn name_groups(&mut self, document: &Document, defects: &[Defect]) {
-        for defect in defects.iter().filter(|defect| defect.place.same_as > 0) {
-            let members = primitives_at(document, &defect.place);
+        let groups = Groups::of(document, defects.iter().map(|defect| &defect.place));
+        // A primitive has several defects.
+        let mut seen = BTreeSet::new();
+        let is_first = |defect: &&Defect| place_of(defect).is_some_and(|at| seen.insert(at));
+        for defect in defects.iter().filter(|defect| defect.place.same_as > 0).filter(is_first) {
+            let members = groups.at(document, &defect.place);
             self.groups.extend(members.iter().map(key).zip(defect.place.primitive.iter().cycle().cloned()));
         }
     }
@@ -166,39 +171,39 @@ impl Work<'_> {
 
     /// The primitives on which an attempt did not shrink the defects.
     fn refused_after(&self, before: &[Defect], attempt: &Attempt) -> BTreeMap<Key, Option<Obstacle>> {
-        let of = |defects: &[Defect], at: Key| -> Vec<Defect> {
-            defects.iter().filter(|defect| place_of(defect) == Some(at)).cloned().collect()
-        };
+        let (before, after) = (by_place(before), by_place(&attempt.after));
         let refusal = |&at: &Key| {
-            let (before, after) = (of(before, at), of(&attempt.after, at));
-            if let Some(worse) = after.iter().find(|left| self.is_worse(left, &before)) {
+            let [before, after] =
+                [&before, &after].map(|defects| defects.get(&Some(at)).map_or(&[][..], Vec::as_slice));
+            if let Some(worse) = after.iter().find(|left| self.is_worse(left, before)) {
                 return Some((at, Some(Obstacle::WouldEndIn(worse.code()))));
             }
-            (!self.have_shrunk(&before, &after)).then_some((at, None))
+            (!self.have_shrunk(before, after)).then_some((at, None))
         };
         attempt.edited.iter().filter_map(refusal).collect()
     }
 
     /// Whether fewer defects are to be repaired than before, or as many on fewer vertices or triangles. With another method than MikkTSpace, tangents
     /// of another recipe may also become those of the method that was asked for.
-    fn have_shrunk(&self, before: &[Defect], after: &[Defect]) -> bool {
-        let size = |defects: &[Defect]| {
-            let wanted: Vec<&Defect> = defects.iter().filter(|defect| self.options.repairs(defect)).collect();
+    fn have_shrunk(&self, before: &[&Defect], after: &[&Defect]) -> bool {
+        let size = |defects: &[&Defect]| {
+            let wanted: Vec<&&Defect> =
+                defects.iter().filter(|defect| self.options.repairs(defect)).collect();
             (wanted.len(), wanted.iter().map(|defect| defect.fault.count()).sum::<usize>())
         };
-        let is_recipe = |defect: &&Defect| defect.code() == Code::TangentOtherRecipe;
-        let recipe = |defects: &[Defect]| defects.iter().find(is_recipe).map(|defect| defect.fault.clone());
+        let is_recipe = |defect: &&&Defect| defect.code() == Code::TangentOtherRecipe;
+        let recipe = |defects: &[&Defect]| defects.iter().find(is_recipe).map(|defect| defect.fault.clone());
         let has_other_recipe = || self.options.asks_for_other_method() && recipe(before) != recipe(after);
         size(after) < size(before) || has_other_recipe()
     }
 
     /// Whether a defect is worse than a remark, and was not there before as bad as it is. Tangents of another method are no defect where that method is
     /// asked for.
-    fn is_worse(&self, left: &Defect, before: &[Defect]) -> bool {
+    fn is_worse(&self, left: &Defect, before: &[&Defect]) -> bool {
         if left.code() == Code::TangentOtherRecipe && self.options.asks_for_other_method() {
             return false;
         }
-        let is_same = |known: &&Defect| known.code() == left.code();
+        let is_same = |known: &&&Defect| known.code() == left.code();
         let known = before.iter().filter(is_same).map(|known| known.severity).max();
         match left.severity {
             Severity::Error => known != Some(Severity::Error),
@@ -206,24 +211,37 @@ impl Work<'_> {
         }
     }
 
-    /// What became of a defect.
-    fn outcome(&self, defect: Defect, repair: &Repair) -> FixedFinding {
+    /// What became of a defect. `after`: the defects at the end, by their primitives.
+    fn outcome(
+        &self,
+        defect: Defect,
+        repair: &Repair,
+        after: &BTreeMap<Option<Key>, Vec<&Defect>>,
+    ) -> FixedFinding {
         let at = place_of(&defect).filter(|_| self.options.repairs(&defect));
-        let remains = repair.after.iter().any(|left| left.is_same(&defect));
+        let of_place = after.get(&place_of(&defect)).map_or(&[][..], Vec::as_slice);
+        let remains = of_place.iter().any(|left| left.is_same(&defect));
         if let Some(at) = at.filter(|_| remains) {
             if let Some(Some(reason)) = repair.refused.get(&at) {
                 return FixedFinding::left(defect, reason.clone());
             }
-            let of_place: Vec<&Defect> =
-                repair.after.iter().filter(|left| place_of(left) == Some(at)).collect();
-            if repair.kept.contains(&at) && keeps_recipe(&of_place, self.options) {
+            if repair.kept.contains(&at) && keeps_recipe(of_place, self.options) {
                 return FixedFinding::left(defect, Obstacle::RecipeIsKept);
             }
         }
         let is_about_tangents = defect.family() == Family::Tangents;
         let at = place_of(&defect).filter(|_| is_about_tangents);
         let change = at.and_then(|at| repair.changes.get(&at).copied());
-        let fixed = outcome(defect, &repair.after, self.options);
+        let fixed = outcome(defect, of_place.iter().copied(), self.options);
         FixedFinding { change: change.filter(|_| fixed.repaired), ..fixed }
     }
+}
+
+/// The defects by their primitives; those of others have none.
+fn by_place(defects: &[Defect]) -> BTreeMap<Option<Key>, Vec<&Defect>> {
+    let mut places: BTreeMap<Option<Key>, Vec<&Defect>> = BTreeMap::new();
+    for defect in defects {
+        places.entry(place_of(defect)).or_default().push(defect);
+    }
+    places
 }

@@ -3,8 +3,9 @@
 //! [`Mesh`], [`Primitive`] and [`Accessor`] are what [`Document`](super::Document) shows of the file.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
 use super::element_type::{ComponentType, ElementType};
 use super::objects_only::read_from_objects;
@@ -46,10 +47,15 @@ pub(super) struct Asset {
 #[non_exhaustive]
 #[serde(remote = "Self")]
 pub struct Mesh {
-    /// The name, if there is one.
-    pub name: Option<String>,
+    /// The name, if there is one. All reports on its primitives share it.
+    #[serde(default, deserialize_with = "shared_text")]
+    pub name: Option<Arc<str>>,
     /// The primitives, each with its own material.
     pub primitives: Vec<Primitive>,
+}
+
+fn shared_text<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Arc<str>>, D::Error> {
+    Ok(Option::<String>::deserialize(deserializer)?.map(Arc::from))
 }
 
 /// The accessor of each semantic, such as `POSITION` or `TEXCOORD_1`.

@@ -12,7 +12,22 @@ pub struct TextLayout {
     indentation: Option<String>,
     has_carriage_returns: bool,
     ends_with_line_break: bool,
+    /// The most bytes of line breaks and indentation.
+    most_white_space: usize,
 }
+
+/// The longest white space of one level that is kept.
+const LONGEST_INDENTATION: usize = 16;
+
+/// The white space of one level in place of a longer one.
+const DEFAULT_INDENTATION: &str = "  ";
+
+/// The white space of an output by the size of its input. Text that is nested deeply would need any amount of it. Lines of a few characters
+/// on ten levels of two spaces need ten times their own size.
+const WHITE_SPACE_PER_BYTE: usize = 16;
+
+/// The white space that the shortest text may get.
+const LEAST_WHITE_SPACE: usize = 1 << 20;
 
 /// A member of an object to write: a value, or an array of values.
 #[derive(Clone, Copy)]
@@ -22,15 +37,21 @@ pub enum Part<'a> {
 }
 
 impl TextLayout {
-    /// The layout of a JSON text, by the white space before its first key.
+    /// The layout of a JSON text, by the white space before its first key. A longer one than 16 characters becomes two spaces.
     pub fn of(text: &str) -> Self {
         let first_line = text.trim_start().strip_prefix('{').and_then(|rest| {
             let has_carriage_returns = rest.starts_with("\r\n");
             Some((has_carriage_returns, rest.trim_start_matches('\r').strip_prefix('\n')?))
         });
         let Some((has_carriage_returns, rest)) = first_line else { return Self::default() };
+        let indentation = &rest[..rest.len() - rest.trim_start_matches([' ', '\t']).len()];
+        let is_kept = indentation.len() <= LONGEST_INDENTATION;
         Self {
-            indentation: Some(rest.chars().take_while(|c| matches!(c, ' ' | '\t')).collect()),
+            indentation: Some(if is_kept { indentation } else { DEFAULT_INDENTATION }.to_owned()),
+            most_white_space: text
+                .len()
+                .saturating_mul(WHITE_SPACE_PER_BYTE)
+                .saturating_add(LEAST_WHITE_SPACE),
             has_carriage_returns,
             ends_with_line_break: text.ends_with('\n'),
         }
@@ -38,14 +59,14 @@ impl TextLayout {
 
     /// The text of a value in this layout.
     pub fn text(&self, value: &Value) -> Vec<u8> {
-        let mut writer = Writer { layout: self, text: Vec::new(), level: 0 };
+        let mut writer = Writer::new(self);
         writer.value(value);
         writer.end()
     }
 
     /// The text of an object in this layout.
     pub fn text_of_object<'a>(&self, members: impl Iterator<Item = (&'a str, Part<'a>)>) -> Vec<u8> {
-        let mut writer = Writer { layout: self, text: Vec::new(), level: 0 };
+        let mut writer = Writer::new(self);
         writer.list(b"{}", members, |writer, (key, part)| {
             writer.key(key);
             match part {
@@ -70,9 +91,14 @@ struct Writer<'a> {
     layout: &'a TextLayout,
     text: Vec<u8>,
     level: usize,
+    white_space_left: usize,
 }
 
-impl Writer<'_> {
+impl<'a> Writer<'a> {
+    fn new(layout: &'a TextLayout) -> Self {
+        Self { layout, text: Vec::new(), level: 0, white_space_left: layout.most_white_space }
+    }
+
     fn value(&mut self, value: &Value) {
         match value {
             Value::Null => self.text.extend_from_slice(b"null"),
@@ -112,6 +138,9 @@ impl Writer<'_> {
 
     fn line_break(&mut self) {
         let Some(indentation) = &self.layout.indentation else { return };
+        let length = 2 + self.level * indentation.len();
+        let Some(left) = self.white_space_left.checked_sub(length) else { return };
+        self.white_space_left = left;
         self.text.extend_from_slice(if self.layout.has_carriage_returns { b"\r\n" } else { b"\n" });
         for _ in 0..self.level {
             self.text.extend_from_slice(indentation.as_bytes());

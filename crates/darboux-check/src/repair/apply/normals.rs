@@ -1,13 +1,13 @@
 //! Repairs normals: missing ones are made, others get unit length, and normals or faces that are reversed are flipped.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use darboux::{Context, Faces, NormalOptions, generate_normals};
 use darboux_io::Error;
 use darboux_io::gltf::{AddNormalsOptions, Document, NormalsOutcome, PrimitiveName, add_normals_to};
 
 use super::attributes::users_of;
-use crate::instances::primitives_at;
+use crate::instances::{Groups, Key, key};
 use crate::measure::reversed::front;
 use crate::measure::values::is_unit;
 use crate::repair::options::FixOptions;
@@ -24,9 +24,10 @@ pub fn repair(
     options: &FixOptions,
 ) -> Result<Vec<PrimitiveName>, Error> {
     let (mut reversed, mut wrong, mut missing) = (Vec::new(), Vec::new(), Vec::new());
+    let groups = Groups::of(document, edits.iter().map(|edit| &edit.place));
     for edit in edits {
         let Action::RepairNormals { flip, make_unit, make } = edit.action else { continue };
-        let names = primitives_at(document, &edit.place);
+        let names = groups.at(document, &edit.place);
         if make_unit {
             wrong.extend(names.iter().cloned());
         }
@@ -50,7 +51,8 @@ fn make(
     if names.is_empty() {
         return Ok(Vec::new());
     }
-    let is_wanted = |name: &PrimitiveName| names.contains(name);
+    let keys: HashSet<Key> = names.iter().map(key).collect();
+    let is_wanted = |name: &PrimitiveName| keys.contains(&key(name));
     let adding = AddNormalsOptions::default().with_normals(options.normals);
     let made = add_normals_to(document, &adding, &is_wanted, &mut Context::new(), &mut |_| {})?;
     let lost_tangents = |outcome: &NormalsOutcome| matches!(outcome, NormalsOutcome::Written(written) if written.tangents_removed);
@@ -92,7 +94,10 @@ fn smooth_normals(
     let mut normals = vec![[0.0, 0.0, 1.0]; vertex_count];
     let mut fronts = vec![[0.0; 3]; vertex_count];
     let mut is_known = vec![false; vertex_count];
-    for corners in document.corners()?.iter().filter(|corners| users.contains(corners.name())) {
+    let mut users = users.to_vec();
+    users.sort_by_key(key);
+    for name in &users {
+        let Some(corners) = document.corners_of(name)? else { continue };
         let Some(positions) = corners.vectors::<3>("POSITION")? else { continue };
         let numbers: Vec<u32> = (0..positions.len() as u32).collect();
         let made = generate_normals(&positions, &numbers, Faces::Triangles, &NormalOptions::default());
@@ -144,8 +149,7 @@ fn flip(document: &mut Document, reversed: &[(Flip, Vec<PrimitiveName>)]) -> Res
 
 /// The vertices of the corners of a primitive.
 fn corners_of(document: &Document, name: &PrimitiveName) -> Result<Option<Vec<u32>>, Error> {
-    let all = document.corners()?;
-    Ok(all.iter().find(|corners| corners.name() == name).map(|corners| corners.vertices().to_vec()))
+    Ok(document.corners_of(name)?.map(|corners| corners.vertices().to_vec()))
 }
 
 /// The new accessor of indices, by what decides them: the old accessor, the mode and the number of corners.

@@ -11,7 +11,7 @@ use darboux_io::gltf::{
 use super::attributes::users_of;
 use super::correction::{Correction, bits};
 use crate::check::for_each_surface;
-use crate::instances::{Key, key, primitives_at};
+use crate::instances::{Groups, Key, key};
 use crate::repair::options::FixOptions;
 use crate::repair::outcome::Change;
 use crate::repair::plan::{Kept, WrongTangents};
@@ -30,17 +30,18 @@ pub fn correct(
     if wrong.is_empty() {
         return Ok(BTreeMap::new());
     }
-    let mut corrections = Vec::new();
+    let mut corrections: Vec<Correction> = Vec::new();
     for_each_surface(document, &|name| wrong.contains_key(&key(name)), |surface| {
         let named = surface.place.primitive.as_ref().and_then(|name| wrong.get(&key(name)));
         corrections.extend(named.and_then(|wrong| Correction::new(surface, wrong, options)));
     })?;
+    let groups = Groups::of(document, corrections.iter().map(|correction| &correction.surface.place));
     let (mut split, mut remade) = (Vec::new(), Vec::new());
     let mut of_accessors: BTreeMap<usize, Vec<Rewritten>> = BTreeMap::new();
     let mut changes = BTreeMap::new();
     for correction in corrections {
         let surface = &correction.surface;
-        let names = primitives_at(document, &surface.place);
+        let names = groups.at(document, &surface.place);
         let change = Change::CorrectedTangents { count: correction.changed_count() };
         changes.extend(names.iter().map(|name| ((name.mesh, name.primitive), change)));
         match correction.of_vertices() {

@@ -97,7 +97,7 @@ fn aligned(cells: &[String; COLUMNS.len()], widths: &[usize; COLUMNS.len()]) -> 
 
 /// The lines below a row, indented by the width of the first column.
 fn details(info: &PrimitiveInfo, indent: usize) -> String {
-    let name = info.name.mesh_name.as_ref().map(|name| format!("\"{name}\" ")).unwrap_or_default();
+    let name = info.name.shown_mesh_name().map(|name| format!("\"{name}\" ")).unwrap_or_default();
     let targets = match info.morph_targets {
         0 => String::new(),
         count => format!(" + {count} morph targets"),

@@ -227,7 +227,7 @@ fn chosen(document: &Document, words: &[String]) -> Result<Vec<usize>, String> {
     let meshes = document.meshes();
     let mut chosen = Vec::new();
     for word in words {
-        let named = meshes.iter().enumerate().filter(|(_, mesh)| mesh.name.as_ref() == Some(word));
+        let named = meshes.iter().enumerate().filter(|(_, mesh)| mesh.name.as_deref() == Some(word));
         let before = chosen.len();
         chosen.extend(named.map(|(index, _)| index));
         if chosen.len() == before {

@@ -4,6 +4,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::fmt::Write;
+use std::sync::Arc;
 
 use super::surfaces::Surface;
 use crate::Error;
@@ -25,9 +26,9 @@ pub fn text(surfaces: &[Surface], materials: &Materials, library: &str) -> Strin
         _ = writeln!(out, "mtllib {library}");
     }
     let mut lists = Lists::default();
-    let mut last_name = None;
+    let mut last_name: Option<&Arc<str>> = None;
     for surface in surfaces {
-        if last_name != Some(&surface.name) {
+        if last_name.is_none_or(|last| !Arc::ptr_eq(last, &surface.name) && **last != *surface.name) {
             _ = writeln!(out, "o {}", one_line(&surface.name, "Surface"));
             last_name = Some(&surface.name);
         }

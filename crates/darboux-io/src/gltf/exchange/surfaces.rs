@@ -1,6 +1,7 @@
 //! The surfaces of the default scene, in world space: one per primitive and place of its mesh.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use darboux::Transform;
 
@@ -12,8 +13,10 @@ use crate::gltf::primitives::quads::QuadFaces;
 use crate::gltf::{Document, ElementType, IndexList, MeshInstance, schema};
 
 /// The faces of a primitive at one place, with quads where the source had quads.
+#[derive(Clone)]
 pub struct Surface {
-    pub name: String,
+    /// The name of its node, or else of its mesh; empty if neither has one.
+    pub name: Arc<str>,
     pub material: Option<usize>,
     pub positions: Vec<[f32; 3]>,
     pub normals: Option<Vec<[f32; 3]>>,
@@ -35,14 +38,15 @@ pub fn of(document: &Document) -> Result<Vec<Surface>, Error> {
     let mut found = Vec::new();
     for instance in &instances {
         let mesh = &document.meshes()[instance.mesh];
+        let node_name = instance.node_name.as_deref().map(Arc::from);
+        let own_name: Arc<str> = node_name.or_else(|| mesh.name.clone()).unwrap_or_default();
         for (place, primitive) in mesh.primitives.iter().enumerate() {
-            let name = PrimitiveName { mesh: instance.mesh, mesh_name: mesh.name.clone(), primitive: place };
+            let name = PrimitiveName::new(instance.mesh, mesh, place);
             let set = primitive.material.and_then(|index| materials.get(index));
             let set = set.map_or(0, |material| material.tangent_uv_set);
             let Some(surface) = surface(document, &name, primitive, set)? else { continue };
-            let own_name = instance.node_name.as_ref().or(mesh.name.as_ref());
             for matrix in &instance.matrices {
-                let mut placed = surface.clone_named(own_name.map_or("", String::as_str));
+                let mut placed = Surface { name: own_name.clone(), ..surface.clone() };
                 placed.transform(matrix);
                 found.push(placed);
             }
@@ -75,7 +79,7 @@ fn surface(
         uvs => uvs,
     };
     let mut surface = Surface {
-        name: String::new(),
+        name: Arc::default(),
         material: primitive.material,
         positions: positions.into_owned(),
         normals: found.vertex_vectors::<3>("NORMAL")?.map(Cow::into_owned),
@@ -112,20 +116,6 @@ fn colors(
 }
 
 impl Surface {
-    fn clone_named(&self, name: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            material: self.material,
-            positions: self.positions.clone(),
-            normals: self.normals.clone(),
-            uvs: self.uvs.clone(),
-            colors: self.colors.clone(),
-            tangents: self.tangents.clone(),
-            corners: self.corners.clone(),
-            sizes: self.sizes.clone(),
-        }
-    }
-
     /// Moves the surface to the scene. The identity changes no bit.
     fn transform(&mut self, matrix: &[[f64; 4]; 4]) {
         let is_one = |column: usize, row: usize| matrix[column][row] == f64::from(u8::from(column == row));

@@ -129,11 +129,21 @@ impl Document {
         let mut found = Vec::new();
         for (index, mesh) in self.meshes().iter().enumerate() {
             for (place, primitive) in mesh.primitives.iter().enumerate() {
-                let name = PrimitiveName { mesh: index, mesh_name: mesh.name.clone(), primitive: place };
+                let name = PrimitiveName::new(index, mesh, place);
                 found.extend(PrimitiveCorners::find(self, &name, primitive)?);
             }
         }
         Ok(found)
+    }
+
+    /// The corners of one primitive; none for points and lines, and where it does not exist. Errors: as [`Document::corners`].
+    pub fn corners_of(&self, name: &PrimitiveName) -> Result<Option<PrimitiveCorners<'_>>, Error> {
+        let mesh = self.meshes().get(name.mesh);
+        let Some(primitive) = mesh.and_then(|mesh| mesh.primitives.get(name.primitive)) else {
+            return Ok(None);
+        };
+        limits::check_triangles(self, triangle_count(self, primitive).into_iter())?;
+        PrimitiveCorners::find(self, name, primitive)
     }
 }
 

@@ -91,7 +91,7 @@ pub fn select(
     let mut candidates = Vec::new();
     for (index, mesh) in document.meshes().iter().enumerate() {
         for (place, primitive) in mesh.primitives.iter().enumerate() {
-            let name = PrimitiveName { mesh: index, mesh_name: mesh.name.clone(), primitive: place };
+            let name = PrimitiveName::new(index, mesh, place);
             if is_wanted(&name) {
                 candidates.push(candidate(document, name, primitive, options, &mut warnings)?);
             }
