@@ -10,7 +10,7 @@ use darboux_check::{
     AssumedMap, Change, CheckOptions, Code, FixOptions, ReportedFinding, check_document, check_map,
     diagnosis, fix_document,
 };
-use darboux_io::{FileKind, LoadOptions, gltf};
+use darboux_io::{FileKind, LoadOptions, gltf, read_regular};
 use numpy::prelude::*;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -101,8 +101,7 @@ fn check_path(
     options: &CheckOptions,
 ) -> Result<Vec<darboux_check::Finding>, darboux_io::Error> {
     if FileKind::of(path).is_some_and(FileKind::is_decoded_image) {
-        let unread = |source| darboux_io::Error::Read { file: path.to_owned(), source };
-        Ok(check_map(&std::fs::read(path).map_err(unread)?, options).findings)
+        Ok(check_map(&read_regular(path)?, &options.with_memory_limit(loading.memory_limit)).findings)
     } else {
         check_document(&gltf::Document::open(path, loading)?, options)
     }

@@ -3,6 +3,8 @@
 use std::str::FromStr;
 
 use darboux::BitangentDirection;
+use darboux_io::MemoryLimit;
+use darboux_io::gltf::Document;
 
 /// What is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +16,9 @@ pub struct CheckOptions {
     pub maps: bool,
     /// What the normal maps are taken to be where their texels and the faces leave it open. Default: none.
     pub assumed_map: Option<AssumedMap>,
+    /// The most memory that decoding a map may take. The maps of a document have the limit that it was read with. Default: that of
+    /// [`MemoryLimit`].
+    pub memory_limit: MemoryLimit,
 }
 
 /// The channels of normal maps, as the user knows them.
@@ -45,7 +50,12 @@ impl FromStr for AssumedMap {
 
 impl Default for CheckOptions {
     fn default() -> Self {
-        Self { green: BitangentDirection::Up, maps: true, assumed_map: None }
+        Self {
+            green: BitangentDirection::Up,
+            maps: true,
+            assumed_map: None,
+            memory_limit: MemoryLimit::default(),
+        }
     }
 }
 
@@ -60,6 +70,17 @@ impl CheckOptions {
     #[must_use]
     pub fn with_assumed_map(self, assumed_map: Option<AssumedMap>) -> Self {
         Self { assumed_map, ..self }
+    }
+
+    /// These options with another memory limit.
+    #[must_use]
+    pub fn with_memory_limit(self, memory_limit: MemoryLimit) -> Self {
+        Self { memory_limit, ..self }
+    }
+
+    /// These options, with the memory limit of a document.
+    pub(crate) fn in_document(self, document: &Document) -> Self {
+        self.with_memory_limit(document.load_options().memory_limit)
     }
 
     /// These options with or without maps.

@@ -2,14 +2,13 @@
 
 use std::borrow::Cow;
 use std::ffi::OsStr;
-use std::fs;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 use darboux::Convention;
 use darboux_io::gltf::Document;
 use darboux_io::image::{PngImage, RgbaImage};
-use darboux_io::{Error, FileKind, system_reason};
+use darboux_io::{Error, FileKind, read_regular, system_reason};
 
 use crate::batch::plan::Output;
 use crate::batch::report::Status;
@@ -43,9 +42,7 @@ impl<'a> Source<'a> {
         match (&self.stdin, self.input) {
             (Some(bytes), _) => Ok(RgbaImage::is_format_known(bytes).then_some(Cow::Borrowed(bytes))),
             (None, Input::File(path)) if is_image(path) || is_ktx2(path) => {
-                let bytes = fs::read(path)
-                    .map_err(|error| format!("{}: cannot be read: {}", self.input, system_reason(&error)))?;
-                Ok(Some(Cow::Owned(bytes)))
+                read_regular(path).map(|bytes| Some(Cow::Owned(bytes))).map_err(|error| error.to_string())
             }
             (None, _) => Ok(None),
         }

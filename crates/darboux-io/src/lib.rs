@@ -47,7 +47,7 @@ pub use error::{Error, system_reason};
 pub use files::Files;
 pub use load_options::{LoadOptions, OptionNames};
 pub use memory_limit::MemoryLimit;
-pub use paths::{FileKind, resolve_input, wrong_output};
+pub use paths::{FileKind, read_regular, resolve_input, wrong_output};
 pub use staging::{Outputs, RunId, SaveOptions};
 
 /// The examples of docs/io.md compile and run.

@@ -167,6 +167,14 @@ pub fn open_resolved(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
+/// The content of a regular file, links followed. A FIFO, a device or a socket is not waited for.
+///
+/// Errors: there is no file, it is not a regular file, or it cannot be read.
+pub fn read_regular(path: &Path) -> Result<Vec<u8>, Error> {
+    let resolved = resolve_input(path)?;
+    read_resolved(&resolved).map_err(|source| Error::Read { file: path.to_owned(), source })
+}
+
 /// The content of a regular file at a path whose links were resolved before. Errors: those of [`open_resolved`].
 pub fn read_resolved(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
@@ -176,14 +184,14 @@ pub fn read_resolved(path: &Path) -> io::Result<Vec<u8>> {
 
 /// Opens a file without waiting for the other end of a FIFO. A path that ends in a link is an error.
 #[cfg(unix)]
-fn open_at_once(path: &Path) -> io::Result<File> {
+pub fn open_at_once(path: &Path) -> io::Result<File> {
     use std::os::unix::fs::OpenOptionsExt;
 
     OpenOptions::new().read(true).custom_flags(libc::O_NOFOLLOW | libc::O_NONBLOCK).open(path)
 }
 
 #[cfg(not(unix))]
-fn open_at_once(path: &Path) -> io::Result<File> {
+pub fn open_at_once(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 

@@ -248,10 +248,12 @@ impl RunId {
         format!("{PREFIX}{self}-")
     }
 
-    /// The run that made a temporary file, by the file's name.
+    /// The run that made a temporary file, by the file's name: [`RunId::temporary_prefix`] and six random letters and digits, and nothing else.
     pub fn of_temporary_file(path: &Path) -> Option<Self> {
-        let name = path.file_name()?.to_str()?.strip_prefix(PREFIX)?;
-        name.split_once('-')?.0.parse().ok()
+        let name = path.file_name()?.to_str()?;
+        let run: Self = name.strip_prefix(PREFIX)?.split_once('-')?.0.parse().ok()?;
+        // The number has one spelling.
+        name.strip_prefix(&run.temporary_prefix()).is_some_and(is_random).then_some(run)
     }
 }
 
@@ -308,12 +310,12 @@ fn remove_abandoned_files_once(folder: &Path) {
 fn is_temporary(path: &Path) -> bool {
     let name = path.file_name().and_then(OsStr::to_str);
     let Some(rest) = name.and_then(|name| name.strip_prefix(PREFIX)) else { return false };
-    let random = match rest.split_once('-') {
-        Some((run, random)) if run.len() == 16 && run.parse::<RunId>().is_ok() => random,
-        Some(_) => return false,
-        None => rest,
-    };
-    random.len() == RANDOM_CHARACTERS && random.bytes().all(|byte| byte.is_ascii_alphanumeric())
+    is_random(rest) || RunId::of_temporary_file(path).is_some()
+}
+
+/// Whether a text is the end of the name of a temporary file.
+fn is_random(text: &str) -> bool {
+    text.len() == RANDOM_CHARACTERS && text.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }
 
 fn remove_abandoned_files(folder: &Path) {
@@ -321,7 +323,7 @@ fn remove_abandoned_files(folder: &Path) {
     for path in entries.flatten().map(|entry| entry.path()) {
         let is_regular = || path.symlink_metadata().is_ok_and(|metadata| metadata.is_file());
         if is_temporary(&path) && is_regular() {
-            let Ok(file) = File::open(&path) else { continue };
+            let Ok(file) = paths::open_at_once(&path) else { continue };
             // The lock is held until the file is removed, so that its writer cannot lock the file in between.
             if file.try_lock().is_ok() {
                 let _ = fs::remove_file(&path);
@@ -346,6 +348,32 @@ mod tests {
         let running = new_temporary(folder.path(), Some(RunId(7))).unwrap();
         remove_abandoned_files(folder.path());
         assert!(!abandoned.exists() && other.exists() && running.path().exists());
+    }
+
+    #[test]
+    fn only_names_that_are_given_are_those_of_temporary_files() {
+        let run = RunId(0xfe);
+        let name = new_temporary(tempfile::tempdir().unwrap().path(), Some(run)).unwrap().path().to_owned();
+        assert_eq!(RunId::of_temporary_file(&name), Some(run));
+        assert!(is_temporary(&name) && is_temporary(Path::new("a/.darboux-a1B2c3")));
+        for name in [
+            ".darboux-00000000000000fe-notes.txt",
+            ".darboux-00000000000000fe-a1B2c3d",
+            ".darboux-00000000000000fe-a1B2c-",
+            ".darboux-00000000000000fe-",
+            ".darboux-00000000000000FE-a1B2c3",
+            ".darboux-+0000000000000fe-a1B2c3",
+            ".darboux-fe-a1B2c3",
+            ".darboux-000000000000000fe-a1B2c3",
+            ".darboux-a1B2c3-a1B2c3",
+            "darboux-00000000000000fe-a1B2c3",
+            ".darboux-notes",
+            ".darboux-a1B2c3.png",
+            ".darboux-journal.jsonl",
+        ] {
+            assert_eq!(RunId::of_temporary_file(Path::new(name)), None, "{name}");
+            assert!(!is_temporary(Path::new(name)) || name == ".darboux-a1B2c3", "{name}");
+        }
     }
 
     /// The second target is a folder, which no file can replace.

@@ -34,7 +34,7 @@ pub struct Model<'a> {
 
 /// A mesh in one pose, with all places where the scene has it.
 struct PosedMesh<'a> {
-    weights: Vec<f64>,
+    weights: Arc<[f64]>,
     joints: Option<&'a [Matrix]>,
     matrices: Arc<[Matrix]>,
 }
@@ -214,12 +214,11 @@ fn skipped_primitives(document: &Document, posed: &[Vec<PosedMesh<'_>>]) -> usiz
 
 /// The poses of every mesh, each with the matrices of all its places.
 fn posed_meshes(placed: &MeshInstances, mesh_count: usize) -> Vec<Vec<PosedMesh<'_>>> {
-    let mut at = HashMap::new();
+    let (mut at, mut ids) = (HashMap::new(), WeightIds::default());
     let mut posed: Vec<Vec<(&MeshInstance, Vec<Matrix>)>> = (0..mesh_count).map(|_| Vec::new()).collect();
     for mesh in &placed.meshes {
         let Some(poses) = posed.get_mut(mesh.mesh) else { continue };
-        let weights: Vec<u64> = mesh.weights.iter().map(|weight| weight.to_bits()).collect();
-        let pose = *at.entry((mesh.mesh, mesh.skin, weights)).or_insert(poses.len());
+        let pose = *at.entry((mesh.mesh, mesh.skin, ids.of(&mesh.weights))).or_insert(poses.len());
         match poses.get_mut(pose) {
             // A skin determines the place of a mesh, so the same skin has the same place.
             Some(_) if mesh.skin.is_some() => {}
@@ -233,6 +232,23 @@ fn posed_meshes(placed: &MeshInstances, mesh_count: usize) -> Vec<Vec<PosedMesh<
         matrices: matrices.into(),
     };
     posed.into_iter().map(|poses| poses.into_iter().map(pose).collect()).collect()
+}
+
+/// A number for equal weights. Most nodes share those of their mesh, which are compared once.
+#[derive(Default)]
+struct WeightIds {
+    of_shared: HashMap<*const f64, usize>,
+    of_bits: HashMap<Vec<u64>, usize>,
+}
+
+impl WeightIds {
+    fn of(&mut self, weights: &Arc<[f64]>) -> usize {
+        let Self { of_shared, of_bits } = self;
+        *of_shared.entry(weights.as_ptr()).or_insert_with(|| {
+            let next = of_bits.len();
+            *of_bits.entry(weights.iter().map(|weight| weight.to_bits()).collect()).or_insert(next)
+        })
+    }
 }
 
 /// The number of corners of a primitive, or of its vertices if there are more. Every pose reads all of them.

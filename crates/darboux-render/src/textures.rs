@@ -17,9 +17,6 @@ const MAX_TEXELS: u64 = 200 << 20;
 /// What a texel takes of the memory limit: four channels of 8 bits.
 const BYTES_PER_TEXEL: u64 = 4;
 
-/// What a texel takes while it is decoded: four channels of 16 bits.
-const BYTES_WHILE_DECODING: u64 = 8;
-
 /// The most samples along the longer side of a pixel's footprint. Software adapters do without: they visit every texel below a pixel, which
 /// takes minutes where UVs grow to thousands, or where a triangle is seen so nearly edge-on that its interpolated UVs overflow.
 const MAX_ANISOTROPY: u16 = 8;
@@ -97,10 +94,9 @@ impl<'a> Textures<'a> {
         let message = |problem: String| format!("images[{image}] {problem}");
         let document = self.document;
         let texels = |size, bytes_per_texel: u64| document.memory_limit_of(size) / bytes_per_texel;
-        let limits = DecodeLimits::default();
-        let max_texels = limits.max_texels.min(texels(bytes.len(), BYTES_WHILE_DECODING));
         let side = self.gpu.device.limits().max_texture_dimension_2d;
-        let limits = limits.with_max_side(side).with_max_texels(max_texels);
+        let limits =
+            DecodeLimits::of_file(bytes.len(), document.load_options().memory_limit).with_max_side(side);
         let decoded = RgbaImage::decode(&bytes, &limits).map_err(|error| message(error.to_string()))?;
         self.texels += decoded.texels.len() as u64;
         self.bytes += bytes.len();

@@ -63,7 +63,7 @@ pub fn check_map(file: &[u8], options: &CheckOptions) -> CheckedMap {
 
 /// The defects of the file of an image; `vote` gives the votes of the meshes that use the map.
 pub fn map_defects(file: &[u8], options: &CheckOptions, vote: Option<Vote<'_>>) -> MapDefects {
-    let map = Map { assumed: options.assumed_map, ..Map::read(file, options.green, vote) };
+    let map = Map { assumed: options.assumed_map, ..Map::read(file, options, vote) };
     let obstacle = obstacles::of_image(file);
     let defects = MAP_RULES.iter().filter_map(|rule| rule(&map));
     MapDefects {
@@ -164,6 +164,7 @@ pub fn defects_of_materials(
     options: &CheckOptions,
     on_surfaces: &mut [Defect],
 ) -> Result<Vec<Defect>, Error> {
+    let options = &options.in_document(document);
     let (mut defects, mut images) = (Vec::new(), BTreeMap::new());
     let materials = document.materials()?;
     for (index, material) in materials.iter().enumerate() {

@@ -6,7 +6,7 @@ use darboux::{
 };
 use darboux_io::image::{DecodeError, DecodeLimits, RgbaImage, linear_to_srgb, srgb_to_linear};
 
-use crate::check_options::AssumedMap;
+use crate::check_options::{AssumedMap, CheckOptions};
 use crate::measure::contradiction::Contradiction;
 use crate::measure::facets::Arrangement;
 use crate::measure::mesh_votes::MeshVotes;
@@ -92,8 +92,9 @@ pub type Vote<'a> = &'a dyn Fn(&RgbaImage) -> MeshVotes;
 
 impl Map {
     /// Decodes and judges an image file. `vote`: none for a map that is checked alone.
-    pub fn read(file: &[u8], wanted: BitangentDirection, vote: Option<Vote<'_>>) -> Self {
-        match RgbaImage::decode(file, &DecodeLimits::default()) {
+    pub fn read(file: &[u8], options: &CheckOptions, vote: Option<Vote<'_>>) -> Self {
+        let wanted = options.green;
+        match RgbaImage::decode(file, &DecodeLimits::of_file(file.len(), options.memory_limit)) {
             Ok(image) => {
                 let mut judge = NormalMapJudge::new(image.width as usize, TexelLayout::RGBA);
                 let mut rows = image.texels.chunks_exact(image.width.max(1) as usize);

@@ -43,6 +43,7 @@ pub fn fix_map(
     loading: &LoadOptions,
     options: &FixOptions,
 ) -> Result<FixedMap, Error> {
+    let options = &with_limit_of(options, loading);
     let check = |file: &[u8]| map_defects(file, &options.check, None);
     fix_checked(name, file, check(file), &check, loading, options)
 }
@@ -55,8 +56,13 @@ pub fn fix_map_on_model(
     loading: &LoadOptions,
     options: &FixOptions,
 ) -> Result<FixedMap, Error> {
+    let options = &with_limit_of(options, loading);
     let check = |file: &[u8]| map_defects_on_model(file, model, &options.check);
     fix_checked(name, file, check(file), &check, loading, options)
+}
+
+fn with_limit_of(options: &FixOptions, loading: &LoadOptions) -> FixOptions {
+    FixOptions { check: options.check.with_memory_limit(loading.memory_limit), ..options.clone() }
 }
 
 /// Checks an image file again after a repair, with all that was known before, so that one repair does not mislead the next.
@@ -142,7 +148,7 @@ fn open(name: &str, file: &[u8], loading: &LoadOptions) -> Result<PngImage, Erro
         return PngImage::from_bytes(name, file.to_vec(), loading);
     }
     let undecodable = |problem: String| Error::Invalid { file: name.to_owned(), at: String::new(), problem };
-    let decoded = RgbaImage::decode(file, &DecodeLimits::default());
+    let decoded = RgbaImage::decode(file, &DecodeLimits::of_file(file.len(), loading.memory_limit));
     let RgbaImage { width, height, texels } = decoded.map_err(|error| undecodable(error.to_string()))?;
     let texels: Vec<[u8; 3]> = texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
     PngImage::from_rgb(name, [width, height], &texels)
@@ -202,6 +208,7 @@ pub fn fix_images(
     defects: Vec<Defect>,
     options: &FixOptions,
 ) -> Result<Vec<FixedFinding>, Error> {
+    let options = &FixOptions { check: options.check.in_document(document), ..options.clone() };
     // An image is named with one material.
     let mut places: BTreeMap<(Option<usize>, Option<usize>), Vec<&Defect>> = BTreeMap::new();
     for defect in &defects {

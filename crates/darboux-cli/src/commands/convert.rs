@@ -22,6 +22,7 @@ use crate::inputs::{Input, UsageError};
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
 use crate::paths::is_png;
+use crate::regular_file::{Links, open_regular};
 use crate::terminal::FileProgress;
 use crate::text::counted;
 use arguments::{ConvertArguments, SpaceChoice};
@@ -253,7 +254,8 @@ impl ConvertArguments {
 /// Whether the file starts with the PNG signature.
 fn starts_as_png(path: &Path) -> bool {
     let mut first = [0; 8];
-    File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && PngImage::is_png(&first)
+    let opened = open_regular(path, File::options().read(true), Links::Follow);
+    opened.and_then(|mut file| file.read_exact(&mut first)).is_ok() && PngImage::is_png(&first)
 }
 
 fn space_name(space: SpaceChoice) -> &'static str {

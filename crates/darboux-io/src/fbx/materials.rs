@@ -17,6 +17,8 @@ pub struct MaterialReader<'a> {
     green: Option<BitangentDirection>,
     /// The image of each texture file; none for those that cannot be read.
     image_of_file: HashMap<u32, Option<usize>>,
+    /// The images of bump maps that were decoded: whether they are heights.
+    is_grey: HashMap<usize, bool>,
     pub images: Vec<SourceImage>,
     pub warnings: Vec<String>,
     pub not_carried: Vec<String>,
@@ -31,6 +33,7 @@ impl<'a> MaterialReader<'a> {
             files,
             green: is_blenders.then_some(BitangentDirection::Up),
             image_of_file: HashMap::new(),
+            is_grey: HashMap::new(),
             images: Vec::new(),
             warnings: Vec::new(),
             not_carried: Vec::new(),
@@ -80,8 +83,12 @@ impl<'a> MaterialReader<'a> {
             Some(texture) => texture,
             None => {
                 let texture = self.texture(&fbx.bump, uv_sets)?;
-                let image = RgbaImage::decode(&self.images[texture.image].bytes, &DecodeLimits::default());
-                if image.is_ok_and(|image| !image.is_colored()) {
+                let (bytes, limit) = (&self.images[texture.image].bytes, self.files.memory_limit());
+                let is_grey = self.is_grey.entry(texture.image).or_insert_with(|| {
+                    let image = RgbaImage::decode(bytes, &DecodeLimits::of_file(bytes.len(), limit));
+                    image.is_ok_and(|image| !image.is_colored())
+                });
+                if *is_grey {
                     self.warnings.push(format!(
                         "the bump map of material {name:?} is grey, so it holds heights and is left out; normal maps are coloured"
                     ));

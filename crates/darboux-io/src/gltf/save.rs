@@ -427,7 +427,7 @@ fn holds(file: &Path, segments: &[Segment<'_>]) -> io::Result<bool> {
     if fs::metadata(file)?.len() != segments::length(segments) as u64 {
         return Ok(false);
     }
-    let mut file = File::open(file)?;
+    let mut file = paths::open_resolved(&file.canonicalize()?)?;
     let mut bytes = vec![0; 1 << 16];
     for part in segments.iter().flat_map(|segment| segment.chunks(1 << 16)) {
         let bytes = &mut bytes[..part.len()];

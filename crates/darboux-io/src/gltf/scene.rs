@@ -1,11 +1,13 @@
 //! Finds the meshes of the scene with the transforms, morph weights and skins of their nodes.
 
 use std::collections::{BTreeSet, HashMap};
+use std::sync::Arc;
 
 use serde::Deserialize;
 
 use super::Document;
 use super::objects_only::read_from_objects;
+use super::primitives::limits;
 use super::schema::Attributes;
 use crate::Error;
 use crate::error::ContentError;
@@ -38,8 +40,8 @@ pub struct MeshInstance {
     /// The transforms from the mesh to the scene, in columns: one per instance of `EXT_mesh_gpu_instancing`, otherwise one. The identity
     /// for a skinned mesh.
     pub matrices: Vec<[[f64; 4]; 4]>,
-    /// The weights of morph targets; empty if all are zero.
-    pub weights: Vec<f64>,
+    /// The weights of morph targets; empty if all are zero. Nodes without weights of their own share those of the mesh.
+    pub weights: Arc<[f64]>,
     /// The index of the skin that moves its vertices.
     pub skin: Option<usize>,
 }
@@ -135,15 +137,21 @@ impl Document {
         let scenes: Scenes = self.read().map_err(|error| error.in_file(self.name()))?;
         let nodes = placed_nodes(&scenes).map_err(|error| error.in_file(self.name()))?;
         let mut placed = MeshInstances { meshes: Vec::new(), skins: vec![Vec::new(); scenes.skins.len()] };
+        let weights: Vec<Arc<[f64]>> =
+            scenes.meshes.iter().map(|mesh| shared_weights(&mesh.weights)).collect();
         if scenes.nodes.is_empty() {
-            let all = scenes.meshes.iter().enumerate();
-            placed
-                .meshes
-                .extend(all.map(|(mesh, own)| place(mesh, None, None, &own.weights, vec![IDENTITY])));
+            let all = weights.iter().cloned().enumerate();
+            placed.meshes.extend(all.map(|(mesh, weights)| MeshInstance {
+                mesh,
+                node_name: None,
+                matrices: vec![IDENTITY],
+                weights,
+                skin: None,
+            }));
         }
         let mut places: usize = 0;
         for &(index, matrix) in &nodes {
-            let Some(mesh) = self.place_node(&scenes, index, matrix)? else { continue };
+            let Some(mesh) = self.place_node(&scenes, &weights, index, matrix)? else { continue };
             places = places.saturating_add(mesh.matrices.len());
             placed.meshes.push(mesh);
             if places > MAX_MESH_INSTANCES {
@@ -154,8 +162,24 @@ impl Document {
         }
         let nodes: HashMap<usize, Matrix> = nodes.into_iter().collect();
         let used: BTreeSet<usize> = placed.meshes.iter().filter_map(|mesh| mesh.skin).collect();
+        // Skins with the same matrices follow each other, so that these are read once.
+        let mut used: Vec<usize> = used.into_iter().collect();
+        used.sort_by_key(|&index| scenes.skins[index].inverse_bind_matrices);
+        limits::check_matrices(
+            self,
+            used.iter().filter_map(|&index| scenes.skins[index].inverse_bind_matrices),
+        )?;
+        let mut inverses = None;
         for index in used {
-            placed.skins[index] = self.joints(&scenes.skins[index], &format!("skins[{index}]"), &nodes)?;
+            let skin = &scenes.skins[index];
+            if let Some(accessor) = skin.inverse_bind_matrices
+                && inverses.as_ref().is_none_or(|(read, _)| *read != accessor)
+            {
+                inverses = Some((accessor, self.vectors::<16>(accessor)?));
+            }
+            let inverses = inverses.as_ref().filter(|_| skin.inverse_bind_matrices.is_some());
+            let inverses = inverses.map(|(_, inverses)| &**inverses);
+            placed.skins[index] = self.joints(skin, inverses, &format!("skins[{index}]"), &nodes)?;
         }
         Ok(placed)
     }
@@ -164,6 +188,7 @@ impl Document {
     fn place_node(
         &self,
         scenes: &Scenes,
+        weights: &[Arc<[f64]>],
         index: usize,
         matrix: Matrix,
     ) -> Result<Option<MeshInstance>, Error> {
@@ -174,7 +199,7 @@ impl Document {
             let problem = format!("{what} {index} does not exist: there are {count}; export the file again");
             self.invalid(&at, problem)
         };
-        let own = scenes.meshes.get(mesh).ok_or_else(|| missing("mesh", mesh, scenes.meshes.len()))?;
+        let of_mesh = weights.get(mesh).ok_or_else(|| missing("mesh", mesh, weights.len()))?;
         if let Some(skin) = node.skin.filter(|&skin| skin >= scenes.skins.len()) {
             return Err(missing("skin", skin, scenes.skins.len()));
         }
@@ -185,18 +210,24 @@ impl Document {
             }
             (None, None) => vec![matrix],
         };
-        let weights = node.weights.as_ref().unwrap_or(&own.weights);
-        Ok(Some(place(mesh, node.name.clone(), node.skin, weights, matrices)))
+        let weights = node.weights.as_ref().map_or_else(|| of_mesh.clone(), |own| shared_weights(own));
+        let node_name = node.name.clone();
+        Ok(Some(MeshInstance { mesh, node_name, matrices, weights, skin: node.skin }))
     }
 
     /// The joint matrices of a skin. `at` is its JSON path; `nodes` has the transforms of the nodes in the scene, by index.
-    fn joints(&self, skin: &Skin, at: &str, nodes: &HashMap<usize, Matrix>) -> Result<Vec<Matrix>, Error> {
-        let inverses = skin.inverse_bind_matrices.map(|accessor| self.vectors::<16>(accessor)).transpose()?;
+    fn joints(
+        &self,
+        skin: &Skin,
+        inverses: Option<&[[f32; 16]]>,
+        at: &str,
+        nodes: &HashMap<usize, Matrix>,
+    ) -> Result<Vec<Matrix>, Error> {
         let joint = |(place, joint): (usize, &usize)| {
             let wrong = |problem: &str| self.invalid(format!("{at}.joints[{place}]"), problem);
             let matrix =
                 nodes.get(joint).ok_or_else(|| wrong("is not in the scene; export the file again"))?;
-            let Some(inverses) = &inverses else { return Ok(*matrix) };
+            let Some(inverses) = inverses else { return Ok(*matrix) };
             let inverse = inverses
                 .get(place)
                 .ok_or_else(|| wrong("has no inverse bind matrix; export the file again"))?;
@@ -263,16 +294,9 @@ fn placed_nodes(Scenes { scene, scenes, nodes, .. }: &Scenes) -> Result<Vec<(usi
     Ok(placed)
 }
 
-fn place(
-    mesh: usize,
-    node_name: Option<String>,
-    skin: Option<usize>,
-    weights: &[f64],
-    matrices: Vec<Matrix>,
-) -> MeshInstance {
-    let is_morphed = weights.iter().any(|&weight| weight != 0.0);
-    let weights = if is_morphed { weights.to_vec() } else { Vec::new() };
-    MeshInstance { mesh, node_name, matrices, weights, skin }
+/// Weights, or none if all are zero.
+fn shared_weights(weights: &[f64]) -> Arc<[f64]> {
+    if weights.iter().any(|&weight| weight != 0.0) { weights.into() } else { Arc::default() }
 }
 
 /// The nodes without a parent.

@@ -1,5 +1,7 @@
 //! What the decoders of textures share: limits, errors, and texels of 8 bits.
 
+use crate::MemoryLimit;
+
 /// The largest image that is decoded. By default the sides may have 16,384 texels and the image 2^27, which take 512 MiB.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
@@ -10,7 +12,17 @@ pub struct DecodeLimits {
     pub max_texels: u64,
 }
 
+/// Bytes per texel while an image is decoded: four channels of 16 bits.
+const BYTES_PER_TEXEL: u64 = 8;
+
 impl DecodeLimits {
+    /// The limits for a file of `size` bytes: the default, and at most the texels that fit a memory limit while they are decoded.
+    pub fn of_file(size: usize, limit: MemoryLimit) -> Self {
+        let limits = Self::default();
+        let texels = limit.budget(size, 0, "").bytes as u64 / BYTES_PER_TEXEL;
+        limits.with_max_texels(limits.max_texels.min(texels))
+    }
+
     /// These limits with another width and height.
     #[must_use]
     pub const fn with_max_side(self, max_side: u32) -> Self {

@@ -76,9 +76,7 @@ impl PngImage {
     /// Reads a PNG. Errors: a file that cannot be read; a file that is not a PNG of a supported kind, or is damaged; more texels than
     /// [`LoadOptions::memory_limit`] permits.
     pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Error> {
-        let file = paths::resolve_input(path)?;
-        let bytes =
-            paths::read_resolved(&file).map_err(|source| Error::Read { file: path.to_owned(), source })?;
+        let bytes = paths::read_regular(path)?;
         Self::from_bytes(&path.display().to_string(), bytes, options)
     }
 

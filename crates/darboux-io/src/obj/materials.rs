@@ -23,6 +23,8 @@ pub struct Materials<'a> {
     materials: Vec<SourceMaterial>,
     images: Vec<SourceImage>,
     image_of_file: HashMap<PathBuf, Option<usize>>,
+    /// The images of bump statements that were decoded: whether they are heights.
+    is_grey: HashMap<usize, bool>,
     image_of_statement: HashMap<(String, String), Option<usize>>,
     unknown: HashSet<Vec<u8>>,
     /// The materials that lose a statement, by the statement.
@@ -40,6 +42,7 @@ impl<'a> Materials<'a> {
             materials: Vec::new(),
             images: Vec::new(),
             image_of_file: HashMap::new(),
+            is_grey: HashMap::new(),
             image_of_statement: HashMap::new(),
             unknown: HashSet::new(),
             lost: BTreeMap::new(),
@@ -137,8 +140,12 @@ impl<'a> Materials<'a> {
         }
         let map = material.bump_map.as_ref()?;
         let texture = self.texture(library, Some(map))?;
-        let image = RgbaImage::decode(&self.images[texture.image].bytes, &DecodeLimits::default()).ok();
-        if image.is_some_and(|image| !image.is_colored()) {
+        let (bytes, limit) = (&self.images[texture.image].bytes, self.files.memory_limit());
+        let is_grey = self.is_grey.entry(texture.image).or_insert_with(|| {
+            let image = RgbaImage::decode(bytes, &DecodeLimits::of_file(bytes.len(), limit));
+            image.is_ok_and(|image| !image.is_colored())
+        });
+        if *is_grey {
             self.warnings.push(format!(
                 "the bump map of {} is grey, so it holds heights and is left out; normal maps are coloured",
                 material.name

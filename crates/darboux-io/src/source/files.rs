@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::error::shortened;
-use crate::{Files, LoadOptions, files, paths};
+use crate::{Files, LoadOptions, MemoryLimit, files, paths};
 
 /// The most paths that are looked up for one model. Each lookup asks the operating system.
 const MAX_LOOKUPS: usize = 100_000;
@@ -34,6 +34,7 @@ pub struct ModelFiles {
     source: FileSource,
     allow_outside: bool,
     allow_outside_name: &'static str,
+    memory_limit: MemoryLimit,
     lookups_left: Cell<usize>,
     /// The files that were read from the disk.
     read: RefCell<Vec<PathBuf>>,
@@ -56,6 +57,7 @@ impl ModelFiles {
             source,
             allow_outside: options.allow_outside,
             allow_outside_name: options.option_names.allow_outside,
+            memory_limit: options.memory_limit,
             lookups_left: Cell::new(MAX_LOOKUPS),
             read: RefCell::default(),
         }
@@ -109,6 +111,11 @@ impl ModelFiles {
                 (may_read && path.is_file()).then_some(FoundFile { name, path, is_by_name })
             }
         }
+    }
+
+    /// The memory limit of the model.
+    pub fn memory_limit(&self) -> MemoryLimit {
+        self.memory_limit
     }
 
     fn may_look_up(&self) -> bool {

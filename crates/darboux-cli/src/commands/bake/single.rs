@@ -81,7 +81,7 @@ pub fn bake_files(
     let documents = Documents::open(arguments, &mut warnings)?;
     let corners = documents.corners()?;
     let models = Models::read(arguments, &documents, &corners)?;
-    let skew = Skew::read(arguments.skew.as_ref())?;
+    let skew = Skew::read(arguments.skew.as_ref(), &arguments.reading)?;
     warnings.extend(advice::of_models(&models.low, documents.low.name(), &models.highs));
     refuse_model(arguments, &models.low)?;
 

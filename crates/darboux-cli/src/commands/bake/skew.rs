@@ -1,11 +1,12 @@
 //! `--skew`: an amount for all rays, or a painted map.
 
-use std::fs;
 use std::path::PathBuf;
 
 use darboux_bake::{BakeError, ColorTexture, LowSurface, SkewCorrection};
 use darboux_io::image::{DecodeLimits, RgbaImage};
-use darboux_io::system_reason;
+use darboux_io::read_regular;
+
+use crate::options::reading::ReadOptions;
 
 /// What `--skew` names.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,16 +24,18 @@ pub enum Skew {
 
 impl Skew {
     /// Reads the map. None without `--skew`. Errors are one sentence each.
-    pub fn read(choice: Option<&SkewChoice>) -> Result<Option<Self>, String> {
+    pub fn read(choice: Option<&SkewChoice>, reading: &ReadOptions) -> Result<Option<Self>, String> {
         let path = match choice {
             None => return Ok(None),
             Some(SkewChoice::Amount(amount)) => return Ok(Some(Self::Amount(*amount))),
             Some(SkewChoice::Image(path)) => path,
         };
         let shown = path.display();
-        let bytes =
-            fs::read(path).map_err(|error| format!("{shown}: cannot be read: {}", system_reason(&error)))?;
-        let image = RgbaImage::decode(&bytes, &DecodeLimits::default());
+        let bytes = read_regular(path).map_err(|error| error.to_string())?;
+        let image = RgbaImage::decode(
+            &bytes,
+            &DecodeLimits::of_file(bytes.len(), reading.load_options().memory_limit),
+        );
         let image = image.map_err(|error| format!("{shown}: the image {error}"))?;
         let map = ColorTexture::new([image.width, image.height], image.texels, false);
         map.map(|map| Some(Self::Map(map))).map_err(|error| format!("{shown}: {error}"))

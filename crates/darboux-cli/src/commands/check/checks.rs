@@ -64,7 +64,8 @@ impl Checks<'_> {
     }
 
     fn check_file(&self, input: &Input) -> CheckedFile {
-        let options = self.findings.check_options();
+        let limit = self.reading.load_options().memory_limit;
+        let options = self.findings.check_options().with_memory_limit(limit);
         let name = input.to_string();
         let reported = |findings: Vec<Finding>, map: Option<ReportedMap>, document: Option<&Document>| {
             let wanted = findings.into_iter().filter(|finding| self.findings.reports(finding.code));

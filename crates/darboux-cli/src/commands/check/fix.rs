@@ -1,7 +1,6 @@
 //! `darboux check --fix`: repairs models and normal maps, and says what was repaired.
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::Path;
 
 use darboux::TangentOptions;
@@ -11,6 +10,7 @@ use darboux_check::{
 };
 use darboux_io::gltf::Document;
 use darboux_io::image::PngImage;
+use darboux_io::read_regular;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -334,7 +334,7 @@ impl Repair<'_> {
         let image = fixed.image.or_else(|| PngImage::from_bytes(&name, file, &loading).ok());
         let is_written = |existing: &Path| {
             let new = image.as_ref().and_then(|image| image.to_bytes().ok());
-            new.is_some_and(|new| fs::read(existing).is_ok_and(|existing| existing == new))
+            new.is_some_and(|new| read_regular(existing).is_ok_and(|existing| existing == new))
         };
         let is_changed = image.as_ref().is_some_and(PngImage::is_changed);
         let status = self.written_before(&job.output, is_changed, is_written)?;

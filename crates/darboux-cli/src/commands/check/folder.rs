@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use walkdir::WalkDir;
 
 use crate::paths::is_image;
+use crate::regular_file::{Links, open_regular};
 use crate::text::{command_line, counted};
 
 /// Which command checks the normal maps of a folder, as a clause; none for a folder without images. A folder has colour textures, too, so images are
@@ -43,7 +44,7 @@ pub fn unused_maps<'a>(folder: &Path, models: impl Iterator<Item = &'a Path>) ->
 
 /// The JSON of a model file; none where it cannot be read.
 fn json_of(model: &Path) -> Option<Vec<u8>> {
-    let mut file = File::open(model).ok()?;
+    let mut file = open_regular(model, File::options().read(true), Links::Follow).ok()?;
     let mut head = Vec::new();
     file.by_ref().take(20).read_to_end(&mut head).ok()?;
     let length = match head.get(12..16).filter(|_| head.starts_with(b"glTF")) {

@@ -1,12 +1,13 @@
 //! The surfaces of the default scene, in world space: one per primitive and place of its mesh.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use darboux::Transform;
 
 use crate::Error;
-use crate::gltf::primitives::corners::PrimitiveCorners;
+use crate::gltf::primitives::corners::{PrimitiveCorners, triangle_count};
 use crate::gltf::primitives::limits;
 use crate::gltf::primitives::name::PrimitiveName;
 use crate::gltf::primitives::quads::QuadFaces;
@@ -34,13 +35,17 @@ pub struct Surface {
 pub fn of(document: &Document) -> Result<Vec<Surface>, Error> {
     let instances = document.mesh_instances()?.meshes;
     let materials = document.materials()?;
-    limits::check_triangles(document, instances.iter().flat_map(|instance| triangles(document, instance)))?;
+    let drawn = drawn_primitives(document, &instances);
+    let triangles =
+        |instance: &MeshInstance| drawn[&instance.mesh].triangles.saturating_mul(instance.matrices.len());
+    limits::check_triangles(document, instances.iter().map(triangles))?;
     let mut found = Vec::new();
     for instance in &instances {
         let mesh = &document.meshes()[instance.mesh];
         let node_name = instance.node_name.as_deref().map(Arc::from);
         let own_name: Arc<str> = node_name.or_else(|| mesh.name.clone()).unwrap_or_default();
-        for (place, primitive) in mesh.primitives.iter().enumerate() {
+        for &place in &drawn[&instance.mesh].primitives {
+            let primitive = &mesh.primitives[place];
             let name = PrimitiveName::new(instance.mesh, mesh, place);
             let set = primitive.material.and_then(|index| materials.get(index));
             let set = set.map_or(0, |material| material.tangent_uv_set);
@@ -55,15 +60,42 @@ pub fn of(document: &Document) -> Result<Vec<Surface>, Error> {
     Ok(found)
 }
 
-/// The triangles of each primitive of an instance, at all its places.
-fn triangles<'a>(document: &'a Document, instance: &'a MeshInstance) -> impl Iterator<Item = usize> + 'a {
-    let primitives = document.meshes()[instance.mesh].primitives.iter();
-    let counts = primitives
-        .filter_map(|primitive| crate::gltf::primitives::corners::triangle_count(document, primitive));
-    counts.map(|count| count.saturating_mul(instance.matrices.len()))
+/// The primitives of a mesh that have triangles. The others are not passed at each place of the mesh.
+#[derive(Default)]
+struct DrawnPrimitives {
+    primitives: Vec<usize>,
+    /// The number of their triangles.
+    triangles: usize,
 }
 
-/// The surface of a primitive in its mesh; none without triangles.
+/// Those of every mesh that has a place.
+fn drawn_primitives(document: &Document, instances: &[MeshInstance]) -> HashMap<usize, DrawnPrimitives> {
+    let mut meshes = HashMap::new();
+    for instance in instances {
+        meshes.entry(instance.mesh).or_insert_with(|| {
+            let mut drawn = DrawnPrimitives::default();
+            for (place, primitive) in document.meshes()[instance.mesh].primitives.iter().enumerate() {
+                let triangles = triangle_count(document, primitive).unwrap_or_default();
+                if triangles > 0 {
+                    drawn.primitives.push(place);
+                    drawn.triangles = drawn.triangles.saturating_add(triangles);
+                }
+            }
+            drawn
+        });
+    }
+    meshes
+}
+
+/// The vertices that corners use, ascending; none if all of them are. Primitives may share many vertices of which each uses few.
+fn used_vertices(corners: &[u32], count: usize) -> Option<Vec<u32>> {
+    let mut used = corners.to_vec();
+    used.sort_unstable();
+    used.dedup();
+    (used.len() < count).then_some(used)
+}
+
+/// The surface of a primitive in its mesh, with the vertices that it uses; none without triangles.
 fn surface(
     document: &Document,
     name: &PrimitiveName,
@@ -78,14 +110,16 @@ fn surface(
         None => found.vertex_vectors::<2>("TEXCOORD_0")?,
         uvs => uvs,
     };
+    let used = used_vertices(found.vertices(), positions.len());
+    let used = used.as_deref();
     let mut surface = Surface {
         name: Arc::default(),
         material: primitive.material,
-        positions: positions.into_owned(),
-        normals: found.vertex_vectors::<3>("NORMAL")?.map(Cow::into_owned),
-        uvs: uvs.map(Cow::into_owned),
-        colors: colors(document, primitive, &found)?,
-        tangents: found.vertex_vectors::<4>("TANGENT")?.map(Cow::into_owned),
+        positions: values(positions, used),
+        normals: found.vertex_vectors::<3>("NORMAL")?.map(|normals| values(normals, used)),
+        uvs: uvs.map(|uvs| values(uvs, used)),
+        colors: colors(document, primitive, &found, used)?,
+        tangents: found.vertex_vectors::<4>("TANGENT")?.map(|tangents| values(tangents, used)),
         corners: Vec::new(),
         sizes: Vec::new(),
     };
@@ -94,13 +128,26 @@ fn surface(
         Some(faces) => (surface.corners, surface.sizes) = (faces.vertices, faces.sizes),
         None => (surface.sizes, surface.corners) = (vec![3; vertices.len() / 3], vertices),
     }
+    if let Some(used) = used {
+        let place = |vertex: &u32| used.partition_point(|used| used < vertex) as u32;
+        surface.corners.iter_mut().for_each(|vertex| *vertex = place(vertex));
+    }
     Ok(Some(surface))
+}
+
+/// The values at the vertices that are used, or at all.
+fn values<T: Copy>(values: Cow<'_, [T]>, used: Option<&[u32]>) -> Vec<T> {
+    match used {
+        Some(used) => used.iter().map(|&vertex| values[vertex as usize]).collect(),
+        None => values.into_owned(),
+    }
 }
 
 fn colors(
     document: &Document,
     primitive: &schema::Primitive,
     found: &PrimitiveCorners<'_>,
+    used: Option<&[u32]>,
 ) -> Result<Option<Vec<[f32; 4]>>, Error> {
     let Some(accessor) =
         primitive.attributes.get("COLOR_0").and_then(|&index| document.accessors().get(index))
@@ -108,10 +155,10 @@ fn colors(
         return Ok(None);
     };
     Ok(match accessor.element_type {
-        ElementType::Vec4 => found.vertex_vectors::<4>("COLOR_0")?.map(Cow::into_owned),
+        ElementType::Vec4 => found.vertex_vectors::<4>("COLOR_0")?.map(|colors| values(colors, used)),
         _ => found
             .vertex_vectors::<3>("COLOR_0")?
-            .map(|colors| colors.iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect()),
+            .map(|colors| values(colors, used).into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect()),
     })
 }
 

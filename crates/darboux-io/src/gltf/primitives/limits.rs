@@ -15,6 +15,15 @@ pub fn check_triangles(document: &Document, counts: impl Iterator<Item = usize>)
     check(document, triangles.saturating_mul(3 * BYTES_PER_CORNER), "have so many corners that they need")
 }
 
+/// Checks the matrices that accessors hold, given in ascending order. Errors: they take more than the memory limit.
+pub fn check_matrices(document: &Document, accessors: impl Iterator<Item = usize>) -> Result<(), Error> {
+    let (mut last, mut matrices) = (None, 0usize);
+    for accessor in accessors.filter(|accessor| last.replace(*accessor) != Some(*accessor)) {
+        matrices = matrices.saturating_add(document.accessors().get(accessor).map_or(0, |found| found.count));
+    }
+    check(document, matrices.saturating_mul(size_of::<[f32; 16]>()), "have so many matrices that they need")
+}
+
 /// Checks the bytes that are to be written. Errors: they are more than the memory limit.
 pub fn check_output(document: &Document) -> Result<(), Error> {
     check_more_output(document, 0)
