@@ -5,6 +5,8 @@ mod command_line;
 mod commands;
 mod documents;
 mod exit;
+#[cfg(feature = "bake")]
+mod file_id;
 mod gpu;
 mod heat_scale;
 mod html_page;

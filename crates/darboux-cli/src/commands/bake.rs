@@ -3,6 +3,7 @@
 pub mod arguments;
 mod cage;
 mod cage_file;
+mod conflicts;
 mod dither;
 mod encode;
 mod files;

@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod conflicts;
 mod jobs;
 mod maps;
 mod models;

@@ -9,7 +9,6 @@ use darboux_io::gltf::Document;
 use serde::Serialize;
 
 use super::arguments::BakeArguments;
-use crate::documents::load_with_warnings;
 
 /// How rays are chosen. In the models' unit.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -95,21 +94,20 @@ fn rounded(distance: f32) -> f64 {
 pub struct Cages(pub Vec<Vec<[f32; 3]>>);
 
 impl Cages {
-    /// Makes or reads the cages; fills in what an automatic cage has found. `low`: those of `prepared`, without cages. Errors are one sentence each.
+    /// Makes or reads the cages; fills in what an automatic cage has found. `file`: that of `--cage`; `low`: those of `prepared`, without cages. Errors
+    /// are one sentence each.
     pub fn read(
         arguments: &BakeArguments,
+        file: Option<&Document>,
         rays: &mut Rays,
         model: &LowModel<'_>,
         low: &[LowSurface<'_>],
         prepared: &PreparedSurfaces<'_>,
         context: &mut Context,
     ) -> Result<Self, String> {
-        match (rays, &arguments.cage) {
+        match (rays, file) {
             (Rays::Normals { .. }, _) => Ok(Self(Vec::new())),
-            (Rays::CageFile { .. }, Some(path)) => {
-                let document = load_with_warnings(path, &arguments.reading, &mut Vec::new())?;
-                of_document(&document, low).map(Self)
-            }
+            (Rays::CageFile { .. }, Some(document)) => of_document(document, low).map(Self),
             (Rays::AutoCage { share, reach, least, most, inwards }, _) => {
                 let cage = auto_cage(prepared, &AutoCageOptions::new(*share, *reach), context);
                 let cage = cage.map_err(|error| error.to_string())?;

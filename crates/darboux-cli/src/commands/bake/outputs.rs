@@ -120,11 +120,7 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
             return Err(format!("{}: the heat map is a PNG; its name must end in .png", picture.display()));
         }
     }
-    let all = all_outputs(arguments);
-    match (1..all.len()).find(|&i| all[..i].contains(&all[i])) {
-        Some(twice) => Err(format!("{}: is named twice; choose another name", all[twice].display())),
-        None => Ok(()),
-    }
+    Ok(())
 }
 
 /// Every file that the arguments name for writing.
@@ -135,6 +131,11 @@ pub fn all_outputs(arguments: &BakeArguments) -> Vec<PathBuf> {
     let scale = heat_model.as_deref().map(scale_of);
     let others = [write_model, heat_map, heat_model, write_cage, report].into_iter().flatten().cloned();
     maps.chain(others).chain(scale).collect()
+}
+
+/// The picture of texels without a hit, which is written where they are many.
+pub fn picture_of_misses(arguments: &BakeArguments) -> PathBuf {
+    arguments.output.with_extension("misses.png")
 }
 
 /// The picture of the scale beside a painted model.

@@ -5,6 +5,7 @@ use darboux_io::Outputs;
 use darboux_io::image::PngImage;
 
 use super::arguments::BakeArguments;
+use super::outputs::picture_of_misses;
 use super::report::advice;
 use super::write::stage;
 use crate::heat_scale::{HeatRange, ramp};
@@ -25,7 +26,7 @@ pub fn misses(
     warnings: &mut Vec<String>,
     outputs: &mut Outputs,
 ) -> Result<Option<String>, String> {
-    let path = arguments.output.with_extension("misses.png");
+    let path = picture_of_misses(arguments);
     if !advice::has_many_misses(&baked.report) {
         if path.exists() {
             warnings.push(format!(

@@ -14,10 +14,11 @@ use darboux_io::{Outputs, RunId};
 use super::arguments::{BakeArguments, MatchChoice};
 use super::cage::{Cages, Rays};
 use super::cage_file::stage_cage;
+use super::conflicts::{InputFile, all_inputs, files_of, outputs_of, refuse_twice};
 use super::legend::stage_legends;
 use super::model::{refuse_model, stage_model};
 use super::open::open_low;
-use super::outputs::{all_outputs, refuse_outputs};
+use super::outputs::refuse_outputs;
 use super::page::PageContent;
 use super::pictures;
 use super::report::{BakeReport, TileReport, advice, summary};
@@ -66,7 +67,8 @@ pub fn check_usage(arguments: &BakeArguments) -> Result<(), String> {
     if inputs.any(|path| path == Path::new("-")) {
         return Err("models on standard input cannot be baked; save them to files first".to_owned());
     }
-    refuse_outputs(arguments)
+    refuse_outputs(arguments)?;
+    refuse_twice(&outputs_of(arguments, 0), &all_inputs(arguments))
 }
 
 /// Reads, bakes and writes. Errors are one sentence each.
@@ -88,7 +90,7 @@ pub fn bake_files(
     let mut rays = Rays::choose(arguments, &models.low);
     let mut surfaces = models.low.surfaces().map_err(sentence)?;
     let high_surfaces = models.high_surfaces(arguments, &mut surfaces, &mut warnings)?;
-    let tiles = tiles_of(arguments, &surfaces)?;
+    let tiles = tiles_of(arguments, &surfaces, &documents.inputs)?;
     if arguments.verify {
         let check = check_verification(&surfaces, &high_surfaces, &options(arguments, &rays));
         check.map_err(|error| format!("--verify cannot follow the bake: {error}"))?;
@@ -97,7 +99,8 @@ pub fn bake_files(
     let mut context = context(arguments);
     let prepared = PreparedSurfaces::new(&surfaces, &high_surfaces, memory::available(), &context);
     let prepared = prepared.map_err(text)?;
-    let cages = Cages::read(arguments, &mut rays, &models.low, &surfaces, &prepared, &mut context)?;
+    let cage = documents.cage.as_ref();
+    let cages = Cages::read(arguments, cage, &mut rays, &models.low, &surfaces, &prepared, &mut context)?;
     let mut surfaces = cages.around(surfaces).map_err(text)?;
     if let Some(skew) = &skew {
         surfaces = skew.on(surfaces).map_err(text)?;
@@ -238,10 +241,13 @@ fn distinct(sentences: Vec<String>) -> Vec<String> {
     sentences.into_iter().filter(|sentence| seen.insert(sentence.clone())).collect()
 }
 
-/// The opened files of the low model and of the high ones.
+/// The opened files of the low model, of the high ones and of the cage.
 struct Documents {
     low: Document,
     highs: Vec<Document>,
+    cage: Option<Document>,
+    /// Every file that the bake reads.
+    inputs: Vec<InputFile>,
 }
 
 /// The corners of all documents, in their order.
@@ -258,8 +264,12 @@ impl Documents {
         for path in &arguments.high {
             highs.push(load_with_warnings(path, &arguments.reading, warnings)?);
         }
-        refuse_used(arguments, highs.iter().chain([&low]))?;
-        Ok(Self { low, highs })
+        let cage = arguments.cage.as_ref();
+        let cage = cage.map(|path| load_with_warnings(path, &arguments.reading, &mut Vec::new())).transpose()?;
+        let mut inputs = all_inputs(arguments);
+        inputs.extend(highs.iter().chain([&low]).chain(&cage).flat_map(files_of));
+        refuse_twice(&outputs_of(arguments, 0), &inputs)?;
+        Ok(Self { low, highs, cage, inputs })
     }
 
     fn corners(&self) -> Result<Corners<'_>, String> {
@@ -318,20 +328,6 @@ fn low_options(arguments: &BakeArguments) -> LowModelOptions {
         .with_uv_set(arguments.uv_set)
         .with_tangents(tangents)
         .with_material(arguments.material)
-}
-
-/// Refuses to write a map over a file that the models use.
-fn refuse_used<'a>(
-    arguments: &BakeArguments,
-    documents: impl Iterator<Item = &'a Document>,
-) -> Result<(), String> {
-    let outputs = all_outputs(arguments);
-    for document in documents {
-        if let Some(output) = outputs.iter().find(|path| document.uses_file(path)) {
-            return Err(format!("{}: is used by {}; choose another name", output.display(), document.name()));
-        }
-    }
-    Ok(())
 }
 
 fn options(arguments: &BakeArguments, rays: &Rays) -> BakeOptions {

@@ -4,6 +4,7 @@ use darboux::Convention;
 use darboux_bake::{LowSurface, Udim, udims_of};
 
 use super::arguments::BakeArguments;
+use super::conflicts::{InputFile, outputs_of, refuse_twice};
 use super::outputs::refuse_existing;
 use super::tile_names::{has_place, named};
 use crate::memory;
@@ -16,8 +17,12 @@ pub struct Tile {
 }
 
 /// The tiles that are baked: those that charts cover where the output's name has `%UDIM%`, or else one for all. Errors are one sentence each: charts where no
-/// tile has a number; images that exist.
-pub fn tiles_of(arguments: &BakeArguments, low: &[LowSurface<'_>]) -> Result<Vec<Tile>, String> {
+/// tile has a number; images that exist; files that would be written twice, or over one of the inputs.
+pub fn tiles_of(
+    arguments: &BakeArguments,
+    low: &[LowSurface<'_>],
+    inputs: &[InputFile],
+) -> Result<Vec<Tile>, String> {
     if !has_place(&arguments.output) {
         return Ok(vec![Tile { udim: None, arguments: arguments.clone() }]);
     }
@@ -29,6 +34,7 @@ pub fn tiles_of(arguments: &BakeArguments, low: &[LowSurface<'_>]) -> Result<Vec
         let mut arguments = arguments.clone();
         arguments.output = named(&arguments.output, udim);
         arguments.heat_map = arguments.heat_map.map(|path| named(&path, udim));
+        refuse_twice(&outputs_of(&arguments, 0), inputs)?;
         refuse_existing(&arguments)?;
         Ok(Tile { udim: Some(udim), arguments })
     };

@@ -14,14 +14,16 @@ use serde::Serialize;
 use super::entry::Entry;
 use crate::batch::journal::{Journal, OutputInputs, Record};
 use crate::commands::bake::arguments::BakeArguments;
-use crate::commands::bake::outputs::all_outputs;
+use crate::commands::bake::conflicts::{InputFile, all_inputs, files_of, outputs_of, refuse_twice};
 use crate::commands::bake::report::{BakeReport, summary};
 use crate::commands::bake::single::{bake_files, check_usage, progress_units};
 use crate::commands::bake::skew::SkewChoice;
 use crate::exit;
 use crate::json::{VERSION, print_report};
 use crate::memory::JobMemory;
+use crate::net;
 use crate::options::files::new_run;
+use crate::options::reading::ReadOptions;
 use crate::terminal::Messages;
 use crate::text::counted;
 
@@ -80,22 +82,35 @@ pub fn folder_of(arguments: &BakeArguments) -> PathBuf {
 
 /// Refuses, before anything is baked, entries that cannot be right, and files that two of them would write.
 pub fn check_entries(job: &BakeArguments, entries: &[Entry]) -> Result<(), String> {
-    let mut outputs: HashSet<PathBuf> = HashSet::new();
-    for Entry { arguments, .. } in entries {
+    let (mut outputs, mut inputs) = (Vec::new(), vec![InputFile { path: job.low.clone(), role: "the job".to_owned() }]);
+    for (number, Entry { arguments, .. }) in entries.iter().enumerate() {
         let mut checked = arguments.clone();
         checked.force |= job.force || job.resume;
         check_usage(&checked)?;
-        for output in all_outputs(arguments) {
-            if outputs.contains(&output) {
-                return Err(format!(
-                    "{}: is written by two bakes of the job; choose another name",
-                    output.display()
-                ));
-            }
-            outputs.insert(output);
-        }
+        outputs.extend(outputs_of(arguments, number));
+        inputs.extend(all_inputs(arguments));
     }
-    Ok(())
+    refuse_twice(&outputs, &inputs)?;
+    // A file that does not exist is no part of a model.
+    if outputs.iter().any(|output| output.path.exists()) {
+        inputs.extend(files_of_models(entries));
+    }
+    refuse_twice(&outputs, &inputs)
+}
+
+/// The files that the models of a job refer to. A model that cannot be opened fails where it is baked.
+fn files_of_models(entries: &[Entry]) -> Vec<InputFile> {
+    let mut opened = HashSet::new();
+    let models = entries.iter().flat_map(|Entry { arguments, .. }| {
+        let BakeArguments { low, high, cage, reading, .. } = arguments;
+        [low].into_iter().chain(high).chain(cage).map(move |path| (path, reading))
+    });
+    let models = models.filter(|(path, _)| opened.insert(*path));
+    let files = |(path, reading): (&PathBuf, &ReadOptions)| {
+        let opened = net::catch(&path.display(), || reading.open(path).map_err(|error| error.to_string()));
+        opened.map(|document| files_of(&document)).unwrap_or_default()
+    };
+    models.flat_map(files).collect()
 }
 
 fn print_entries(entries: &[Entry], messages: &Messages) {

@@ -1,0 +1,90 @@
+//! Refuses outputs that would replace an input, or each other, before any ray is followed.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use darboux_io::gltf::Document;
+
+use super::arguments::BakeArguments;
+use super::outputs::{all_outputs, picture_of_misses};
+use super::skew::SkewChoice;
+use crate::file_id::FileId;
+
+/// A file that is read.
+#[derive(Clone, Debug)]
+pub struct InputFile {
+    pub path: PathBuf,
+    /// What the file is: a noun phrase.
+    pub role: String,
+}
+
+/// A file that is written.
+#[derive(Clone, Debug)]
+pub struct OutputFile {
+    pub path: PathBuf,
+    /// The number of the bake in its job.
+    bake: usize,
+    /// Whether it is written for some results only.
+    is_occasional: bool,
+}
+
+/// The files that the arguments name for reading. Those that models refer to are known when the models are open: [`files_of`].
+pub fn all_inputs(arguments: &BakeArguments) -> Vec<InputFile> {
+    let BakeArguments { low, high, cage, skew, .. } = arguments;
+    let input = |path: &PathBuf, role: &str| InputFile { path: path.clone(), role: role.to_owned() };
+    let skew = match skew {
+        Some(SkewChoice::Image(path)) => Some(input(path, "the image of --skew")),
+        _ => None,
+    };
+    let low = input(low, "the low model");
+    let high = high.iter().map(|path| input(path, "a high model"));
+    let cage = cage.iter().map(|path| input(path, "the cage"));
+    [low].into_iter().chain(high).chain(cage).chain(skew).collect()
+}
+
+/// The files of a model: its own, and those that it refers to.
+pub fn files_of(document: &Document) -> Vec<InputFile> {
+    let role = || format!("a file of {}", document.name());
+    document.source_files().into_iter().map(|path| InputFile { path, role: role() }).collect()
+}
+
+/// Every file that a bake may write. `bake`: its number in its job.
+pub fn outputs_of(arguments: &BakeArguments, bake: usize) -> Vec<OutputFile> {
+    let always = all_outputs(arguments).into_iter().map(|path| (path, false));
+    let all = always.chain([(picture_of_misses(arguments), true)]);
+    all.map(|(path, is_occasional)| OutputFile { path, bake, is_occasional }).collect()
+}
+
+/// Refuses a file that would be written twice, or over an input. The error is one sentence.
+pub fn refuse_twice(outputs: &[OutputFile], inputs: &[InputFile]) -> Result<(), String> {
+    let mut writers: HashMap<FileId, &OutputFile> = HashMap::new();
+    for output in outputs {
+        match writers.insert(FileId::of(&output.path), output) {
+            Some(other) if !(other.is_occasional && output.is_occasional) => {
+                return Err(written_twice(other, output));
+            }
+            _ => {}
+        }
+    }
+    match inputs.iter().find_map(|input| Some((input, *writers.get(&FileId::of(&input.path))?))) {
+        Some((InputFile { path, role }, output)) => {
+            let alias = alias(&output.path, path);
+            Err(format!("{}: would replace {role}{alias}; choose another name", output.path.display()))
+        }
+        None => Ok(()),
+    }
+}
+
+fn written_twice(a: &OutputFile, b: &OutputFile) -> String {
+    let alias = alias(&b.path, &a.path);
+    let how = if a.bake == b.bake { "is named twice" } else { "is written by two bakes of the job" };
+    format!("{}: {how}{alias}; choose another name", b.path.display())
+}
+
+/// Another name of a file, where it is written otherwise.
+fn alias(path: &Path, other: &Path) -> String {
+    match path.as_os_str() == other.as_os_str() {
+        true => String::new(),
+        false => format!(" ({})", other.display()),
+    }
+}
