@@ -42,6 +42,7 @@ pub mod source;
 mod staging;
 #[cfg(feature = "stl")]
 mod stl;
+mod temporary;
 
 pub use error::{Error, system_reason};
 pub use files::Files;
@@ -49,6 +50,7 @@ pub use load_options::{LoadOptions, OptionNames};
 pub use memory_limit::MemoryLimit;
 pub use paths::{FileKind, read_regular, resolve_input, wrong_output};
 pub use staging::{Outputs, RunId, SaveOptions};
+pub use temporary::{Discarded, discard_unfinished_outputs};
 
 /// The examples of docs/io.md compile and run.
 #[cfg(doctest)]

@@ -19,8 +19,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
-use tempfile::NamedTempFile;
-
+use crate::temporary::{RANDOM_CHARACTERS, Temporary};
 use crate::{Error, paths};
 
 /// The files that one save writes. Dropped before [`Staging::commit`], it removes them.
@@ -34,11 +33,11 @@ pub struct Staging {
 /// A file that has its name, and what had it before, where that can still be needed.
 struct Renamed {
     target: PathBuf,
-    replaced: Option<NamedTempFile>,
+    replaced: Option<Temporary>,
 }
 
 struct Staged {
-    temporary: NamedTempFile,
+    temporary: Temporary,
     target: PathBuf,
     replace: bool,
 }
@@ -138,7 +137,7 @@ impl Staging {
         &mut self,
         target: &Path,
         write: impl FnOnce(&mut File) -> io::Result<()>,
-    ) -> io::Result<NamedTempFile> {
+    ) -> io::Result<Temporary> {
         let folder =
             target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         self.make_folders(folder)?;
@@ -150,18 +149,14 @@ impl Staging {
     }
 
     /// Renames a temporary file to `target` at once; gives it back if a file of that name exists.
-    pub fn publish(
-        &mut self,
-        temporary: NamedTempFile,
-        target: &Path,
-    ) -> Result<Option<NamedTempFile>, Error> {
+    pub fn publish(&mut self, temporary: Temporary, target: &Path) -> Result<Option<Temporary>, Error> {
         match temporary.persist_noclobber(target) {
-            Ok(_) => {
+            Ok(()) => {
                 self.renamed.push(Renamed { target: target.to_owned(), replaced: None });
                 Ok(None)
             }
-            Err(failed) if failed.error.kind() == ErrorKind::AlreadyExists => Ok(Some(failed.file)),
-            Err(failed) => Err(Error::Write { file: target.to_owned(), source: failed.error }),
+            Err((temporary, error)) if error.kind() == ErrorKind::AlreadyExists => Ok(Some(temporary)),
+            Err((_, source)) => Err(Error::Write { file: target.to_owned(), source }),
         }
     }
 
@@ -194,9 +189,11 @@ impl Staging {
             } else {
                 None
             };
-            let renamed =
-                if replace { temporary.persist(&target) } else { temporary.persist_noclobber(&target) };
-            renamed.map_err(|error| failed(error.error))?;
+            let renamed = match replace {
+                true => temporary.persist(&target),
+                false => temporary.persist_noclobber(&target).map_err(|(_, error)| error),
+            };
+            renamed.map_err(failed)?;
             self.renamed.push(Renamed { target, replaced });
         }
         self.made_folders.clear();
@@ -210,7 +207,7 @@ impl Drop for Staging {
         self.staged.clear();
         for Renamed { target, replaced } in self.renamed.drain(..).rev() {
             let _ = match replaced {
-                Some(replaced) => replaced.persist(target).map(drop).map_err(|failed| failed.error),
+                Some(replaced) => replaced.persist(&target),
                 None => fs::remove_file(target),
             };
         }
@@ -221,23 +218,40 @@ impl Drop for Staging {
 }
 
 /// A temporary file that is a file under a second name, or its copy where the file system has no links. `None` where there is no such file.
-fn second_name(file: &Path, run: Option<RunId>) -> io::Result<Option<NamedTempFile>> {
+fn second_name(file: &Path, run: Option<RunId>) -> io::Result<Option<Temporary>> {
     if file.symlink_metadata().is_err() {
         return Ok(None);
     }
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let second = temporary_in(folder, run, |path| {
-        match fs::hard_link(file, path) {
-            Err(error) if error.kind() != ErrorKind::AlreadyExists => fs::copy(file, path).map(drop)?,
-            linked => linked?,
+    let mut can_link = true;
+    let second = Temporary::new(folder, &prefix_of(run), |path| {
+        // If another process has locked the file, its link cannot be locked, and the next one is a copy.
+        if std::mem::take(&mut can_link) {
+            match fs::hard_link(file, path) {
+                Err(error) if error.kind() != ErrorKind::AlreadyExists => {}
+                linked => return linked.and_then(|()| File::open(path)),
+            }
         }
-        File::open(path)
+        copy_to(file, path)
     })?;
     Ok(Some(second))
 }
 
-/// The random characters at the end of temporary file names.
-const RANDOM_CHARACTERS: usize = 6;
+/// Copies a file to a path where nothing is. After an error, nothing is there.
+fn copy_to(file: &Path, path: &Path) -> io::Result<File> {
+    let mut copy = File::create_new(path)?;
+    let copied = File::open(file).and_then(|mut file| {
+        io::copy(&mut file, &mut copy)?;
+        copy.set_permissions(file.metadata()?.permissions())
+    });
+    match copied {
+        Ok(()) => Ok(copy),
+        Err(error) => {
+            let _the_first_error_counts = fs::remove_file(path);
+            Err(error)
+        }
+    }
+}
 
 /// The prefix of temporary file names.
 const PREFIX: &str = ".darboux-";
@@ -272,29 +286,12 @@ impl FromStr for RunId {
 }
 
 /// A locked temporary file with the permissions of an ordinary new file. Errors do not name it, since users do not know it.
-fn new_temporary(folder: &Path, run: Option<RunId>) -> io::Result<NamedTempFile> {
-    temporary_in(folder, run, |path| File::create_new(path))
+fn new_temporary(folder: &Path, run: Option<RunId>) -> io::Result<Temporary> {
+    Temporary::new(folder, &prefix_of(run), |path| File::create_new(path))
 }
 
-/// A locked temporary file. `make` makes it, and fails where the name is taken.
-fn temporary_in(
-    folder: &Path,
-    run: Option<RunId>,
-    mut make: impl FnMut(&Path) -> io::Result<File>,
-) -> io::Result<NamedTempFile> {
-    let prefix = run.map_or(PREFIX.into(), RunId::temporary_prefix);
-    loop {
-        let temporary = tempfile::Builder::new()
-            .prefix(&prefix)
-            .rand_bytes(RANDOM_CHARACTERS)
-            .make_in(folder, &mut make)?;
-        // A file system without locks leaves abandoned files where they are.
-        let is_locked = temporary.as_file().lock().is_ok();
-        // Another process may have deleted the file as abandoned before it was locked.
-        if !is_locked || temporary.path().exists() {
-            return Ok(temporary);
-        }
-    }
+fn prefix_of(run: Option<RunId>) -> String {
+    run.map_or(PREFIX.into(), RunId::temporary_prefix)
 }
 
 /// Deletes the temporary files of processes that were killed, the first time that this process writes into a folder.
@@ -390,6 +387,40 @@ mod tests {
         staging.commit().unwrap_err();
         assert_eq!(fs::read(&first).unwrap(), b"before");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "nothing else is left");
+    }
+
+    /// Its lock says nothing about the right to replace it, and waiting for it could take forever.
+    #[test]
+    fn a_file_that_another_process_has_locked_is_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let targets = ["a.png", "b.png"].map(|name| folder.path().join(name));
+        let mut staging = Staging::new(None);
+        for target in &targets {
+            fs::write(target, "before").unwrap();
+            staging.stage(target, true, |file| file.write_all(b"after")).unwrap();
+        }
+        // Locks belong to open files: this one is not shared with the code below.
+        let held = File::open(&targets[0]).unwrap();
+        held.lock().unwrap();
+        assert_eq!(staging.commit().unwrap(), targets);
+        assert!(targets.iter().all(|target| fs::read(target).unwrap() == b"after"));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no second name is left");
+    }
+
+    #[test]
+    fn a_locked_file_comes_back_where_a_later_one_cannot_be_renamed() {
+        let folder = tempfile::tempdir().unwrap();
+        let [first, last] = ["first.png", "last.png"].map(|name| folder.path().join(name));
+        fs::write(&first, "before").unwrap();
+        let mut staging = Staging::new(None);
+        for target in [&first, &last] {
+            staging.stage(target, true, |file| file.write_all(b"after")).unwrap();
+        }
+        fs::create_dir(&last).unwrap();
+        let held = File::open(&first).unwrap();
+        held.lock().unwrap();
+        staging.commit().unwrap_err();
+        assert_eq!(fs::read(&first).unwrap(), b"before");
     }
 
     #[test]
