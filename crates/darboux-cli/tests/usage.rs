@@ -3,6 +3,7 @@
 mod common;
 
 use std::fs;
+use std::path::Path;
 
 use common::{darboux, folder_with, names_in, text};
 
@@ -132,4 +133,25 @@ fn the_same_file_named_twice_is_done_once() {
     let fox = folder.path().join("Fox.glb");
     let run = darboux(&["tangents", text(&fox), text(folder.path()), "--json"]).exits(0);
     assert_eq!(run.json()["files"].as_array().map(Vec::len), Some(1));
+}
+
+/// The reference lists them, and README.md names what the first install lacks.
+#[test]
+fn every_feature_is_in_the_list() {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |path: &str| fs::read_to_string(manifest.join(path)).expect("a file of the repository");
+    let (cargo, list, readme) = (read("Cargo.toml"), read("src/installation.txt"), read("../../README.md"));
+    let features =
+        cargo.split("[features]").nth(1).expect("features").split("\n[").next().expect("their end");
+    let lines = features.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let names: Vec<&str> = lines.filter_map(|line| line.split(" = ").next()).collect();
+    assert!(names.contains(&"full") && names.len() > 4, "{names:?}");
+    for name in names.iter().filter(|name| **name != "default") {
+        assert!(list.contains(&format!("| `{name}` |")), "{name}");
+    }
+    let first_install = readme.split("It leaves out ").nth(1).expect("what the first install lacks");
+    let sentence = first_install.split("adds them all").next().expect("its end");
+    for part in ["`darboux bake`", "`darboux render`", "`darboux view`", "GPUs", "FBX", "KTX 2"] {
+        assert!(sentence.contains(part), "{part}");
+    }
 }

@@ -12,6 +12,9 @@ use crate::options::messages::MessageOptions;
 pub const ABOUT: &str = "\
 Convert normal maps and models between conventions.
 
+What is converted depends on the input: of an image its texels, of a model its geometry, never the images in or beside it. To invert green in the \
+normal maps of a model, use darboux check MODEL --fix --assume map=directx (or map=opengl): convert would mirror or turn the model instead.
+
 Normal maps (PNG, 8 or 16 bits): red and green are inverted where the conventions differ. This is exact, so that converting back restores the \
 original texels. --layout and --to-layout move the vector to other channels (DXT5nm uses ag, two-channel maps use rg); a channel that holds no \
 part of the vector keeps its values unless a component moves into it. Metadata chunks are kept, except for palettes, colour profiles and others that \
@@ -38,7 +41,8 @@ Examples:
                                                               unpacks two channels and computes z
   darboux convert object_n.png --space tangent --model low.glb --from gltf --to unreal
                                                               an object-space map for Unreal Engine
-  darboux convert exported.glb --from unity --to gltf         repairs a file with Unity's numbers
+  darboux convert exported.glb --from unity --to gltf         repairs the geometry of a file with Unity's numbers
+  darboux check model.glb --fix --assume map=directx          inverts green in the maps of a model: not convert
   darboux convert model.glb --from gltf --to unreal --raw     for a loader that expects Unreal's numbers";
 
 pub const OUTPUT: &str = "Output file for a single input, in an existing folder; - is standard output";
