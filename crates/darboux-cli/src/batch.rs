@@ -6,7 +6,7 @@
 pub mod command;
 pub mod distributed;
 pub mod journal;
-mod one_file;
+pub mod one_file;
 pub mod plan;
 pub mod report;
 mod tally;
@@ -27,8 +27,8 @@ use crate::terminal::{Messages, stdout_is_terminal};
 use crate::text::{counted, nonzero_counts};
 use crate::{exit, interrupt};
 use command::FileCommand;
-use journal::{Earlier, Journal};
-use one_file::{FinishedFile, JournalEntry, process_file};
+use journal::{Earlier, Journal, skipped};
+use one_file::{FinishedFile, JournalEntry, process_file, refuse_foreign};
 use plan::{Job, Output, OutputRules, plan_jobs};
 use report::{FileReport, Status, SummarySource};
 use tally::Tally;
@@ -66,6 +66,7 @@ pub fn run<W: FileCommand>(command: &W) -> u8 {
             return exit::FAILED;
         }
     };
+    let _note = journal.as_ref().and_then(Journal::note_interrupts);
     let mut tally = Tally::new(command, is_brief(command, jobs.len()));
     found.failed.into_iter().map(FileReport::not_searched).for_each(|report| tally.add(&report));
     let processed = process_all(command, &jobs, journal.as_ref(), &messages, &mut tally);
@@ -93,8 +94,8 @@ fn refuse_terminal(jobs: Vec<Job>) -> Result<Vec<Job>, UsageError> {
     Ok(jobs)
 }
 
-/// Processes the files on several threads, then one by one those during which an earlier run was killed. Journal records are written when a file is finished; messages and reports come in the order of
-/// the jobs.
+/// Processes the files on several threads, then one by one those during which an earlier run was killed. Messages and reports come in the order
+/// of the jobs.
 fn process_all<W: FileCommand>(
     command: &W,
     jobs: &[Job],
@@ -111,7 +112,7 @@ fn process_all<W: FileCommand>(
         let index = *together.get(next.fetch_add(1, Ordering::Relaxed))?;
         Some((index, work.process(&jobs[index])))
     };
-    let mut results = Results { journal, messages, tally, waiting: BTreeMap::new(), printed: 0 };
+    let mut results = Results { messages, tally, waiting: BTreeMap::new(), printed: 0 };
     thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
         let mut workers = 0;
@@ -128,18 +129,18 @@ fn process_all<W: FileCommand>(
         }
         drop(sender);
         for (index, finished) in receiver {
-            results.add(index, finished?)?;
+            results.add(index, finished?);
         }
         Ok(())
     })
     .and_then(|()| {
         // Without any worker, for one file or where no thread can be started, this thread processes the files.
         while let Some((index, finished)) = process_next() {
-            results.add(index, finished?)?;
+            results.add(index, finished?);
         }
         // If one of these ends the process, the others are done, and the journal names this one alone.
         for index in alone {
-            results.add(index, work.process(&jobs[index])?)?;
+            results.add(index, work.process(&jobs[index])?);
         }
         Ok(())
     })
@@ -167,29 +168,22 @@ impl<W: FileCommand> Work<'_, W> {
         }
     }
 
-    /// Processes a file between two notes in the journal. Errors: the journal cannot be written.
-    fn process(&self, job: &Job) -> Result<FinishedFile<W::Summary>, String> {
-        if self.earlier(job) == Earlier::Deadly && !self.command.files().retry {
-            return Ok(deadly(job));
-        }
+    /// Processes a file, and writes the journal. Errors: the journal cannot be written.
+    fn process(&self, job: &Job) -> Result<FileReport<W::Summary>, String> {
         let _share = self.memory.take(job.input.byte_length());
-        let journaled = self.journaled(job);
-        journaled.map_or(Ok(()), |(journal, output)| journal.begin(output))?;
-        let finished = process_file(self.command, job, journal_entry(self.journal, job), self.messages);
-        match journaled.filter(|_| finished.record.is_none()) {
-            Some((journal, output)) => journal.end(output).map(|()| finished),
-            None => Ok(finished),
+        let entry = self.journal.map(|journal| JournalEntry::new(journal, job));
+        let work = || {
+            let FinishedFile { report, record } = process_file(self.command, job, entry, self.messages);
+            (report, record)
+        };
+        let failed = |sentence| FileReport::failed(job.input.to_string(), sentence);
+        let Some((journal, output)) = self.journaled(job) else { return Ok(work().0) };
+        if let Err(sentence) = refuse_foreign(self.command, job, entry) {
+            return Ok(failed(sentence));
         }
+        let done = journal.around(output, self.command.files().retry, work)?;
+        Ok(done.unwrap_or_else(|| failed(skipped(&job.input))))
     }
-}
-
-/// The report of a file that is skipped because runs were killed at work on it.
-fn deadly<S: Default>(job: &Job) -> FinishedFile<S> {
-    let sentence = format!(
-        "{}: is skipped, because two runs ended while they worked on it, as without memory; give the process more memory, and try it again with --retry",
-        job.input
-    );
-    FinishedFile { report: FileReport::failed(job.input.to_string(), sentence), record: None }
 }
 
 /// The number of threads: one per core unless `--jobs` says otherwise.
@@ -206,7 +200,6 @@ fn is_brief(command: &impl FileCommand, files: usize) -> bool {
 /// Takes finished files, which arrive in any order, and prints and counts them in the order of the jobs. Then they are dropped, so that a run over
 /// many files does not need more and more memory.
 struct Results<'a, 'w, W: FileCommand> {
-    journal: Option<&'a Journal>,
     messages: &'a Messages,
     tally: &'a mut Tally<'w, W>,
     /// The reports of finished files that come after one that is not finished, by the numbers of their jobs.
@@ -216,29 +209,14 @@ struct Results<'a, 'w, W: FileCommand> {
 }
 
 impl<W: FileCommand> Results<'_, '_, W> {
-    fn add(&mut self, index: usize, file: FinishedFile<W::Summary>) -> Result<(), String> {
-        let FinishedFile { report, record } = file;
-        if let (Some(journal), Some(record)) = (self.journal, record) {
-            journal.add(&record)?;
-        }
+    fn add(&mut self, index: usize, report: FileReport<W::Summary>) {
         self.waiting.insert(index, report);
         while let Some(report) = self.waiting.remove(&self.printed) {
             print_file::<W>(&report, self.tally.brief, self.messages);
             self.tally.add(&report);
             self.printed += 1;
         }
-        Ok(())
     }
-}
-
-/// The journal's entry for a job.
-fn journal_entry<'a>(journal: Option<&'a Journal>, job: &Job) -> Option<JournalEntry<'a>> {
-    let journal = journal?;
-    let record = match &job.output {
-        Output::File(output) => journal.find(output),
-        Output::Stdout => None,
-    };
-    Some(JournalEntry { folder: journal.folder(), record })
 }
 
 /// Prints what was done to a file. `brief`: in one line, with the number of warnings.

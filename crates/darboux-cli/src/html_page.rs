@@ -52,11 +52,17 @@ impl HtmlPage<'_> {
 
 /// Refuses a path that cannot be a page's: another ending, or a folder that does not exist. The error is one sentence.
 pub fn refuse_no_page(path: &Path) -> Result<(), String> {
+    refuse_other_ending(path)?;
+    refuse_missing_folder(path)
+}
+
+/// Refuses a name that is no page's. The error is one sentence.
+pub fn refuse_other_ending(path: &Path) -> Result<(), String> {
     let is_html = path
         .extension()
         .is_some_and(|extension| ["html", "htm"].iter().any(|name| extension.eq_ignore_ascii_case(name)));
-    if !is_html {
-        return Err(format!("{}: the report is a page; its name must end in .html", path.display()));
+    match is_html {
+        true => Ok(()),
+        false => Err(format!("{}: the report is a page; its name must end in .html", path.display())),
     }
-    refuse_missing_folder(path)
 }

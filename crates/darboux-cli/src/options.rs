@@ -4,6 +4,8 @@ pub mod angle;
 pub mod choice;
 pub mod convention;
 pub mod files;
+#[cfg(feature = "bake")]
+pub mod given;
 pub mod messages;
 pub mod reading;
 pub mod shading;

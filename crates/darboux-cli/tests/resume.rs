@@ -158,8 +158,11 @@ fn an_output_outside_the_folder_is_done_each_time() {
     fs::create_dir(&out).expect("a folder");
     fs::write(&elsewhere, b"old").expect("a file");
     std::os::unix::fs::symlink(&elsewhere, out.join("a.glb")).expect("a link");
+    // No journal says that a run wrote it.
+    assert_eq!(statuses(&resume(&models.join("a.glb"), &out, &[], 1)), ["failed"]);
+    assert_eq!(fs::read(&elsewhere).expect("a file"), b"old");
     for _ in 0..2 {
-        assert_eq!(statuses(&resume(&models.join("a.glb"), &out, &[], 0)), ["written"]);
+        assert_eq!(statuses(&resume(&models.join("a.glb"), &out, &["--force"], 0)), ["written"]);
     }
     let journal = fs::read_to_string(out.join(JOURNAL)).expect("the journal");
     assert!(!journal.contains("elsewhere"), "{journal}");
@@ -261,6 +264,92 @@ fn a_file_that_kills_runs_is_named() {
     }
     assert_eq!(statuses(&resume(&models, &out, &["--retry"], 0)), ["up_to_date"; 3]);
     assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["up_to_date"; 3]);
+}
+
+/// A file of the user at the place of an output is no output of an earlier run.
+#[test]
+fn a_file_that_no_run_wrote_is_not_replaced() {
+    let (_folder, models, out) = library();
+    fs::create_dir(&out).expect("a folder");
+    fs::write(out.join("b.glb"), b"precious").expect("a file");
+    for _ in 0..3 {
+        let report = resume(&models, &out, &[], 1);
+        assert_eq!(report["files"][1]["status"], "failed");
+        let error = report["files"][1]["error"].as_str().expect("a sentence");
+        assert!(error.contains("b.glb: exists, and the journal of --resume does not list it"), "{error}");
+        assert!(error.contains("--force"), "{error}");
+        assert_eq!(fs::read(out.join("b.glb")).expect("the file"), b"precious");
+    }
+    // The same in steps.
+    let options = ["--encoding".to_owned(), "snorm16x4".to_owned()];
+    let batch = DistributedBatch::open(std::slice::from_ref(&models), &out, &options).expect("a batch");
+    let result = run_task(&batch.tasks()[1]).expect("a result");
+    assert!(result.contains("does not list it"), "{result}");
+    drop(batch);
+    assert_eq!(fs::read(out.join("b.glb")).expect("the file"), b"precious");
+    assert_eq!(statuses(&resume(&models, &out, &["--force"], 0))[1], "copied");
+    assert_eq!(statuses(&resume(&models, &out, &[], 0))[1], "up_to_date");
+}
+
+/// A worker of another program that is lost after it wrote its output leaves no record of it.
+#[test]
+fn outputs_of_lost_workers_are_replaced() {
+    let (_folder, models, out) = library();
+    let open = || DistributedBatch::open(std::slice::from_ref(&models), &out, &[]).expect("a batch");
+    let batch = open();
+    for task in batch.tasks() {
+        run_task(task).expect("a result, which is lost");
+    }
+    drop(batch);
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["written", "copied", "copied"]);
+    fs::remove_file(out.join(JOURNAL)).expect("the journal");
+    assert!(run_task(&open().tasks()[0]).expect("a result").contains("does not list it"));
+}
+
+/// Ctrl-C and what batch systems send are no fault of the file at work.
+#[test]
+#[cfg(target_os = "linux")]
+fn signals_count_against_no_file() {
+    let (_folder, models, out) = library();
+    fs::create_dir(&out).expect("a folder");
+    // A file that takes a while.
+    let big = format!(
+        "{}{}",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n",
+        "f 1/1/1 2/2/1 3/3/1\n".repeat(300_000)
+    );
+    fs::write(models.join("big.obj"), big).expect("a model");
+    let big = models.join("big.obj");
+    let mut interrupted = 0;
+    for round in 0..40 {
+        let journal_length = || fs::metadata(out.join(JOURNAL)).map_or(0, |file| file.len());
+        let before = journal_length();
+        let mut run = Command::new("env")
+            .args(["--default-signal=TERM,INT", env!("CARGO_BIN_EXE_darboux")])
+            .args(["tangents", text(&big), "--out-dir", text(&out), "--resume", "--quiet"])
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the command starts");
+        // Until the file has begun, which is the second line.
+        let has_begun = || {
+            let journal = fs::read_to_string(out.join(JOURNAL)).unwrap_or_default();
+            journal.lines().last().is_some_and(|line| line.contains("begun"))
+        };
+        while run.try_wait().expect("a status").is_none() && !(journal_length() > before && has_begun()) {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        let signal = ["-INT", "-TERM"][round % 2];
+        let _may_be_done = Command::new("kill").args([signal, &run.id().to_string()]).status();
+        let ended = run.wait().expect("it ends");
+        interrupted += usize::from(ended.code().is_none());
+        assert!(!names_in(&out).iter().any(|name| name.starts_with(".darboux-")), "{:?}", names_in(&out));
+        if interrupted == 2 {
+            break;
+        }
+    }
+    assert_eq!(interrupted, 2, "the runs were done before the signals came");
+    let statuses_of_last = statuses(&resume(&big, &out, &[], 0)).join(" ");
+    assert!(["written", "up_to_date"].contains(&statuses_of_last.as_str()), "{statuses_of_last}");
 }
 
 #[test]

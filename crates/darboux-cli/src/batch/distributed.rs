@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::command::FileCommand;
 use super::journal::{Journal, Record};
-use super::one_file::{JournalEntry, process_file};
+use super::one_file::{JournalEntry, process_file, refuse_foreign};
 use super::plan::{Job, Output, OutputRules, plan_jobs};
 use super::report::FileReport;
 use super::task_result::{TaskResult, record, sentence_of};
@@ -38,6 +38,8 @@ struct Task {
     input: PathBuf,
     output: PathBuf,
     record: Option<Record>,
+    /// Whether an earlier run may have written the output without leaving a record.
+    may_have_written: bool,
 }
 
 /// A task of one of the commands that distribute their work.
@@ -72,6 +74,7 @@ impl DistributedBatch {
                 input: input.clone(),
                 output: output.clone(),
                 record: journal.find(output).cloned(),
+                may_have_written: journal.may_have_written(output) || !output.exists(),
             };
             // A path that is not UTF-8 is the only part of a task that JSON cannot hold.
             Some(
@@ -83,6 +86,14 @@ impl DistributedBatch {
             match task {
                 Ok(task) => tasks.push(task),
                 Err(failure) => failed.push(failure),
+            }
+        }
+        // A worker that is lost may leave its output without a record.
+        for job in &jobs {
+            if let Output::File(output) = &job.output
+                && !output.exists()
+            {
+                journal.plan(output)?;
             }
         }
         let failed = failed.into_iter().map(FileReport::<TangentsFileSummary>::not_searched);
@@ -132,17 +143,25 @@ pub fn failed_task(task: &str, reason: &str) -> Result<String, String> {
 }
 
 fn run_tangents_task(task: Task) -> Result<String, String> {
-    let mut arguments = parsed(std::slice::from_ref(&task.input), &task.folder, &task.options)?;
-    arguments.files.run = RunId(task.run);
-    let job = Job { input: Input::File(task.input), output: Output::File(task.output) };
-    let entry = JournalEntry { folder: &task.folder, record: task.record.as_ref() };
-    let finished = process_file(&arguments, &job, Some(entry), &Messages::new(true));
+    let Task { run, options, folder, input, output, record, may_have_written } = task;
+    let mut arguments = parsed(std::slice::from_ref(&input), &folder, &options)?;
+    arguments.files.run = RunId(run);
+    let job = Job { input: Input::File(input), output: Output::File(output) };
+    let entry = Some(JournalEntry { folder: &folder, record: record.as_ref(), may_have_written });
+    if let Err(sentence) = refuse_foreign(&arguments, &job, entry) {
+        return failed(job.input.to_string(), sentence);
+    }
+    let finished = process_file(&arguments, &job, entry, &Messages::new(true));
     json(&TaskResult { report: finished.report, record: finished.record })
 }
 
 fn failed_tangents_task(task: &Task, reason: &str) -> Result<String, String> {
     let input = task.input.display().to_string();
     let sentence = format!("{input}: {reason}");
+    failed(input, sentence)
+}
+
+fn failed(input: String, sentence: String) -> Result<String, String> {
     json(&TaskResult { report: FileReport::<TangentsFileSummary>::failed(input, sentence), record: None })
 }
 

@@ -7,11 +7,15 @@
 //! processed again each time.
 //!
 //! A file is noted before it is begun. One that was at work when a run was killed is tried again alone, after all others; one that was at work
-//! when two runs were killed is skipped and named, until --retry asks for it.
+//! when two runs were killed is skipped and named, until --retry asks for it. A run that a signal ends says so, and blames no file.
+//!
+//! An output that exists is replaced only if a run wrote it or may have written it: if it has a record, or was noted and not finished.
 //!
 //! Lines are only appended while a run works. Opening the journal rewrites it without superseded lines once they are the majority.
 
-use std::collections::{HashMap, HashSet};
+mod history;
+
+use std::fmt::Display;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -23,6 +27,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use walkdir::WalkDir;
 
+use self::history::{
+    Begun, Ended, History, Interrupted, MOST_ATTEMPTS, Planned, RunStart, append_line, lines,
+};
+use crate::interrupt;
 use crate::json::VERSION;
 use crate::options::reading::ReadOptions;
 use crate::paths::canonical;
@@ -34,15 +42,10 @@ const NAME: &str = "darboux-journal.jsonl";
 pub struct Journal {
     folder: PathBuf,
     file: File,
-    /// All runs that ever started in this folder, this one included.
-    runs: HashSet<RunId>,
-    records: HashMap<String, Record>,
-    /// How many killed runs were at work on an output when they ended.
-    attempts: HashMap<String, usize>,
+    run: RunId,
+    /// What earlier runs wrote, and this run's identifier.
+    history: History,
 }
-
-/// After this many killed runs at work on an output, its file is skipped.
-const MOST_ATTEMPTS: usize = 2;
 
 /// What earlier runs say about a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,24 +69,6 @@ pub struct Record {
     files: Vec<(String, String)>,
     /// The command's part of the report.
     pub summary: Map<String, Value>,
-}
-
-/// The line that marks the start of a run.
-#[derive(Serialize, Deserialize)]
-struct RunStart {
-    run: String,
-}
-
-/// The line that marks the start of work on an output.
-#[derive(Serialize, Deserialize)]
-struct Begun {
-    begun: String,
-}
-
-/// The line that marks the end of work that leaves no record.
-#[derive(Serialize, Deserialize)]
-struct Ended {
-    ended: String,
 }
 
 /// Everything that an output depends on.
@@ -163,6 +148,12 @@ impl Record {
         Ok(Some(Self { output, inputs, files, summary }))
     }
 
+    /// The files that were written with the output.
+    #[cfg(feature = "bake")]
+    pub fn files(&self, folder: &Path) -> Vec<PathBuf> {
+        self.files.iter().map(|(name, _)| folder.join(name)).collect()
+    }
+
     /// Whether the inputs are the recorded ones and every written file still has its recorded content.
     pub fn is_up_to_date(&self, inputs: &OutputInputs, folder: &Path) -> bool {
         let is_unchanged = |(path, hash): &(String, String)| {
@@ -173,6 +164,13 @@ impl Record {
         };
         self.inputs == *inputs && self.files.iter().all(is_unchanged)
     }
+}
+
+/// Why a file is skipped: runs were killed while they worked on it.
+pub fn skipped(file: &impl Display) -> String {
+    format!(
+        "{file}: is skipped, because two runs ended while they worked on it, as without memory; give the process more memory, and try it again with --retry"
+    )
 }
 
 /// The path relative to the folder, with `/` on every system; `None` for a path outside the folder.
@@ -205,20 +203,11 @@ impl Journal {
         };
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(failed)?;
-        let mut journal = Self {
-            folder: folder.to_owned(),
-            file,
-            runs: HashSet::new(),
-            records: HashMap::new(),
-            attempts: HashMap::new(),
-        };
-        let lines = || bytes.split(|&byte| byte == b'\n').filter(|line| !line.is_empty());
-        lines().for_each(|line| journal.read(line));
+        let mut journal = Self { folder: folder.to_owned(), file, run, history: History::of(&bytes) };
         journal.remove_temporary_files()?;
-        journal.runs.insert(run);
-        let current = journal.runs.len() + journal.records.len() + journal.attempts.values().sum::<usize>();
-        let superseded_lines = lines().count().saturating_sub(current);
-        if superseded_lines > journal.records.len() && journal.compact(&path, run).is_ok() {
+        journal.history.runs.insert(run);
+        let superseded_lines = lines(&bytes).count().saturating_sub(journal.history.line_count());
+        if superseded_lines > journal.history.records.len() && journal.compact(&path).is_ok() {
             return Ok(journal);
         }
         if bytes.last().is_some_and(|&last| last != b'\n') {
@@ -229,27 +218,11 @@ impl Journal {
     }
 
     /// Replaces the file by one that holds each run and each record once. A failure leaves the old file.
-    fn compact(&mut self, path: &Path, run: RunId) -> io::Result<()> {
-        let mut text = Vec::new();
-        let mut runs: Vec<String> = self.runs.iter().map(RunId::to_string).collect();
-        runs.sort();
-        for run in runs {
-            append_line(&mut text, &RunStart { run })?;
-        }
-        let mut records: Vec<&Record> = self.records.values().collect();
-        records.sort_by(|a, b| a.output.cmp(&b.output));
-        for record in records {
-            append_line(&mut text, record)?;
-        }
-        let mut attempts: Vec<_> = self.attempts.iter().collect();
-        attempts.sort();
-        for (output, &count) in attempts {
-            for _ in 0..count.min(MOST_ATTEMPTS) {
-                append_line(&mut text, &Begun { begun: output.clone() })?;
-            }
-        }
+    fn compact(&mut self, path: &Path) -> io::Result<()> {
+        let text = self.history.text(self.run)?;
+        let _guard = interrupt::writing();
         let mut temporary = tempfile::Builder::new()
-            .prefix(&run.temporary_prefix())
+            .prefix(&self.run.temporary_prefix())
             .make_in(&self.folder, |path| File::create_new(path))?;
         // Locked before it has the journal's name, so that no other process can open it as its journal.
         let _without_locks_there_is_no_protection = temporary.as_file().try_lock();
@@ -260,26 +233,10 @@ impl Journal {
         Ok(())
     }
 
-    /// Parses a line; a broken line is ignored.
-    fn read(&mut self, line: &[u8]) {
-        if let Ok(record) = serde_json::from_slice::<Record>(line) {
-            self.attempts.remove(&record.output);
-            self.records.insert(record.output.clone(), record);
-        } else if let Ok(Begun { begun }) = serde_json::from_slice(line) {
-            *self.attempts.entry(begun).or_default() += 1;
-        } else if let Ok(Ended { ended }) = serde_json::from_slice(line) {
-            self.attempts.remove(&ended);
-        } else if let Some(run) =
-            serde_json::from_slice(line).ok().and_then(|RunStart { run }| run.parse().ok())
-        {
-            self.runs.insert(run);
-        }
-    }
-
     /// Removes the temporary files of this run and of earlier ones. No worker may be running.
     pub fn remove_temporary_files(&self) -> Result<(), String> {
         let is_temporary =
-            |path: &Path| RunId::of_temporary_file(path).is_some_and(|run| self.runs.contains(&run));
+            |path: &Path| RunId::of_temporary_file(path).is_some_and(|run| self.history.runs.contains(&run));
         for entry in WalkDir::new(&self.folder).into_iter().filter_map(Result::ok) {
             if entry.file_type().is_file() && is_temporary(entry.path()) {
                 let removed = fs::remove_file(entry.path());
@@ -305,27 +262,62 @@ impl Journal {
 
     /// Finds the record of an output.
     pub fn find(&self, output: &Path) -> Option<&Record> {
-        self.records.get(&relative_to(&self.folder, output)?)
+        self.history.records.get(&relative_to(&self.folder, output)?)
     }
 
     /// What earlier runs say about the work on an output.
     pub fn earlier(&self, output: &Path) -> Earlier {
-        let name = relative_to(&self.folder, output);
-        match name.and_then(|name| self.attempts.get(&name)) {
-            None => Earlier::Harmless,
-            Some(&count) if count < MOST_ATTEMPTS => Earlier::Suspect,
+        match self.attempts(output) {
+            None | Some(0) => Earlier::Harmless,
+            Some(count) if count < MOST_ATTEMPTS => Earlier::Suspect,
             Some(_) => Earlier::Deadly,
         }
     }
 
-    /// Notes that work on an output begins, so that a run that is killed leaves its name.
-    pub fn begin(&self, output: &Path) -> Result<(), String> {
-        relative_to(&self.folder, output).map_or(Ok(()), |begun| self.append(&Begun { begun }))
+    /// Whether an earlier run may have written an output without leaving a record.
+    pub fn may_have_written(&self, output: &Path) -> bool {
+        self.attempts(output).is_some()
     }
 
-    /// Notes that the work ended without a record.
-    pub fn end(&self, output: &Path) -> Result<(), String> {
-        relative_to(&self.folder, output).map_or(Ok(()), |ended| self.append(&Ended { ended }))
+    fn attempts(&self, output: &Path) -> Option<usize> {
+        self.history.attempts(&relative_to(&self.folder, output)?)
+    }
+
+    /// Works on an output between two notes, so that a run that is killed meanwhile leaves its name. `work` returns the record to add, if there is one.
+    /// None without work, where `retry` does not permit what earlier runs were killed at. Errors: the journal cannot be written.
+    pub fn around<T>(
+        &self,
+        output: &Path,
+        retry: bool,
+        work: impl FnOnce() -> (T, Option<Record>),
+    ) -> Result<Option<T>, String> {
+        if self.earlier(output) == Earlier::Deadly && !retry {
+            return Ok(None);
+        }
+        // An output outside the folder has no name here.
+        let name = relative_to(&self.folder, output);
+        if let Some(begun) = name.clone() {
+            self.append(&Begun { begun })?;
+        }
+        let (done, record) = work();
+        match (record, name) {
+            (Some(record), _) => self.append(&record),
+            (None, Some(ended)) => self.append(&Ended { ended }),
+            (None, None) => Ok(()),
+        }?;
+        Ok(Some(done))
+    }
+
+    /// Notes an output that does not exist and will be written by processes that do not write the journal.
+    pub fn plan(&self, output: &Path) -> Result<(), String> {
+        relative_to(&self.folder, output).map_or(Ok(()), |planned| self.append(&Planned { planned }))
+    }
+
+    /// From now on a signal that ends the process is noted in the journal, so that no file is blamed. Until the result is dropped.
+    pub fn note_interrupts(&self) -> Option<interrupt::Note> {
+        let mut line = Vec::new();
+        append_line(&mut line, &Interrupted { interrupted: self.run.to_string() }).ok()?;
+        Some(interrupt::Note::new(self.file.try_clone().ok()?, line))
     }
 
     /// Adds a record.
@@ -340,13 +332,6 @@ impl Journal {
         let path = self.folder.join(NAME);
         written.map_err(|error| format!("{}: cannot be written: {}", path.display(), system_reason(&error)))
     }
-}
-
-/// Appends a value and a line break to `text`.
-fn append_line(text: &mut Vec<u8>, value: &impl Serialize) -> io::Result<()> {
-    serde_json::to_writer(&mut *text, value)?;
-    text.push(b'\n');
-    Ok(())
 }
 
 /// Opens and locks the journal's file; `None` if another process has locked it. A missing file is created. A file system without locks

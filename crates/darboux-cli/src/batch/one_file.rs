@@ -3,19 +3,32 @@
 use std::path::Path;
 
 use super::command::{FileCommand, ProcessedFile};
-use super::journal::{OutputInputs, Record};
+use super::journal::{Journal, OutputInputs, Record};
 use super::plan::{Job, Output};
 use super::report::{FileReport, Status, SummarySource};
 use crate::inputs::Input;
 use crate::net;
 use crate::terminal::{FileProgress, Messages};
 
-/// The journal's folder and its record of one output.
+/// What a journal says about one output.
 #[derive(Clone, Copy)]
 pub struct JournalEntry<'a> {
     pub folder: &'a Path,
     /// `None` for an output that the journal does not list.
     pub record: Option<&'a Record>,
+    /// Whether an earlier run may have written the output without leaving a record.
+    pub may_have_written: bool,
+}
+
+impl<'a> JournalEntry<'a> {
+    /// The entry of a job.
+    pub fn new(journal: &'a Journal, job: &Job) -> Self {
+        let (record, may_have_written) = match &job.output {
+            Output::File(output) => (journal.find(output), journal.may_have_written(output)),
+            Output::Stdout => (None, false),
+        };
+        Self { folder: journal.folder(), record, may_have_written }
+    }
 }
 
 /// The report of a file, and the record to add to the journal.
@@ -51,7 +64,7 @@ pub fn process_file<W: FileCommand>(
 fn resume<W: FileCommand>(
     command: &W,
     job: &Job,
-    JournalEntry { folder, record }: JournalEntry<'_>,
+    JournalEntry { folder, record, .. }: JournalEntry<'_>,
     (input, output): (&Path, &Path),
     progress: &FileProgress<'_>,
 ) -> Result<FinishedFile<W::Summary>, String> {
@@ -73,6 +86,31 @@ fn resume<W: FileCommand>(
     let processed = command.process(job, progress)?;
     let record = Record::new(folder, output, inputs, &processed.files_written, &processed.summary)?;
     Ok(FinishedFile { report: report_of(job, processed), record })
+}
+
+/// Refuses an output that exists although no run has written it. `entry` is `None` for runs without a journal.
+pub fn refuse_foreign(
+    command: &impl FileCommand,
+    job: &Job,
+    entry: Option<JournalEntry<'_>>,
+) -> Result<(), String> {
+    let is_own = entry.is_none_or(|entry| entry.record.is_some() || entry.may_have_written);
+    match &job.output {
+        Output::File(path)
+            if path.exists() && !is_own && !command.files().force && !command.compares_existing() =>
+        {
+            Err(foreign(path))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Why `--resume` does not replace a file.
+pub fn foreign(path: &Path) -> String {
+    format!(
+        "{}: exists, and the journal of --resume does not list it; use --force to replace it, or move it away",
+        path.display()
+    )
 }
 
 fn report_of<S>(job: &Job, processed: ProcessedFile<S>) -> FileReport<S> {

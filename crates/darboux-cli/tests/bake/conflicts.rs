@@ -39,7 +39,17 @@ fn no_input_is_replaced() {
     // The pair's own bake has --cage-offset, which excludes a cage.
     let cage = path("cage.glb");
     let run = darboux(&[
-        "bake", &low, "--high", &high, "-o", &path("map.png"), "--cage", &cage, "--write-model", &cage, "--force",
+        "bake",
+        &low,
+        "--high",
+        &high,
+        "-o",
+        &path("map.png"),
+        "--cage",
+        &cage,
+        "--write-model",
+        &cage,
+        "--force",
     ]);
     assert!(run.exits(2).stderr.contains("would replace the cage"));
     // What may be replaced is replaced.
@@ -57,7 +67,12 @@ fn links_and_other_spellings_are_followed() {
     symlink("low.glb", pair.path("link.glb")).expect("a link");
     fs::hard_link(pair.path("high.glb"), pair.path("second.glb")).expect("a link");
     let path = |name: &str| text(&pair.path(name)).to_owned();
-    keeps(&pair, "low.glb", &["--write-model", &path("here/low.glb")], "here/low.glb: would replace the low model (");
+    keeps(
+        &pair,
+        "low.glb",
+        &["--write-model", &path("here/low.glb")],
+        "here/low.glb: would replace the low model (",
+    );
     keeps(&pair, "low.glb", &["--write-model", &path("link.glb")], "link.glb: would replace the low model (");
     keeps(&pair, "high.glb", &["--write-model", &path("second.glb")], "would replace a high model (");
     // Neither file exists yet.
@@ -90,7 +105,11 @@ fn no_image_of_a_model_is_replaced() {
     fs::write(&job, entries).expect("a file");
     let before = fs::read(&paint).expect("the image");
     let run = darboux(&["bake", text(&job), "--force"]).exits(2);
-    assert!(run.stderr.contains("would replace a file of ") && !pair.path("a.png").exists(), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("would replace a file of ") && !pair.path("a.png").exists(),
+        "{}",
+        run.stderr
+    );
     assert!(fs::read(&paint).expect("the image") == before);
 }
 
@@ -108,7 +127,10 @@ fn bakes_of_a_job_do_not_write_what_others_read() {
     };
     fs::write(pair.path("other.glb"), plate([0.0, 0.0], &FULL, 1.0)).expect("a file");
     let pair_of = "low = \"other.glb\"\nhigh = \"high.glb\"\n";
-    refused(&format!("{pair_of}output = \"b.png\"\nwrite-model = \"low.glb\"\n"), "would replace the low model");
+    refused(
+        &format!("{pair_of}output = \"b.png\"\nwrite-model = \"low.glb\"\n"),
+        "would replace the low model",
+    );
     refused(&format!("{pair_of}output = \"./a.png\"\n"), "is written by two bakes of the job");
 }
 

@@ -104,11 +104,26 @@ fn jobs_that_cannot_be_right_are_refused() {
     let entry = "[[bake]]\nlow = \"low.glb\"\nhigh = \"high.glb\"\noutput = \"a.png\"\n";
     refused("", "has no [[bake]]");
     refused("[[bake]\n", "line 1");
-    refused("[[bakes]]\n", "has bakes");
-    refused("[[bake]]\nhigh = \"high.glb\"\n", "bake[0]: has no low");
-    refused(&format!("{entry}sise = 3\n"), "bake[0]: unexpected argument '--sise'");
+    refused("[[bakes]]\n", "line 1: has bakes");
+    refused("[[bake]]\nhigh = \"high.glb\"\n", "job.toml: line 1: this [[bake]] has no low");
+    refused(
+        &format!("{entry}sise = 3\n"),
+        "job.toml: line 5: sise is no option of darboux bake; size is one",
+    );
+    refused(&format!("{entry}size = 0\n"), "job.toml: line 5: invalid value '0' for '--size <N|WxH>'");
+    refused(&format!("{entry}\n[defaults]\nbits = 3\n"), "job.toml: line 7: invalid value '3' for '--bits");
+    refused(&format!("{entry}distance = [1, 2]\ncage-offset = 1\n"), "job.toml: line ");
+    refused(&format!("{entry}resume = true\n"), "line 5: resume is about the whole job");
+    refused("defaults = 3\n", "line 1: defaults is no table");
+    refused("bake = 3\n", "line 1: bake is one table");
+    refused("[bake]\nlow = \"low.glb\"\n", "line 1: bake is one table; write [[bake]]");
+    refused("bake = [3]\n", "line 1: bake is no table; write [[bake]]");
+    refused(
+        &format!("{entry}[[bake]]\nlow = \"low.glb\"\noutput = \"b.png\"\n"),
+        "line 5: there is no high model",
+    );
     refused(&format!("{entry}{entry}"), "is written by two bakes");
-    refused(&format!("{entry}when = 1979-05-27\n"), "neither text nor a number");
+    refused(&format!("{entry}uv-set = 1979-05-27\n"), "line 5: uv-set is neither text nor a number");
     refused(&"[".repeat(100_000), "line 1");
     refused(&format!("{entry}{}", "# long\n".repeat(700_000)), "has more than 4 MiB");
     // A path that begins with a dash is no option.
@@ -134,6 +149,140 @@ fn jobs_that_cannot_be_right_are_refused() {
             .stderr
             .contains("belongs to jobs")
     );
+}
+
+/// Options of the bakes stand in the file; beside it they would be without effect. Limits act.
+#[test]
+fn options_beside_a_job_act_or_are_refused() {
+    let pair = Pair::new();
+    let job = pair.path("job.toml");
+    let entry = "[[bake]]\nlow = \"low.glb\"\nhigh = \"high.glb\"\noutput = \"maps/new/a.png\"\nsize = 8\ncage-offset = 1\n";
+    fs::write(&job, entry).expect("a file");
+    let run = |more: &[&str]| darboux(&[&["bake", text(&job)], more].concat());
+    for (option, value) in [
+        ("--cage-offset", "1"),
+        ("--size", "16"),
+        ("-o", "b.png"),
+        ("--high", "high.glb"),
+        ("--map", "normal"),
+    ] {
+        let run = run(&[option, value]).exits(2);
+        let name = if option == "-o" { "--output" } else { option };
+        assert!(
+            run.stderr.contains(&format!("so {name} beside it would be without effect")),
+            "{}",
+            run.stderr
+        );
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    }
+    let both = run(&["--verify", "--bits", "16", "--quiet"]).exits(2);
+    assert!(
+        both.stderr.contains("--bits, --verify") && both.stderr.contains("write bits, verify into"),
+        "{}",
+        both.stderr
+    );
+    // The least that the option can say is too little for any model.
+    let limited = run(&["--memory-limit", "0"]).exits(1);
+    assert!(limited.stderr.contains("--memory-limit"), "{}", limited.stderr);
+    // The folder of the output is made.
+    run(&["--jobs", "1", "--memory-limit", "64", "--allow-outside", "--quiet"]).exits(0);
+    assert!(pair.path("maps/new/a.png").exists());
+    // A single bake's is not: most likely its name is mistyped.
+    let map = pair.path("other/a.png");
+    let single = darboux(&[
+        "bake",
+        text(&pair.path("low.glb")),
+        "--high",
+        text(&pair.path("high.glb")),
+        "-o",
+        text(&map),
+    ]);
+    assert!(single.exits(2).stderr.contains("does not exist"));
+}
+
+/// What a folder has beside its pairs is named.
+#[test]
+fn models_without_a_pair_are_named() {
+    let pair = Pair::new();
+    let [low, high] = ["low.glb", "high.glb"].map(|name| fs::read(pair.path(name)).expect("a model"));
+    let folder = pair.path("models");
+    fs::create_dir(&folder).expect("a folder");
+    let write = |name: &str, bytes: &[u8]| fs::write(folder.join(name), bytes).expect("a file");
+    write("crate_low.glb", &low);
+    write("crate_high.glb", &high);
+    write("alone_low.glb", &low);
+    write("roof_high.glb", &high);
+    write("wall_high.glb", &high);
+    write("wall_low.png", b"no model");
+    write("crate_low.txt", b"no model");
+    let out = pair.path("new/maps");
+    let run = |more: &[&str]| {
+        let all = ["bake", text(&folder), "--suffixes", "--size", "8", "--cage-offset", "1", "--json"];
+        darboux(&[&all, more].concat())
+    };
+    let first = run(&["-o", text(&out)]).exits(0);
+    for warning in [
+        "warning: ",
+        "alone_low.glb: is left out, because there is no model alone_high",
+        "roof_high.glb: is left out, because there is no model roof_low\n",
+        "wall_high.glb: is left out, because there is no model wall_low (",
+        "wall_low.png is an image)",
+    ] {
+        assert!(first.stderr.contains(warning), "{}", first.stderr);
+    }
+    assert!(!first.stderr.contains("crate_low.txt"), "{}", first.stderr);
+    assert_eq!(names_in(&out), ["crate.png"]);
+    // Formats by their endings, as everywhere.
+    write(
+        "leaf_low.obj",
+        b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1/1 2/2/1 3/3/1\n",
+    );
+    write("leaf_high.stl", b"solid leaf\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0.1\nvertex 1 0 0.1\nvertex 0 1 0.1\nendloop\nendfacet\nendsolid leaf\n");
+    run(&["-o", text(&out), "--force"]).exits(0);
+    assert_eq!(names_in(&out), ["crate.png", "leaf.png"]);
+    write("crate_high.obj", b"");
+    assert!(run(&["-o", text(&out), "--force"]).exits(2).stderr.contains("have one name; move one"));
+    fs::remove_file(folder.join("crate_high.obj")).expect("the file");
+    for option in ["--high", "--cage"] {
+        let model = folder.join("wall_high.glb");
+        let refused = darboux(&["bake", text(&folder), "--suffixes", option, text(&model)]).exits(2);
+        assert!(refused.stderr.contains("and --suffixes exclude each other"), "{}", refused.stderr);
+    }
+    for name in ["crate_low.glb", "leaf_low.obj"] {
+        fs::remove_file(folder.join(name)).expect("the file");
+    }
+    let none = run(&["-o", text(&out)]).exits(2);
+    assert!(
+        none.stderr.contains("has no pair of models") && none.stderr.contains("no model roof_low"),
+        "{}",
+        none.stderr
+    );
+}
+
+/// Each pair has images for the tiles that its charts touch.
+#[test]
+fn suffixes_and_tiles_go_together() {
+    let pair = Pair::new();
+    let [low, high] = ["low.glb", "high.glb"].map(|name| fs::read(pair.path(name)).expect("a model"));
+    for name in ["crate", "lid"] {
+        fs::write(pair.path(&format!("{name}_low.glb")), &low).expect("a file");
+        fs::write(pair.path(&format!("{name}_high.glb")), &high).expect("a file");
+    }
+    let folder = pair.folder.path();
+    let out = pair.path("maps");
+    let pattern = out.join("%NAME%_bake.%UDIM%.tif");
+    let run = |output: &Path, more: &[&str]| {
+        let all =
+            ["bake", text(folder), "--suffixes", "--size", "8", "--cage-offset", "1", "-o", text(output)];
+        darboux(&[&all, more].concat())
+    };
+    run(&pattern, &["--verify"]).exits(2);
+    run(&pattern, &[]).exits(0);
+    assert_eq!(names_in(&out), ["crate_bake.1001.tif", "lid_bake.1001.tif"]);
+    let picture = out.join("%NAME%.errors.%UDIM%.png");
+    run(&out.join("%NAME%.%UDIM%.png"), &["--verify", "--heat-map", text(&picture)]).exits(0);
+    assert!(out.join("lid.errors.1001.png").exists() && out.join("crate.1001.png").exists());
+    assert!(run(&out.join("all.%UDIM%.png"), &[]).exits(2).stderr.contains("write %NAME% in the name"));
 }
 
 #[test]

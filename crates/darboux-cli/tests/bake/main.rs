@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod conflicts;
+mod interrupts;
 mod jobs;
 mod maps;
 mod models;

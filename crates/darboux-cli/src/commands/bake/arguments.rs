@@ -1,7 +1,7 @@
 //! The arguments of `darboux bake`.
 
 use std::num::NonZero;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use clap::{ArgGroup, Args, ValueEnum};
@@ -9,12 +9,15 @@ use darboux::{Choice, Convention, Method};
 use darboux_bake::{
     Bitangent, CurvatureRadius, IdSource, MapKind, MapSet, OcclusionFalloff, OcclusionWeights,
 };
+use darboux_io::SaveOptions;
 
 use super::skew::{SkewChoice, skew};
+use crate::file_id::FileId;
 use crate::heat_scale::HeatRange;
 use crate::options::choice::choice;
 use crate::options::convention::{ConventionParser, NamedConvention};
 use crate::options::files::jobs;
+use crate::options::given::Given;
 use crate::options::messages::MessageOptions;
 use crate::options::reading::ReadOptions;
 use crate::options::shading::{NormalsChoice, normals_choice};
@@ -53,6 +56,9 @@ Examples:
 #[derive(Args, Clone, Debug)]
 #[command(group = ArgGroup::new("rays").args(["distance", "cage_offset", "cage"]))]
 pub struct BakeArguments {
+    #[command(flatten)]
+    pub given: Given,
+
     /// The low model (.gltf, .glb, .vrm, .obj), which gets the maps; or a job: a TOML file, or a folder with --suffixes
     #[arg(value_name = "LOW")]
     pub low: PathBuf,
@@ -212,6 +218,8 @@ pub struct BakeArguments {
     pub report: Option<PathBuf>,
 
     /// Bake each NAME_low in the folder LOW from NAME_high, with the cage NAME_cage if there is one, into NAME.png in the folder of -o, or in LOW
+    ///
+    /// An -o such as maps/%NAME%.%UDIM%.exr has another name for the images of each pair; so have --write-model, --report and the others.
     #[arg(long, help_heading = "Jobs")]
     pub suffixes: bool,
 
@@ -220,6 +228,10 @@ pub struct BakeArguments {
     /// The journal of earlier runs is darboux-journal.jsonl in the folder of the job.
     #[arg(long, help_heading = "Jobs")]
     pub resume: bool,
+
+    /// With --resume, bake also pairs that are skipped because two runs were killed while they worked on them
+    #[arg(long, requires = "resume", help_heading = "Jobs")]
+    pub retry: bool,
 
     /// How many threads work; by default one per processor core
     #[arg(long, value_name = "NUMBER", value_parser = jobs)]
@@ -234,6 +246,24 @@ pub struct BakeArguments {
 
     #[command(flatten)]
     pub messages: MessageOptions,
+
+    /// The outputs that this bake of a job may replace without `--force`.
+    #[arg(skip)]
+    pub own_outputs: OwnOutputs,
+
+    /// Whether folders of outputs are made, as in jobs; otherwise one that is missing is most likely mistyped.
+    #[arg(skip)]
+    pub makes_folders: bool,
+}
+
+/// Outputs of earlier runs.
+#[derive(Clone, Debug, Default)]
+pub enum OwnOutputs {
+    #[default]
+    None,
+    Files(Vec<PathBuf>),
+    /// A run that was killed may have written any of them.
+    All,
 }
 
 /// What single maps show.
@@ -330,6 +360,21 @@ impl BakeArguments {
     pub fn baked_maps(&self) -> MapSet {
         let packed = self.pack.iter().flat_map(|pack| &pack.maps);
         MapSet::of(&self.map.iter().chain(packed).copied().collect::<Vec<_>>())
+    }
+
+    /// Whether a file may be replaced if it exists.
+    pub fn may_replace(&self, path: &Path) -> bool {
+        self.force
+            || match &self.own_outputs {
+                OwnOutputs::None => false,
+                OwnOutputs::Files(files) => files.iter().any(|file| FileId::of(file) == FileId::of(path)),
+                OwnOutputs::All => true,
+            }
+    }
+
+    /// How a file is written.
+    pub fn save_options(&self, path: &Path) -> SaveOptions {
+        SaveOptions::default().with_force(self.may_replace(path))
     }
 
     /// The convention of the maps.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use darboux_bake::LowSurface;
-use darboux_io::{Outputs, SaveOptions};
+use darboux_io::Outputs;
 use serde_json::{Value, json};
 
 use super::arguments::BakeArguments;
@@ -18,8 +18,7 @@ pub fn stage_cage<'n>(
 ) -> Result<Option<String>, String> {
     let Some(path) = &arguments.write_cage else { return Ok(None) };
     let bytes = glb(low, names, cages);
-    let options = SaveOptions::default().with_force(arguments.force);
-    outputs.stage_bytes(path, &bytes, &options).map_err(|error| error.to_string())?;
+    outputs.stage_bytes(path, &bytes, &arguments.save_options(path)).map_err(|error| error.to_string())?;
     Ok(Some(path.display().to_string()))
 }
 

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! file        entries of a TOML file; every option of the command is a key
+//! keys        these options, by clap's own list
 //! suffixes    pairs NAME_low, NAME_high, NAME_cage in a folder
 //! run         bakes what has changed since an earlier run, several entries at once
 //! distributed the same in steps, for workers of other programs
@@ -10,11 +11,16 @@
 pub mod distributed;
 mod entry;
 mod file;
+mod keys;
 mod run;
 mod suffixes;
 
+use std::path::Path;
+
 use super::arguments::BakeArguments;
 use entry::Entry;
+use keys::Keys;
+use suffixes::Pairs;
 
 pub use run::run;
 
@@ -22,7 +28,13 @@ pub use run::run;
 pub enum Work {
     /// One low model.
     Single,
-    Job(Vec<Entry>),
+    Job(Job),
+}
+
+/// The bakes of a job, and what is unusual about it.
+pub struct Job {
+    pub entries: Vec<Entry>,
+    pub warnings: Vec<String>,
 }
 
 /// The entries of a job, if LOW is a TOML file or a folder. Errors are one sentence each.
@@ -34,13 +46,39 @@ pub fn work_of(arguments: &BakeArguments) -> Result<Work, String> {
         return Err("--resume belongs to jobs: LOW is a TOML file, or a folder with --suffixes".to_owned());
     }
     match (is_toml, low.is_dir(), arguments.suffixes) {
-        (_, true, true) => suffixes::entries(arguments).map(Work::Job),
+        (_, true, true) => {
+            let Pairs { entries, warnings } = suffixes::pairs(arguments)?;
+            Ok(Work::Job(Job { entries, warnings }))
+        }
         (_, true, false) => Err(format!(
             "{}: is a folder; add --suffixes to bake the pairs NAME_low and NAME_high in it",
             low.display()
         )),
         (_, false, true) => Err(format!("{}: is no folder; --suffixes needs one", low.display())),
-        (true, ..) => file::entries(low).map(Work::Job),
+        (true, ..) => of_file(low, arguments).map(Work::Job),
         _ => Ok(Work::Single),
     }
+}
+
+/// The entries of a job file with the limits of the command line.
+fn of_file(path: &Path, job: &BakeArguments) -> Result<Job, String> {
+    let misplaced = Keys::new().misplaced(job);
+    if !misplaced.is_empty() {
+        let options: Vec<String> = misplaced.iter().map(|name| format!("--{name}")).collect();
+        return Err(format!(
+            "{}: sets the options of its bakes itself, so {} beside it would be without effect; write {} into its [defaults]",
+            path.display(),
+            options.join(", "),
+            misplaced.join(", ")
+        ));
+    }
+    let mut entries = file::entries(path)?;
+    for Entry { arguments, .. } in &mut entries {
+        arguments.makes_folders = true;
+        arguments.jobs = job.jobs.or(arguments.jobs);
+        arguments.reading.memory_limit = job.reading.memory_limit.or(arguments.reading.memory_limit);
+        arguments.reading.allow_outside |= job.reading.allow_outside;
+        arguments.force |= job.force;
+    }
+    Ok(Job { entries, warnings: Vec::new() })
 }

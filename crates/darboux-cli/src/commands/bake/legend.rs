@@ -2,7 +2,7 @@
 
 use darboux::Choice;
 use darboux_bake::{HighModel, IdColor, MapKind};
-use darboux_io::{Outputs, SaveOptions};
+use darboux_io::Outputs;
 use serde::Serialize;
 
 use super::arguments::BakeArguments;
@@ -54,7 +54,7 @@ pub fn stage_legends(
         let entries: Vec<_> = colors.unwrap_or_default().iter().map(entry).collect();
         let text =
             serde_json::to_string_pretty(&entries).map_err(|error| format!("{}: {error}", path.display()))?;
-        let options = SaveOptions::default().with_force(arguments.force);
+        let options = arguments.save_options(&legend_path);
         let staged_legend = outputs.stage_bytes(&legend_path, format!("{text}\n").as_bytes(), &options);
         staged_legend.map_err(|error| error.to_string())?;
         staged.push(Legend { map: map.name(), file: legend_path.display().to_string(), entries });

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use darboux_bake::{Images, LowModel, MapKind};
+use darboux_io::Outputs;
 use darboux_io::gltf::{AddTangentsOptions, Document, MaterialTexture, add_tangents};
 use darboux_io::image::{PngImage, linear_to_srgb};
-use darboux_io::{Outputs, SaveOptions};
 
 use super::arguments::BakeArguments;
 use super::open::open_low;
@@ -39,8 +39,7 @@ pub fn stage_model(
     let Some(path) = &arguments.write_model else { return Ok(None) };
     let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let document = baked_model(arguments, low, images, written.normal.as_ref(), &name, warnings)?;
-    let options = SaveOptions::default().with_force(arguments.force);
-    document.stage(path, &options, outputs).map_err(sentence)?;
+    document.stage(path, &arguments.save_options(path), outputs).map_err(sentence)?;
     Ok(Some(path.display().to_string()))
 }
 
@@ -172,7 +171,6 @@ pub fn stage_painted(
     let flat = PngImage::from_rgb("flat", [1, 1], &[[128u8, 128, 255]]).and_then(|flat| flat.to_bytes());
     document.set_normal_map(flat.map_err(sentence)?, "flat", &primitives).map_err(sentence)?;
     document.paint(texture.to_bytes().map_err(sentence)?, "errors", &names).map_err(sentence)?;
-    let options = SaveOptions::default().with_force(arguments.force);
-    document.stage(path, &options, outputs).map_err(sentence)?;
+    document.stage(path, &arguments.save_options(path), outputs).map_err(sentence)?;
     Ok(path.display().to_string())
 }

@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use darboux::{Choice, Convention};
 use darboux_bake::{IdSource, MapKind};
 
-use super::arguments::{BakeArguments, Pack};
+use super::arguments::{BakeArguments, OwnOutputs, Pack};
 use super::cage_file::is_glb;
 use super::encode::FileKind;
 use super::tile_names;
-use crate::html_page::refuse_no_page;
+use crate::batch::one_file::foreign;
+use crate::html_page::refuse_other_ending;
 use crate::paths::{is_png, refuse_missing_folder};
 
 /// The chosen maps, each once, with their files.
@@ -39,7 +40,9 @@ pub fn packs_of(arguments: &BakeArguments) -> impl Iterator<Item = (&Pack, PathB
 
 /// Refuses outputs that are not PNGs, exist, or lie in no folder.
 pub fn refuse_outputs(arguments: &BakeArguments) -> Result<(), String> {
-    refuse_missing_folder(&arguments.output)?;
+    if !arguments.makes_folders {
+        all_outputs(arguments).iter().try_for_each(|path| refuse_missing_folder(path))?;
+    }
     let shown = arguments.output.display();
     let kind = FileKind::of(&arguments.output)
         .ok_or_else(|| format!("{shown}: the map is an image; its name must end in .png, .exr or .tif"))?;
@@ -65,11 +68,13 @@ pub fn refuse_existing(arguments: &BakeArguments) -> Result<(), String> {
         if path.is_dir() {
             return Err(format!("{} is a folder; choose a file in it", path.display()));
         }
-        if path.exists() && !arguments.force {
-            return Err(format!(
-                "{}: exists; use --force to replace it, or choose another name",
-                path.display()
-            ));
+        if path.exists() && !arguments.may_replace(&path) {
+            return Err(match arguments.own_outputs {
+                OwnOutputs::None => {
+                    format!("{}: exists; use --force to replace it, or choose another name", path.display())
+                }
+                _ => foreign(&path),
+            });
         }
     }
     Ok(())
@@ -91,19 +96,15 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
         );
     }
     for model in write_model.iter().chain(heat_model) {
-        refuse_missing_folder(model)?;
         if !is_glb(model) {
             return Err(format!("{}: the model is a GLB; its name must end in .glb", model.display()));
         }
     }
     if let Some(page) = &arguments.report {
-        refuse_no_page(page)?;
+        refuse_other_ending(page)?;
     }
-    if let Some(cage) = &arguments.write_cage {
-        refuse_missing_folder(cage)?;
-        if !is_glb(cage) {
-            return Err(format!("{}: the cage is a GLB; its name must end in .glb", cage.display()));
-        }
+    if let Some(cage) = arguments.write_cage.as_ref().filter(|cage| !is_glb(cage)) {
+        return Err(format!("{}: the cage is a GLB; its name must end in .glb", cage.display()));
     }
     if write_model.is_some() {
         let conversion = arguments.map_convention().to(Convention::GLTF);
@@ -114,11 +115,8 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
             );
         }
     }
-    if let Some(picture) = heat_map {
-        refuse_missing_folder(picture)?;
-        if !is_png(picture) {
-            return Err(format!("{}: the heat map is a PNG; its name must end in .png", picture.display()));
-        }
+    if let Some(picture) = heat_map.as_ref().filter(|picture| !is_png(picture)) {
+        return Err(format!("{}: the heat map is a PNG; its name must end in .png", picture.display()));
     }
     Ok(())
 }

@@ -15,7 +15,7 @@ use darboux::Convention;
 use darboux_bake::{Baked, LowModel};
 use darboux_io::gltf::Document;
 use darboux_io::image::{Channels, PngImage, convert_normal_map};
-use darboux_io::{Error, LoadOptions, Outputs, SaveOptions};
+use darboux_io::{Error, LoadOptions, Outputs};
 
 use super::arguments::BakeArguments;
 use super::legend::Legend;
@@ -84,7 +84,7 @@ impl PageContent {
     ) -> Result<Option<String>, String> {
         let Some(path) = &arguments.report else { return Ok(None) };
         let html = self.html(arguments, report)?;
-        let options = SaveOptions::default().with_force(arguments.force);
+        let options = arguments.save_options(path);
         outputs.stage_bytes(path, html.as_bytes(), &options).map_err(|error| error.to_string())?;
         Ok(Some(path.display().to_string()))
     }

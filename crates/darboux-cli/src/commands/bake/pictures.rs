@@ -36,14 +36,14 @@ pub fn misses(
         }
         return Ok(None);
     }
-    if path.exists() && !arguments.force {
+    if path.exists() && !arguments.may_replace(&path) {
         let shown = path.display();
         warnings.push(format!("{shown}: exists and does not show this run; use --force to replace it"));
         return Ok(None);
     }
     let Raster { size, pixels } = of_misses(&baked.images);
     let image = PngImage::from_rgb(&path.display().to_string(), size, &pixels);
-    stage(&image.map_err(|error| error.to_string())?, &path, true, outputs).map(Some)
+    stage(&image.map_err(|error| error.to_string())?, &path, arguments, outputs).map(Some)
 }
 
 /// The texels without a hit over the UV layout.

@@ -12,9 +12,9 @@ pub fn run(arguments: &BakeArguments) -> u8 {
     let messages = Messages::new(arguments.messages.quiet);
     match job::work_of(arguments) {
         Ok(Work::Single) => single::run(arguments, &messages),
-        Ok(Work::Job(entries)) => {
+        Ok(Work::Job(job)) => {
             interrupt::wait_for_writes();
-            job::run(arguments, entries, &messages)
+            job::run(arguments, job, &messages)
         }
         Err(sentence) => {
             messages.error(&sentence);

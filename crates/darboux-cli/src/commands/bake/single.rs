@@ -265,7 +265,8 @@ impl Documents {
             highs.push(load_with_warnings(path, &arguments.reading, warnings)?);
         }
         let cage = arguments.cage.as_ref();
-        let cage = cage.map(|path| load_with_warnings(path, &arguments.reading, &mut Vec::new())).transpose()?;
+        let cage =
+            cage.map(|path| load_with_warnings(path, &arguments.reading, &mut Vec::new())).transpose()?;
         let mut inputs = all_inputs(arguments);
         inputs.extend(highs.iter().chain([&low]).chain(&cage).flat_map(files_of));
         refuse_twice(&outputs_of(arguments, 0), &inputs)?;

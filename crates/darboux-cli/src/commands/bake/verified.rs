@@ -73,7 +73,7 @@ impl Verified {
         let draw = |path: &std::path::PathBuf| {
             let Raster { size, pixels } = pictures::heat_map(&errors, range, u32::MAX);
             let picture = PngImage::from_rgb(&path.display().to_string(), size, &pixels);
-            stage(&picture.map_err(|error| error.to_string())?, path, arguments.force, outputs)
+            stage(&picture.map_err(|error| error.to_string())?, path, arguments, outputs)
         };
         let heat_map = arguments.heat_map.as_ref().map(draw).transpose()?;
         let part = |(&name, &errors): (&&str, &ErrorStatistics)| PartErrors { name: name.to_owned(), errors };
@@ -91,7 +91,7 @@ impl Verified {
         let Some(path) = &arguments.heat_model else { return Ok(()) };
         let texture = pictures::heat_texture(&path.display().to_string(), &self.errors, self.range)?;
         let scale = scale_of(path);
-        stage(&pictures::scale(&scale.display().to_string(), self.range)?, &scale, arguments.force, outputs)?;
+        stage(&pictures::scale(&scale.display().to_string(), self.range)?, &scale, arguments, outputs)?;
         self.heat_model = Some(stage_painted(arguments, low, &texture, path, outputs)?);
         Ok(())
     }

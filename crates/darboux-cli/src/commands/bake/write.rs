@@ -4,8 +4,8 @@ use std::path::Path;
 
 use darboux::Choice;
 use darboux_bake::{BakeOptions, Images, MapKind, Udim};
+use darboux_io::Outputs;
 use darboux_io::image::PngImage;
-use darboux_io::{Outputs, SaveOptions};
 use serde::Serialize;
 
 use super::arguments::BakeArguments;
@@ -41,9 +41,13 @@ pub struct WrittenMaps {
 }
 
 /// Stages an image and returns its path. Errors are one sentence each.
-pub fn stage(image: &PngImage, path: &Path, force: bool, outputs: &mut Outputs) -> Result<String, String> {
-    let options = SaveOptions::default().with_force(force);
-    image.stage(path, &options, outputs).map_err(|error| error.to_string())?;
+pub fn stage(
+    image: &PngImage,
+    path: &Path,
+    arguments: &BakeArguments,
+    outputs: &mut Outputs,
+) -> Result<String, String> {
+    image.stage(path, &arguments.save_options(path), outputs).map_err(|error| error.to_string())?;
     Ok(path.display().to_string())
 }
 
@@ -64,7 +68,6 @@ pub fn stage_maps(
     let kind = FileKind::of(&arguments.output).unwrap_or(FileKind::Png);
     let noise = arguments.dither.map(BlueNoise::new);
     let encoding = |map| Encoding::new(map, images, options, arguments.content.texture.as_deref());
-    let save = SaveOptions::default().with_force(arguments.force);
     let udim = options.udim.map(Udim::number);
     let mut stage_file =
         |path: &Path, name: &str, bits: u8, channels: &Channels<'_>, range: Vec<[f32; 2]>| {
@@ -72,6 +75,7 @@ pub fn stage_maps(
             let noise = noise.as_ref().filter(|_| bits == 8);
             let shown = path.display().to_string();
             let bytes = file_bytes(kind, &shown, channels, bits, &notes, noise)?;
+            let save = arguments.save_options(path);
             outputs.stage_bytes(path, &bytes, &save).map_err(|error| error.to_string())?;
             written.pictures.extend(arguments.report.is_some().then(|| thumbnail(channels)));
             written.maps.push(WrittenMap { map: name.to_owned(), file: shown, udim, bits, range });

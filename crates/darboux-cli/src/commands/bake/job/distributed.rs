@@ -9,13 +9,16 @@ use darboux_io::RunId;
 use serde::{Deserialize, Serialize};
 
 use super::entry::Entry;
-use super::run::{BakedEntry, Earlier, bake_entry, check_entries, folder_of};
+use super::run::{BakedEntry, Recorded, arguments_of, bake_entry, check_entries, folder_of};
 use super::{Work, work_of};
 use crate::batch::journal::{Journal, Record};
 use crate::batch::task_result::{record, sentence_of};
 use crate::command_line::{Arguments, Command};
 use crate::commands::bake::arguments::BakeArguments;
+use crate::commands::bake::outputs::all_outputs;
 use crate::commands::bake::report::BakeReport;
+use crate::commands::bake::tile_names::has_place;
+use crate::net;
 use crate::options::files::new_run;
 use crate::terminal::Messages;
 
@@ -39,6 +42,8 @@ pub struct BakeTask {
     low: PathBuf,
     output: PathBuf,
     record: Option<Record>,
+    /// Whether an earlier run may have written the outputs without leaving a record.
+    may_have_written: bool,
 }
 
 /// The result of a task.
@@ -80,10 +85,15 @@ impl DistributedJob {
                 low: low.clone(),
                 output: output.clone(),
                 record: journal.find(output).cloned(),
+                may_have_written: journal.may_have_written(output) || may_write(&entry.arguments),
             };
             serde_json::to_string(&task).map_err(|_| format!("{}: the path is not UTF-8", low.display()))
         };
         let tasks = entries.iter().enumerate().map(task).collect::<Result<_, _>>()?;
+        // A worker that is lost may leave its outputs without a record.
+        for entry in entries.iter().filter(|entry| may_write(&entry.arguments)) {
+            journal.plan(&entry.arguments.output)?;
+        }
         Ok(Self { journal, tasks })
     }
 
@@ -132,13 +142,22 @@ fn bake_task(task: &BakeTask) -> Result<BakedEntry, String> {
         format!("{}: was changed while its entries were baked; run it again", task.job.display())
     })?;
     let folder = folder_of(&arguments);
-    let earlier = Earlier { folder: &folder, record: task.record.as_ref() };
-    bake_entry(&arguments, entry, Some(earlier), RunId(task.run), &Messages::new(true))
+    let recorded =
+        Recorded { folder: &folder, record: task.record.as_ref(), may_have_written: task.may_have_written };
+    let of_entry = arguments_of(entry, Some(recorded))?;
+    let bake =
+        || bake_entry(&of_entry, &entry.options, Some(recorded), RunId(task.run), &Messages::new(true));
+    net::catch(&task.low.display(), bake)
+}
+
+/// Whether none of an entry's outputs exists, so that what exists later may be the entry's.
+fn may_write(arguments: &BakeArguments) -> bool {
+    !has_place(&arguments.output) && all_outputs(arguments).iter().all(|output| !output.exists())
 }
 
 fn entries_of(arguments: &BakeArguments) -> Result<Vec<Entry>, String> {
     match work_of(arguments)? {
-        Work::Job(entries) => Ok(entries),
+        Work::Job(job) => Ok(job.entries),
         Work::Single => Err(format!(
             "{}: is no job; name a TOML file, or a folder and --suffixes",
             arguments.low.display()

@@ -7,4 +7,6 @@ pub struct Entry {
     pub arguments: BakeArguments,
     /// Its options as text: what decides, besides the files, whether it is baked again.
     pub options: String,
+    /// Where the job has it; none in a folder of pairs.
+    pub place: Option<String>,
 }

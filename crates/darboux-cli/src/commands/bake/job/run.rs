@@ -11,13 +11,16 @@ use std::thread;
 use darboux_io::RunId;
 use serde::Serialize;
 
+use super::Job;
 use super::entry::Entry;
-use crate::batch::journal::{Journal, OutputInputs, Record};
-use crate::commands::bake::arguments::BakeArguments;
+use crate::batch::journal::{Earlier, Journal, OutputInputs, Record, skipped};
+use crate::commands::bake::arguments::{BakeArguments, OwnOutputs};
 use crate::commands::bake::conflicts::{InputFile, all_inputs, files_of, outputs_of, refuse_twice};
+use crate::commands::bake::outputs::refuse_existing;
 use crate::commands::bake::report::{BakeReport, summary};
 use crate::commands::bake::single::{bake_files, check_usage, progress_units};
 use crate::commands::bake::skew::SkewChoice;
+use crate::commands::bake::tile_names::has_place;
 use crate::exit;
 use crate::json::{VERSION, print_report};
 use crate::memory::JobMemory;
@@ -38,7 +41,8 @@ struct JobReport {
 }
 
 /// Bakes the entries and returns the exit code. An entry that fails does not stop the others.
-pub fn run(arguments: &BakeArguments, entries: Vec<Entry>, messages: &Messages) -> u8 {
+pub fn run(arguments: &BakeArguments, Job { entries, warnings }: Job, messages: &Messages) -> u8 {
+    warnings.iter().for_each(|warning| messages.warn(warning));
     if let Err(sentence) = check_entries(arguments, &entries) {
         messages.error(&sentence);
         return exit::USAGE;
@@ -54,8 +58,9 @@ pub fn run(arguments: &BakeArguments, entries: Vec<Entry>, messages: &Messages) 
     };
     let mut report =
         JobReport { command: "bake", version: VERSION, bakes: Vec::new(), up_to_date: 0, errors: Vec::new() };
+    let _note = journal.as_ref().and_then(Journal::note_interrupts);
     messages.start(entries.iter().map(|entry| progress_units(&entry.arguments)).sum());
-    let job = Job { arguments, journal: journal.as_ref(), run, messages, memory: JobMemory::of_process() };
+    let job = Work { arguments, journal: journal.as_ref(), run, messages, memory: JobMemory::of_process() };
     job.bake_all(&entries, &mut |done| match done {
         Ok(Some(baked)) => {
             print_baked(&baked, messages);
@@ -82,11 +87,15 @@ pub fn folder_of(arguments: &BakeArguments) -> PathBuf {
 
 /// Refuses, before anything is baked, entries that cannot be right, and files that two of them would write.
 pub fn check_entries(job: &BakeArguments, entries: &[Entry]) -> Result<(), String> {
-    let (mut outputs, mut inputs) = (Vec::new(), vec![InputFile { path: job.low.clone(), role: "the job".to_owned() }]);
-    for (number, Entry { arguments, .. }) in entries.iter().enumerate() {
+    let (mut outputs, mut inputs) =
+        (Vec::new(), vec![InputFile { path: job.low.clone(), role: "the job".to_owned() }]);
+    for (number, Entry { arguments, place, .. }) in entries.iter().enumerate() {
         let mut checked = arguments.clone();
-        checked.force |= job.force || job.resume;
-        check_usage(&checked)?;
+        checked.force |= job.resume;
+        check_usage(&checked).map_err(|problem| match place {
+            Some(place) => format!("{place}: {problem}"),
+            None => problem,
+        })?;
         outputs.extend(outputs_of(arguments, number));
         inputs.extend(all_inputs(arguments));
     }
@@ -125,8 +134,8 @@ fn print_entries(entries: &[Entry], messages: &Messages) {
 /// The report of an entry; none if an earlier run has done it. Errors are one sentence each.
 type Done = Result<Option<BakeReport>, String>;
 
-/// What all entries share.
-struct Job<'a> {
+/// What the work on all entries shares.
+struct Work<'a> {
     arguments: &'a BakeArguments,
     journal: Option<&'a Journal>,
     run: RunId,
@@ -134,14 +143,16 @@ struct Job<'a> {
     memory: JobMemory,
 }
 
-impl Job<'_> {
-    /// Bakes all entries, several at once: their threads share one pool, and one reads or writes files while another follows rays. `tell` is called in
-    /// the order of the entries.
+impl Work<'_> {
+    /// Bakes all entries, several at once: their threads share one pool, and one reads or writes files while another follows rays. Those at which an
+    /// earlier run was killed come last, one by one. `tell` is called in the order of the entries.
     fn bake_all(&self, entries: &[Entry], tell: &mut dyn FnMut(Done)) {
         let next = AtomicUsize::new(0);
+        let (together, alone): (Vec<usize>, Vec<usize>) =
+            (0..entries.len()).partition(|&index| self.earlier(&entries[index]) == Earlier::Harmless);
         let bake_next = || {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            Some((index, self.bake(entries.get(index)?)))
+            let index = *together.get(next.fetch_add(1, Ordering::Relaxed))?;
+            Some((index, self.bake(&entries[index])))
         };
         let mut finished: Vec<Option<Done>> = entries.iter().map(|_| None).collect();
         let mut told = 0;
@@ -156,7 +167,7 @@ impl Job<'_> {
         let workers = self.arguments.jobs.map_or_else(cores, |jobs| usize::from(jobs.get()));
         thread::scope(|scope| {
             let (sender, receiver) = mpsc::channel();
-            for _ in 1..workers.min(entries.len()) {
+            for _ in 1..workers.min(together.len()) {
                 let (sender, bake_next) = (sender.clone(), &bake_next);
                 let work = move || while bake_next().is_some_and(|done| sender.send(done).is_ok()) {};
                 if thread::Builder::new().spawn_scoped(scope, work).is_err() {
@@ -169,32 +180,68 @@ impl Job<'_> {
                 receiver.try_iter().for_each(&mut add);
             }
             receiver.iter().for_each(&mut add);
+            for index in alone {
+                add((index, self.bake(&entries[index])));
+            }
         });
     }
 
+    /// What earlier runs say about an entry.
+    fn earlier(&self, entry: &Entry) -> Earlier {
+        self.journal.map_or(Earlier::Harmless, |journal| journal.earlier(&entry.arguments.output))
+    }
+
     fn bake(&self, entry: &Entry) -> Done {
-        let arguments = &entry.arguments;
-        let models = arguments.high.iter().chain([&arguments.low]);
-        let sizes = models.filter_map(|path| fs::metadata(path).ok()).map(|file| file.len());
+        let recorded = self.journal.map(|journal| Recorded::of(journal, entry));
+        let arguments = arguments_of(entry, recorded)?;
+        self.caught(entry, || bake_entry(&arguments, &entry.options, recorded, self.run, self.messages))
+    }
+
+    /// Bakes an entry, and writes the journal. A panic fails this entry alone.
+    fn caught(&self, entry: &Entry, bake: impl FnOnce() -> Result<BakedEntry, String>) -> Done {
+        let BakeArguments { low, high, output, .. } = &entry.arguments;
+        let sizes =
+            high.iter().chain([low]).filter_map(|path| fs::metadata(path).ok()).map(|file| file.len());
         let _share = self.memory.take(sizes.sum());
-        let earlier = self
-            .journal
-            .map(|journal| Earlier { folder: journal.folder(), record: journal.find(&arguments.output) });
-        let BakedEntry { report, record } =
-            bake_entry(self.arguments, entry, earlier, self.run, self.messages)?;
-        if let (Some(journal), Some(record)) = (self.journal, record) {
-            journal.add(&record)?;
+        let work = || match net::catch(&low.display(), bake) {
+            Ok(BakedEntry { report, record }) => (Ok(report), record),
+            Err(sentence) => (Err(sentence), None),
+        };
+        match self.journal {
+            None => work().0,
+            Some(journal) => {
+                let done = journal.around(output, self.arguments.retry, work)?;
+                done.unwrap_or_else(|| Err(skipped(&low.display())))
+            }
         }
-        Ok(report)
     }
 }
 
-/// What earlier runs of a job have recorded.
+/// What a journal says about an entry.
 #[derive(Clone, Copy)]
-pub struct Earlier<'a> {
+pub struct Recorded<'a> {
     pub folder: &'a Path,
     /// Of the entry's output.
     pub record: Option<&'a Record>,
+    /// Whether an earlier run may have written the outputs without leaving a record.
+    pub may_have_written: bool,
+}
+
+impl<'a> Recorded<'a> {
+    fn of(journal: &'a Journal, entry: &Entry) -> Self {
+        let output = &entry.arguments.output;
+        let may_have_written = journal.may_have_written(output);
+        Self { folder: journal.folder(), record: journal.find(output), may_have_written }
+    }
+
+    /// The files that the entry may replace.
+    fn own_outputs(&self) -> OwnOutputs {
+        match self.record {
+            _ if self.may_have_written => OwnOutputs::All,
+            Some(record) => OwnOutputs::Files(record.files(self.folder)),
+            None => OwnOutputs::Files(Vec::new()),
+        }
+    }
 }
 
 /// The result of an entry.
@@ -205,28 +252,37 @@ pub struct BakedEntry {
     pub record: Option<Record>,
 }
 
-/// Bakes an entry, unless an earlier run has done it. `earlier`: none without `--resume`. Errors are one sentence each.
+/// The arguments of an entry. `recorded`: none without `--resume`. Errors: an output that no run has written.
+pub fn arguments_of(entry: &Entry, recorded: Option<Recorded<'_>>) -> Result<BakeArguments, String> {
+    let mut arguments = entry.arguments.clone();
+    if let Some(recorded) = recorded {
+        arguments.own_outputs = recorded.own_outputs();
+        // Tiles are known when the low model was read.
+        if !has_place(&arguments.output) {
+            refuse_existing(&arguments)?;
+        }
+    }
+    Ok(arguments)
+}
+
+/// Bakes an entry, unless an earlier run has done it. `arguments`: of [`arguments_of`]; `recorded`: none without `--resume`. Errors are one sentence
+/// each.
 pub fn bake_entry(
-    job: &BakeArguments,
-    Entry { arguments, options }: &Entry,
-    earlier: Option<Earlier<'_>>,
+    arguments: &BakeArguments,
+    options: &str,
+    recorded: Option<Recorded<'_>>,
     run: RunId,
     messages: &Messages,
 ) -> Result<BakedEntry, String> {
-    let mut arguments = arguments.clone();
-    arguments.force |= job.force;
-    arguments.jobs = arguments.jobs.or(job.jobs);
-    let Some(Earlier { folder, record }) = earlier else {
-        let report = bake_files(&arguments, None, messages)?;
+    let Some(Recorded { folder, record, .. }) = recorded else {
+        let report = bake_files(arguments, None, messages)?;
         return Ok(BakedEntry { report: Some(report), record: None });
     };
-    let inputs = inputs_of(&arguments, options.clone())?;
+    let inputs = inputs_of(arguments, options.to_owned())?;
     if record.is_some_and(|record| record.is_up_to_date(&inputs, folder)) {
         return Ok(BakedEntry { report: None, record: None });
     }
-    // A run that was killed before it recorded its outputs has left them.
-    arguments.force = true;
-    let report = bake_files(&arguments, Some(run), messages)?;
+    let report = bake_files(arguments, Some(run), messages)?;
     let record = Record::new(folder, &arguments.output, inputs, &report.files(), &report)?;
     Ok(BakedEntry { report: Some(report), record })
 }
@@ -258,4 +314,34 @@ fn totals(report: &JobReport) -> String {
         parts.push(counted(report.errors.len(), "has failed", "have failed"));
     }
     parts.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::commands::bake::job::file;
+
+    #[test]
+    fn a_panic_fails_one_bake() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("job.toml");
+        let entry = |name: &str| {
+            format!("[[bake]]\nlow = \"{name}.glb\"\nhigh = \"high.glb\"\noutput = \"{name}.png\"\n")
+        };
+        fs::write(&path, entry("a") + &entry("b")).unwrap();
+        let entries = file::entries(&path).unwrap();
+        let run = new_run();
+        let journal = Journal::open(folder.path(), run).unwrap();
+        let (arguments, messages) = (&entries[0].arguments, &Messages::new(true));
+        let work =
+            Work { arguments, journal: Some(&journal), run, messages, memory: JobMemory::of_process() };
+        let sentence = work.caught(&entries[0], || panic!("no such row")).unwrap_err();
+        assert!(sentence.contains("a.glb: darboux failed on this file: no such row; this is"), "{sentence}");
+        let next = work.caught(&entries[1], || Ok(BakedEntry { report: None, record: None }));
+        assert!(next.unwrap().is_none());
+        // The run was not killed, so the next one tries it again with the others.
+        drop(journal);
+        let journal = Journal::open(folder.path(), new_run()).unwrap();
+        assert_eq!(journal.earlier(&entries[0].arguments.output), Earlier::Harmless);
+    }
 }

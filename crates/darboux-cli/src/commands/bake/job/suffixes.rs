@@ -4,87 +4,205 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use clap::{Args, Command};
+use darboux_io::{FileKind, system_reason};
+
 use super::entry::Entry;
 use crate::commands::bake::arguments::BakeArguments;
+use crate::commands::bake::encode;
+use crate::options::given::Given;
 use crate::options::messages::MessageOptions;
+
+/// What stands for the name of a pair in the names of outputs.
+const NAME: &str = "%NAME%";
+
+/// The pairs of a folder, and what is unusual about the others.
+pub struct Pairs {
+    pub entries: Vec<Entry>,
+    pub warnings: Vec<String>,
+}
 
 /// The models of a name.
 #[derive(Default)]
 struct Pair {
-    low: Option<PathBuf>,
+    low: Vec<PathBuf>,
     high: Vec<PathBuf>,
-    cage: Option<PathBuf>,
+    cage: Vec<PathBuf>,
+}
+
+impl Pair {
+    /// Two models with one name, such as an FBX and the GLB that was made from it.
+    fn same_names(&self) -> Option<[&PathBuf; 2]> {
+        let stem = |path: &Path| path.file_stem().map(|stem| stem.to_ascii_lowercase());
+        let of_part =
+            |files: &'_ [PathBuf]| (1..files.len()).find(|&at| stem(&files[at]) == stem(&files[at - 1]));
+        [&self.low, &self.high, &self.cage].into_iter().find_map(|files| {
+            let at = of_part(files)?;
+            Some([&files[at - 1], &files[at]])
+        })
+    }
+}
+
+/// Files that are named like the models of pairs, by name.
+#[derive(Default)]
+struct Found {
+    pairs: BTreeMap<String, Pair>,
+    /// Images that are named like low models.
+    images: BTreeMap<String, PathBuf>,
+}
+
+/// The part of a pair that a file is.
+#[derive(Clone, Copy)]
+enum Part {
+    Low,
+    High,
+    Cage,
 }
 
 /// The entries, in the order of names: each with the options of the command line. Errors are one sentence each.
-pub fn entries(arguments: &BakeArguments) -> Result<Vec<Entry>, String> {
+pub fn pairs(arguments: &BakeArguments) -> Result<Pairs, String> {
+    refuse_named_models(arguments)?;
     let folder = &arguments.low;
-    let output = if arguments.output.as_os_str().is_empty() { folder } else { &arguments.output };
-    if !output.is_dir() {
-        return Err(format!("{}: is no folder; with --suffixes, -o names one that exists", output.display()));
-    }
-    let mut entries = Vec::new();
-    for (name, pair) in pairs(folder)? {
-        let (Some(low), [_, ..]) = (pair.low, &pair.high[..]) else { continue };
-        let mut arguments = arguments.clone();
-        arguments.low = low;
-        arguments.high = pair.high;
-        arguments.output = output.join(format!("{name}.png"));
-        arguments.write_model = arguments.write_model.map(|_| output.join(format!("{name}.baked.glb")));
-        arguments.report = arguments.report.map(|_| output.join(format!("{name}.report.html")));
-        arguments.write_cage = arguments.write_cage.map(|_| output.join(format!("{name}.cage.glb")));
-        if pair.cage.is_some() {
-            (arguments.cage, arguments.cage_offset, arguments.distance) = (pair.cage, None, None);
-            (arguments.auto_cage, arguments.offset_colors) = (None, false);
+    let Found { pairs, images } = find(folder)?;
+    let (mut entries, mut warnings) = (Vec::new(), Vec::new());
+    for (name, pair) in pairs {
+        if let Some([first, second]) = pair.same_names() {
+            let (first, second) = (first.display(), second.display());
+            return Err(format!("{first} and {second} have one name; move one of them to another folder"));
         }
-        let options = format!("{:?}", without_messages(&arguments));
-        entries.push(Entry { arguments, options });
+        match (pair.low.first(), pair.high.first()) {
+            (Some(_), Some(_)) => entries.push(entry(arguments, &name, pair)?),
+            (low, _) => warnings.extend(unpaired(&name, low, &pair, images.get(&name))),
+        }
     }
-    match entries.is_empty() {
-        true => Err(format!(
-            "{}: has no pair of models; name them NAME_low.glb and NAME_high.glb",
-            folder.display()
+    let missing = || {
+        let hints: String = warnings.iter().map(|warning| format!("; {warning}")).collect();
+        let shown = folder.display();
+        format!("{shown}: has no pair of models; name them NAME_low.glb and NAME_high.glb{hints}")
+    };
+    if entries.is_empty() { Err(missing()) } else { Ok(Pairs { entries, warnings }) }
+}
+
+/// Refuses options that name one model: the folder has the models of all pairs.
+fn refuse_named_models(arguments: &BakeArguments) -> Result<(), String> {
+    let given = arguments.given.names(&BakeArguments::augment_args(Command::new("bake")));
+    match given.iter().find(|name| ["high", "cage"].contains(&name.as_str())) {
+        Some(name) => Err(format!("--{name} and --suffixes exclude each other: the names of files decide")),
+        None => Ok(()),
+    }
+}
+
+fn entry(job: &BakeArguments, name: &str, pair: Pair) -> Result<Entry, String> {
+    let mut arguments = job.clone();
+    arguments.low = pair.low.into_iter().next().unwrap_or_default();
+    arguments.high = pair.high;
+    arguments.makes_folders = true;
+    arguments.output = image(job, name)?;
+    let folder = arguments.output.parent().unwrap_or(Path::new("")).to_owned();
+    for (path, ending) in [
+        (&mut arguments.write_model, "baked.glb"),
+        (&mut arguments.report, "report.html"),
+        (&mut arguments.write_cage, "cage.glb"),
+        (&mut arguments.heat_map, "errors.png"),
+        (&mut arguments.heat_model, "errors.glb"),
+    ] {
+        if let Some(given) = path {
+            *given = match with_name(given, name) {
+                Some(path) => path,
+                None => folder.join(format!("{name}.{ending}")),
+            };
+        }
+    }
+    if let Some(cage) = pair.cage.into_iter().next() {
+        (arguments.cage, arguments.cage_offset, arguments.distance) = (Some(cage), None, None);
+        (arguments.auto_cage, arguments.offset_colors) = (None, false);
+    }
+    let options = format!("{:?}", without_messages(&arguments));
+    Ok(Entry { arguments, options, place: None })
+}
+
+/// The image of a pair: NAME.png in the folder of `-o`, or `-o` with the name in it.
+fn image(job: &BakeArguments, name: &str) -> Result<PathBuf, String> {
+    let output = &job.output;
+    if output.as_os_str().is_empty() {
+        return Ok(job.low.join(format!("{name}.png")));
+    }
+    match (with_name(output, name), encode::FileKind::of(output)) {
+        (Some(path), _) => Ok(path),
+        (None, Some(_)) if !output.is_dir() => Err(format!(
+            "{}: all pairs would write it; name a folder, or write {NAME} in the name",
+            output.display()
         )),
-        false => Ok(entries),
+        (None, _) => Ok(output.join(format!("{name}.png"))),
     }
+}
+
+fn with_name(path: &Path, name: &str) -> Option<PathBuf> {
+    let text = path.to_str()?;
+    text.contains(NAME).then(|| text.replace(NAME, name).into())
 }
 
 /// The arguments without what changes no output.
 fn without_messages(arguments: &BakeArguments) -> BakeArguments {
     let messages = MessageOptions::default();
-    BakeArguments { resume: false, force: false, jobs: None, messages, ..arguments.clone() }
+    let given = Given::default();
+    BakeArguments {
+        given,
+        resume: false,
+        retry: false,
+        force: false,
+        jobs: None,
+        messages,
+        ..arguments.clone()
+    }
 }
 
-fn pairs(folder: &Path) -> Result<BTreeMap<String, Pair>, String> {
-    let failed = |error: std::io::Error| format!("{}: cannot be read: {error}", folder.display());
+/// What is said about models of which no pair can be made.
+fn unpaired(name: &str, low: Option<&PathBuf>, pair: &Pair, image: Option<&PathBuf>) -> Vec<String> {
+    let warning = |path: &PathBuf, missing: &str| {
+        let image = image.filter(|_| low.is_none());
+        let image = image.map(|image| format!(" ({} is an image)", image.display())).unwrap_or_default();
+        format!("{}: is left out, because there is no model {name}{missing}{image}", path.display())
+    };
+    match low {
+        Some(low) => vec![warning(low, "_high")],
+        None => pair.high.iter().chain(&pair.cage).map(|path| warning(path, "_low")).collect(),
+    }
+}
+
+fn find(folder: &Path) -> Result<Found, String> {
+    let failed =
+        |error: std::io::Error| format!("{}: cannot be read: {}", folder.display(), system_reason(&error));
     let mut paths: Vec<PathBuf> = Vec::new();
     for file in fs::read_dir(folder).map_err(failed)? {
         paths.push(file.map_err(failed)?.path());
     }
     paths.sort();
-    let mut pairs: BTreeMap<String, Pair> = BTreeMap::new();
-    for path in paths.into_iter().filter(|path| is_model(path)) {
-        let Some(stem) = path.file_stem().and_then(|stem| stem.to_str()) else { continue };
-        let lower = stem.to_lowercase();
-        let ends = [
-            ("_low", lower.strip_suffix("_low").map(str::len)),
-            ("_cage", lower.strip_suffix("_cage").map(str::len)),
-            ("_high", lower.rfind("_high")),
-        ];
-        let Some((kind, end)) = ends.into_iter().find_map(|(kind, end)| Some((kind, end?))) else { continue };
-        let pair = pairs.entry(lower[..end].to_owned()).or_default();
-        match kind {
-            "_low" => pair.low = Some(path),
-            "_cage" => pair.cage = Some(path),
-            _ => pair.high.push(path),
+    let mut found = Found::default();
+    for path in paths {
+        let (Some(kind), Some((name, part))) = (FileKind::of(&path), part_of(&path)) else { continue };
+        if kind.is_model() {
+            let pair = found.pairs.entry(name).or_default();
+            match part {
+                Part::Low => pair.low.push(path),
+                Part::High => pair.high.push(path),
+                Part::Cage => pair.cage.push(path),
+            }
+        } else if kind.is_image() && matches!(part, Part::Low) {
+            found.images.insert(name, path);
         }
     }
-    Ok(pairs)
+    Ok(found)
 }
 
-fn is_model(path: &Path) -> bool {
-    let known = ["gltf", "glb", "vrm", "obj"];
-    path.extension()
-        .and_then(|extension| extension.to_str())
-        .is_some_and(|extension| known.iter().any(|known| extension.eq_ignore_ascii_case(known)))
+/// The name of a pair, and the part of it that a file is by its name.
+fn part_of(path: &Path) -> Option<(String, Part)> {
+    let stem = path.file_stem()?.to_str()?.to_lowercase();
+    let ends = [
+        (Part::Low, stem.strip_suffix("_low").map(str::len)),
+        (Part::Cage, stem.strip_suffix("_cage").map(str::len)),
+        (Part::High, stem.rfind("_high")),
+    ];
+    let (part, end) = ends.into_iter().find_map(|(part, end)| Some((part, end?)))?;
+    Some((stem[..end].to_owned(), part))
 }
