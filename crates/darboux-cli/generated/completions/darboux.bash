@@ -76,7 +76,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__bake)
-            opts="-o -q -h --high --output --map --size --bits --dither --pack --samples --convention --padding --ao-rays --ao-distance --ao-falloff --ao-weights --ao-own-part --thickness-distance --curvature-radius --id-from --texture --world-direction --distance --cage-offset --cage --auto-cage --offset-colors --skew --write-cage --match --back-faces --no-high-maps --method --bitangent --uv-set --material --normals --write-model --verify --heat-map --heat-model --heat-range --report --suffixes --resume --jobs --force --allow-outside --memory-limit --polygons --json --quiet --help"
+            opts="-o -q -h --high --output --map --size --bits --dither --pack --samples --convention --padding --ao-rays --ao-distance --ao-falloff --ao-weights --ao-own-part --thickness-distance --curvature-radius --id-from --texture --world-direction --distance --cage-offset --cage --auto-cage --offset-colors --skew --max-misses --write-cage --match --back-faces --no-high-maps --method --bitangent --uv-set --material --normals --write-model --verify --heat-map --heat-model --heat-range --report --suffixes --resume --retry --jobs --force --allow-outside --memory-limit --polygons --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -179,6 +179,10 @@ _darboux() {
                     return 0
                     ;;
                 --skew)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --max-misses)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -510,6 +510,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand bake" -l cage-offset -d 
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l cage -d 'Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as --cage-offset would' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l auto-cage -d 'Rays from a cage that is made for the models: at every vertex as close as all but a SHARE of the rays around allows, 0.001 by default' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l skew -d 'Turn rays towards the normals of the low model\'s triangles: by an AMOUNT from 0 to 1, or by a painted IMAGE over its UVs, white where rays follow the triangle\'s normal and black where they follow the smooth one' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l max-misses -d 'Fail, and write nothing, if the rays of more than this SHARE of the texels hit nothing; without it they are a warning, unless all miss' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l write-cage -d 'Write the cage as a model, which --cage reads' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l match -d 'Which high parts the rays of a low part can hit' -r -f -a "nearest\t'All of them: the first that a ray meets'
 name\t'Those of the same name: crate_low gets the detail of crate_high and crate_high_bolts. The names of nodes count, or else of meshes'"
@@ -544,6 +545,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand bake" -l no-high-maps -d
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l verify -d 'Shade the low model with the map that was written, as a renderer does, and print how far its normals are from those of the high models'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l suffixes -d 'Bake each NAME_low in the folder LOW from NAME_high, with the cage NAME_cage if there is one, into NAME.png in the folder of -o, or in LOW'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l resume -d 'Skip bakes of a job whose models, options and outputs have not changed since an earlier run; a killed run is continued'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l retry -d 'With --resume, bake also pairs that are skipped because two runs were killed while they worked on them'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l force -d 'Replace files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l json -d 'Write a report as JSON to standard output'

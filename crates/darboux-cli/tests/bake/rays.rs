@@ -233,3 +233,30 @@ fn rays_are_straightened_by_an_amount_or_a_painted_image() {
     let missing = darboux(&[&all[..], &["--skew", "missing.png"]].concat()).exits(1).stderr;
     assert!(missing.contains("missing.png: cannot be read"), "{missing}");
 }
+
+/// Most of a map that shows nothing is a mistake in most bakes, but not in all: decals cover little. So scripts say what they allow.
+#[test]
+fn many_misses_are_a_warning_and_an_error_where_that_was_asked_for() {
+    let pair = Pair::new();
+    fs::write(pair.path("high.glb"), plate([0.0, 0.0], &["POSITION"], 0.2)).expect("a file");
+    let run = pair.bake(&[]).exits(0);
+    let sentence = "warning: most of the map shows nothing of the high models: the rays of 9";
+    assert!(run.stderr.contains(sentence) && run.stderr.contains("misses.png"), "{}", run.stderr);
+    pair.bake(&["--force", "--max-misses", "0.99"]).exits(0);
+    for name in ["map.png", "map.misses.png"] {
+        fs::remove_file(pair.path(name)).expect("a file of the bake");
+    }
+    let run = pair.bake(&["--max-misses", "0.5"]).exits(1);
+    assert!(run.stderr.contains("which --max-misses 0.5 forbids, and nothing was written"), "{}", run.stderr);
+    assert!(!pair.path("map.png").exists() && !pair.path("map.misses.png").exists());
+    pair.bake(&["--max-misses", "1"]).exits(2);
+    // In a job the sentence names the model.
+    let job = pair.path("job.toml");
+    let entry =
+        "[[bake]]\nlow = \"low.glb\"\nhigh = \"high.glb\"\noutput = \"a.png\"\nsize = 16\ncage-offset = 1\n";
+    fs::write(&job, entry).expect("a file");
+    let run = darboux(&["bake", text(&job)]).exits(0);
+    assert!(run.stderr.contains("low.glb: most of the map shows nothing"), "{}", run.stderr);
+    fs::write(&job, format!("{entry}max-misses = 0.5\nforce = true\n")).expect("a file");
+    darboux(&["bake", text(&job)]).exits(1);
+}

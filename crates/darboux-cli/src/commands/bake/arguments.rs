@@ -149,6 +149,10 @@ pub struct BakeArguments {
     #[arg(long, value_name = "AMOUNT|IMAGE", value_parser = skew, help_heading = "Rays")]
     pub skew: Option<SkewChoice>,
 
+    /// Fail, and write nothing, if the rays of more than this SHARE of the texels hit nothing; without it they are a warning, unless all miss
+    #[arg(long, value_name = "SHARE", value_parser = share, help_heading = "Rays")]
+    pub max_misses: Option<f32>,
+
     /// Write the cage as a model, which --cage reads
     #[arg(long, value_name = "GLB", conflicts_with = "distance", help_heading = "Results")]
     pub write_cage: Option<PathBuf>,

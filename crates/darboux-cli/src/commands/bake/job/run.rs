@@ -288,7 +288,13 @@ pub fn bake_entry(
 }
 
 fn print_baked(report: &BakeReport, messages: &Messages) {
-    report.warnings.iter().for_each(|warning| messages.warn(warning));
+    // A job has many bakes, and most sentences name no file.
+    for warning in &report.warnings {
+        match warning.starts_with(&report.low) {
+            true => messages.warn(warning),
+            false => messages.warn(&format!("{}: {warning}", report.low)),
+        }
+    }
     summary(report).iter().for_each(|line| messages.say(line));
 }
 

@@ -101,10 +101,21 @@ pub fn failure(report: &BakeReport, arguments: &BakeArguments, elongation: f64) 
     if report.charted_texels == 0 {
         return Some("no triangle of the low model covers a texel; check its UVs".to_owned());
     }
-    (report.missed_texels == report.charted_texels).then(|| {
-        let cause = cause_of_misses(report, arguments, elongation);
-        format!("all rays hit nothing, and nothing was written: {cause}")
+    let cause = || cause_of_misses(report, arguments, elongation);
+    if report.missed_texels == report.charted_texels {
+        return Some(format!("all rays hit nothing, and nothing was written: {}", cause()));
+    }
+    let most = f64::from(arguments.max_misses?);
+    (report.missed_texels as f64 > most * report.charted_texels as f64).then(|| {
+        let missed = percent(report, report.missed_texels);
+        let cause = cause();
+        format!("the rays of {missed} of the texels hit nothing, which --max-misses {most} forbids, and nothing was written: {cause}")
     })
+}
+
+/// A count of texels as a part of the charted ones.
+fn percent(report: &BakeReport, count: u64) -> String {
+    format!("{:.1} %", 100.0 * count as f64 / report.charted_texels.max(1) as f64)
 }
 
 fn cause_of_misses(report: &BakeReport, arguments: &BakeArguments, elongation: f64) -> &'static str {
@@ -128,12 +139,14 @@ pub fn of_report(
     misses: Option<&str>,
 ) -> Vec<String> {
     let share = |count: u64| count as f64 / report.charted_texels.max(1) as f64;
-    let percent = |count: u64| format!("{:.1} %", 100.0 * share(count));
+    let percent = |count: u64| percent(report, count);
     let mut warnings = Vec::new();
     if has_many_misses(report) {
         let (missed, why) = (percent(report.missed_texels), cause_of_misses(report, arguments, elongation));
         let place = misses.map(|path| format!("; {path} shows where")).unwrap_or_default();
-        warnings.push(format!("the rays of {missed} of the texels hit nothing: {why}{place}"));
+        let is_most = share(report.missed_texels) > 0.5;
+        let result = if is_most { "most of the map shows nothing of the high models: " } else { "" };
+        warnings.push(format!("{result}the rays of {missed} of the texels hit nothing: {why}{place}"));
     }
     if share(report.inverted_texels) > NOTABLE {
         warnings.push(format!(
