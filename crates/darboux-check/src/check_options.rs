@@ -31,12 +31,18 @@ pub enum AssumedMap {
     DirectX,
     /// Red to the left, green up.
     RedInverted,
+    /// Red to the left, green down: bumps and dents are exchanged.
+    BothInverted,
 }
 
 impl AssumedMap {
     /// All, by name.
-    pub const ALL: [(&'static str, Self); 3] =
-        [("opengl", Self::OpenGl), ("directx", Self::DirectX), ("red-inverted", Self::RedInverted)];
+    pub const ALL: [(&'static str, Self); 4] = [
+        ("opengl", Self::OpenGl),
+        ("directx", Self::DirectX),
+        ("red-inverted", Self::RedInverted),
+        ("both-inverted", Self::BothInverted),
+    ];
 }
 
 impl FromStr for AssumedMap {

@@ -299,14 +299,14 @@ codes! {
         "The normal map's green points the wrong way for the format."
         "Dents look like bumps when the light is above or below, and right when it is beside."
         "A DirectX map was put into glTF, which wants OpenGL's (glTF-Sample-Models PR 336, BabylonJS/Exporters 940, glTF-Blender-IO 2626)."
-        "Export or bake the map with green up (OpenGL, +Y), or invert green of the map with `darboux convert --from directx --to opengl`."
+        "Export or bake the map with green up (OpenGL, +Y), or let `darboux check FILE --fix --assume map=directx -o FIXED` invert its green."
         Repair "green is inverted"
     }
     MapDetailFlipped "map-detail-flipped" Warning {
         "The relief of the normal map is in one convention, and its fine detail in the other."
         "Fine grain looks sunken where it should be raised when the light is above or below; the large shapes are right."
         "A detail map of another convention was laid over the map, or a baked map was mixed with a scanned one."
-        "Invert green of the detail map (`darboux convert --from directx --to opengl`) and lay it over the map again."
+        "Invert green of the detail map (`darboux check DETAIL --fix --assume map=directx`) and lay it over the map again."
         Leave "relief and detail share their texels, so that no channel can be inverted for one of them"
     }
     MapRedFlipped "map-red-flipped" Error {
@@ -315,6 +315,13 @@ codes! {
         "The baker was set to -X, or the map was mirrored without inverting red."
         "`darboux check --fix` on the model, or bake again with +X."
         Repair "red is inverted"
+    }
+    MapMayBeDents "map-may-be-dents" Info {
+        "The normal map leans against the faces of the mesh, so that its red and green may both be inverted."
+        "Dents look like bumps, whatever side the light comes from; or the map has a dome on every face, and is right."
+        "The baker was set to -X and -Y, or the map was turned by 180 degrees; or studs, rivets or cushions lie on the faces."
+        "Look at one bump. If it is a dent, type `darboux check FILE --fix --assume map=both-inverted`."
+        Leave "a map with bumps on the faces looks the same to every test; `--assume map=both-inverted` says that both channels are inverted, `--assume map=opengl` that the map is right"
     }
     MapChannelsSwapped "map-channels-swapped" Error {
         "Channels of the normal map seem to be exchanged: red and green, or one of them and blue."

@@ -102,6 +102,7 @@ pub fn relative(assumed: AssumedMap, wanted: BitangentDirection) -> Inverted {
         AssumedMap::OpenGl => (false, false),
         AssumedMap::DirectX => (false, true),
         AssumedMap::RedInverted => (true, false),
+        AssumedMap::BothInverted => (true, true),
     };
     match (is_left, is_down != (wanted == BitangentDirection::Down)) {
         (false, false) => Inverted::None,

@@ -185,8 +185,8 @@ fn the_cure_is_that_of_the_wanted_convention() {
     let directx = CheckOptions::default().with_green(BitangentDirection::Down);
     let inverted = through(&map, |[r, g, b]| [r, 255 - g, b]);
     for (file, options, cure) in [
-        (&map.file, directx, "--from opengl --to directx"),
-        (&inverted, CheckOptions::default(), "--from directx --to opengl"),
+        (&map.file, directx, "--convention directx --fix --assume map=opengl"),
+        (&inverted, CheckOptions::default(), "--fix --assume map=directx"),
     ] {
         let findings = check_map(file, &options).findings;
         let green = findings.iter().find(|finding| finding.code == Code::MapGreenFlipped);

@@ -146,3 +146,25 @@ fn a_channel_that_is_not_identified_is_left_unless_the_user_says_which() {
         assert!(findings.iter().all(|finding| finding.severity <= Severity::Info), "{findings:#?}");
     }
 }
+
+/// Bumps and dents look alike to the texels of a map that was not baked for the mesh: the user says which.
+#[test]
+fn both_channels_are_inverted_back_where_the_user_says_so() {
+    let healthy = healthy_models().remove(9);
+    let mut model = healthy.clone();
+    model.map = model.map.through(|[r, g, b]| [1.0 - r, 1.0 - g, b]);
+    let fix = |check: CheckOptions| {
+        let mut document = model.document();
+        let findings = check_document(&document, &check).expect("a valid document");
+        let fixed = fix_document(&mut document, findings, &FixOptions::default().with_check(check));
+        let fixed = fixed.expect("a repair");
+        (support::table::rgb(&document.image_bytes(0).expect("an image")), fixed)
+    };
+    let (texels, _) = fix(CheckOptions::default());
+    assert!(texels == model.map.texels, "nothing says that bumps are meant");
+    let (texels, fixed) = fix(CheckOptions::default().with_assumed_map(Some(AssumedMap::BothInverted)));
+    assert!(texels == healthy.map.texels, "{:#?}", fixed.findings);
+    let codes = [Code::MapRedFlipped, Code::MapGreenFlipped];
+    let of_channels = fixed.findings.iter().filter(|fixed| codes.contains(&fixed.finding.code));
+    assert_eq!(of_channels.filter(|fixed| fixed.repaired).count(), 2, "{:#?}", fixed.findings);
+}

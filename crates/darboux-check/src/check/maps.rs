@@ -7,7 +7,7 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, Material};
 use darboux_io::image::RgbaImage;
 
-use super::surfaces::{defects_of_surface, for_each_surface};
+use super::surfaces::{defects_of_surface, for_each_surface, weigh};
 use crate::cancelling;
 use crate::check_options::CheckOptions;
 use crate::code::Code;
@@ -20,10 +20,12 @@ use crate::measure::directions::{directions_by_mesh, witness};
 use crate::measure::facets::MapUse;
 use crate::measure::map::{Map, MapDirections, Vote};
 use crate::measure::mesh_votes::MeshVotes;
+use crate::measure::texture_axes::{axes, turns_channels};
 use crate::model_area::ModelArea;
 use crate::obstacles;
 use crate::place::Place;
 use crate::rules::{MAP_RULES, MATERIAL_RULES};
+use crate::severity::Severity;
 use crate::surface::Surface;
 use crate::words;
 
@@ -129,6 +131,7 @@ pub fn check_model_of_maps(document: &Document) -> Result<ModelOfMaps, Error> {
         defects.extend(defects_of_surface(&surface, &area));
         surfaces.push(surface);
     })?;
+    weigh(&mut defects);
     Ok(ModelOfMaps { surfaces, findings: words::findings(defects.clone()), defects })
 }
 
@@ -180,14 +183,22 @@ pub fn defects_of_materials(
     }
     let users = MapUsers::new(document, &materials)?;
     let inverted_images: HashSet<usize> = materials.iter().filter_map(image_inverted_by).collect();
+    let turned_images: HashSet<usize> = materials.iter().flat_map(images_turned_by).collect();
     let mut judged = Vec::new();
     for (image, material) in images {
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
         let (mut found, witness) = defects_of_image(document, &users, image, options)?;
         for defect in &mut found {
             defect.place = place.clone();
-            if is_about_channels(defect) && inverted_images.contains(&image) {
+            if !is_about_channels(defect) {
+                continue;
+            }
+            if inverted_images.contains(&image) {
                 defect.obstacle.get_or_insert(Obstacle::NegativeScale);
+            }
+            if turned_images.contains(&image) {
+                defect.obstacle.get_or_insert(Obstacle::TransformTurns);
+                defect.severity = defect.severity.min(Severity::Warning);
             }
         }
         judged.push((image, found, witness));
@@ -227,6 +238,13 @@ fn shown_by_faces((image, found, witness): &(usize, Vec<Defect>, MapWitness)) ->
 /// The normal map whose red and green a material inverts.
 fn image_inverted_by(material: &Material) -> Option<usize> {
     material.normal_texture.as_ref().filter(|_| material.normal_scale < 0.0)?.image
+}
+
+/// The normal maps that a material shows mirrored or turned by a right angle or more, so that what red and green mean depends on whether the renderer's tangents follow the UVs
+/// before the transform or after it.
+fn images_turned_by(material: &Material) -> impl Iterator<Item = usize> {
+    let turned = material.normal_maps().filter(|texture| turns_channels(axes(texture)));
+    turned.filter_map(|texture| texture.image)
 }
 
 /// The defects of surfaces, by their primitives.

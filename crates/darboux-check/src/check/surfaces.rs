@@ -1,6 +1,6 @@
 //! Checks the surfaces of a document.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveInfo, PrimitiveName, inspect};
@@ -9,6 +9,7 @@ use crate::code::{Code, Family};
 use crate::defect::{Defect, Fault};
 use crate::facts::SurfaceFacts;
 use crate::instances::{Key, distinct, key};
+use crate::measure::texture_axes::followed;
 use crate::model_area::ModelArea;
 use crate::obstacles;
 use crate::rules::SURFACE_RULES;
@@ -24,6 +25,7 @@ pub fn defects_of_surfaces(
 ) -> Result<Vec<Defect>, Error> {
     let mut defects = Vec::new();
     for_each_surface(document, is_wanted, |surface| defects.extend(defects_of_surface(&surface, area)))?;
+    weigh(&mut defects);
     Ok(defects)
 }
 
@@ -35,6 +37,7 @@ pub fn for_each_surface(
 ) -> Result<(), Error> {
     let infos: HashMap<Key, PrimitiveInfo> =
         inspect(document)?.into_iter().map(|info| (key(&info.name), info)).collect();
+    let materials = document.materials()?;
     for (corners, same_as) in distinct(document, document.corners()?) {
         if corners.is_empty() || !is_wanted(corners.name()) {
             continue;
@@ -42,25 +45,40 @@ pub fn for_each_surface(
         let Some(info) = infos.get(&key(corners.name())) else { continue };
         let Some(mut surface) = Surface::read(document, &corners, Some(info))? else { continue };
         surface.place.same_as = same_as;
+        let texture = corners.material().and_then(|index| materials.get(index)?.normal_texture.as_ref());
+        if let Some(uvs) = texture.and_then(|texture| followed(&surface, texture)) {
+            surface.uv_sets.insert(surface.uv_set, uvs);
+        }
         visit(surface);
     }
     Ok(())
 }
 
-/// In percent of the model's area: what a defect spoils at least to be an error. Half a percent of a model that fills a screen of 1920 x 1080 is a square of a
-/// hundred pixels.
+/// In percent of the model's area: what defects of one kind spoil together at least to be errors. Half a percent of a model that fills a screen of 1920 x 1080 is
+/// a square of a hundred pixels.
 const MIN_SPOILED: f64 = 0.5;
 
-/// The defects of one surface.
+/// Lowers the severity of defects that spoil too small a part of the model, all of one code together: what is cut into many primitives looks as it would in one.
+pub fn weigh(defects: &mut [Defect]) {
+    let mut of_code: BTreeMap<Code, f64> = BTreeMap::new();
+    for (code, percent) in defects.iter().filter_map(|defect| Some((defect.code(), defect.spoiled?))) {
+        *of_code.entry(code).or_default() += percent;
+    }
+    for defect in defects.iter_mut().filter(|defect| defect.spoiled.is_some()) {
+        if of_code[&defect.code()] < MIN_SPOILED {
+            defect.severity = defect.severity.min(Severity::Warning);
+        }
+    }
+}
+
+/// The defects of one surface, with severities that [`weigh`] may lower.
 pub fn defects_of_surface(surface: &Surface, area: &ModelArea) -> Vec<Defect> {
     let facts = SurfaceFacts::new(surface);
     let rules = SURFACE_RULES.iter().flat_map(|family| family.iter());
     let placed = |defect: Defect| {
         let spoiled = spoiled(&defect.fault, &facts).and_then(|own| area.percent(&surface.place, own));
-        let is_small = spoiled.is_some_and(|percent| percent < MIN_SPOILED);
-        let severity = if is_small { defect.severity.min(Severity::Warning) } else { defect.severity };
         let obstacle = obstacles::of_surface(&defect, &facts);
-        Defect { place: surface.place.clone(), severity, spoiled, ..defect }.with_obstacle(obstacle)
+        Defect { place: surface.place.clone(), spoiled, ..defect }.with_obstacle(obstacle)
     };
     let defects = rules.flat_map(|rule| rule(&facts)).map(placed).collect();
     if surface.needs_tangents { defects } else { without_unread(defects) }
@@ -79,4 +97,28 @@ fn without_unread(defects: Vec<Defect>) -> Vec<Defect> {
         }
     }
     kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::indices::Part;
+
+    /// Faults of two kinds in six primitives.
+    #[test]
+    fn what_primitives_spoil_adds_up() {
+        let part = || Part::new(&[1], 100).expect("one triangle");
+        let defect = |fault, percent| Defect { spoiled: Some(percent), ..Defect::new(fault) };
+        let severities = |percent: f64| {
+            let mut defects: Vec<Defect> =
+                (0..5).map(|_| defect(Fault::TangentSharedAcrossMirror(part()), percent)).collect();
+            defects.push(defect(Fault::TangentSignNotOne(part()), percent));
+            weigh(&mut defects);
+            defects.iter().map(|defect| defect.severity).collect::<Vec<Severity>>()
+        };
+        let all_of = |count: usize, severity: Severity| vec![severity; count];
+        let shared = |severity| [all_of(5, severity), all_of(1, Severity::Warning)].concat();
+        assert_eq!(severities(0.2), shared(Severity::Error));
+        assert_eq!(severities(0.05), shared(Severity::Warning));
+    }
 }

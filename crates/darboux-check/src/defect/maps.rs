@@ -150,6 +150,8 @@ pub enum MapFault {
         evidence: DirectionEvidence,
     },
     RedFlipped(DirectionEvidence),
+    /// The faces lean to inverted red and green, without deciding it.
+    MayBeDents(FacesScore),
     /// The fine detail is in another convention than the relief.
     DetailFlipped {
         /// Whether the relief has green up.
@@ -207,6 +209,7 @@ impl MapFault {
             Self::TwoChannel { .. } => Code::MapTwoChannel,
             Self::Contradiction { .. } | Self::GreenFlipped { .. } => Code::MapGreenFlipped,
             Self::RedFlipped(_) => Code::MapRedFlipped,
+            Self::MayBeDents(_) => Code::MapMayBeDents,
             Self::DetailFlipped { .. } => Code::MapDetailFlipped,
             Self::NotUnit { .. } => Code::MapNotUnit,
             Self::NegativeZ(_) => Code::MapNegativeZ,

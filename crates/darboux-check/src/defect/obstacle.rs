@@ -41,6 +41,8 @@ pub enum Obstacle {
     VectorsLean,
     MayBeNoMap,
     NegativeScale,
+    /// The texture transform of a material mirrors or turns the image.
+    TransformTurns,
     /// The red of another image is inverted, so that it may be here.
     RedLikelier {
         image: usize,

@@ -34,7 +34,7 @@ pub fn directions(judgement: &MapJudgement, map: &Map) -> Option<MapDirections> 
     let arrangement = arrangement(judgement)?;
     let is_left = match map.decide(arrangement) {
         Some(is_right) => !is_right,
-        None => is_assumed(map) && map.assumed == Some(AssumedMap::RedInverted),
+        None => is_assumed(map) && map.assumed.is_some_and(has_red_inverted),
     };
     let is_down = (arrangement == Arrangement::GreenInverted) != is_left;
     let red = if is_left { TangentDirection::Left } else { TangentDirection::Right };
@@ -42,10 +42,14 @@ pub fn directions(judgement: &MapJudgement, map: &Map) -> Option<MapDirections> 
     Some(MapDirections { red, green })
 }
 
+fn has_red_inverted(assumed: AssumedMap) -> bool {
+    matches!(assumed, AssumedMap::RedInverted | AssumedMap::BothInverted)
+}
+
 /// Whether the user says which of the possibilities that the derivatives leave is so.
 pub fn is_assumed(map: &Map) -> bool {
     let shown = map.judged().and_then(arrangement);
-    let is_one_inverted = |assumed: AssumedMap| assumed != AssumedMap::OpenGl;
+    let is_one_inverted = |assumed| matches!(assumed, AssumedMap::DirectX | AssumedMap::RedInverted);
     map.assumed.is_some_and(|assumed| {
         shown.is_some_and(|shown| (shown == Arrangement::GreenInverted) == is_one_inverted(assumed))
     })

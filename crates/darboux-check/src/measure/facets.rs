@@ -8,12 +8,14 @@
 //! That is right for independent votes only. Faces that share their UVs, texels that repeat, and neighbours vote alike, and bumps that all have one shape
 //! agree a little with convex faces wherever they lie. So a map of any other mesh may get a large score. Therefore a decision is tested again: from the
 //! votes, those of the same triangles on the map at other offsets are subtracted, and the differences are summed in blocks of the map, which count once
-//! each, however many triangles show them (the standard error of clustered data).
+//! each, however many triangles show them (the standard error of clustered data). That shows that the map belongs to the mesh, and not that it was baked from
+//! it: studs or domes on the faces lean against all of them. So a decision also needs a map that [flattens](crate::measure::flattening) the faces.
 
 use darboux::TexelLayout;
 use darboux_io::gltf::{TextureUse, Wrap};
 use darboux_io::image::RgbaImage;
 
+use crate::measure::flattening::flattening;
 use crate::measure::other_axes::OtherAxes;
 use crate::measure::reversal::Sides;
 use crate::surface::{Surface, cross, dot, length, sub};
@@ -45,14 +47,23 @@ pub enum Arrangement {
 }
 
 /// The number of arrangements.
-const ARRANGEMENTS: usize = 4;
+pub const ARRANGEMENTS: usize = 4;
 
 /// The votes of triangles on the arrangements, in the order of their declaration.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FacetVotes {
     sums: Sums,
-    /// Where the votes alone decide an arrangement: the z scores of the blocks.
-    registered: Option<[f64; ARRANGEMENTS]>,
+    /// Where the votes alone decide an arrangement: what other tests say.
+    tested: Option<Tested>,
+}
+
+/// The tests of a decision, per arrangement.
+#[derive(Clone, Copy, Debug)]
+struct Tested {
+    /// The z scores of the blocks.
+    registered: [f64; ARRANGEMENTS],
+    /// 1 where the texels flatten the faces, -1 where they do so once red and green are both inverted, 0 where neither is shown.
+    flattening: [f64; ARRANGEMENTS],
 }
 
 /// A surface on which an image is the normal map, and how its material uses the map; none for the UVs that its tangents follow, repeated.
@@ -69,22 +80,27 @@ impl FacetVotes {
             products.filter_map(|products| products.votes()).for_each(|votes| sums.add(votes));
         }
         let is_decided = (0..ARRANGEMENTS).any(|index| sums.z_score(index).abs() >= DECIDED);
-        Self { sums, registered: is_decided.then(|| registered(uses, image)) }
+        let tested = || Tested { registered: registered(uses, image), flattening: flattening(uses, image) };
+        Self { sums, tested: is_decided.then(tested) }
     }
 
     /// True where the first of the two possibilities of an arrangement is decided, false for the second one; none without a decision.
     pub fn decide(&self, arrangement: Arrangement) -> Option<bool> {
         let z_score = self.z_score(arrangement);
-        (z_score.abs() >= DECIDED).then_some(z_score > 0.0)
+        let is_baked =
+            self.tested.is_some_and(|tested| tested.flattening[arrangement as usize] * z_score > 0.0);
+        (z_score.abs() >= DECIDED && is_baked).then_some(z_score > 0.0)
     }
 
     /// The z score of an arrangement: the smaller one of that of the votes and that of the blocks.
     pub fn z_score(&self, arrangement: Arrangement) -> f64 {
         let index = arrangement as usize;
         let independent = self.sums.z_score(index);
-        match self.registered {
-            Some(registered) if registered[index] * independent <= 0.0 => 0.0,
-            Some(registered) => independent.abs().min(registered[index].abs()).copysign(independent),
+        match self.tested {
+            Some(Tested { registered, .. }) if registered[index] * independent <= 0.0 => 0.0,
+            Some(Tested { registered, .. }) => {
+                independent.abs().min(registered[index].abs()).copysign(independent)
+            }
             None => independent,
         }
     }
@@ -94,12 +110,14 @@ impl FacetVotes {
         self.sums.count
     }
 
-    /// Votes with this z score of one arrangement, and none of the others.
+    /// Votes with this z score of one arrangement, and none of the others, on faces that the map flattens.
     #[cfg(test)]
     pub fn only(arrangement: Arrangement, z_score: f64) -> Self {
         let mut sums = Sums::default();
         (sums.sums[arrangement as usize], sums.squares[arrangement as usize]) = (z_score, 1.0);
-        Self { sums, registered: None }
+        let tested =
+            Tested { registered: [z_score; ARRANGEMENTS], flattening: [z_score.signum(); ARRANGEMENTS] };
+        Self { sums, tested: Some(tested) }
     }
 }
 
@@ -227,7 +245,7 @@ pub struct Corner {
 /// A triangle, the normal of its plane on the side of the corners' normals, and the directions of u and of v upwards in it.
 pub struct Facet {
     pub corners: [Corner; 3],
-    normal: [f32; 3],
+    pub normal: [f32; 3],
     along_u: [f32; 3],
     along_v: [f32; 3],
 }
@@ -283,7 +301,55 @@ impl Products {
     }
 }
 
+/// Sums over the samples of one face or several.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Means {
+    /// x and y of the face normals.
+    pub tilt: [f64; 2],
+    /// x and y of the texels.
+    pub texel: [f64; 2],
+    pub count: f64,
+    /// The block of the map that the last face lies in.
+    pub block: usize,
+}
+
+impl Means {
+    pub fn add(&mut self, other: &Self) {
+        for i in 0..2 {
+            self.tilt[i] += other.tilt[i];
+            self.texel[i] += other.texel[i];
+        }
+        self.count += other.count;
+        self.block = other.block;
+    }
+
+    pub fn mean_tilt(&self) -> [f64; 2] {
+        self.tilt.map(|sum| sum / self.count)
+    }
+
+    pub fn mean_texel(&self) -> [f64; 2] {
+        self.texel.map(|sum| sum / self.count)
+    }
+}
+
 impl Facet {
+    /// The sums over its samples, weighted by its area in the map, so that the faces of a plane count as one.
+    pub fn means(&self, facets: &Facets<'_>, image: &RgbaImage) -> Means {
+        let [a, b, c] = self.corners.each_ref().map(|corner| corner.uv.map(f64::from));
+        let area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs();
+        let size = [image.width, image.height].map(|side| side as usize);
+        let mut means = Means::default();
+        for Sample { tilt, texel: [column, row] } in self.samples(facets, image) {
+            let texel = image.texels[row * size[0] + column];
+            if TexelLayout::RGBA.holds_normal(texel) {
+                let [x, y, _] = TexelLayout::RGBA.vector(texel).map(f64::from);
+                let block = row * BLOCKS / size[1] * BLOCKS + column * BLOCKS / size[0];
+                let tilt = tilt.map(|lean| area * lean);
+                means.add(&Means { tilt, texel: [area * x, area * y], count: area, block });
+            }
+        }
+        means
+    }
     /// None for a triangle without area, in space or in UV space, and for numbers that are not finite.
     fn new(corners: [Corner; 3]) -> Option<Self> {
         let [a, b, c] = &corners;

@@ -18,7 +18,7 @@ use crate::check::{MapDefects, ModelOfMaps, identified_defects, map_defects, map
 use crate::code::Code;
 use crate::defect::Defect;
 use crate::defect::Obstacle;
-use crate::hypotheses::is_about_channels;
+use crate::hypotheses::{Inverted, is_about_channels, relative};
 use crate::map_users::MapUsers;
 use crate::place::Place;
 use crate::severity::Severity;
@@ -85,6 +85,9 @@ fn fix_checked(
     let has_directions =
         |judgement: &MapJudgement| matches!(judgement.verdict, MapVerdict::OpenGl | MapVerdict::DirectX);
     let directions_were_hidden = !checked.judgement.as_ref().is_some_and(has_directions);
+    // With both inverted back the texels show what they showed before, and the assumption would be said of them again.
+    let assumed = options.check.assumed_map.map(|assumed| relative(assumed, options.check.green));
+    let is_both_assumed = assumed == Some(Inverted::Both);
     let mut image: Option<PngImage> = None;
     let mut done = BTreeSet::new();
     let mut all = known.clone();
@@ -100,6 +103,9 @@ fn fix_checked(
         };
         repair(&mut changed, next, checked.srgb_mistake, options)?;
         checked = check(&changed.to_bytes()?);
+        if is_both_assumed {
+            checked.defects.retain(|left| !(is_about_channels(left) && done.contains(&left.code())));
+        }
         keep_reasons(&known, &mut checked.defects);
         image = Some(changed);
         for defect in &checked.defects {

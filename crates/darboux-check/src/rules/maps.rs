@@ -29,6 +29,7 @@ pub const RULES: &[MapRule] = &[
     contradiction,
     red_flipped,
     green_flipped,
+    may_be_dents,
     detail_flipped,
     other_layout,
     channels_swapped,
@@ -212,6 +213,16 @@ fn red_flipped(map: &Map) -> Option<Defect> {
     let is_left = directions(judgement, map)?.red == TangentDirection::Left;
     let found = || defect(MapFault::RedFlipped(direction_evidence(judgement, map)));
     is_left.then(|| with_confidence(found(), judgement))
+}
+
+/// A map whose channels seem to be right, and that leans against the faces: bumps on the faces, or dents that were bumps.
+fn may_be_dents(map: &Map) -> Option<Defect> {
+    let judgement = directed(map).filter(|_| !is_assumed(map))?;
+    let shown = arrangement(judgement)?;
+    let directions = directions(judgement, map)?;
+    let seems_right = directions.red == TangentDirection::Right && directions.green == map.wanted;
+    let leans_against = seems_right && map.decide(shown).is_none() && map.facet_score(shown) <= LEANS_TO_RED;
+    leans_against.then(|| defect(MapFault::MayBeDents(faces_score(map, shown))))
 }
 
 fn other_layout(map: &Map) -> Option<Defect> {

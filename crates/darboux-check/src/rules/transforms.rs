@@ -4,6 +4,7 @@ use darboux_io::gltf::{Material, TextureUse};
 
 use super::rule::MaterialRule;
 use crate::defect::{Defect, Fault};
+use crate::measure::texture_axes::axes;
 
 pub const RULES: &[MaterialRule] = &[mirrors, negative_scale, zero_scale, extreme_scale];
 
@@ -15,12 +16,7 @@ fn mirrors(material: &Material) -> Option<Defect> {
 }
 
 fn mirrored_or_rotated(texture: &TextureUse) -> Option<Fault> {
-    let origin = texture.transform_uv([0.0, 0.0]);
-    let axis = |uv: [f32; 2]| {
-        let placed = texture.transform_uv(uv);
-        [0, 1].map(|i| f64::from(placed[i]) - f64::from(origin[i]))
-    };
-    let (u, v) = (axis([1.0, 0.0]), axis([0.0, 1.0]));
+    let [u, v] = axes(texture);
     let determinant = u[0] * v[1] - u[1] * v[0];
     let rotation = u[1].atan2(u[0]).to_degrees();
     let is_unusual = determinant < 0.0 || rotation.abs() > ROUNDING;

@@ -61,6 +61,10 @@ pub fn said(fault: &MapFault) -> Said {
             let text = "its red is inverted: its texels lean against the faces of the mesh";
             with_directions(Said::new(text), evidence)
         }
+        MapFault::MayBeDents(score) => {
+            let text = "its texels lean against the faces of the mesh: it has a bump on every face, or its red and green are both inverted, so that bumps are dents";
+            with_faces(Said::new(text), Some(score))
+        }
         MapFault::DetailFlipped { is_relief_up, evidence } => detail_flipped(*is_relief_up, evidence),
         MapFault::ChannelsSwapped { by_derivatives, log_energy_ratio, certainty, faces } => {
             let text = if *by_derivatives {
@@ -270,7 +274,7 @@ fn green_flipped(wanted: BitangentDirection, doubt: RedDoubt, evidence: &Directi
         }
         BitangentDirection::Down => (
             "OpenGL (green up) instead of DirectX (green down)",
-            "Export or bake the map with green down (DirectX, -Y), or invert green of the map with `darboux convert --from opengl --to directx`.",
+            "Export or bake the map with green down (DirectX, -Y), or let `darboux check FILE --convention directx --fix --assume map=opengl -o FIXED` invert its green.",
         ),
     };
     let doubt = match doubt {

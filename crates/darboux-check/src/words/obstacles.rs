@@ -78,6 +78,9 @@ pub fn reason(obstacle: &Obstacle) -> String {
         Obstacle::NegativeScale => {
             "the scale of its material is negative, which inverts red and green: make it positive first, and check again"
         }
+        Obstacle::TransformTurns => {
+            "the texture transform of its material mirrors or turns the image, so that what is inverted before the transform is right after it, and renderers disagree on which of both counts: apply the transform to the UVs first, and check again"
+        }
         Obstacle::OnTheModelToo => {
             "the tangents of the model have to be repaired with it; put the map on the model and repair that"
         }

@@ -32,6 +32,8 @@ pub struct Model {
     pub normal_scale: f32,
     /// The scale of the texture transform.
     pub transform: Option<[f32; 2]>,
+    /// The rotation of the texture transform.
+    pub rotation: f32,
     /// The number of primitives with the same data.
     pub copies: usize,
     pub is_skinned: bool,
@@ -169,6 +171,7 @@ impl Model {
             has_normal_map: true,
             normal_scale: 1.0,
             transform: None,
+            rotation: 0.0,
             copies: 1,
             is_skinned: number % 4 == 1,
             map: healthy_map(number),
@@ -301,7 +304,8 @@ impl Model {
         let image = writer.view(&self.map.file);
         let mut texture = json!({"index": 0, "texCoord": self.uv_set, "scale": self.normal_scale});
         if let Some(scale) = self.transform {
-            texture["extensions"] = json!({"KHR_texture_transform": {"scale": scale}});
+            texture["extensions"] =
+                json!({"KHR_texture_transform": {"scale": scale, "rotation": self.rotation}});
         }
         let mut material = if self.has_normal_map { json!({"normalTexture": texture}) } else { json!({}) };
         if self.name.contains(SHOWN) {
