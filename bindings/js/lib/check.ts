@@ -27,7 +27,7 @@ export interface CheckOptions {
   /** Whether the normal maps of a model are decoded and judged; otherwise they are taken to be right. Default: true. */
   maps?: boolean | null;
   /** What normal maps are where neither their texels nor the faces decide it. Default: nothing is assumed. */
-  assume?: 'opengl' | 'directx' | 'red-inverted' | null;
+  assume?: 'opengl' | 'directx' | 'red-inverted' | 'both-inverted' | null;
 }
 
 /** A number that supports a finding. */
@@ -209,7 +209,7 @@ function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, optio
   const { green, maps, assume } = optionsOf(options);
   if (green != null && green !== 'up' && green !== 'down') throw new RangeError(`green is '${green}'; it must be 'up' or 'down'`);
   const assumed = assume == null ? 0 : ASSUMPTIONS.indexOf(assume) + 1;
-  if (assume != null && !assumed) throw new RangeError(`assume is '${assume}'; it must be 'opengl', 'directx' or 'red-inverted'`);
+  if (assume != null && !assumed) throw new RangeError(`assume is '${assume}'; it must be 'opengl', 'directx', 'red-inverted' or 'both-inverted'`);
   writeBytes(exports, file);
   const address = exports.check_file(Number(isMap), Number(green === 'down'), Number(maps ?? true), assumed, Number(repairs));
   const checked = readJson<{ findings?: Record<string, unknown>[]; diagnosis?: string; error?: string }>(exports, address);
@@ -218,7 +218,7 @@ function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, optio
 }
 
 /** The assumptions in the order of the module. */
-const ASSUMPTIONS = ['opengl', 'directx', 'red-inverted'] as const;
+const ASSUMPTIONS = ['opengl', 'directx', 'red-inverted', 'both-inverted'] as const;
 
 /** A finding as the module writes it, with the names of `darboux check --json`, in which words are separated by underscores. */
 function finding(stored: Record<string, unknown>): Finding {

@@ -38,7 +38,7 @@ const CONVENTIONS: &[(&str, BitangentDirection)] =
 /// maps : bool
 ///     Decode and judge the normal maps of a model. Without it they are taken to be right.
 /// assume : str, optional
-///     What normal maps are where neither their texels nor the faces decide it: 'opengl', 'directx' or 'red-inverted'.
+///     What normal maps are where neither their texels nor the faces decide it: 'opengl', 'directx', 'red-inverted' or 'both-inverted'.
 /// allow_outside, memory_limit
 ///     As in load; for files.
 ///

@@ -214,6 +214,10 @@ const SAID: &[(Code, &str)] = &[
         "up and down are right, left and right are exchanged (TombEngine/TombEngine 617, makehumancommunity/makehuman2 12)",
     ),
     (
+        Code::MapMayBeDents,
+        "the bumps go inwards, and nobody can say whether the map, the model or the engine is wrong",
+    ),
+    (
         Code::MapChannelsSwapped,
         "a converter exchanged red and green, and the orientation is wrong (castano/nvidia-texture-tools 286)",
     ),
@@ -307,6 +311,10 @@ const NO_PICTURE: &[(Code, &str)] = &[
         "the renderer of these pictures normalises the vectors, so that nothing would be seen",
     ),
     (Code::MapScaleNegative, "it looks as if red and green were both inverted: dents for bumps"),
+    (
+        Code::MapMayBeDents,
+        "the file of a map with bumps and that of one with dents look alike, each being right for somebody",
+    ),
     (Code::MapDetailFlipped, "the detail is finer than the pixels of these pictures"),
     (Code::MapFlatOff, "a lean of two degrees is seen in reflections only"),
 ];

@@ -406,7 +406,7 @@ def check(
     *,
     convention: Literal["opengl", "directx"] = "opengl",
     maps: bool = True,
-    assume: Optional[Literal["opengl", "directx", "red-inverted"]] = None,
+    assume: Optional[Literal["opengl", "directx", "red-inverted", "both-inverted"]] = None,
     allow_outside: bool = False,
     memory_limit: Optional[int] = None,
 ) -> Findings: ...
@@ -415,7 +415,7 @@ def fix(
     *,
     convention: Literal["opengl", "directx"] = "opengl",
     maps: bool = True,
-    assume: Optional[Literal["opengl", "directx", "red-inverted"]] = None,
+    assume: Optional[Literal["opengl", "directx", "red-inverted", "both-inverted"]] = None,
     method: Method = "mikktspace",
     only: Optional[Iterable[str]] = None,
 ) -> Findings: ...

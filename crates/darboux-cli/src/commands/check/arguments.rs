@@ -81,7 +81,7 @@ pub struct FindingOptions {
 
     /// What normal maps are where neither their texels nor the faces of the model decide it
     ///
-    /// map=opengl: green points up; map=directx: green points down; map=red-inverted: red points to the left. What the texels show is not overruled.
+    /// map=opengl: green points up; map=directx: green points down; map=red-inverted: red points to the left; map=both-inverted: both, so that bumps are dents. What the texels show is not overruled.
     #[arg(long, value_name = "WHAT", value_parser = assumption(), help_heading = "Findings")]
     pub assume: Option<AssumedMap>,
 
@@ -158,7 +158,7 @@ fn code() -> impl TypedValueParser<Value = Code> {
 
 /// Parses `map=NAME`.
 fn assumption() -> impl TypedValueParser<Value = AssumedMap> {
-    let names = ["map=opengl", "map=directx", "map=red-inverted"];
+    let names = ["map=opengl", "map=directx", "map=red-inverted", "map=both-inverted"];
     PossibleValuesParser::new(names).try_map(|name| name.trim_start_matches("map=").parse::<AssumedMap>())
 }
 
