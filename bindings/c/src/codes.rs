@@ -2,8 +2,8 @@
 
 use darboux::encode::Encoding;
 use darboux::{
-    Axis, BitangentDirection, Choice, Convention, MapVerdict, Method, Mode, NormalWeight, RecipeWriting,
-    Shading, SignRule, SmoothingSeams, TangentDirection, UvOrigin, Winding,
+    Axis, BitangentDirection, Choice, Convention, Method, Mode, NormalWeight, Shading, SignRule,
+    SmoothingSeams, TangentDirection, UvOrigin, Winding,
 };
 
 use crate::status::{Error, darboux_status};
@@ -304,28 +304,6 @@ pub(crate) fn tangent_encoding(code: u32) -> Result<Encoding, Error> {
     choice("darboux_tangent_encoding", code)
 }
 
-/// The code of a verdict.
-pub(crate) fn map_verdict(verdict: MapVerdict) -> darboux_map_verdict {
-    let code = match verdict {
-        MapVerdict::OpenGl => MapVerdictCode::Opengl,
-        MapVerdict::DirectX => MapVerdictCode::Directx,
-        MapVerdict::NoGradient => MapVerdictCode::NoGradient,
-        MapVerdict::Flat => MapVerdictCode::Flat,
-        _ => MapVerdictCode::CannotTell,
-    };
-    code as u32
-}
-
-/// The code of a writing.
-pub(crate) fn recipe_writing(writing: RecipeWriting) -> darboux_recipe_writing {
-    let code = match writing {
-        RecipeWriting::LastCorner => RecipeWritingCode::LastCorner,
-        RecipeWriting::FirstCorner => RecipeWritingCode::FirstCorner,
-        _ => RecipeWritingCode::Corners,
-    };
-    code as u32
-}
-
 from_code!(faces, "darboux_faces", FacesCode => FacesCode {
     Triangles => FacesCode::Triangles,
     Quads => FacesCode::Quads,
@@ -375,11 +353,13 @@ from_code!(program, "darboux_program", ProgramCode => Convention {
 
 #[cfg(test)]
 mod tests {
+    use darboux::{MapVerdict, RecipeWriting};
+
     use super::*;
 
     /// Whether a list of C codes has the values of the core, in their order.
     fn is_list_of<T: Choice + PartialEq + std::fmt::Debug>(codes: &[(&str, u32)]) {
-        let names: Vec<String> = T::ALL.iter().map(|value| value.name().replace('-', "")).collect();
+        let names: Vec<String> = T::ALL.iter().map(|value| value.name().replace(['-', '_'], "")).collect();
         let expected = names.iter().map(String::as_str).zip(0..);
         let found = codes.iter().map(|(name, code)| (name.to_ascii_lowercase(), *code));
         assert!(found.eq(expected.map(|(name, code)| (name.to_owned(), code))), "{codes:?}, not {names:?}");
@@ -398,6 +378,8 @@ mod tests {
         is_list_of::<Shading>(codes!(ShadingCode: Smooth Flat));
         is_list_of::<NormalWeight>(codes!(NormalWeightCode: Angle Area AngleArea));
         is_list_of::<SmoothingSeams>(codes!(SmoothingSeamsCode: Ignored Respected));
+        is_list_of::<MapVerdict>(codes!(MapVerdictCode: Opengl Directx NoGradient Flat CannotTell));
+        is_list_of::<RecipeWriting>(codes!(RecipeWritingCode: Corners LastCorner FirstCorner));
         is_list_of::<Encoding>(codes!(TangentEncodingCode: Snorm8 Snorm10 Snorm16 Octahedral Diamond));
     }
 }

@@ -3,11 +3,10 @@
 use std::mem::offset_of;
 
 use darboux::{
-    Channel, Choice, MapJudgement, Method, NormalMapJudge, RecipeMatch, RecipeRounding, TexelLayout,
-    recognise_recipe_with,
+    Channel, Choice, MapJudgement, NormalMapJudge, RecipeMatch, TexelLayout, recognise_recipe_with,
 };
 
-use crate::codes::{self, darboux_map_verdict, darboux_method, darboux_mode, darboux_recipe_writing};
+use crate::codes::{darboux_map_verdict, darboux_method, darboux_mode, darboux_recipe_writing};
 use crate::context::{self, Memory, darboux_context};
 use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{self, Output, Receiver, Versioned, gathered_of_corners};
@@ -55,7 +54,7 @@ impl From<MapJudgement> for darboux_map_judgement {
     fn from(judgement: MapJudgement) -> Self {
         Self {
             size: size_of::<Self>(),
-            verdict: codes::map_verdict(judgement.verdict),
+            verdict: judgement.verdict.code(),
             confidence: judgement.confidence,
             correlation: judgement.correlation,
             z_score: judgement.z_score,
@@ -101,20 +100,12 @@ pub struct darboux_recipe_match {
 
 impl From<&RecipeMatch> for darboux_recipe_match {
     fn from(found: &RecipeMatch) -> Self {
-        let mode = match found.recipe.method {
-            Method::MikkTSpace(options) => options.mode.code(),
-            _ => 0,
-        };
         Self {
             method: found.recipe.method.code(),
-            mode,
+            mode: found.recipe.mode().map_or(0, Choice::code),
             flips_v: found.recipe.flips_v.into(),
-            writing: codes::recipe_writing(found.recipe.writing),
-            bits: match found.recipe.rounding {
-                RecipeRounding::Bits8 => 8,
-                RecipeRounding::Bits16 => 16,
-                _ => 32,
-            },
+            writing: found.recipe.writing.code(),
+            bits: found.recipe.rounding.bits(),
             reserved: 0,
             corners: found.corners,
             identical: found.identical,

@@ -1,8 +1,7 @@
 //! `darboux/check`: what is wrong with models and normal maps, and how tangents were computed.
 
 use darboux::{
-    BitangentDirection, Channel, Choice, MapJudgement, MapTiles, Method, NormalMapJudge, RecipeMatch,
-    RecipeRounding, RecipeWriting, TexelLayout,
+    BitangentDirection, Channel, Choice, MapJudgement, MapTiles, NormalMapJudge, RecipeMatch, TexelLayout,
 };
 use darboux_check::{
     AssumedMap, CheckOptions, FixOptions, ReportedFinding, check_document, check_map, diagnosis, fix_document,
@@ -222,24 +221,12 @@ pub extern "C" fn recognise_recipe() -> *const u8 {
 
 impl From<&RecipeMatch> for Recognised {
     fn from(found: &RecipeMatch) -> Self {
-        let mode = match found.recipe.method {
-            Method::MikkTSpace(options) => Some(options.mode.name()),
-            _ => None,
-        };
         Self {
             method: found.recipe.method.name(),
-            mode,
+            mode: found.recipe.mode().map(Choice::name),
             flips_v: found.recipe.flips_v,
-            writing: match found.recipe.writing {
-                RecipeWriting::LastCorner => "last-corner",
-                RecipeWriting::FirstCorner => "first-corner",
-                _ => "corners",
-            },
-            bits: match found.recipe.rounding {
-                RecipeRounding::Bits8 => 8,
-                RecipeRounding::Bits16 => 16,
-                _ => 32,
-            },
+            writing: found.recipe.writing.name(),
+            bits: found.recipe.rounding.bits(),
             corners: found.corners,
             identical: found.identical,
             close: found.close,

@@ -3,8 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use darboux::{
-    BitangentDirection, Choice, Context, MapJudgement, Mode, RecipeMatch, RecipeRounding, RecipeWriting,
-    TexelLayout, recognise_recipe_with,
+    BitangentDirection, Choice, Context, MapJudgement, Mode, RecipeMatch, TexelLayout, recognise_recipe_with,
 };
 use darboux_check::{
     AssumedMap, Change, CheckOptions, Code, FixOptions, ReportedFinding, check_document, check_map,
@@ -17,7 +16,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{Rows, array_of, packed, shape_text};
-use crate::choices::{choice, method_name, tangent_options};
+use crate::choices::{choice, tangent_options};
 use crate::document::{Document, file_error, load_options};
 use crate::mesh::{MeshArrays, value_error};
 use crate::numbers::Natural;
@@ -316,23 +315,13 @@ pub fn recognise_recipe<'py>(
 }
 
 fn recipe<'py>(py: Python<'py>, found: &RecipeMatch) -> PyResult<Bound<'py, PyAny>> {
-    let (method, mode) = method_name(found.recipe.method);
-    let writing = match found.recipe.writing {
-        RecipeWriting::LastCorner => "last-corner",
-        RecipeWriting::FirstCorner => "first-corner",
-        _ => "corners",
-    };
-    let bits = match found.recipe.rounding {
-        RecipeRounding::Bits8 => 8,
-        RecipeRounding::Bits16 => 16,
-        _ => 32,
-    };
+    let recipe = found.recipe;
     let fields = (
-        method,
-        mode,
-        found.recipe.flips_v,
-        writing,
-        bits,
+        recipe.method.name(),
+        recipe.mode().map(Choice::name),
+        recipe.flips_v,
+        recipe.writing.name(),
+        recipe.rounding.bits(),
         found.corners,
         found.identical,
         found.close,

@@ -44,12 +44,3 @@ pub fn tangent_options(method: &str, mode: &str, threshold: f32) -> PyResult<Tan
 pub fn is_slow(options: &TangentOptions) -> bool {
     matches!(options.method, Method::MikkTSpace(mikkt) if mikkt.threshold < MikkTSpaceOptions::new().threshold)
 }
-
-/// The name of a method and, for MikkTSpace, that of its mode.
-pub fn method_name(method: Method) -> (&'static str, Option<&'static str>) {
-    let mode = match method {
-        Method::MikkTSpace(options) => Some(options.mode.name()),
-        _ => None,
-    };
-    (method.name(), mode)
-}

@@ -23,7 +23,7 @@ pub trait Choice: Copy + 'static {
     /// All values, with default options where they have some.
     const ALL: &'static [Self];
 
-    /// The name: lower case, words joined by hyphens.
+    /// The name: lower case, words joined by hyphens, in verdicts by underscores.
     fn name(self) -> &'static str;
 
     /// What the value means, in a line without a full stop.
@@ -98,7 +98,7 @@ pub(crate) use choice;
 mod tests {
     use super::*;
     use crate::encode::Encoding;
-    use crate::{Method, Mode, NormalWeight, Shading, SmoothingSeams};
+    use crate::{MapVerdict, Method, Mode, NormalWeight, RecipeWriting, Shading, SmoothingSeams};
 
     fn check<T: Choice + PartialEq + fmt::Debug>() {
         for (code, &value) in T::ALL.iter().enumerate() {
@@ -119,6 +119,8 @@ mod tests {
         check::<NormalWeight>();
         check::<SmoothingSeams>();
         check::<Encoding>();
+        check::<MapVerdict>();
+        check::<RecipeWriting>();
     }
 
     #[test]

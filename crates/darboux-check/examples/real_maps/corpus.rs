@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use darboux::{MapJudgement, MapVerdict, TexelLayout, judge_normal_map};
+use darboux::{Choice, MapJudgement, MapVerdict, TexelLayout, judge_normal_map};
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
 use darboux_io::image::{DecodeLimits, RgbaImage};

@@ -202,6 +202,11 @@ impl Document {
         Ok(true)
     }
 
+    /// Whether the typed parts are what the JSON says. Every edit keeps this; builds with debug assertions check it whenever a document is written.
+    pub(super) fn agrees_with_its_json(&self) -> bool {
+        json::read::<Root>(&self.json, "").is_ok_and(|root| root == self.root)
+    }
+
     /// Declares extensions that readers must support, unless they are declared already.
     pub(super) fn require_extensions(&mut self, names: impl IntoIterator<Item = &'static str>) {
         for name in names {
@@ -242,6 +247,7 @@ impl Root {
     fn renew(&mut self, array: &'static str, index: usize, element: &Value) -> Result<(), ContentError> {
         let at = format!("{array}[{index}]");
         match array {
+            "meshes" => self.meshes[index] = json::read(element, &at)?,
             "accessors" => self.accessors[index] = json::read(element, &at)?,
             "bufferViews" => self.buffer_views[index] = json::read(element, &at)?,
             "buffers" => self.buffers[index] = json::read(element, &at)?,

@@ -142,6 +142,7 @@ impl Document {
         if self.container.is_glb && !self.is_changed() && self.files().is_empty() {
             return Ok(vec![Segment::Borrowed(&self.file)]);
         }
+        debug_assert!(self.agrees_with_its_json(), "{}: typed parts differ from the JSON", self.name());
         let chunks =
             self.container.other_chunks.iter().map(|(kind, range)| (*kind, &self.file[range.clone()]));
         let segments = || {
@@ -158,6 +159,7 @@ impl Document {
             let problem = "has chunks of unknown type, which a .gltf cannot hold; write a .glb";
             return Err(ContentError::unsupported("", problem).in_file(self.name()));
         }
+        debug_assert!(self.agrees_with_its_json(), "{}: typed parts differ from the JSON", self.name());
         let folder = target.parent().unwrap_or(Path::new(""));
         let mut names = FileNames::new(folder, target);
         let in_file = |error: ContentError| error.in_file(self.name());

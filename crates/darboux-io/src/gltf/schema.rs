@@ -13,11 +13,11 @@ use super::objects_only::read_from_objects;
 read_from_objects! {
     Root, Asset, Mesh, Primitive, PrimitiveExtensions, Variants, VariantMapping, Draco, Material,
     MaterialExtensions, Clearcoat, Anisotropy, TextureInfo, TextureInfoExtensions, TextureTransform, Accessor,
-    Sparse, SparseIndices, SparseValues, BufferView, BufferViewExtensions, Meshopt, Buffer, Image,
+    Sparse, SparseIndices, SparseValues, BufferView, BufferViewExtensions, Meshopt, Buffer, Image, AnyObject,
 }
 
 /// The root object.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct Root {
     pub asset: Asset,
@@ -36,14 +36,14 @@ pub(super) struct Root {
 }
 
 /// The metadata of a file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self")]
 pub(super) struct Asset {
     pub version: String,
 }
 
 /// A mesh: a list of primitives.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self")]
 pub struct Mesh {
@@ -62,7 +62,7 @@ fn shared_text<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Arc<
 pub type Attributes = BTreeMap<String, usize>;
 
 /// A part of a mesh that is drawn with one material.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self")]
 pub struct Primitive {
@@ -98,7 +98,7 @@ fn triangles() -> u32 {
 }
 
 /// The supported extensions of a primitive.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(remote = "Self")]
 pub(super) struct PrimitiveExtensions {
     /// Draco compression.
@@ -110,7 +110,7 @@ pub(super) struct PrimitiveExtensions {
 }
 
 /// `KHR_materials_variants` of a primitive.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self")]
 pub(super) struct Variants {
     /// The materials of the variants.
@@ -119,7 +119,7 @@ pub(super) struct Variants {
 }
 
 /// The material of some variants.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self")]
 pub(super) struct VariantMapping {
     /// The material.
@@ -127,7 +127,7 @@ pub(super) struct VariantMapping {
 }
 
 /// `KHR_draco_mesh_compression` of a primitive.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct Draco {
     /// The buffer view with the compressed bytes.
@@ -137,18 +137,25 @@ pub(super) struct Draco {
 }
 
 /// The parts of a material that decide which UVs its tangents follow.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct Material {
     /// The normal map.
     pub normal_texture: Option<Box<TextureInfo>>,
+    /// Colours and textures, whose members edits alone look at.
+    pub pbr_metallic_roughness: Option<AnyObject>,
     /// The extensions that use tangents.
     #[serde(default)]
     pub extensions: Option<Box<MaterialExtensions>>,
 }
 
+/// An object whose members are not read.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(remote = "Self")]
+pub(super) struct AnyObject {}
+
 /// The extensions of a material that use tangents.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(remote = "Self")]
 pub(super) struct MaterialExtensions {
     /// A clear coat.
@@ -160,7 +167,7 @@ pub(super) struct MaterialExtensions {
 }
 
 /// `KHR_materials_clearcoat`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct Clearcoat {
     /// The normal map of the coat.
@@ -168,7 +175,7 @@ pub(super) struct Clearcoat {
 }
 
 /// `KHR_materials_anisotropy`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct Anisotropy {
     /// The map of anisotropy directions and strengths.
@@ -176,7 +183,7 @@ pub(super) struct Anisotropy {
 }
 
 /// A texture of a material.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct TextureInfo {
     /// The UV set n of `TEXCOORD_n`, unless the transform overrides it.
@@ -188,7 +195,7 @@ pub(super) struct TextureInfo {
 }
 
 /// The supported extensions of a material's texture.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(remote = "Self")]
 pub(super) struct TextureInfoExtensions {
     /// A transform of the UVs.
@@ -197,7 +204,7 @@ pub(super) struct TextureInfoExtensions {
 }
 
 /// `KHR_texture_transform`: uv' = offset + rotation * scale * uv.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct TextureTransform {
     /// The offset in units of the texture.
@@ -218,7 +225,7 @@ fn ones() -> [f32; 2] {
 }
 
 /// A typed view of a buffer view's bytes.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Accessor {
@@ -249,7 +256,7 @@ impl Accessor {
 }
 
 /// The elements of an accessor that differ from its buffer view.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self")]
 pub(super) struct Sparse {
     /// The number of elements.
@@ -261,7 +268,7 @@ pub(super) struct Sparse {
 }
 
 /// The location of a sparse accessor's indices.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct SparseIndices {
     /// The buffer view.
@@ -274,7 +281,7 @@ pub(super) struct SparseIndices {
 }
 
 /// The location of a sparse accessor's values.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct SparseValues {
     /// The buffer view.
@@ -285,7 +292,7 @@ pub(super) struct SparseValues {
 }
 
 /// A range of a buffer.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct BufferView {
     /// The buffer.
@@ -303,7 +310,7 @@ pub(super) struct BufferView {
 }
 
 /// The supported extensions of a buffer view.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(remote = "Self")]
 pub(super) struct BufferViewExtensions {
     /// Compression by meshoptimizer, under either name of the extension.
@@ -312,7 +319,7 @@ pub(super) struct BufferViewExtensions {
 }
 
 /// `EXT_meshopt_compression` or `KHR_meshopt_compression` of a buffer view.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct Meshopt {
     /// The buffer with the compressed bytes.
@@ -334,7 +341,7 @@ pub(super) struct Meshopt {
 }
 
 /// A buffer: the GLB's binary chunk, a `data:` URI or a file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct Buffer {
     /// The URI of the bytes. Without one, they are in the GLB's binary chunk.
@@ -349,7 +356,7 @@ impl Buffer {
 }
 
 /// An image.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct Image {
     /// The URI of the image. Without one, it is in a buffer view.

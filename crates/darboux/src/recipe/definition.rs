@@ -1,5 +1,6 @@
 //! [`Recipe`]: a way of making tangents; and how well one explains those of a file.
 
+use crate::choice::choice;
 use crate::tangents::{Method, MikkTSpaceOptions, Mode};
 
 /// A way of making the tangents of a file.
@@ -31,6 +32,13 @@ pub enum RecipeWriting {
     FirstCorner,
 }
 
+choice! {
+    RecipeWriting, "writing",
+    Self::Corners = Self::Corners => "corners", "every corner has its own tangent: vertices were split where needed";
+    Self::LastCorner = Self::LastCorner => "last-corner", "every vertex has the tangent of its last corner";
+    Self::FirstCorner = Self::FirstCorner => "first-corner", "every vertex has the tangent of its first corner";
+}
+
 /// How the components of tangents were rounded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -41,6 +49,17 @@ pub enum RecipeRounding {
     Bits8,
     /// To multiples of 1/32767: signed normalised 16-bit integers.
     Bits16,
+}
+
+impl RecipeRounding {
+    /// The bits of a component: 32, 16 or 8.
+    pub fn bits(self) -> u32 {
+        match self {
+            Self::Floats => 32,
+            Self::Bits8 => 8,
+            Self::Bits16 => 16,
+        }
+    }
 }
 
 /// How well a recipe explains tangents.
@@ -62,6 +81,14 @@ pub struct RecipeMatch {
 }
 
 impl Recipe {
+    /// The mode of MikkTSpace; none for other methods.
+    pub fn mode(&self) -> Option<Mode> {
+        match self.method {
+            Method::MikkTSpace(options) => Some(options.mode),
+            _ => None,
+        }
+    }
+
     /// A method on the triangles as they are.
     const fn new(method: Method, rounding: RecipeRounding) -> Self {
         let writing = RecipeWriting::Corners;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use darboux::{BitangentDirection, MapJudgement, TangentDirection};
+use darboux::{BitangentDirection, Choice, MapJudgement, TangentDirection};
 use darboux_check::{
     CheckedMap, Code, Finding, MapDirections, Place, PlannedEdit, ReportedFinding, Severity,
 };

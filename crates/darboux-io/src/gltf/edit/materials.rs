@@ -1,8 +1,8 @@
 //! Gives materials textures, and paints them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::json::{self, Value, object};
+use crate::json::{Value, object};
 
 use crate::Error;
 use crate::error::ContentError;
@@ -53,7 +53,7 @@ impl Document {
     /// Gives the materials of primitives one new texture, embedded as a PNG, which can have several uses. Primitives without a material get a new one.
     ///
     /// The texture transform of the material's normal map is kept where the UV set stays. A material that other primitives have, too, changes
-    /// for all of them. Errors: a primitive that does not exist; a material that cannot be edited.
+    /// for all of them; primitives of one material with several UV sets get a copy of it for each set after the first. Errors: a primitive that does not exist; a material that cannot be edited.
     pub fn set_texture(
         &mut self,
         uses: &[MaterialTexture],
@@ -66,24 +66,33 @@ impl Document {
         {
             self.use_extension(EMISSIVE_STRENGTH);
         }
-        let mut without_material = BTreeMap::new();
-        for (primitive, uv_set) in primitives {
-            let material = match self.primitive(primitive)?.material {
-                Some(material) => material,
-                None => {
-                    let new = *without_material.entry(*uv_set).or_insert_with(|| self.push_material());
-                    self.edit_primitive(primitive.mesh, primitive.primitive, |json| {
-                        json.insert("material", new.into());
-                    })?;
-                    new
-                }
-            };
+        for (material, uv_set) in self.materials_by_uv_set(primitives)? {
             for &used in uses {
-                let edited = self.set_texture_of_material(material, used, texture, *uv_set);
+                let edited = self.set_texture_of_material(material, used, texture, uv_set);
                 edited.map_err(|error| error.in_file(self.name()))?;
             }
         }
         Ok(())
+    }
+
+    /// Gives primitives without a material a new one per UV set, and copies materials of several UV sets. Returns the materials of all
+    /// primitives, with their UV sets.
+    fn materials_by_uv_set(&mut self, primitives: &[MappedPrimitive]) -> Result<Vec<(usize, usize)>, Error> {
+        let mut material_of = BTreeMap::new();
+        let mut has_one_set = BTreeSet::new();
+        for (primitive, uv_set) in primitives {
+            let old = self.primitive(primitive)?.material;
+            let material = *material_of.entry((old, *uv_set)).or_insert_with(|| match old {
+                Some(old) if has_one_set.insert(old) => old,
+                _ => self.push_material(old),
+            });
+            if Some(material) != old {
+                self.edit_primitive(primitive.mesh, primitive.primitive, |json| {
+                    json.insert("material", material.into());
+                })?;
+            }
+        }
+        Ok(material_of.into_iter().map(|((_, uv_set), material)| (material, uv_set)).collect())
     }
 
     /// Paints primitives: replaces their materials by unlit ones (`KHR_materials_unlit`) with a new base colour, embedded as a PNG, which uses the
@@ -121,10 +130,12 @@ impl Document {
         self.push_element("textures", object! { "source": image })
     }
 
-    /// Appends a material without members. Returns its index.
-    fn push_material(&mut self) -> usize {
-        self.root.materials.push(json::read(&object! {}, "").unwrap_or_default());
-        self.push_element("materials", object! {})
+    /// Appends a copy of a material, or one without members. Returns its index.
+    fn push_material(&mut self, original: Option<usize>) -> usize {
+        let typed = original.and_then(|original| self.root.materials.get(original)).cloned();
+        let json = original.map(|original| self.element("materials", original).clone());
+        self.root.materials.push(typed.unwrap_or_default());
+        self.push_element("materials", json.unwrap_or(object! {}))
     }
 
     fn set_texture_of_material(

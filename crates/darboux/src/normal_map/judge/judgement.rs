@@ -1,5 +1,7 @@
 //! The verdict on a normal map and the counts behind it.
 
+use crate::choice::choice;
+
 /// The smallest absolute z score that decides between OpenGL and DirectX.
 pub(super) const MIN_Z_SCORE: f32 = 4.0;
 
@@ -19,18 +21,16 @@ pub enum MapVerdict {
     CannotTell,
 }
 
-impl MapVerdict {
-    /// The name in reports: `opengl`, `directx`, `no_gradient`, `flat` or `cannot_tell`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::OpenGl => "opengl",
-            Self::DirectX => "directx",
-            Self::NoGradient => "no_gradient",
-            Self::Flat => "flat",
-            Self::CannotTell => "cannot_tell",
-        }
-    }
+choice! {
+    MapVerdict, "verdict",
+    Self::OpenGl = Self::OpenGl => "opengl", "green points up, as glTF and OpenGL want it";
+    Self::DirectX = Self::DirectX => "directx", "green points down, as DirectX wants it";
+    Self::NoGradient = Self::NoGradient => "no_gradient", "the texels are not the slope of a surface";
+    Self::Flat = Self::Flat => "flat", "all texels are the same but for rounding";
+    Self::CannotTell = Self::CannotTell => "cannot_tell", "there is too little evidence";
+}
 
+impl MapVerdict {
     /// Whether the map is in one of the two conventions.
     pub(super) fn is_direction(self) -> bool {
         matches!(self, Self::OpenGl | Self::DirectX)
