@@ -59,8 +59,7 @@
 //! be made for it. Of a random function, 64 bits would cancel with a probability of 2^-64 for a vertex whose sum is zero or determines a and b,
 //! and of at most 2^-58 where a - b has so many factors of two that up to 64 pairs are tried. The hash is no random function, and we have
 //! no proof of a bound for it. Measured: in 420 million pairs of a random key and four, six or eight regularly spaced vertices whose numbers
-//! and squares cancel, the two hashes of 32 bits cancelled zero times and once, and never both; random functions are expected to cancel 0.1 times
-//! each. (With a known key, twenty triangles that are twenty fans and pass the test were found by lattice reduction in a second.)
+//! and squares cancel, the two hashes of 32 bits cancelled twice and once, and never both; random functions are expected to cancel 0.1 times each. (With a known key, twenty triangles that are twenty fans and pass the test were found by lattice reduction in a second.)
 //!
 //! # Why groups can be found vertex by vertex
 //!

@@ -2,7 +2,7 @@
 //! that all triangles around the vertex are one row.
 
 use crate::tangents::fast::kernel::BLOCK_SIZE;
-use crate::tangents::fast::proof::{FingerprintKey, difference, fingerprint, fingerprint_key};
+use crate::tangents::fast::proof::{difference, fingerprint, fingerprint_key};
 
 /// Fingerprints of up to [`BLOCK_SIZE`] vertices that are tested for being the difference of two vertices, in lanes. The head of `fast.rs`
 /// says how probable it is that the test is wrongly passed.
@@ -88,7 +88,7 @@ fn factors_of_two(number: u32) -> u32 {
 
 /// True when `sum` is the fingerprint of vertex a minus that of vertex b, a + b being given.
 #[inline(always)]
-fn is_difference_with(sum: [u32; 4], a_plus_b: u32, key: FingerprintKey) -> bool {
+fn is_difference_with(sum: [u32; 4], a_plus_b: u32, key: [u32; 2]) -> bool {
     let (a, b) = (a_plus_b.wrapping_add(sum[0]) >> 1, a_plus_b.wrapping_sub(sum[0]) >> 1);
     let found = difference(fingerprint(a, key), fingerprint(b, key));
     (found[0] == sum[0]) & (found[1] == sum[1]) & (found[2] == sum[2]) & (found[3] == sum[3])
