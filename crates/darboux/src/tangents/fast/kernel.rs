@@ -387,7 +387,11 @@ impl TriangleBlock {
     pub fn fingerprints(&mut self) {
         let (key, first) = (fingerprint_key(), self.first);
         for i in 0..BLOCK_SIZE {
-            let [f0, f1, f2] = [0, 1, 2].map(|k| fingerprint(self.vertex[k][i].wrapping_add(first), key));
+            // Written out, since the compiler does not inline a closure of this size into `map`.
+            let [v0, v1, v2] = [self.vertex[0][i], self.vertex[1][i], self.vertex[2][i]];
+            let f0 = fingerprint(v0.wrapping_add(first), key);
+            let f1 = fingerprint(v1.wrapping_add(first), key);
+            let f2 = fingerprint(v2.wrapping_add(first), key);
             self.fingerprint[0][i] = difference(f1, f2);
             self.fingerprint[1][i] = difference(f2, f0);
             self.fingerprint[2][i] = difference(f0, f1);
@@ -400,7 +404,7 @@ impl TriangleBlock {
         let key = fingerprint_key();
         self.set(corners, 0);
         for i in 0..BLOCK_SIZE {
-            let [next, before] = [1, 2].map(|k| fingerprint(self.vertex[k][i], key));
+            let (next, before) = (fingerprint(self.vertex[1][i], key), fingerprint(self.vertex[2][i], key));
             self.fingerprint[0][i] = difference(next, before);
         }
     }

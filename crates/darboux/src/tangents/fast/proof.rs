@@ -96,7 +96,7 @@ pub(crate) fn fingerprint_key() -> [u32; 2] {
 /// numbers differ in high bits alone would cancel often: one of them for one key in ten thousand where vertices are 2^20 apart.
 #[inline(always)]
 pub(crate) fn fingerprint(vertex: u32, key: [u32; 2]) -> [u32; 4] {
-    let [first, second] = key.map(|key| vertex ^ key);
+    let (first, second) = (vertex ^ key[0], vertex ^ key[1]);
     let first = (first ^ first >> 16).wrapping_mul(0x85eb_ca6b);
     let first = (first ^ first >> 15).wrapping_mul(0xc2b2_ae35);
     let second = (second ^ second >> 16).wrapping_mul(0x21f0_aaad);
