@@ -35,4 +35,5 @@ pub(crate) use scene::{
 };
 #[cfg(feature = "fbx")]
 pub(crate) use scene::{SourceMorph, SourceNode, SourceSkin, VertexWeights};
+#[cfg(feature = "fbx")]
 pub(crate) use smoothing::MadeNormals;
