@@ -108,6 +108,15 @@ fn subdivision_and_tangents_of_further_uv_sets_are_listed() {
     assert_eq!(tangents[0], [1.0, 0.0, 0.0, -1.0], "the sign of the fourth component");
 }
 
+/// A scale along the third axis, as assimp writes it, means nothing.
+#[test]
+fn textures_that_are_not_moved_lose_nothing() {
+    let scaling = "Properties70:  {\nP: \"Scaling\", \"Vector\", \"\", \"A\",1,1,0\n}\n";
+    let (objects, connections) = texture(12, "paint", "DiffuseColor", scaling);
+    let found = not_carried(Parts { objects: &objects, connections: &connections, ..Parts::default() });
+    assert_eq!(found, [""; 0]);
+}
+
 /// Textures that have no place, and what textures lose.
 #[test]
 fn textures_that_are_lost_are_listed() {
@@ -241,4 +250,13 @@ fn mirrored_nodes_keep_their_meshes() {
     for (axis, sign) in [(0, -1.0), (1, -1.0), (2, 1.0)] {
         assert_eq!(found[axis], expected[axis].map(|x| x * sign + 0.0), "column {axis}");
     }
+}
+
+/// A file of animations, for example.
+#[test]
+fn a_file_without_meshes_says_so() {
+    let fbx = fbx(Parts::default()).replace("C: \"OO\",1,3\n", "");
+    let document = Document::from_bytes("a.fbx", fbx.into_bytes(), None, &LoadOptions::default()).unwrap();
+    let sentence = "there are no meshes in the file; if there should be, export it again with its meshes";
+    assert_eq!(document.warnings(), [sentence]);
 }

@@ -449,7 +449,7 @@ fn properties_of_ply_that_are_lost_are_listed() {
     );
     assert_eq!(not_carried(ply), ["the UVs of vertices, which those of the faces replace"]);
     let ply = triangle_ply("comment TextureFile a.png\ncomment TextureFile b.png\n", &[], [""; 3], &[], "");
-    assert_eq!(not_carried(ply), ["1 textures after the first, which no face names"]);
+    assert_eq!(not_carried(ply), ["1 texture after the first, which no face names"]);
     let ply = triangle_ply("", &["uchar red", "uchar green"], ["1 2"; 3], &[], "");
     assert_eq!(not_carried(ply), ["the vertex properties red, green"]);
     let with_edges = triangle_ply("", &[], [""; 3], &[], "")

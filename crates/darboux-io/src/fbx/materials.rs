@@ -170,7 +170,7 @@ impl<'a> MaterialReader<'a> {
         let name = &self.images[image].name;
         let layers = texture.file_textures.count;
         let losses = [
-            (with_file.has_uv_transform, "the scale, rotation or offset of"),
+            (moves_uvs(with_file), "the scale, rotation or offset of"),
             ((with_file.wrap_u, with_file.wrap_v) != (WrapMode::Repeat, WrapMode::Repeat), "the clamping of"),
             (!texture.has_file && layers > 1, "the layers of a texture but"),
         ];
@@ -237,6 +237,12 @@ fn opacity(material: &ufbx::Material) -> f32 {
 /// Whether the shading is Lambert's or Phong's, without Blender's extensions.
 fn is_classic(material: &ufbx::Material) -> bool {
     matches!(material.shader_type, ShaderType::FbxLambert | ShaderType::FbxPhong)
+}
+
+/// Whether the texture is scaled, rotated or moved in the plane of UVs. Some programs write numbers about the third axis, which mean nothing.
+fn moves_uvs(texture: &Texture) -> bool {
+    let m = &texture.texture_to_uv;
+    texture.has_uv_transform && [m.m00, m.m01, m.m03, m.m10, m.m11, m.m13] != [1.0, 0.0, 0.0, 0.0, 1.0, 0.0]
 }
 
 /// The roughness; some programs write its inverse.

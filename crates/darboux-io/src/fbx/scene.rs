@@ -31,6 +31,10 @@ pub fn scene(scene: &Scene, files: &ModelFiles, budget: &Budget) -> Result<Sourc
     add_materials(scene, files, &mut made);
     made.nodes = scene.nodes.into_iter().map(|found| node(found, &uses, &skin_of_mesh)).collect();
     made.not_carried.extend(left_out(scene));
+    if made.meshes.iter().all(|mesh| mesh.corners.is_empty()) {
+        let problem = "there are no meshes in the file; if there should be, export it again with its meshes";
+        made.warnings.push(problem.to_owned());
+    }
     Ok(made)
 }
 

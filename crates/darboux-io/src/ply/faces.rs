@@ -124,8 +124,14 @@ impl FaceReader {
         } else if textures > 0 {
             mesh.material = Some(0);
         }
-        if !self.has_textures && textures > 1 {
-            scene.not_carried.push(format!("{} textures after the first, which no face names", textures - 1));
+        match textures {
+            0 | 1 => {}
+            _ if self.has_textures => {}
+            2 => scene.not_carried.push("1 texture after the first, which no face names".to_owned()),
+            _ => {
+                let others = textures - 1;
+                scene.not_carried.push(format!("{others} textures after the first, which no face names"));
+            }
         }
     }
 }
