@@ -8,13 +8,13 @@ use darboux_bake::{
     HighSurface, IdColor, IdSource, LowModel, LowModelOptions, LowSurface, MapKind, MapSet, Udim, bake,
     default_cage_offset, group_by_name, inflated_cage,
 };
-use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
 use serde::{Deserialize, Serialize};
 
 use crate::arena::with_arena;
 use crate::bake_arrays::BakeArrays;
 use crate::inputs::resized;
+use crate::reading::load_options;
 
 #[cfg(target_family = "wasm")]
 #[link(wasm_import_module = "darboux")]
@@ -382,8 +382,7 @@ fn warnings(low: &LowModel<'_>, highs: &[HighModel<'_>]) -> Vec<String> {
 }
 
 fn open(name: &str, file: &[u8]) -> Result<Document, String> {
-    let options = LoadOptions::default();
-    Document::from_bytes(name, file.to_vec(), None, &options).map_err(sentence)
+    Document::from_bytes(name, file.to_vec(), None, &load_options()).map_err(sentence)
 }
 
 fn sentence(error: darboux_io::Error) -> String {

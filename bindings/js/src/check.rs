@@ -6,12 +6,12 @@ use darboux::{
 use darboux_check::{
     AssumedMap, CheckOptions, FixOptions, ReportedFinding, check_document, check_map, diagnosis, fix_document,
 };
-use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
 use serde::Serialize;
 
 use crate::arena::with_arena;
 use crate::mesh_arrays::rows;
+use crate::reading::load_options;
 
 /// The bytes of a file, or texels.
 #[unsafe(no_mangle)]
@@ -89,7 +89,7 @@ fn check_model(
     repairs: bool,
     repaired: &mut Vec<u8>,
 ) -> Result<Vec<ReportedFinding>, darboux_io::Error> {
-    let mut document = Document::from_bytes("the model", file.to_vec(), None, &LoadOptions::default())?;
+    let mut document = Document::from_bytes("the model", file.to_vec(), None, &load_options())?;
     let findings = check_document(&document, &options)?;
     if !repairs {
         return Ok(findings.into_iter().map(Into::into).collect());

@@ -1,13 +1,13 @@
 //! `convertFile` of `darboux/check`: a model or a normal map in another convention.
 
 use darboux::Convention;
-use darboux_io::LoadOptions;
 use darboux_io::gltf::{Document, convert_vertices};
 use darboux_io::image::{Channels, PngImage, convert_normal_map};
 use serde::Serialize;
 
 use crate::arena::with_arena;
 use crate::inputs::resized;
+use crate::reading::load_options;
 
 /// Four lines: the source convention, the target convention, the channels of the vector in the source and in the target.
 #[unsafe(no_mangle)]
@@ -50,7 +50,7 @@ fn converted(file: &[u8], text: &str) -> Result<(Vec<u8>, Vec<String>), String> 
     let (source, target) = (convention("source", line())?, convention("target", line())?);
     let (layout, to_layout) = (channels("layout", line())?, channels("toLayout", line())?);
     let sentence = |error: darboux_io::Error| error.to_string();
-    let options = LoadOptions::default();
+    let options = load_options();
     if PngImage::is_png(file) {
         let mut image = PngImage::from_bytes("the map", file.to_vec(), &options).map_err(sentence)?;
         convert_normal_map(&mut image, &source.to(target), layout, to_layout).map_err(sentence)?;

@@ -44,6 +44,8 @@ mod measure;
 mod normals;
 #[cfg(feature = "full")]
 mod plan;
+#[cfg(any(feature = "bake", feature = "check"))]
+mod reading;
 #[cfg(feature = "full")]
 mod report;
 #[cfg(feature = "full")]

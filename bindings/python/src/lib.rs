@@ -68,6 +68,7 @@ mod _darboux {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        module.add("MODEL_ENDINGS", darboux_io::FileKind::model_endings())?;
         let names = Convention::PRESETS.map(|(name, _)| name);
         module.add("CONVENTIONS", PyTuple::new(module.py(), names)?)
     }

@@ -264,3 +264,11 @@ def test_pygltflib() -> None:
     document.add_tangents()
     again = darboux.loads(b"".join(made.save_to_bytes()))
     assert np.array_equal(again.arrays()["TANGENT"], document.arrays()["TANGENT"])
+
+
+@pytest.mark.parametrize("name", ["scene.fbx", "scene.obj", "scene.ply", "scene.stl"])
+def test_other_formats_are_read(name: str) -> None:
+    path = ROOT / "assets/blender" / name
+    document = darboux.load(path)
+    assert len(document.arrays(0, 0)["POSITION"]) >= 20
+    assert darboux.dumps(darboux.loads(path.read_bytes(), base=path.parent)) == darboux.dumps(document)

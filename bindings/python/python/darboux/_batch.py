@@ -6,13 +6,13 @@ import os
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, List, Literal, Optional, Sequence, Union
 
-from ._darboux import DistributedBatch, DistributedJob, __version__, failed_task
+from ._darboux import MODEL_ENDINGS, DistributedBatch, DistributedJob, __version__, failed_task
 from ._engines import ENGINES, Engine, LostWorker
 from ._process import PathLike
 
 REPORT = "darboux-report.json"
 
-MODEL_EXTENSIONS = (".gltf", ".glb", ".vrm")
+MODEL_EXTENSIONS = tuple(MODEL_ENDINGS.split(", "))
 
 OPTIONS = (
     "allow_outside",
@@ -39,7 +39,7 @@ def batch(
     progress: Union[bool, Callable[[int, int], object]] = True,
     **options: Any,
 ) -> Dict[str, Any]:
-    """Add tangents to many glTF and GLB files, as `darboux tangents FILES --out-dir OUT --resume` does, in many processes.
+    """Add tangents to many models, as `darboux tangents FILES --out-dir OUT --resume` does, in many processes.
 
     A batch that was stopped continues when it is called again: outputs made from the same content with the same options are kept,
     others are replaced. Outputs are complete or absent, even if a process is killed. A file that fails is reported, and the others go on.

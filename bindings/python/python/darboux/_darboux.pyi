@@ -34,6 +34,7 @@ __all__ = [
     "DistributedBatch",
     "DistributedJob",
     "Document",
+    "MODEL_ENDINGS",
     "Plan",
     "__version__",
     "auto_cage",
@@ -77,6 +78,7 @@ __all__ = [
     "udim_tiles",
     "verify",
 ]
+MODEL_ENDINGS: str
 __version__: str
 CONVENTIONS: Tuple[str, ...]
 
