@@ -64,6 +64,26 @@ test('compressed, strips, several UV sets, skins and morph targets', async () =>
   }
 });
 
+test('PLY and STL, by button and by drop', async () => {
+  await viewer.give('files', [asset('blender/scene.ply')]);
+  assert.deepEqual([await viewer.text('error'), await viewer.text('name')], ['', 'scene.ply']);
+  assert.equal(parseInt(await viewer.text('status'), 10), 100);
+  const { name, bytes } = await viewer.download('#save-model');
+  assert.equal(name, 'scene.tangents.glb');
+  assert.ok('TANGENT' in glbJson(bytes).meshes[0].primitives[0].attributes);
+  await viewer.drop(asset('blender/scene.stl'));
+  assert.deepEqual([await viewer.text('error'), await viewer.text('name')], ['', 'scene.stl']);
+  assert.equal(parseInt(await viewer.text('status'), 10), 100);
+  // What is lost is said, and a readable model beside an unreadable one is opened.
+  const place = join(folder, 'formats');
+  mkdirSync(place);
+  writeFileSync(join(place, 'a.ply'), 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float quality\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2\n');
+  copyFileSync(asset('blender/scene.fbx'), join(place, 'a.fbx'));
+  await viewer.give('folder', place);
+  assert.deepEqual([await viewer.text('error'), await viewer.text('name')], ['', 'formats/a.ply']);
+  assert.match(await viewer.text('status'), /not carried over: the vertex property quality/);
+});
+
 test('what three.js cannot read is said', async () => {
   await viewer.give('files', [asset('made/quantised-sparse.glb')]);
   assert.match(await viewer.text('error'), /three\.js does not read sparse accessors/);
@@ -235,6 +255,9 @@ test('bad files get a sentence, and leave the model that is open', async () => {
     'remote.gltf': [plane.replace('TwoSidedPlane.bin', 'https://example.com/a.bin'), /^remote\.gltf: .* on another machine; download it and refer to the file\.$/],
     'empty.obj': ['# nothing\n', /^empty\.obj has no vertices/],
     'points.obj': ['v 0 0 0\nv 1 0 0\n', /no triangles/],
+    'model.fbx': [readFileSync(asset('blender/scene.fbx')), /^model\.fbx: is FBX, which this build does not read; export the model as \.glb, or convert it with the command: darboux tangents/],
+    'stage.usdz': [readFileSync(asset('blender/scene.usdz')), /^stage\.usdz: is USD, which is not read here; export the model as \.glb/],
+    'cloud.ply': ['ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n', /^cloud\.ply: is a PLY without faces/],
     'notes.txt': ['hello', /^There is no model in these files \(notes\.txt\)/],
   };
   for (const [name, [content, sentence]] of Object.entries(bad)) {

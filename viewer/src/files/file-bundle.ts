@@ -36,7 +36,10 @@ async function collect(entry: FileSystemEntry, bundle: FileBundle): Promise<void
 }
 
 /** Names of files that hold a model. */
-export const MODEL_NAME = /\.(glb|gltf|vrm|obj)$/i;
+export const MODEL_NAME = /\.(glb|gltf|vrm|obj|ply|stl)$/i;
+
+/** Names of models that the page does not read: it says what to do. */
+export const UNREAD_MODEL_NAME = /\.(fbx|usd[acz]?)$/i;
 
 /** Names of high-poly models, such as crate_high.glb. */
 const HIGH_NAME = /(^|[^a-z])(high|highpoly|hp)([^a-z]|$)/i;

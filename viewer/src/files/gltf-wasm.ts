@@ -24,6 +24,13 @@ export interface Outcome<T> {
   description: T;
 }
 
+/** What is known of a file that was opened. */
+export interface Checked {
+  primitives: Primitive[];
+  /** What a model of another format than glTF lost, one sentence each. */
+  warnings: string[];
+}
+
 /** The part of a primitive's inspection that the page shows. */
 export interface Primitive {
   mesh: number;
@@ -43,10 +50,10 @@ let module: Promise<WebAssembly.Module> | undefined;
 const LARGE_MEMORY = 2 ** 29;
 
 /**
- * Embeds the files of `bundle` that a glTF refers to, decodes compressed data, and checks the data that tangents depend on. Errors: one sentence that
+ * Reads a glTF, or a PLY or STL, which becomes one. Embeds the files of `bundle` that it refers to, decodes compressed data, and checks the data that tangents depend on. Errors: one sentence that
  * names the place and the fault.
  */
-export function check(name: string, bytes: Uint8Array, bundle: FileBundle): Promise<Outcome<Primitive[]>> {
+export function check(name: string, bytes: Uint8Array, bundle: FileBundle): Promise<Outcome<Checked>> {
   return run('check', name, bytes, bundle);
 }
 

@@ -56,9 +56,9 @@ async function storeIgnored({ scene, parser }: GLTF): Promise<void> {
   }
 }
 
-/** Opens a .gltf or .glb. Errors: one sentence to show. */
+/** Opens a .gltf or .glb, and what the worker makes a .glb of. Errors: one sentence to show. */
 export async function openGltf(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: FileBundle): Promise<Gltf> {
-  const file = (await call('check', name, bytes, bundle)).bytes;
+  const { bytes: file, description } = await call('check', name, bytes, bundle);
   // Nothing is fetched: missing files stay missing.
   const manager = new LoadingManager().setURLModifier((url) => (/^(data|blob):/.test(url) ? url : 'data:,'));
   let lost = 0;
@@ -68,7 +68,7 @@ export async function openGltf(name: string, bytes: Uint8Array<ArrayBuffer>, bun
   try {
     const gltf = await loader.parseAsync(file.buffer, '');
     await storeIgnored(gltf);
-    const warnings = [];
+    const warnings = [...description.warnings];
     if (ktx2) warnings.push(`${counted(ktx2, 'texture in KTX 2 is', 'textures in KTX 2 are')} left out, because this page has no decoder for it`);
     if (lost) warnings.push(`${counted(lost, 'texture', 'textures')} missing or not decodable`);
     if (hasMoreJoints(gltf.scene)) warnings.push('vertices have more than 4 joints, and only the first 4 are used');

@@ -1,8 +1,8 @@
-// Opens the model in a set of files: glTF, GLB, VRM or OBJ.
+// Opens the model in a set of files: glTF, GLB, VRM, OBJ, PLY or STL.
 
 import type { AnimationClip, Camera, Object3D } from 'three';
 
-import { MODEL_NAME, type FileBundle } from './file-bundle';
+import { MODEL_NAME, UNREAD_MODEL_NAME, type FileBundle } from './file-bundle';
 import { openGltf } from './gltf';
 import { openObj } from './obj';
 
@@ -29,10 +29,13 @@ const MAX_BYTES = 1.5e9;
 /** Opens the model with the fewest folders in its path, and of several the first by name. Errors: one sentence to show. */
 export async function openModel(bundle: FileBundle, progress: Progress): Promise<Model> {
   const depth = (path: string) => path.split('/').length;
-  const [name] = [...bundle.keys()].filter((path) => MODEL_NAME.test(path)).sort((a, b) => depth(a) - depth(b) || a.localeCompare(b));
+  const first = (names: RegExp) =>
+    [...bundle.keys()].filter((path) => names.test(path)).sort((a, b) => depth(a) - depth(b) || a.localeCompare(b))[0];
+  // A model that is not read is opened for the sentence about it.
+  const name = first(MODEL_NAME) ?? first(UNREAD_MODEL_NAME);
   if (!name) {
     const given = [...bundle.keys()].slice(0, 3).join(', ') || 'none';
-    throw new Error(`There is no model in these files (${given}); open a .glb, an .obj, or a folder with a .gltf.`);
+    throw new Error(`There is no model in these files (${given}); open a .glb, .obj, .ply or .stl, or a folder with a .gltf.`);
   }
   const bytes = await read(name, bundle.get(name)!, progress);
   progress(`Opening ${name}`, null);

@@ -3,7 +3,7 @@
 import { ready } from 'darboux';
 
 import type { FileBundle } from '../files/file-bundle';
-import { check, makeNormals, repair, type Outcome, type Primitive, type Summary } from '../files/gltf-wasm';
+import { check, makeNormals, repair, type Checked, type Outcome, type Summary } from '../files/gltf-wasm';
 import { compareSources, type Comparison } from '../surface/comparison';
 import type { OtherModel, Source } from '../surface/sources';
 import { placesOf, type Place } from '../surface/places';
@@ -20,7 +20,7 @@ const surfaces: Record<ModelName, Surface[]> = { given: [], repaired: [], high: 
 /** The functions that the page can call. */
 const functions = {
   /** Embeds the files that a glTF refers to, and checks it. */
-  check(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: FileBundle): Promise<Outcome<Primitive[]>> {
+  check(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: FileBundle): Promise<Outcome<Checked>> {
     return check(name, bytes, bundle);
   },
 

@@ -16,8 +16,10 @@ use std::cell::RefCell;
 use std::mem::take;
 use std::sync::Arc;
 
-use darboux_io::gltf::{AddNormalsOptions, AddTangentsOptions, Document, add_normals, add_tangents, inspect};
-use darboux_io::{Error, LoadOptions};
+use darboux_io::gltf::{
+    AddNormalsOptions, AddTangentsOptions, Document, PrimitiveInfo, add_normals, add_tangents, inspect,
+};
+use darboux_io::{Error, LoadOptions, OptionNames};
 
 use page_files::PageFiles;
 
@@ -34,6 +36,18 @@ struct Buffers {
 thread_local! {
     static BUFFERS: RefCell<Buffers> = RefCell::default();
 }
+
+/// What `check` says.
+#[derive(serde::Serialize)]
+struct Checked<'a> {
+    primitives: &'a [PrimitiveInfo],
+    /// What a model of another format than glTF lost.
+    warnings: &'a [String],
+}
+
+/// What to do about a format that the page does not read.
+const MISSING_READER: &str =
+    "export the model as .glb, or convert it with the command: darboux tangents model.fbx -o model.glb";
 
 /// Seeds the hash keys with 64 random bits, in two halves. The page calls this first, because WebAssembly itself has no randomness.
 #[cfg(target_family = "wasm")]
@@ -78,14 +92,17 @@ pub extern "C" fn text_len() -> usize {
     BUFFERS.with_borrow(|buffers| buffers.text.len())
 }
 
-/// Embeds the files that the model refers to, decodes compressed data, and checks the data that tangents depend on. Returns 1 where the text is JSON about its primitives and the resulting
-/// file is the one to show, and 0 where the text is an error.
+/// Embeds the files that the model refers to, decodes compressed data, and checks the data that tangents depend on. A model of another format becomes
+/// glTF. Returns 1 where the text is JSON about its primitives and that change, and the resulting file is the one to show, and 0 where the text is an
+/// error.
 #[unsafe(no_mangle)]
 pub extern "C" fn check() -> u32 {
     run(|document| {
         let primitives = inspect(document)?;
+        let warnings = if document.provenance().is_some() { document.warnings() } else { &[] };
+        let json = to_json(&Checked { primitives: &primitives, warnings });
         document.discard_compression();
-        Ok((to_json(&primitives), document.to_glb()?))
+        Ok((json, document.to_glb()?))
     })
 }
 
@@ -115,7 +132,9 @@ fn run(work: impl FnOnce(&mut Document) -> Result<(Vec<u8>, Vec<u8>), Error>) ->
     BUFFERS.with_borrow_mut(|buffers| {
         let name = String::from_utf8_lossy(&buffers.name).into_owned();
         let file = take(&mut buffers.file);
-        let opened = Document::from_files(&name, file, Arc::new(PageFiles), &LoadOptions::default());
+        let names = OptionNames::default().with_missing_reader(MISSING_READER);
+        let options = LoadOptions::default().with_option_names(names);
+        let opened = Document::from_files(&name, file, Arc::new(PageFiles), &options);
         match opened.and_then(|mut document| work(&mut document)) {
             Ok((text, file)) => {
                 (buffers.text, buffers.made) = (text, file);
