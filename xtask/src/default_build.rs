@@ -30,7 +30,33 @@ pub fn check() -> Outcome {
     println!("built and ran in {:.0} s", start.elapsed().as_secs_f32());
     let darboux = folder.join("release/darboux");
     MISSING.iter().try_for_each(|line| refuses(&darboux, line))?;
+    names_fbx(&darboux)?;
     completes_no_missing_subcommand(&darboux)
+}
+
+/// Errors: the command does not say that a file is FBX, and how to install what reads it; or the help lists the ending of a format that is not read.
+fn names_fbx(darboux: &Path) -> Outcome {
+    let install = "cargo install --path crates/darboux-cli --features fbx";
+    let file = "assets/blender/scene.fbx";
+    for arguments in [&["check", file][..], &["inspect", "assets/blender"]] {
+        let mut command = Command::new(darboux);
+        command.args(arguments);
+        let output =
+            command.output().map_err(|error| format!("{} cannot start: {error}", shown(&command)))?;
+        let message = String::from_utf8_lossy(&output.stderr);
+        if !message.contains("FBX") || !message.contains(install) {
+            return Err(format!(
+                "{} must say how to install the reader of FBX; it prints: {message}",
+                shown(&command)
+            ));
+        }
+    }
+    let help = output_of(Command::new(darboux).args(["tangents", "--help"]))?;
+    match String::from_utf8_lossy(&help).contains(".fbx,") || String::from_utf8_lossy(&help).contains(".fbx)")
+    {
+        true => Err("the help of the default build lists .fbx among what is read".into()),
+        false => Ok(()),
+    }
 }
 
 /// Errors: the completions offer a subcommand that this build lacks.

@@ -41,7 +41,8 @@ pub fn run<W: FileCommand>(command: &W) -> u8 {
     let start = Instant::now();
     let messages = Messages::new(command.messages().quiet);
     let files = command.files();
-    let found = find_inputs(&files.inputs, SearchMode::SkipOutputs { out_dir: files.out_dir.as_deref() });
+    let mode = SearchMode::SkipOutputs { out_dir: files.out_dir.as_deref(), in_place: files.in_place };
+    let found = find_inputs(&files.inputs, mode);
     let rules = OutputRules { suffix: command.suffix(), json: command.messages().json, images: W::IMAGES };
     let plan = |()| plan_jobs(files, rules, &found);
     let jobs = match command.check().and_then(plan).and_then(refuse_terminal) {
@@ -54,6 +55,7 @@ pub fn run<W: FileCommand>(command: &W) -> u8 {
     if let Some(sentence) = skipped_outputs(&found.skipped) {
         messages.say(&sentence);
     }
+    found.unread.iter().for_each(|sentence| messages.warn(sentence));
     interrupt::wait_for_writes();
     messages.start(jobs.iter().map(|job| job.input.byte_length()).sum());
     let folder = files.out_dir.as_deref().filter(|_| files.resume);

@@ -20,6 +20,7 @@ use crate::commands::report::arguments::{self as report, ReportArguments};
 use crate::commands::tangents::arguments::{self as tangents, TangentsArguments};
 #[cfg(feature = "view")]
 use crate::commands::view::arguments::{self as view, ViewArguments};
+use crate::options::formats::with_endings;
 
 /// Finds and repairs what is wrong with the normal maps and tangents of 3D models; computes, bakes and converts them
 #[derive(Debug, Parser)]
@@ -46,7 +47,7 @@ is completed first.";
 /// The subcommands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Add tangents to glTF and GLB files
+    /// Add tangents to models
     #[command(long_about = tangents::ABOUT, after_long_help = tangents::EXAMPLES)]
     Tangents(TangentsArguments),
     /// Add normals to glTF and GLB files
@@ -56,7 +57,7 @@ pub enum Command {
     #[command(
         long_about = convert::ABOUT,
         after_long_help = convert::EXAMPLES,
-        mut_arg("inputs", |inputs| inputs.help(convert::INPUTS)),
+        mut_arg("inputs", |inputs| inputs.help(with_endings(convert::INPUTS))),
         mut_arg("output", |output| output.help(convert::OUTPUT))
     )]
     Convert(ConvertArguments),
@@ -64,7 +65,7 @@ pub enum Command {
     #[command(
         long_about = check::ABOUT,
         after_long_help = check::EXAMPLES,
-        mut_arg("inputs", |inputs| inputs.help(check::INPUTS).required(false).required_unless_present("explain")),
+        mut_arg("inputs", |inputs| inputs.help(with_endings(check::INPUTS)).required(false).required_unless_present("explain")),
         mut_arg("output", |output| output.requires("fix")),
         mut_arg("out_dir", |out_dir| out_dir.requires("fix")),
         mut_arg("in_place", |in_place| in_place.requires("fix")),

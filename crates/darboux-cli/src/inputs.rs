@@ -1,13 +1,16 @@
 //! Turns the input arguments (files, folders, `-`) into the list of files that a command reads.
 
+use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use darboux_io::system_reason;
+use darboux_io::{FileKind, system_reason};
 use walkdir::{DirEntry, WalkDir};
 
-use crate::paths::{canonical, is_gltf};
+use crate::options::reading::missing_reader;
+use crate::paths::canonical;
+use crate::text::counted;
 
 /// Where a file is read from.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -56,6 +59,8 @@ pub enum SearchMode<'a> {
     SkipOutputs {
         /// The output folder.
         out_dir: Option<&'a Path>,
+        /// Whether inputs are replaced, which only glTF can be.
+        in_place: bool,
     },
 }
 
@@ -68,6 +73,8 @@ pub struct FoundInputs {
     pub failed: Vec<(PathBuf, String)>,
     /// Outputs of earlier runs, which are skipped.
     pub skipped: Vec<PathBuf>,
+    /// Models in formats that this build does not read, which are skipped: one sentence per folder and format.
+    pub unread: Vec<String>,
 }
 
 /// Refuses standard input together with other inputs.
@@ -102,15 +109,21 @@ impl FoundInputs {
     fn search(&mut self, folder: &Path, mode: SearchMode) {
         let before = self.found_count();
         let out_dir = match mode {
-            SearchMode::SkipOutputs { out_dir: Some(out_dir) } => Some(canonical(out_dir)),
+            SearchMode::SkipOutputs { out_dir: Some(out_dir), .. } => Some(canonical(out_dir)),
             _ => None,
         };
+        let in_place = matches!(mode, SearchMode::SkipOutputs { in_place: true, .. });
+        let mut unread: BTreeMap<&str, usize> = BTreeMap::new();
         let is_entered = |entry: &DirEntry| {
             entry.depth() == 0 || !entry.file_type().is_dir() || Some(canonical(entry.path())) != out_dir
         };
         for entry in WalkDir::new(folder).sort_by_file_name().into_iter().filter_entry(is_entered) {
             match entry {
-                Ok(entry) if !entry.file_type().is_file() || !is_gltf(entry.path()) => {}
+                Ok(entry) if !entry.file_type().is_file() => {}
+                Ok(entry) if !is_searched(entry.path(), in_place) => {
+                    let format = FileKind::of(entry.path()).and_then(FileKind::format_name);
+                    format.into_iter().for_each(|format| *unread.entry(format).or_default() += 1);
+                }
                 Ok(entry)
                     if matches!(mode, SearchMode::SkipOutputs { .. }) && has_output_name(entry.path()) =>
                 {
@@ -123,9 +136,11 @@ impl FoundInputs {
                 }
             }
         }
+        let sentence = |(format, count)| unread_sentence(folder, format, count, in_place);
+        self.unread.extend(unread.into_iter().map(sentence));
         if before == self.found_count() {
-            self.failed
-                .push((folder.to_path_buf(), "the folder contains no model (.gltf, .glb, .vrm)".into()));
+            let endings = if in_place { ".gltf, .glb, .vrm".to_owned() } else { FileKind::model_endings() };
+            self.failed.push((folder.to_path_buf(), format!("the folder contains no model ({endings})")));
         }
     }
 
@@ -133,6 +148,22 @@ impl FoundInputs {
     fn found_count(&self) -> usize {
         self.files.len() + self.skipped.len() + self.failed.len()
     }
+}
+
+/// Whether a search finds the file. In place, only glTF is edited.
+fn is_searched(path: &Path, in_place: bool) -> bool {
+    FileKind::of(path).is_some_and(|kind| if in_place { kind.is_gltf() } else { kind.is_model() })
+}
+
+/// The sentence about models of a format that a search skips.
+fn unread_sentence(folder: &Path, format: &str, count: usize, in_place: bool) -> String {
+    let files = counted(count, &format!("{format} file is"), &format!("{format} files are"));
+    let reason = match format {
+        "USD" => "darboux.usd in Python reads USD".to_owned(),
+        _ if in_place => "only glTF is edited in place, so name an output folder with --out-dir".to_owned(),
+        _ => format!("this build does not read {format}; {}", missing_reader()),
+    };
+    format!("{}: {files} skipped: {reason}", folder.display())
 }
 
 fn reason_of(error: walkdir::Error) -> String {

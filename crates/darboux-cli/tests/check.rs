@@ -4,7 +4,7 @@ mod common;
 
 use std::fs;
 
-use common::{asset, darboux, darboux_reading, text};
+use common::{asset, darboux, darboux_reading, folder_with, text};
 use darboux_check::Code;
 
 #[test]
@@ -93,6 +93,18 @@ fn a_code_is_not_both_reported_and_allowed() {
         darboux(&["check", "model.glb", "--only", "tangent-zero,map-flat", "--allow", "map-flat"]).exits(2);
     assert!(run.stderr.contains("--only and --allow both name map-flat"), "{}", run.stderr);
     assert_eq!(run.stderr.trim().lines().count(), 1, "{}", run.stderr);
+}
+
+/// The maps of an OBJ are named in its library.
+#[test]
+fn normal_maps_of_an_obj_are_used() {
+    let folder = folder_with(&["blender/scene.obj", "blender/scene.mtl", "blender/scene_normal.png"]);
+    let run = darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);
+    assert!(!run.stderr.contains("used by no model"), "{}", run.stderr);
+    fs::rename(folder.path().join("scene_normal.png"), folder.path().join("other_normal.png"))
+        .expect("a name");
+    let run = darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);
+    assert!(run.stderr.contains("is used by no model there"), "{}", run.stderr);
 }
 
 /// Images in a folder are not checked, and those that look like normal maps and that no model uses are named.

@@ -236,3 +236,105 @@ fn a_second_run_in_place_changes_nothing() {
     assert!(again.contains("0 primitives got tangents, 1 unchanged, 0 kept"), "{again}");
     assert!(state() == first);
 }
+
+/// A triangle with UVs and normals.
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n";
+
+/// A folder is searched for all formats that are read; where names would collide, converted models keep their ending.
+#[test]
+fn folders_have_models_of_all_formats() {
+    let folder =
+        folder_with(&["blender/scene.ply", "blender/scene.stl", "blender/scene.glb", "blender/scene.fbx"]);
+    fs::create_dir(folder.path().join("sub")).expect("a folder");
+    fs::write(folder.path().join("sub/chair.obj"), TRIANGLE).expect("a file");
+    fs::write(folder.path().join("chair.OBJ"), TRIANGLE).expect("a file");
+    fs::write(folder.path().join("notes.txt"), "no model").expect("a file");
+    let out = tempfile::tempdir().expect("a temporary folder");
+    let out_dir = out.path().join("out");
+    let arguments = ["tangents", text(folder.path()), "--out-dir", text(&out_dir), "--json"];
+    let run = darboux(&arguments).exits(0);
+    assert_eq!(run.json()["totals"]["files"], 6);
+    let names = ["chair.glb", "scene.fbx.glb", "scene.glb", "scene.ply.glb", "scene.stl.glb", "sub"];
+    assert_eq!(names_in(&out_dir), names);
+    assert_eq!(names_in(&out_dir.join("sub")), ["chair.glb"]);
+    assert!(has_tangents(&out_dir.join("chair.glb")) && has_tangents(&out_dir.join("scene.fbx.glb")));
+    // Beside their inputs, and not again in the next run.
+    darboux(&["tangents", text(folder.path())]).exits(0);
+    let names = names_in(folder.path());
+    for name in
+        ["chair.tangents.glb", "scene.tangents.glb", "scene.fbx.tangents.glb", "scene.ply.tangents.glb"]
+    {
+        assert!(names.iter().any(|found| found == name), "{names:?}");
+    }
+    let again = darboux(&["tangents", text(folder.path()), "--force", "--json"]).exits(0);
+    assert_eq!(again.json()["totals"]["files"], 6);
+    for command in ["inspect", "check"] {
+        let run = darboux(&[command, text(folder.path()), "--json"]);
+        let report = run.json();
+        let files = report["files"].as_array().expect("files");
+        let has = |name: &str| {
+            files.iter().any(|file| file["input"].as_str().is_some_and(|input| input.ends_with(name)))
+        };
+        assert!(files.len() == 12 && has("scene.fbx") && has("chair.obj") && has("scene.stl"), "{command}");
+    }
+}
+
+/// Two models of other formats with one name, and a name that is taken even so.
+#[test]
+fn converted_models_with_one_name_keep_their_endings() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fs::write(folder.path().join("a.obj"), TRIANGLE).expect("a file");
+    fs::copy(asset("blender/scene.ply"), folder.path().join("a.ply")).expect("a copy");
+    let out = tempfile::tempdir().expect("a temporary folder");
+    let out_dir = out.path().join("out");
+    darboux(&["tangents", text(folder.path()), "--out-dir", text(&out_dir)]).exits(0);
+    assert_eq!(names_in(&out_dir), ["a.obj.glb", "a.ply.glb"]);
+    for name in ["a.glb", "a.obj.glb"] {
+        fs::copy(asset("made/quantised-sparse.glb"), folder.path().join(name)).expect("a copy");
+    }
+    let other = out.path().join("other");
+    let run = darboux(&["tangents", text(folder.path()), "--out-dir", text(&other)]).exits(2);
+    assert!(run.stderr.contains("would both be written to"), "{}", run.stderr);
+}
+
+/// In place, only glTF is edited, and the others are counted.
+#[test]
+fn in_place_leaves_other_formats_alone() {
+    let folder = folder_with(&[QUANTISED, "blender/scene.ply"]);
+    let ply = folder.path().join("scene.ply");
+    let before = fs::read(&ply).expect("the model");
+    fs::write(folder.path().join("stage.usdz"), "PK").expect("a file");
+    let run = darboux(&["tangents", text(folder.path()), "--in-place"]).exits(0);
+    for sentence in [
+        "1 PLY file is skipped: only glTF is edited in place, so name an output folder with --out-dir",
+        "1 USD file is skipped: darboux.usd in Python reads USD",
+    ] {
+        assert!(run.stderr.contains(sentence), "{}", run.stderr);
+    }
+    assert_eq!(fs::read(&ply).expect("the model"), before);
+    assert!(has_tangents(&folder.path().join("quantised-sparse.glb")));
+}
+
+#[test]
+fn formats_that_are_not_written_are_refused_in_one_sentence() {
+    let folder = folder_with(&[QUANTISED]);
+    let input = folder.path().join("quantised-sparse.glb");
+    for (name, sentence) in [
+        (
+            "a.fbx",
+            "is named as FBX, which is not written; end its name in one of .gltf, .glb, .vrm, .obj, .ply",
+        ),
+        ("a.STL", "is named as STL, which is not written"),
+        ("a.usdz", "is named as USD, which is not written here"),
+        ("a.usd", "or use darboux.usd in Python"),
+        ("a", "has no ending of a model; end its name in one of .gltf"),
+    ] {
+        let output = folder.path().join(name);
+        for command in ["tangents", "normals"] {
+            let run = darboux(&[command, text(&input), "-o", text(&output)]).exits(2);
+            assert!(run.stderr.contains(sentence), "{}", run.stderr);
+            assert_eq!(run.stderr.trim_end().lines().count(), 1, "{}", run.stderr);
+        }
+        assert!(!output.exists());
+    }
+}

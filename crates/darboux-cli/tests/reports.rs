@@ -145,6 +145,33 @@ fn inspect_shows_a_line_per_primitive() {
     assert!(widest <= Some(80), "{table}");
 }
 
+/// Which method and mode made the tangents of a file, and how well they are explained.
+#[test]
+fn inspect_names_the_method_that_made_the_tangents() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let model = asset("made/shield.glb");
+    for (options, line) in [
+        (&["--method", "mikktspace"][..], "tangents made by mikktspace, mode repaired: all bits are equal"),
+        (&["--method", "area"], "tangents made by area: all bits are equal"),
+        (&["--encoding", "snorm8x4"], "tangents made by mikktspace, mode repaired, rounded to 8 bits: "),
+    ] {
+        let output = folder.path().join("out.glb");
+        darboux(
+            &[&["tangents", text(&model), "-o", text(&output), "--overwrite", "--force"], options].concat(),
+        )
+        .exits(0);
+        let run = darboux(&["inspect", text(&output)]).exits(0);
+        let table = String::from_utf8(run.stdout).expect("UTF-8");
+        assert!(table.contains(line), "{table}");
+        let report = darboux(&["inspect", text(&output), "--json"]).exits(0).json();
+        let made_by = &report["files"][0]["primitives"][0]["made_by"];
+        assert_eq!(made_by["method"].as_str(), line.split([' ', ',', ':']).nth(3), "{made_by}");
+        assert!(made_by["close"] == made_by["corners"] && made_by["corners"].as_u64() > Some(0), "{made_by}");
+    }
+    let report = darboux(&["inspect", text(&asset(SEAM)), "--json"]).exits(0).json();
+    assert_eq!(report["files"][0]["primitives"][0]["made_by"], Value::Null);
+}
+
 #[test]
 fn inspect_reports_the_same_as_json() {
     let report = darboux(&["inspect", text(&asset(SEAM)), "--json"]).exits(0).json();

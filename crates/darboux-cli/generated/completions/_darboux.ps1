@@ -25,7 +25,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             [CompletionResult]::new('-V', '-V ', [CompletionResultType]::ParameterName, 'Print version')
             [CompletionResult]::new('--version', '--version', [CompletionResultType]::ParameterName, 'Print version')
-            [CompletionResult]::new('tangents', 'tangents', [CompletionResultType]::ParameterValue, 'Add tangents to glTF and GLB files')
+            [CompletionResult]::new('tangents', 'tangents', [CompletionResultType]::ParameterValue, 'Add tangents to models')
             [CompletionResult]::new('normals', 'normals', [CompletionResultType]::ParameterValue, 'Add normals to glTF and GLB files')
             [CompletionResult]::new('convert', 'convert', [CompletionResultType]::ParameterValue, 'Convert normal maps and models between conventions')
             [CompletionResult]::new('check', 'check', [CompletionResultType]::ParameterValue, 'Say what is wrong with models and normal maps')
@@ -106,7 +106,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--layout', '--layout', [CompletionResultType]::ParameterName, 'The channels of x, y and, if stored, z of a normal map: rgb, rg, ag, la, ...')
             [CompletionResult]::new('--to-layout', '--to-layout', [CompletionResultType]::ParameterName, 'The channels in the output; by default those of --layout. A z that is not stored is computed from x and y')
             [CompletionResult]::new('--space', '--space', [CompletionResultType]::ParameterName, 'Convert normal maps to this space from the other one, with the frames of --model')
-            [CompletionResult]::new('--model', '--model', [CompletionResultType]::ParameterName, 'The model that has the map (.gltf, .glb, .vrm), with the tangents of its file, or MikkTSpace''s')
+            [CompletionResult]::new('--model', '--model', [CompletionResultType]::ParameterName, 'The model that has the map (.gltf, .glb, .vrm, .obj, .ply, .stl, .fbx), with the tangents of its file, or MikkTSpace''s')
             [CompletionResult]::new('--uv-set', '--uv-set', [CompletionResultType]::ParameterName, 'The UV set n of TEXCOORD_n of the model; by default that of the material''s normal map')
             [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input, in an existing folder; - is standard output')
             [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output file for a single input, in an existing folder; - is standard output')
@@ -180,7 +180,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             break
         }
         'darboux;bake' {
-            [CompletionResult]::new('--high', '--high', [CompletionResultType]::ParameterName, 'The high models, which have the detail (.gltf, .glb, .vrm, .obj); their materials count, with normal maps and textures')
+            [CompletionResult]::new('--high', '--high', [CompletionResultType]::ParameterName, 'The high models (.gltf, .glb, .vrm, .obj, .ply, .stl, .fbx), which have the detail; their materials count, with normal maps and textures')
             [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png, and %UDIM% becomes the number of each tile')
             [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png, and %UDIM% becomes the number of each tile')
             [CompletionResult]::new('--map', '--map', [CompletionResultType]::ParameterName, 'The maps to bake; several at once share their rays')

@@ -26,7 +26,7 @@ end
 
 complete -c darboux -n "__fish_darboux_needs_command" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_needs_command" -s V -l version -d 'Print version'
-complete -c darboux -n "__fish_darboux_needs_command" -f -a "tangents" -d 'Add tangents to glTF and GLB files'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "tangents" -d 'Add tangents to models'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "normals" -d 'Add normals to glTF and GLB files'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "convert" -d 'Convert normal maps and models between conventions'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "check" -d 'Say what is wrong with models and normal maps'
@@ -131,7 +131,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand convert" -l layout -d 'T
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l to-layout -d 'The channels in the output; by default those of --layout. A z that is not stored is computed from x and y' -r
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l space -d 'Convert normal maps to this space from the other one, with the frames of --model' -r -f -a "tangent\t'Tangent space, from an object-space map'
 object\t'Object space, from a tangent-space map: the space of the model\'s scene'"
-complete -c darboux -n "__fish_darboux_using_subcommand convert" -l model -d 'The model that has the map (.gltf, .glb, .vrm), with the tangents of its file, or MikkTSpace\'s' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l model -d 'The model that has the map (.gltf, .glb, .vrm, .obj, .ply, .stl, .fbx), with the tangents of its file, or MikkTSpace\'s' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l uv-set -d 'The UV set n of TEXCOORD_n of the model; by default that of the material\'s normal map' -r
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s o -l output -d 'Output file for a single input, in an existing folder; - is standard output' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l in-place -d 'Replace each input by its output'
@@ -452,7 +452,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand report" -l no-maps -d 'D
 complete -c darboux -n "__fish_darboux_using_subcommand report" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand report" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand report" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l high -d 'The high models, which have the detail (.gltf, .glb, .vrm, .obj); their materials count, with normal maps and textures' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l high -d 'The high models (.gltf, .glb, .vrm, .obj, .ply, .stl, .fbx), which have the detail; their materials count, with normal maps and textures' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -s o -l output -d 'The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png, and %UDIM% becomes the number of each tile' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l map -d 'The maps to bake; several at once share their rays' -r -f -a "normal\t'Normals in tangent space'
 object-normal\t'Normals in the space of the scene'

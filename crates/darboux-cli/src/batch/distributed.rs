@@ -59,7 +59,7 @@ impl DistributedBatch {
     pub fn open(inputs: &[PathBuf], folder: &Path, options: &[String]) -> Result<Self, String> {
         let arguments = parsed(inputs, folder, options)?;
         arguments.check().map_err(|usage| usage.0)?;
-        let found = find_inputs(inputs, SearchMode::SkipOutputs { out_dir: Some(folder) });
+        let found = find_inputs(inputs, SearchMode::SkipOutputs { out_dir: Some(folder), in_place: false });
         let rules =
             OutputRules { suffix: arguments.suffix(), json: false, images: TangentsArguments::IMAGES };
         let jobs = plan_jobs(&arguments.files, rules, &found).map_err(|usage| usage.0)?;

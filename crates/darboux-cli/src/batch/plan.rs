@@ -1,9 +1,11 @@
 //! Decides which output file each input gets, and refuses contradictory arguments before any work is done.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ffi::OsStr;
 use std::fmt;
 use std::path::{Path, PathBuf};
+
+use darboux_io::{FileKind, wrong_output};
 
 use crate::inputs::{FoundInputs, Input, UsageError, check_stdin};
 use crate::options::files::FileOptions;
@@ -72,8 +74,12 @@ pub fn plan_jobs(
     check_usage(options, rules)?;
     let mut jobs = Vec::new();
     let mut input_of_output: HashMap<PathBuf, &Input> = HashMap::new();
+    let shared = shared_outputs(options, rules, found);
     for (input, folder) in &found.files {
-        let output = output_of(options, rules, input, folder.as_deref());
+        let mut output = output_of(options, rules, input, folder.as_deref(), false);
+        if matches!(&output, Output::File(path) if shared.contains(&canonical(path))) {
+            output = output_of(options, rules, input, folder.as_deref(), true);
+        }
         if let Output::File(path) = &output {
             match input_of_output.insert(canonical(path), input) {
                 Some(other) if other == input => continue,
@@ -128,17 +134,38 @@ fn check_usage(options: &FileOptions, rules: OutputRules<'_>) -> Result<(), Usag
         return Err(UsageError(format!("{} is a folder; use --out-dir", output.display())));
     }
     if !rules.accepts(output) {
-        let extensions = if rules.images {
-            ".glb, .vrm, .gltf, .ply, .obj or .png"
-        } else {
-            ".glb, .vrm, .gltf, .ply or .obj"
-        };
-        return Err(UsageError(format!("{} must end in {extensions}", output.display())));
+        let images = if rules.images { ", or in .png for an image" } else { "" };
+        let problem = wrong_output(FileKind::of(output));
+        return Err(UsageError(format!("{} {problem}{images}", output.display())));
     }
     refuse_missing_folder(output).map_err(UsageError)
 }
 
-fn output_of(options: &FileOptions, rules: OutputRules<'_>, input: &Input, folder: Option<&Path>) -> Output {
+/// The outputs that several inputs would have, such as chair.glb for chair.fbx and chair.glb. Converted ones among them keep the ending of their input.
+fn shared_outputs(options: &FileOptions, rules: OutputRules<'_>, found: &FoundInputs) -> HashSet<PathBuf> {
+    let mut input_of_output: HashMap<PathBuf, PathBuf> = HashMap::new();
+    let mut shared = HashSet::new();
+    for (input, folder) in &found.files {
+        let output = output_of(options, rules, input, folder.as_deref(), false);
+        let (Output::File(output), Input::File(input)) = (output, input) else { continue };
+        let (output, input) = (canonical(&output), canonical(input));
+        if input_of_output.get(&output).is_some_and(|other| *other != input) {
+            shared.insert(output);
+        } else {
+            input_of_output.insert(output, input);
+        }
+    }
+    shared
+}
+
+/// `keep_ending`: whether the ending of an input that is converted stays in the name.
+fn output_of(
+    options: &FileOptions,
+    rules: OutputRules<'_>,
+    input: &Input,
+    folder: Option<&Path>,
+    keep_ending: bool,
+) -> Output {
     let path = match (&options.output, input) {
         (Some(output), _) if output != Path::new("-") => return Output::File(output.clone()),
         (Some(_), _) | (None, Input::Stdin) => return Output::Stdout,
@@ -149,18 +176,30 @@ fn output_of(options: &FileOptions, rules: OutputRules<'_>, input: &Input, folde
             let name = || Path::new(path.file_name().unwrap_or_default());
             let below = folder.and_then(|folder| path.strip_prefix(folder).ok());
             let output = out_dir.join(below.unwrap_or_else(name));
-            if rules.keeps(&output) { output } else { output.with_extension(rules.extension_for(path)) }
+            match (rules.keeps(&output), keep_ending) {
+                (true, _) => output,
+                (false, false) => output.with_extension(rules.extension_for(path)),
+                (false, true) => with_added_extension(&output, rules.extension_for(path)),
+            }
         }
         None if options.in_place => path.clone(),
         None => {
             let extension = if rules.keeps(path) { path.extension() } else { None };
             let extension = extension.unwrap_or(OsStr::new(rules.extension_for(path)));
-            let mut name = path.file_stem().unwrap_or_default().to_os_string();
+            let is_whole = keep_ending && !rules.keeps(path);
+            let stem = if is_whole { path.file_name() } else { path.file_stem() };
+            let mut name = stem.unwrap_or_default().to_os_string();
             name.push(format!(".{}.", rules.suffix));
             name.push(extension);
             path.with_file_name(name)
         }
     })
+}
+
+fn with_added_extension(path: &Path, extension: &str) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(format!(".{extension}"));
+    path.with_file_name(name)
 }
 
 fn refuse_replaced_inputs(

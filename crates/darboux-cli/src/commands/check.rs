@@ -58,6 +58,7 @@ pub fn run(arguments: &CheckArguments) -> u8 {
     if arguments.fix {
         return batch::run(&Repair { arguments, model });
     }
+    found.unread.iter().for_each(|sentence| messages.warn(sentence));
     let checks = Checks {
         findings: &arguments.findings,
         model,

@@ -1,6 +1,7 @@
 //! `darboux inspect`: prints a table of the primitives of each file.
 
 pub mod arguments;
+mod recipe;
 mod report;
 mod table;
 
@@ -15,7 +16,7 @@ use crate::net;
 use crate::options::reading::ReadOptions;
 use crate::terminal::{Messages, write_stdout};
 use arguments::InspectArguments;
-use report::{InspectReport, InspectedFile};
+use report::{InspectReport, InspectedFile, InspectedPrimitive};
 
 /// Runs the command and returns its exit code.
 pub fn run(arguments: &InspectArguments) -> u8 {
@@ -25,6 +26,7 @@ pub fn run(arguments: &InspectArguments) -> u8 {
         return exit::USAGE;
     }
     let found = find_inputs(&arguments.inputs, SearchMode::All);
+    found.unread.iter().for_each(|sentence| messages.warn(sentence));
     let mut files: Vec<InspectedFile> =
         found.files.iter().map(|(input, _)| inspect_file(input, &arguments.reading)).collect();
     files.extend(found.failed.iter().map(|(path, reason)| {
@@ -60,7 +62,10 @@ fn print_problems(files: &[InspectedFile], messages: &Messages) -> u8 {
 fn inspect_file(input: &Input, reading: &ReadOptions) -> InspectedFile {
     let inspected = net::catch(input, || {
         let document = load(input, reading)?;
-        let primitives = inspect(&document).map_err(|error| error.to_string())?;
+        let infos = inspect(&document).map_err(|error| error.to_string())?;
+        let recipes = recipe::recipes(&document, &infos).map_err(|error| error.to_string())?;
+        let with_recipe = |(info, made_by)| InspectedPrimitive { info, made_by };
+        let primitives = infos.into_iter().zip(recipes).map(with_recipe).collect();
         Ok(InspectedFile {
             input: input.to_string(),
             error: None,

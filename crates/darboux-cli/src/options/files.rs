@@ -7,23 +7,30 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 use darboux_io::{RunId, SaveOptions};
 
+use super::formats::with_endings;
 use super::reading::ReadOptions;
+
+const INPUTS: &str = "Files ({models}) and folders of them; - is standard input";
+const OUTPUT: &str = "Output file for a single input, in an existing folder; - is standard output, as GLB";
+const LONG_OUTPUT: &str = "\
+Output file for a single input, in an existing folder; - is standard output, as GLB
+
+Its ending is one of {written}. A PLY holds the faces of the scene and their tangents, an OBJ the faces and materials; a warning lists what is left \
+out.";
 
 /// Which files are read, and where their outputs go.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("destination").args(["output", "out_dir", "in_place"]))]
 pub struct FileOptions {
-    /// Files (.gltf, .glb, .vrm, .obj, .ply, .stl) and folders of glTF files; - is standard input
-    #[arg(required = true, value_name = "INPUT")]
+    #[arg(required = true, value_name = "INPUT", help = with_endings(INPUTS))]
     pub inputs: Vec<PathBuf>,
 
-    /// Output file for a single input, in an existing folder; - is standard output, as GLB
-    ///
-    /// Its ending is .glb, .vrm, .gltf, .ply or .obj. A PLY holds the faces of the scene and their tangents, an OBJ the faces and materials; a warning lists what is left out.
-    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    #[arg(short, long, value_name = "FILE", help_heading = "Output", help = OUTPUT, long_help = with_endings(LONG_OUTPUT))]
     pub output: Option<PathBuf>,
 
     /// Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure of input folders
+    ///
+    /// A model of another format than glTF becomes a .glb: chair.fbx becomes chair.glb, or chair.fbx.glb where there is a chair.glb or chair.obj as well.
     #[arg(long, value_name = "FOLDER", help_heading = "Output")]
     pub out_dir: Option<PathBuf>,
 

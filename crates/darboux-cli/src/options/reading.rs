@@ -51,10 +51,27 @@ impl ReadOptions {
     }
 }
 
+/// What to do about a file whose reader is a feature that this build lacks.
+#[cfg(not(feature = "fbx"))]
+pub fn missing_reader() -> &'static str {
+    static ADVICE: std::sync::LazyLock<String> = std::sync::LazyLock::new(|| {
+        let install = crate::installing::install_with("fbx");
+        format!("install a darboux that does with `{install}`, or export the model as .glb")
+    });
+    &ADVICE
+}
+
+/// What to do about a file that no build reads.
+#[cfg(feature = "fbx")]
+pub fn missing_reader() -> &'static str {
+    "export the model as .glb"
+}
+
 /// The names of this command's options in the library's messages.
 fn option_names() -> OptionNames {
     OptionNames::default()
         .with_memory_limit("--memory-limit")
         .with_allow_outside("--allow-outside")
         .with_apply_texture_transform("--apply-texture-transform")
+        .with_missing_reader(missing_reader())
 }

@@ -17,6 +17,7 @@ use crate::heat_scale::HeatRange;
 use crate::options::choice::choice;
 use crate::options::convention::{ConventionParser, NamedConvention};
 use crate::options::files::jobs;
+use crate::options::formats::with_endings;
 use crate::options::given::Given;
 use crate::options::messages::MessageOptions;
 use crate::options::reading::ReadOptions;
@@ -59,12 +60,10 @@ pub struct BakeArguments {
     #[command(flatten)]
     pub given: Given,
 
-    /// The low model (.gltf, .glb, .vrm, .obj), which gets the maps; or a job: a TOML file, or a folder with --suffixes
-    #[arg(value_name = "LOW")]
+    #[arg(value_name = "LOW", help = with_endings("The low model ({models}), which gets the maps; or a job: a TOML file, or a folder with --suffixes"))]
     pub low: PathBuf,
 
-    /// The high models, which have the detail (.gltf, .glb, .vrm, .obj); their materials count, with normal maps and textures
-    #[arg(long, value_name = "HIGH", num_args = 1..)]
+    #[arg(long, value_name = "HIGH", num_args = 1.., help = with_endings("The high models ({models}), which have the detail; their materials count, with normal maps and textures"))]
     pub high: Vec<PathBuf>,
 
     /// The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png, and %UDIM% becomes the

@@ -28,7 +28,7 @@ Exit codes: 0: no finding is as severe as --fail-on says (by default error) or a
 command line is wrong. Maps in a format that is not read are not checked, and fail nothing. docs/check.md lists all codes.";
 
 pub const INPUTS: &str =
-    "Models (.gltf, .glb, .vrm), folders of models, and normal maps (.png, .jpg, .webp); - is standard input";
+    "Models ({models}), folders of models, and normal maps (.png, .jpg, .webp); - is standard input";
 
 pub const EXAMPLES: &str = "\
 Examples:

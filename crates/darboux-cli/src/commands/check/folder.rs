@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use darboux_io::FileKind;
+use darboux_io::obj::companions;
 use walkdir::WalkDir;
 
 use crate::paths::is_image;
@@ -29,9 +31,8 @@ pub fn unused_maps<'a>(folder: &Path, models: impl Iterator<Item = &'a Path>) ->
         return None;
     }
     for model in models {
-        let json = json_of(model).unwrap_or_default();
-        let json = String::from_utf8_lossy(&json).replace("%20", " ");
-        images.retain(|path| path.file_name().is_none_or(|name| !json.contains(&*name.to_string_lossy())));
+        let named = names_in(model);
+        images.retain(|path| path.file_name().is_none_or(|name| !named.contains(&*name.to_string_lossy())));
     }
     let first = images.first()?.display().to_string();
     let command = command_line(&["check"], &[&first]);
@@ -42,6 +43,18 @@ pub fn unused_maps<'a>(folder: &Path, models: impl Iterator<Item = &'a Path>) ->
     ))
 }
 
+/// A text with the names of the images that a model uses: the JSON of a glTF, the textures of an OBJ's libraries, or the start of another file.
+fn names_in(model: &Path) -> String {
+    if FileKind::of(model) == Some(FileKind::Obj) {
+        let files = companions(model).unwrap_or_default();
+        return files.into_iter().map(|file| file.name + "\n").collect();
+    }
+    String::from_utf8_lossy(&json_of(model).unwrap_or_default()).replace("%20", " ")
+}
+
+/// The most bytes of a file that is no GLB in which names are looked for.
+const MOST_TEXT: u64 = 256 << 20;
+
 /// The JSON of a model file; none where it cannot be read.
 fn json_of(model: &Path) -> Option<Vec<u8>> {
     let mut file = open_regular(model, File::options().read(true), Links::Follow).ok()?;
@@ -49,7 +62,7 @@ fn json_of(model: &Path) -> Option<Vec<u8>> {
     file.by_ref().take(20).read_to_end(&mut head).ok()?;
     let length = match head.get(12..16).filter(|_| head.starts_with(b"glTF")) {
         Some(length) => u64::from(u32::from_le_bytes(length.try_into().ok()?)),
-        None => u64::MAX,
+        None => MOST_TEXT,
     };
     file.take(length).read_to_end(&mut head).ok()?;
     Some(head)

@@ -7,6 +7,7 @@ use darboux::Method;
 
 use crate::options::angle::degrees;
 use crate::options::choice::choice;
+use crate::options::formats::with_endings;
 use crate::options::messages::MessageOptions;
 use crate::options::reading::ReadOptions;
 
@@ -35,8 +36,7 @@ Examples:
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("with").args(["second", "method"]).required(true))]
 pub struct CompareArguments {
-    /// The first file (.gltf, .glb, .vrm)
-    #[arg(value_name = "A")]
+    #[arg(value_name = "A", help = with_endings("The first file ({models})"))]
     pub first: PathBuf,
 
     /// The second file

@@ -7,6 +7,7 @@ use darboux_io::image::Channels;
 
 use crate::options::convention::{ConventionParser, NamedConvention};
 use crate::options::files::FileOptions;
+use crate::options::formats::with_endings;
 use crate::options::messages::MessageOptions;
 
 pub const ABOUT: &str = "\
@@ -46,7 +47,7 @@ Examples:
   darboux convert model.glb --from gltf --to unreal --raw     for a loader that expects Unreal's numbers";
 
 pub const OUTPUT: &str = "Output file for a single input, in an existing folder; - is standard output";
-pub const INPUTS: &str = "Normal maps (.png) and models (.gltf, .glb, .vrm); - is standard input";
+pub const INPUTS: &str = "Normal maps (.png), models ({models}) and folders of models; - is standard input";
 
 /// The conventions and channel layouts of the input and the output.
 #[derive(Debug, Args)]
@@ -74,8 +75,7 @@ pub struct ConvertArguments {
     #[arg(long, value_enum, value_name = "SPACE", requires = "model", help_heading = "Conversion")]
     pub space: Option<SpaceChoice>,
 
-    /// The model that has the map (.gltf, .glb, .vrm), with the tangents of its file, or MikkTSpace's
-    #[arg(long, value_name = "LOW", requires = "space", help_heading = "Conversion")]
+    #[arg(long, value_name = "LOW", requires = "space", help_heading = "Conversion", help = with_endings("The model that has the map ({models}), with the tangents of its file, or MikkTSpace's"))]
     pub model: Option<PathBuf>,
 
     /// The UV set n of TEXCOORD_n of the model; by default that of the material's normal map

@@ -3,6 +3,8 @@
 use darboux_io::gltf::PrimitiveInfo;
 use serde::Serialize;
 
+use super::recipe::MadeBy;
+
 /// The report of a run.
 #[derive(Serialize)]
 pub struct InspectReport {
@@ -17,5 +19,13 @@ pub struct InspectedFile {
     pub input: String,
     pub error: Option<String>,
     pub warnings: Vec<String>,
-    pub primitives: Vec<PrimitiveInfo>,
+    pub primitives: Vec<InspectedPrimitive>,
+}
+
+/// A primitive, and how its tangents were made.
+#[derive(Clone, Serialize)]
+pub struct InspectedPrimitive {
+    #[serde(flatten)]
+    pub info: PrimitiveInfo,
+    pub made_by: Option<MadeBy>,
 }

@@ -5,7 +5,8 @@
 use darboux_io::gltf::PrimitiveInfo;
 use indicatif::HumanCount;
 
-use super::report::InspectedFile;
+use super::recipe::MadeBy;
+use super::report::{InspectedFile, InspectedPrimitive};
 use crate::text::printable;
 
 /// A column: its title in two lines, its alignment, and its text for a primitive.
@@ -66,10 +67,10 @@ fn tangents(info: &PrimitiveInfo) -> &'static str {
     }
 }
 
-/// The file's name and its table. Below a row: the mesh's name, the attributes, and why the primitive cannot have tangents.
+/// The file's name and its table. Below a row: the mesh's name, the attributes, how its tangents were made, and why the primitive cannot have tangents.
 pub fn describe(file: &InspectedFile) -> String {
     let cells = |info: &PrimitiveInfo| COLUMNS.each_ref().map(|column| (column.cell)(info));
-    let rows: Vec<_> = file.primitives.iter().map(cells).collect();
+    let rows: Vec<_> = file.primitives.iter().map(|primitive| cells(&primitive.info)).collect();
     let titles = [0, 1].map(|line| COLUMNS.each_ref().map(|column| column.title[line].to_owned()));
     let widths: [usize; COLUMNS.len()] = std::array::from_fn(|column| {
         rows.iter().chain(&titles).map(|row| row[column].len()).max().unwrap_or_default()
@@ -77,9 +78,9 @@ pub fn describe(file: &InspectedFile) -> String {
     let mut text = format!("{}\n\n", printable(&file.input));
     titles.iter().for_each(|title| text += &aligned(title, &widths));
     text += &aligned(&widths.map(|width| "-".repeat(width)), &widths);
-    for (row, info) in rows.iter().zip(&file.primitives) {
+    for (row, primitive) in rows.iter().zip(&file.primitives) {
         text += &aligned(row, &widths);
-        text += &details(info, widths[0]);
+        text += &details(primitive, widths[0]);
     }
     text + "\n"
 }
@@ -96,7 +97,8 @@ fn aligned(cells: &[String; COLUMNS.len()], widths: &[usize; COLUMNS.len()]) -> 
 }
 
 /// The lines below a row, indented by the width of the first column.
-fn details(info: &PrimitiveInfo, indent: usize) -> String {
+fn details(primitive: &InspectedPrimitive, indent: usize) -> String {
+    let InspectedPrimitive { info, made_by } = primitive;
     let name = info.name.shown_mesh_name().map(|name| format!("\"{name}\" ")).unwrap_or_default();
     let targets = match info.morph_targets {
         0 => String::new(),
@@ -104,7 +106,8 @@ fn details(info: &PrimitiveInfo, indent: usize) -> String {
     };
     let mut text = String::new();
     let attributes = format!("{name}{}{targets}", info.attributes.join(" "));
-    for line in [Some(attributes), info.ineligible.as_ref().map(|reason| format!("no tangents: {reason}"))] {
+    let ineligible = info.ineligible.as_ref().map(|reason| format!("no tangents: {reason}"));
+    for line in [Some(attributes), made_by.as_ref().map(MadeBy::describe), ineligible] {
         let line = line.filter(|line| !line.is_empty());
         line.iter().for_each(|line| text += &format!("{:indent$}{GAP}{}\n", "", printable(line)));
     }

@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 use darboux::{Choice, Method, UnknownName};
 use darboux_render::{FrameMistake, Look};
 
+use crate::options::formats::with_endings;
 use crate::options::messages::MessageOptions;
 use crate::options::reading::ReadOptions;
 
@@ -33,8 +34,7 @@ Examples:
 /// What is drawn, and how.
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// A model (.gltf, .glb, .vrm, .obj)
-    #[arg(value_name = "MODEL")]
+    #[arg(value_name = "MODEL", help = with_endings("A model ({models})"))]
     pub model: PathBuf,
 
     /// The picture, in an existing folder

@@ -6,6 +6,7 @@ use clap::Args;
 
 use crate::commands::check::arguments::FindingOptions;
 use crate::commands::check::html::DEFAULT_PICTURES;
+use crate::options::formats::with_endings;
 use crate::options::reading::ReadOptions;
 
 pub const ABOUT: &str = "\
@@ -28,8 +29,7 @@ Examples:
 /// What is checked, and where the page goes.
 #[derive(Debug, Args)]
 pub struct ReportArguments {
-    /// Models (.gltf, .glb, .vrm), folders of models, and normal maps (.png, .jpg, .webp)
-    #[arg(required = true, value_name = "INPUT")]
+    #[arg(required = true, value_name = "INPUT", help = with_endings("Models ({models}), folders of models, and normal maps (.png, .jpg, .webp)"))]
     pub inputs: Vec<PathBuf>,
 
     /// The page, in an existing folder

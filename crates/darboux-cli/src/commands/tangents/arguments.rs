@@ -12,7 +12,7 @@ use crate::options::messages::MessageOptions;
 use crate::options::shading::{NormalsChoice, normals_choice};
 
 pub const ABOUT: &str = "\
-Add tangents to glTF and GLB files.
+Add tangents to models, which are read as glTF, GLB or other formats and written as glTF, GLB, PLY or OBJ.
 
 Every triangle primitive with positions, normals and UVs gets MikkTSpace tangents for the UV set that its normal map uses. \
 Vertices are split where their corners need different tangents, as at mirrored seams; skins, colours, UV sets and morph targets \
@@ -22,13 +22,15 @@ without changes is copied.
 Without -o, --out-dir or --in-place the output is written beside its input: model.glb becomes model.tangents.glb. The extension of the \
 output selects the container: .glb contains everything, .gltf gets its buffer and images as files beside it.
 
-Folders are searched for .gltf, .glb and .vrm files, subfolders included. Files named like outputs (model.tangents.glb) and the folder of \
+Folders are searched for models of all formats that are read, subfolders included; with --in-place for glTF only. A model of another format \
+becomes a .glb: chair.fbx becomes chair.tangents.glb, or chair.fbx.tangents.glb where there is a chair.glb as well. Files named like outputs (model.tangents.glb) and the folder of \
 --out-dir are skipped in this search; name such a file to process it.";
 
 pub const EXAMPLES: &str = "\
 Examples:
   darboux tangents model.glb                        writes model.tangents.glb
   darboux tangents model.gltf -o model.glb          everything in one file
+  darboux tangents chair.obj -o chair.glb           another format
   darboux tangents models --out-dir out             a folder and its subfolders
   darboux tangents models --out-dir out --resume    only what is missing or out of date
   darboux tangents models --in-place --only-needed  only where materials use tangents

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::options::formats::with_endings;
 use crate::options::reading::ReadOptions;
 
 pub const ABOUT: &str = "\
@@ -24,8 +25,7 @@ Examples:
 /// What is shown, and how.
 #[derive(Debug, Args)]
 pub struct ViewArguments {
-    /// A model (.gltf, .glb, .vrm, .obj)
-    #[arg(value_name = "MODEL")]
+    #[arg(value_name = "MODEL", help = with_endings("A model ({models})"))]
     pub model: Option<PathBuf>,
 
     /// A high-poly model whose detail the page bakes into a normal map of MODEL

@@ -1,0 +1,112 @@
+//! How the tangents of a file were made.
+
+use darboux::{
+    Choice, Convention, Mesh, Method, Mode, RecipeMatch, RecipeRounding, RecipeWriting, recognise_recipe,
+};
+use darboux_io::Error;
+use darboux_io::gltf::{Document, PrimitiveInfo};
+use serde::Serialize;
+
+use crate::text::counted;
+
+/// The way of making tangents that comes nearest to those of a primitive. json.txt documents its fields.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MadeBy {
+    pub method: &'static str,
+    /// The mode of MikkTSpace.
+    pub mode: Option<&'static str>,
+    pub corners: usize,
+    pub identical: usize,
+    pub close: usize,
+    /// What else is known, as clauses: that tangents were made before quads were cut, for example.
+    pub details: Vec<&'static str>,
+}
+
+/// The share of close corners from which on tangents are called those of a method, as `darboux check` has it.
+const IS_KNOWN: f64 = 0.9;
+
+/// The recipe of each primitive with tangents, in the order of `infos`. None: it has no tangents, or lacks what they are computed from.
+///
+/// Errors: invalid data.
+pub fn recipes(document: &Document, infos: &[PrimitiveInfo]) -> Result<Vec<Option<MadeBy>>, Error> {
+    let mut found = vec![None; infos.len()];
+    if infos.iter().all(|info| !info.has_tangents) {
+        return Ok(found);
+    }
+    for corners in document.corners()? {
+        let Some(place) = infos.iter().position(|info| info.name == *corners.name()) else { continue };
+        let info = &infos[place];
+        if !info.has_tangents || corners.is_empty() {
+            continue;
+        }
+        let uv_set = format!("TEXCOORD_{}", info.uv_set);
+        let (Some(positions), Some(normals), Some(uvs), Some(tangents)) = (
+            corners.vectors::<3>("POSITION")?,
+            corners.vectors::<3>("NORMAL")?,
+            corners.vectors::<2>(&uv_set)?,
+            corners.vectors::<4>("TANGENT")?,
+        ) else {
+            continue;
+        };
+        let vertices = corners.vertices();
+        let (positions, normals) = (of_vertices(&positions, vertices), of_vertices(&normals, vertices));
+        let uvs = of_vertices(&uvs, vertices);
+        let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
+        let tangents: Vec<[f32; 4]> = tangents.iter().map(|&tangent| to_generated.tangent(tangent)).collect();
+        let matches = Mesh::triangles(&positions, &normals, &uvs, vertices)
+            .and_then(|mesh| recognise_recipe(&mesh, &tangents));
+        found[place] = matches.ok().and_then(|matches| matches.first().map(MadeBy::new));
+    }
+    Ok(found)
+}
+
+/// The values of vertices, from those of corners.
+fn of_vertices<const N: usize>(of_corners: &[[f32; N]], vertices: &[u32]) -> Vec<[f32; N]> {
+    let count = vertices.iter().max().map_or(0, |&last| last as usize + 1);
+    let mut values = vec![[0.0; N]; count];
+    vertices.iter().zip(of_corners).for_each(|(&vertex, &value)| values[vertex as usize] = value);
+    values
+}
+
+impl MadeBy {
+    fn new(found: &RecipeMatch) -> Self {
+        let recipe = &found.recipe;
+        let mode = match recipe.method {
+            Method::MikkTSpace(options) => Some(options.mode),
+            _ => None,
+        };
+        let details = [
+            (recipe.flips_v, "computed with v turned"),
+            (recipe.from_quads, "computed before quads were cut into triangles"),
+            (recipe.writing == RecipeWriting::LastCorner, "each vertex has the tangent of its last corner"),
+            (recipe.writing == RecipeWriting::FirstCorner, "each vertex has the tangent of its first corner"),
+            (recipe.rounding == RecipeRounding::Bits8, "rounded to 8 bits"),
+            (recipe.rounding == RecipeRounding::Bits16, "rounded to 16 bits"),
+        ];
+        Self {
+            method: recipe.method.name(),
+            mode: mode.map(Mode::name),
+            corners: found.corners,
+            identical: found.identical,
+            close: found.close,
+            details: details.into_iter().filter(|(is, _)| *is).map(|(_, detail)| detail).collect(),
+        }
+    }
+
+    /// One line for the table.
+    pub fn describe(&self) -> String {
+        let Self { method, corners, identical, close, details, .. } = self;
+        let mode = self.mode.map(|mode| format!(", mode {mode}")).unwrap_or_default();
+        let details: String = details.iter().map(|detail| format!(", {detail}")).collect();
+        let of = counted(*corners, "corner", "corners");
+        if identical == corners {
+            format!("tangents made by {method}{mode}{details}: all bits are equal")
+        } else if *close as f64 >= IS_KNOWN * *corners as f64 {
+            format!("tangents made by {method}{mode}{details}: {close} of {of} within 0.1 degrees")
+        } else {
+            format!(
+                "tangents made by no known method; nearest is {method}: {close} of {of} within 0.1 degrees"
+            )
+        }
+    }
+}
