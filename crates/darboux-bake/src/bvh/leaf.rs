@@ -64,8 +64,9 @@ impl Leaf {
         let sum: [f32; SIZE] = std::array::from_fn(|i| u[i] + v[i] + w[i]);
         let depth: [f32; SIZE] = std::array::from_fn(|i| u[i] * a[2][i] + v[i] * b[2][i] + w[i] * c[2][i]);
         let farthest = best.map_or(ray.length, |best| best.distance);
-        let least: [f32; SIZE] = std::array::from_fn(|i| u[i].min(v[i]).min(w[i]));
-        let greatest: [f32; SIZE] = std::array::from_fn(|i| u[i].max(v[i]).max(w[i]));
+        // A NaN among the edges makes the distance NaN, so that there is no hit whatever these say.
+        let least: [f32; SIZE] = std::array::from_fn(|i| lesser(lesser(u[i], v[i]), w[i]));
+        let greatest: [f32; SIZE] = std::array::from_fn(|i| greater(greater(u[i], v[i]), w[i]));
         let distances: [f32; SIZE] = std::array::from_fn(|i| {
             let distance = depth[i] / sum[i];
             let is_hit = match sides {
@@ -91,4 +92,15 @@ impl Leaf {
         }
         found
     }
+}
+
+/// One instruction, unlike `f32::min`, which has to choose what is no NaN.
+#[inline(always)]
+fn lesser(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+fn greater(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
 }
