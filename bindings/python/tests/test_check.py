@@ -1,6 +1,7 @@
 """What is wrong with files, maps and tangents."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -127,3 +128,11 @@ def test_wrong_input_is_refused() -> None:
     mesh = grid(2, 2)
     with pytest.raises(ValueError, match="tangents"):
         darboux.recognise_recipe(*mesh.arrays, np.zeros((3, 4)))
+
+
+@pytest.mark.skipif(os.name != "posix", reason="FIFOs are files of Unix")
+def test_what_is_no_regular_file_is_refused_at_once(tmp_path: Path) -> None:
+    for name in ("pipe.png", "pipe.glb"):
+        os.mkfifo(tmp_path / name)
+        with pytest.raises(OSError, match="is not a regular file"):
+            darboux.check(tmp_path / name)

@@ -1,6 +1,8 @@
 """The adapter to USD, where usd-core is installed."""
 
+import os
 import shutil
+import zipfile
 from pathlib import Path
 from typing import Any, Dict, List, Tuple
 
@@ -183,3 +185,80 @@ def test_bad_files_are_named(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="is not a usdz package"):
         darboux.usd.process(package)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["bad.usda", "bad.usdz"]
+
+
+def package(path: Path, members: Dict[str, bytes]) -> Path:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+    return path
+
+
+def test_packages_stay_in_their_folder(tmp_path: Path) -> None:
+    stage = Usd.Stage.CreateNew(str(tmp_path / "victim.usda"))
+    plane(stage)
+    stage.GetRootLayer().Save()
+    before = (tmp_path / "victim.usda").read_bytes()
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    for name in ("../victim.usda", "../../victim.usda", "/victim.usda", "a/../../../victim.usda", "..\\victim.usda", "C:victim.usda"):
+        bad = package(folder / "bad.usdz", {name: before})
+        with pytest.raises(ValueError, match="leaves its folder"):
+            darboux.usd.process(bad)
+    assert (tmp_path / "victim.usda").read_bytes() == before
+    assert [path.name for path in folder.iterdir()] == ["bad.usdz"]
+
+
+def test_packages_cannot_take_files_of_this_machine(tmp_path: Path) -> None:
+    secret = tmp_path / "secret.png"
+    secret.write_bytes(b"secret")
+    stage = Usd.Stage.CreateNew(str(tmp_path / "root.usda"))
+    mesh = plane(stage)
+    mesh.GetPrim().CreateAttribute("file", Sdf.ValueTypeNames.Asset).Set(Sdf.AssetPath(str(secret)))
+    stage.GetRootLayer().Save()
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    bad = package(folder / "bad.usdz", {"root.usda": (tmp_path / "root.usda").read_bytes()})
+    with pytest.raises(ValueError, match="refers to files outside the package"):
+        darboux.usd.process(bad)
+    assert [path.name for path in folder.iterdir()] == ["bad.usdz"]
+
+
+def test_members_over_the_same_bytes_are_refused(tmp_path: Path) -> None:
+    good = package(tmp_path / "bomb.usdz", {"root.usda": b"#usda 1.0\n" + b" " * 5000})
+    content = bytearray(good.read_bytes())
+    entry = content.rindex(b"PK\x01\x02")
+    end = content.rindex(b"PK\x05\x06")
+    many = bytes(content[entry:end]) * 100
+    tail = bytearray(content[end:])
+    tail[8:10] = tail[10:12] = (100).to_bytes(2, "little")
+    tail[12:16] = len(many).to_bytes(4, "little")
+    good.write_bytes(bytes(content[:entry]) + many + bytes(tail))
+    with pytest.raises(ValueError, match="members over the same bytes"):
+        darboux.usd.process(good)
+
+
+def test_what_is_no_file_is_refused_at_once(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe.usda"
+    os.mkfifo(pipe)
+    with pytest.raises(ValueError, match="is not a regular file"):
+        darboux.usd.process(pipe)
+    with pytest.raises(FileNotFoundError, match="its folder does not exist"):
+        darboux.usd.process(SCENE / "scene.usda", tmp_path / "none/out.usda")
+    with pytest.raises(ValueError, match="exists and is not a regular file"):
+        darboux.usd.process(SCENE / "scene.usda", pipe, force=True)
+    assert [path.name for path in tmp_path.iterdir()] == ["pipe.usda"]
+
+
+def test_an_unknown_interpolation_and_endless_samples_are_skipped(monkeypatch: pytest.MonkeyPatch) -> None:
+    stage = Usd.Stage.CreateInMemory()
+    mesh = plane(stage)
+    UsdGeom.PrimvarsAPI(mesh).GetPrimvar("st").GetAttr().SetMetadata("interpolation", "nearest")
+    (report,) = darboux.usd.add_tangents(mesh)
+    assert report.skipped_because is not None and "'nearest', which USD does not know" in report.skipped_because
+    moving = plane(stage, "/Moving")
+    for time in range(3):
+        moving.GetPointsAttr().Set(moving.GetPointsAttr().Get(), time)
+    monkeypatch.setattr(darboux.usd, "MOST_CORNERS", 20)
+    (report,) = darboux.usd.add_tangents(moving)
+    assert report.skipped_because is not None and "3 times of 9 corners" in report.skipped_because

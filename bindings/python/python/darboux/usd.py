@@ -26,6 +26,9 @@ from ._results import Floats
 TANGENTS, SIGNS = "tangents", "tangentSigns"
 """The names of the primvars."""
 
+MOST_CORNERS = 1 << 28
+"""The most corners of a mesh at all its times together. Samples that are equal take no room in a file, but 16 bytes per corner here."""
+
 Array = npt.NDArray[Any]
 
 
@@ -121,12 +124,19 @@ def process(
     FileExistsError, FileNotFoundError
         The output exists; there is no input.
     ValueError
-        USD cannot read the file; a usdz is read but another kind is to be written, or the other way round.
+        USD cannot read or write the file; a usdz is read but another kind is to be written, or the other way round; a usdz has members that leave
+        its folder, or refers to files outside. After an error nothing is left.
     """
     path = Path(path)
     output = path.with_name(f"{path.stem}.tangents{path.suffix}") if output is None else Path(output)
+    if path.exists() and not path.is_file():
+        raise ValueError(f"{path}: is not a regular file; save its content as one")
     if not path.is_file():
         raise FileNotFoundError(f"{path}: there is no such file; check its name and folder")
+    if not output.parent.is_dir():
+        raise FileNotFoundError(f"{output}: its folder does not exist; make it, or choose another output")
+    if output.exists() and not output.is_file():
+        raise ValueError(f"{output}: exists and is not a regular file; choose another output")
     if output.exists() and not force:
         raise FileExistsError(f"{output}: the file exists; choose another output, or force=True")
     if (path.suffix.lower() == ".usdz") != (output.suffix.lower() == ".usdz"):
@@ -142,7 +152,7 @@ def process(
             layer = Sdf.Layer.CreateAnonymous(".usda")
             layer.TransferContent(stage.GetRootLayer())
             _move_paths(layer, path.parent, output.parent)
-            layer.Export(str(made))
+            _written(lambda: layer.Export(str(made)), output)
         os.replace(made, output)
     return summary
 
@@ -154,20 +164,47 @@ def _process_package(package: Path, made: Path, folder: Path, uv_set: Optional[s
             # Members of a usdz are stored, so that the unpacked files are no larger than the package.
             if any(member.compress_type != zipfile.ZIP_STORED for member in members):
                 raise ValueError(f"{package}: has compressed members, which a usdz must not have; make it again with usdzip")
+            if sum(member.file_size for member in members) > package.stat().st_size:
+                raise ValueError(f"{package}: has members over the same bytes; make it again with usdzip")
+            for member in members:
+                if not _stays_inside(member.filename):
+                    raise ValueError(f"{package}: has a member that leaves its folder, {member.filename[:200]!r}; make it again with usdzip")
             archive.extractall(folder)
-    except zipfile.BadZipFile:
-        raise ValueError(f"{package}: is not a usdz package, which is a zip archive; export it again") from None
+    except (zipfile.BadZipFile, RuntimeError):
+        raise ValueError(f"{package}: is not a usdz package, which is a zip archive without a password; export it again") from None
+    except OSError as error:
+        raise ValueError(f"{package}: cannot be unpacked: {error.strerror or error}; make it again with usdzip") from None
     first = next((member.filename for member in members if not member.is_dir()), None)
     if first is None:
         raise ValueError(f"{package}: is an empty package; export it again")
     stage = _open(folder / first, package)
     summary = add_tangents(stage, uv_set, **options)
-    stage.GetRootLayer().Save()
+    _written(lambda: stage.GetRootLayer().Save(), package)
     del stage
-    if not UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(str(folder / first)), str(made), first):
-        raise ValueError(f"{package}: USD cannot make a package of it again")
+    _written(lambda: UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(str(folder / first)), str(made), first), package)
+    with zipfile.ZipFile(made) as archive:
+        # USD also packs files of this machine that a package from elsewhere names.
+        others = set(archive.namelist()) - {member.filename for member in members}
+    if others:
+        raise ValueError(f"{package}: refers to files outside the package, such as {min(others)[:200]!r}; remove these references")
     shutil.rmtree(folder)
     return summary
+
+
+def _stays_inside(name: str) -> bool:
+    """Whether the name of a member of a package is a path below the package, on every system."""
+    parts = name.rstrip("/").split("/")
+    return not any(part in ("", ".", "..") or "\\" in part or ":" in part or "\0" in part for part in parts)
+
+
+def _written(write: Callable[[], bool], shown: Path) -> None:
+    """Calls a function of USD that writes a file, and returns or raises where it cannot."""
+    try:
+        is_written, reason = write(), ""
+    except Exception as error:  # pxr.Tf.ErrorException
+        is_written, reason = False, f": {str(error).strip().splitlines()[-1].strip()}"
+    if not is_written:
+        raise ValueError(f"{shown}: USD cannot write it{reason}")
 
 
 def _open(file: Path, shown: Path) -> Any:
@@ -208,7 +245,12 @@ def _add(mesh: Any, uv_set: Optional[str], options: Any) -> UsdMesh:
     if mesh.GetPrim().IsInstanceProxy():
         return UsdMesh(path, 0, 0, "is part of an instance; add tangents to the file that it refers to")
     try:
-        found = [(time, _compute(mesh, uv_set, time, options)) for time in _times(mesh)]
+        times, found, corners = _times(mesh), [], 0
+        for time in times:
+            found.append((time, _compute(mesh, uv_set, time, options)))
+            corners = max(corners, len(found[-1][1].tangents))
+            if corners * len(times) > MOST_CORNERS:
+                raise _Skipped(f"has {len(times)} times of {corners} corners, more than {MOST_CORNERS} corners together; split it")
     except _Skipped as reason:
         return UsdMesh(path, 0, 0, str(reason))
     primvars = UsdGeom.PrimvarsAPI(mesh)
@@ -329,6 +371,8 @@ def _expand(name: str, values: Array, interpolation: str, sizes: Array, vertices
         UsdGeom.Tokens.uniform: (len(sizes), lambda: np.repeat(np.arange(len(sizes)), sizes)),
         UsdGeom.Tokens.constant: (1, lambda: np.zeros(corners, np.int64)),
     }
+    if interpolation not in tables:
+        raise _Skipped(f"has {name} with the interpolation {interpolation!r}, which USD does not know; export it again")
     count, table = tables[interpolation]
     if values.size != count * width:
         raise _Skipped(f"has {len(values)} {name} where its {interpolation} interpolation needs {count}; export it again")
