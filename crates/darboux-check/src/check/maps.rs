@@ -185,9 +185,10 @@ pub fn defects_of_materials(
     let inverted_images: HashSet<usize> = materials.iter().filter_map(image_inverted_by).collect();
     let turned_images: HashSet<usize> = materials.iter().flat_map(images_turned_by).collect();
     let mut judged = Vec::new();
+    let mut decoded = DecodedMaps::default();
     for (image, material) in images {
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
-        let (mut found, witness) = defects_of_image(document, &users, image, options)?;
+        let (mut found, witness) = defects_of_image(document, &users, image, options, &mut decoded)?;
         for defect in &mut found {
             defect.place = place.clone();
             if !is_about_channels(defect) {
@@ -247,6 +248,28 @@ fn images_turned_by(material: &Material) -> impl Iterator<Item = usize> {
     turned.filter_map(|texture| texture.image)
 }
 
+/// The maps of a document that were decoded. Images over the same bytes can ask for any amount of work.
+#[derive(Default)]
+struct DecodedMaps {
+    texels: usize,
+    bytes: usize,
+}
+
+impl DecodedMaps {
+    /// The texels of 16 maps of 4096 x 4096 texels, which compress to nothing where they have one colour.
+    const MOST_TEXELS: usize = 1 << 28;
+    /// Further texels for each byte of the images.
+    const TEXELS_PER_BYTE: usize = 64;
+
+    fn add(&mut self, texels: usize, bytes: usize) {
+        (self.texels, self.bytes) = (self.texels.saturating_add(texels), self.bytes.saturating_add(bytes));
+    }
+
+    fn are_many(&self) -> bool {
+        self.texels > Self::MOST_TEXELS.saturating_add(self.bytes.saturating_mul(Self::TEXELS_PER_BYTE))
+    }
+}
+
 /// The defects of surfaces, by their primitives.
 struct BySurface<'a>(HashMap<Key, Vec<&'a mut Defect>>);
 
@@ -276,16 +299,25 @@ fn defects_of_image(
     users: &MapUsers<'_>,
     image: usize,
     options: &CheckOptions,
+    decoded: &mut DecodedMaps,
 ) -> Result<(Vec<Defect>, MapWitness), Error> {
+    let unread = |problem: String| {
+        let map = Map::unreadable(problem, options.green);
+        let defects = MAP_RULES.iter().filter_map(|rule| rule(&map)).collect();
+        Ok((defects, MapWitness::of_unread(options)))
+    };
     let bytes = match document.image_bytes(image) {
         Ok(bytes) => bytes,
-        Err(error) => {
-            let map = Map::unreadable(format!("cannot be read ({error})"), options.green);
-            let defects = MAP_RULES.iter().filter_map(|rule| rule(&map)).collect();
-            return Ok((defects, MapWitness::of_unread(options)));
-        }
+        Err(error) => return unread(format!("cannot be read ({error})")),
     };
+    if decoded.are_many() {
+        let texels = decoded.texels;
+        return unread(format!(
+            "was not decoded, because the maps before it have {texels} texels; check its file alone"
+        ));
+    }
     let checked = map_defects_on_surfaces(&bytes, &users.of(image)?, options);
+    decoded.add(checked.judgement.as_ref().map_or(0, |judgement| judgement.texels), bytes.len());
     let obstacle = document.normal_map_obstacle(image).map(str::to_owned).map(Obstacle::NotRewritable);
     let defects = checked.defects.into_iter().map(|defect| defect.with_obstacle(obstacle.clone()));
     Ok((defects.collect(), checked.witness))
