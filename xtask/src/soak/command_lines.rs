@@ -186,7 +186,7 @@ impl Line {
         }
         if has("--high") {
             let (high, low) = random.pick(&[(files.other, files.file), (files.file, files.other)]);
-            let output = random.pick(&["out.png", "out.png", "out.exr", "out.tif", "out"]);
+            let output = random.pick(&["out.png", "out.png", "out.%UDIM%.png", "out.exr", "out.tif", "out"]);
             self.extend(&[low, "--high", high, "-o", output]);
             if random.one_in(4) {
                 self.extend(&["--resume"]);
@@ -210,7 +210,7 @@ impl Line {
         let output = if is_image(files.extension) {
             "out.png"
         } else {
-            random.pick(&["out.glb", "out.gltf", "out.vrm"])
+            random.pick(&["out.glb", "out.gltf", "out.vrm", "out.obj", "out.ply"])
         };
         let words: &[&str] = match random.below(8) {
             _ if self.words == ["check"] => &[files.file],

@@ -34,6 +34,9 @@ pub struct Outcome {
 /// The processes of [`Action::Together`].
 const PROCESSES: usize = 4;
 
+/// The extensions of models.
+const MODELS: [&str; 7] = ["glb", "gltf", "vrm", "obj", "ply", "stl", "fbx"];
+
 /// The folders of a case that runs.
 struct CaseFolders<'a> {
     program: &'a Program,
@@ -193,9 +196,8 @@ impl CaseFolders<'_> {
         if !self.case.stdin.is_empty() {
             fs::write(inputs.join(WORK).join("stdin.glb"), &self.case.stdin)?;
         }
-        let is_model = |path: &&PathBuf| {
-            path.extension().is_some_and(|kind| kind == "glb" || kind == "gltf" || kind == "vrm")
-        };
+        let is_model =
+            |path: &&PathBuf| path.extension().is_some_and(|kind| MODELS.iter().any(|model| kind == *model));
         for path in tree::read(&inputs)?.keys().filter(is_model) {
             if self.inspect(&inputs, path)?.is_some() {
                 return Ok(false);

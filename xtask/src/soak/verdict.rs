@@ -208,8 +208,8 @@ pub fn outputs<'a>(before: &'a Tree, after: &'a Tree) -> impl Iterator<Item = (&
     after.iter().filter_map(move |(path, content)| {
         let extension = path.extension()?.to_str()?;
         let Content::Bytes(bytes) = content else { return None };
-        let is_output =
-            ["glb", "gltf", "vrm", "png"].contains(&extension) && before.get(path) != Some(content);
+        let is_output = ["glb", "gltf", "vrm", "obj", "ply", "png"].contains(&extension)
+            && before.get(path) != Some(content);
         is_output.then_some((path.as_path(), bytes.as_slice()))
     })
 }

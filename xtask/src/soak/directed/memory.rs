@@ -15,6 +15,10 @@ pub const CASES: &[(&str, Make)] = &[
     ("accessors without bytes", |random| Ok(zeros(random))),
     ("many morph targets over the same bytes", |random| Ok(morph_targets(random))),
     ("deep JSON", |random| Ok(deep_json(random))),
+    ("white space that would be repeated", |random| Ok(white_space(random))),
+    ("few triangles each of many shared vertices", |random| Ok(shared_vertices(random))),
+    ("data of a mesh or a skin in many nodes", |random| Ok(shared_by_nodes(random))),
+    ("a large normal map in a small file", |random| Ok(large_map(random))),
     ("a deep tree of nodes", |random| Ok(deep_nodes(random))),
 ];
 
@@ -145,6 +149,102 @@ fn deep_json(random: &mut Random) -> Case {
     let text = format!(r#"{{"asset":{{"version":"2.0"}},"extras":{extras}}}"#);
     let command = random.pick(&["tangents", "inspect"]);
     Case::new([command, "deep.gltf"]).file("deep.gltf", text)
+}
+
+/// The indentation of the first line is long, or numbers are nested deeply.
+fn white_space(random: &mut Random) -> Case {
+    let square = super::names::square_gltf();
+    let text = if random.one_in(2) {
+        format!("{{\n{}{}", " ".repeat(random.size(18)), &square[1..])
+    } else {
+        let numbers = "0,".repeat(random.size(17));
+        format!("{{\n  \"extras\":{}{numbers}0{},{}", "[".repeat(90), "]".repeat(90), &square[1..])
+    };
+    Case::new(["tangents", "in.gltf", "-o", "out.gltf"]).file("in.gltf", text).expects(&[0], "")
+}
+
+/// Primitives of one triangle each, over the vertices of a grid.
+fn shared_vertices(random: &mut Random) -> Case {
+    let mesh = Mesh::grid(100);
+    let mut builder = Builder::default();
+    let whole = builder.primitive(&mesh);
+    let view = builder.view(&mesh.indices.iter().flat_map(|index| index.to_le_bytes()).collect::<Vec<_>>());
+    let triangle = |number: usize, builder: &mut Builder| {
+        let accessor = json!({
+            "bufferView": view, "byteOffset": 12 * number, "componentType": 5125, "count": 3, "type": "SCALAR",
+        });
+        let mut triangle = whole.clone();
+        triangle["indices"] = json!(builder.accessor(accessor));
+        triangle
+    };
+    let count = 500 + random.below(1500);
+    let triangles = (0..count).map(|number| triangle(number, &mut builder)).collect();
+    let file = builder.glb(triangles, Value::Null);
+    let words: &[&str] = random.pick(&[
+        &["convert", "in.glb", "-o", "out.obj"],
+        &["convert", "in.glb", "-o", "out.ply"],
+        &["check", "in.glb"],
+        &["tangents", "in.glb"],
+        &["normals", "in.glb", "--overwrite"],
+    ]);
+    Case::new(words.iter().copied()).file("in.glb", file)
+}
+
+/// Many nodes share the weights and primitives of a mesh, and many skins the matrices of joints.
+fn shared_by_nodes(random: &mut Random) -> Case {
+    let count = 1000 + random.below(10_000);
+    let mut builder = Builder::default();
+    let mut primitive = builder.primitive(&Mesh::square(1.0));
+    let matrices = vec![0; 64 * count];
+    let view = builder.view(&matrices);
+    let accessor = builder
+        .accessor(json!({ "bufferView": view, "componentType": 5126, "count": count, "type": "MAT4" }));
+    let points = random.one_in(2);
+    primitive["mode"] = json!(if points { 0 } else { 4 });
+    let primitives = vec![primitive; if points { 2000 } else { 1 }];
+    let mesh = json!({ "primitives": primitives, "weights": vec![1; count] });
+    let nodes: Vec<Value> = match random.below(3) {
+        0 => (0..count).map(|_| json!({ "mesh": 0 })).collect(),
+        1 => (0..count).map(|skin| json!({ "mesh": 0, "skin": skin })).collect(),
+        _ => (0..count).map(|_| json!({ "mesh": 0, "skin": 0 })).collect(),
+    };
+    let skins = vec![json!({ "joints": [0], "inverseBindMatrices": accessor }); count];
+    let members = json!({
+        "meshes": [mesh], "nodes": nodes, "skins": skins, "scenes": [{ "nodes": (0..count).collect::<Vec<_>>() }],
+    });
+    let file = builder.glb(Vec::new(), members);
+    let words: &[&str] = random.pick(&[
+        &["convert", "in.glb", "-o", "out.obj"],
+        &["convert", "in.glb", "-o", "out.ply"],
+        &["check", "in.glb"],
+        &["inspect", "in.glb"],
+    ]);
+    Case::new(words.iter().copied()).file("in.glb", file)
+}
+
+/// An image of one colour, which compresses a thousand times.
+fn large_map(random: &mut Random) -> Case {
+    let png = flat_png(5000 + random.below(11_000) as u32);
+    let words: &[&str] = random.pick(&[
+        &["check", "map.png"],
+        &["check", "map.png", "--memory-limit", "64"],
+        &["check", "map.png", "--fix", "-o", "out.png"],
+        &[
+            "bake",
+            "in.glb",
+            "--high",
+            "in.glb",
+            "--size",
+            "8",
+            "--skew",
+            "map.png",
+            "--cage-offset",
+            "1",
+            "-o",
+            "out.png",
+        ],
+    ]);
+    Case::new(words.iter().copied()).file("map.png", png).file("in.glb", Mesh::square(1.0).glb())
 }
 
 /// A chain of nodes, and in one of two cases a ring.

@@ -9,7 +9,8 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::json;
 
 use crate::soak::case::{Case, Make};
-use crate::soak::inputs::model::{Builder, Mesh};
+use crate::soak::inputs::images::BUMPS_PNG;
+use crate::soak::inputs::model::{Builder, Mesh, glb};
 use crate::soak::random::Random;
 
 pub const CASES: &[(&str, Make)] = &[
@@ -17,7 +18,9 @@ pub const CASES: &[(&str, Make)] = &[
     ("write a model under a strange name", |random| Ok(output(random))),
     ("read files with strange names", |random| Ok(input(random))),
     ("strange strings in a model", |random| Ok(strings(random))),
-    ("long strings in a model", |_| Ok(long_strings())),
+    ("long strings in a model", |random| Ok(long_strings(random))),
+    ("strange names of images become files", |random| Ok(image_names(random))),
+    ("maps of a folder with strange names", |random| Ok(suffixes(random))),
 ];
 
 /// Names that Unix permits.
@@ -109,8 +112,87 @@ fn strings(random: &mut Random) -> Case {
     Case::new([command, "in.gltf"]).file("in.gltf", document.to_string())
 }
 
-fn long_strings() -> Case {
-    let accessor = json!({ "componentType": 5126, "count": 3, "type": "x".repeat(70_000) });
-    let document = json!({ "asset": { "version": "2.0" }, "accessors": [accessor] });
-    Case::new(["inspect", "in.gltf"]).file("in.gltf", document.to_string())
+/// One of a model's strings is long, and in some cases named by many elements.
+fn long_strings(random: &mut Random) -> Case {
+    let text = "x".repeat(1 << (12 + random.below(9)));
+    let mut builder = Builder::default();
+    let mut primitive = builder.primitive(&Mesh::square(1.0));
+    primitive["material"] = json!(0);
+    let primitives = vec![primitive; 1 + random.below(2000)];
+    let mut document = builder.document(primitives);
+    document["materials"] = json!([{ "name": "m" }]);
+    match random.below(7) {
+        0 => document["accessors"][0]["type"] = json!(text),
+        1 => document["meshes"][0]["name"] = json!(text),
+        2 => document["materials"][0]["name"] = json!(text),
+        3 => document["nodes"] = json!([{ "mesh": 0, "name": text }]),
+        4 => document["images"] = json!([{ "uri": text }, { "uri": format!("{text}.png") }]),
+        5 => document["extensionsUsed"] = json!([text]),
+        _ => document["meshes"][0]["primitives"][0]["attributes"][&text] = json!(0),
+    }
+    let file = glb(document.to_string().as_bytes(), &builder.data);
+    Case::new(line(random)).file("in.glb", file)
+}
+
+/// A command line that reads a file `in.glb`, and mostly writes what came of it.
+fn line(random: &mut Random) -> Vec<&'static str> {
+    let words: &[&str] = random.pick(&[
+        &["inspect", "in.glb", "--json"],
+        &["check", "in.glb", "--json"],
+        &["check", "in.glb", "--fix", "-o", "out.gltf"],
+        &["tangents", "in.glb", "--json", "-o", "out.gltf"],
+        &["normals", "in.glb", "--overwrite", "-o", "out.glb"],
+        &["convert", "in.glb", "-o", "out.obj"],
+        &["convert", "in.glb", "-o", "out.ply"],
+        &["compare", "in.glb", "in.glb", "--json"],
+    ]);
+    words.to_vec()
+}
+
+/// An image in the file becomes a file beside an OBJ, named after what the document calls it.
+fn image_names(random: &mut Random) -> Case {
+    const NAMES: [&str; 14] = [
+        "..",
+        ".",
+        "",
+        "../x",
+        "../../x/..",
+        "a/b",
+        "C:x",
+        "/absolute",
+        "NUL",
+        "n\0l",
+        "a\nnewmtl b",
+        "-bm 2",
+        " ",
+        "out.obj",
+    ];
+    let mut builder = Builder::default();
+    let mut primitive = builder.primitive(&Mesh::square(1.0));
+    let view = builder.view(BUMPS_PNG);
+    primitive["material"] = json!(0);
+    let name = random.pick(&NAMES);
+    let name = if random.one_in(8) { name.repeat(1 << random.below(12)) } else { name.to_owned() };
+    let members = json!({
+        "materials": [{ "name": name, "normalTexture": { "index": 0 } }],
+        "textures": [{ "source": 0 }],
+        "images": vec![json!({ "bufferView": view, "mimeType": "image/png", "name": name }); 1 + random.below(3)],
+    });
+    let file = builder.glb(vec![primitive], members);
+    Case::new(["convert", "in.glb", "-o", "folder/out.obj"]).file("in.glb", file).expects(&[0], "")
+}
+
+/// `bake --suffixes` on a folder of models under strange names.
+fn suffixes(random: &mut Random) -> Case {
+    let mut case = Case::new(["bake", "models", "--suffixes", "--size", "16", "--cage-offset", "0.1"]);
+    for _ in 0..1 + random.below(3) {
+        let stem = random.pick(NAMES);
+        for suffix in ["_low", "_high", "_cage"].iter().take(2 + random.below(2)) {
+            let mut name = OsStr::from_bytes(stem).to_os_string();
+            name.push(format!("{suffix}.glb"));
+            let bytes = if random.one_in(8) { b"glTF".to_vec() } else { Mesh::grid(2).glb() };
+            case = case.file(PathBuf::from("models").join(name), bytes);
+        }
+    }
+    case.expects(&[0, 1, 2], "")
 }
