@@ -24,8 +24,8 @@ fn is_same(a: &Finding, b: &Finding) -> bool {
     (a.code, &a.place.primitive, a.place.image) == (b.code, &b.place.primitive, b.place.image)
 }
 
-/// What is not final about a repair, one sentence each; none where the model cannot be read.
-fn problems(glb: &[u8], options: &FixOptions) -> Option<Vec<String>> {
+/// Whether a repair changed a model, and what is not final about it, one sentence each; none where the model cannot be read.
+fn problems(glb: &[u8], options: &FixOptions) -> Option<(bool, Vec<String>)> {
     let (before, first, once) = repaired(glb, options)?;
     let (left, second, twice) = repaired(&once, options).expect("a repaired model can be read");
     let is_known = |finding: &Finding| before.iter().any(|known| is_same(known, finding));
@@ -52,7 +52,7 @@ fn problems(glb: &[u8], options: &FixOptions) -> Option<Vec<String>> {
             problems.push(format!("{} is left and called fixable: {}; {reason}", finding.code, finding.text));
         }
     }
-    Some(problems)
+    Some((first.is_changed, problems))
 }
 
 fn options(seed: u64) -> FixOptions {
@@ -67,16 +67,23 @@ fn options(seed: u64) -> FixOptions {
 /// Repairs damaged models twice.
 fn verify(seeds: impl Iterator<Item = u64>) {
     let sources = sources();
-    let (mut read, mut bad) = (0, Vec::new());
+    let (mut all, mut read, mut changed, mut bad) = (0, 0, 0, Vec::new());
     for seed in seeds {
+        all += 1;
         let model = damaged(&sources, seed);
-        let Some(found) = problems(&model.glb(), &options(seed)) else { continue };
+        let Some((is_changed, found)) = problems(&model.glb(), &options(seed)) else { continue };
         read += 1;
+        changed += usize::from(is_changed);
         if !found.is_empty() {
             bad.push(format!("seed {seed} ({}): {found:#?}", model.name));
         }
     }
     assert!(bad.is_empty(), "{} of {read} repairs are not final: {}", bad.len(), bad.join("\n"));
+    // A test of models that are all refused, or never repaired, would show nothing.
+    assert!(
+        10 * read >= 9 * all && 2 * changed >= all,
+        "of {all} models {read} were read and {changed} repaired"
+    );
 }
 
 #[test]
@@ -94,7 +101,7 @@ fn repairs_of_many_damaged_models_are_final() {
 fn repairs_of_the_corpus_are_final() {
     for (name, glb) in corpus() {
         for seed in 0..3 {
-            let found = problems(&glb, &options(seed)).unwrap_or_default();
+            let (_, found) = problems(&glb, &options(seed)).expect("a model of the corpus can be read");
             assert!(found.is_empty(), "{name}: {found:#?}");
         }
     }

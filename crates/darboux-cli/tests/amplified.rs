@@ -1,0 +1,304 @@
+//! Small files whose names, white space, vertices, weights or matrices were copied for each of many elements in an earlier version: each run must
+//! end within a limit of processor time that those copies pass by far, in 512 MiB and ten times the file of addresses, and write little.
+
+#![cfg(target_os = "linux")]
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use common::text;
+use darboux_io::image::PngImage;
+use serde_json::{Value, json};
+
+/// Seconds of the processor. A release build takes 0.1 to 2; tests are built without optimisation.
+const SECONDS: usize = 60;
+
+/// The buffer of a model and what describes it.
+#[derive(Default)]
+struct Builder {
+    data: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+}
+
+impl Builder {
+    fn view(&mut self, bytes: &[u8]) -> usize {
+        self.views.push(json!({ "buffer": 0, "byteOffset": self.data.len(), "byteLength": bytes.len() }));
+        self.data.extend(bytes);
+        self.views.len() - 1
+    }
+
+    fn floats(&mut self, values: &[f32], kind: &str, count: usize) -> usize {
+        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        let view = self.view(&bytes);
+        self.accessor(json!({ "bufferView": view, "componentType": 5126, "count": count, "type": kind }))
+    }
+
+    fn accessor(&mut self, accessor: Value) -> usize {
+        self.accessors.push(accessor);
+        self.accessors.len() - 1
+    }
+
+    /// A square with tangents whose signs are flipped.
+    fn square(&mut self) -> Value {
+        let corners = [[0.0f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let of =
+            |vector: fn([f32; 2]) -> Vec<f32>| corners.into_iter().flat_map(vector).collect::<Vec<f32>>();
+        let attributes = json!({
+            "POSITION": self.floats(&of(|[x, y]| vec![x, y, 0.0]), "VEC3", 4),
+            "NORMAL": self.floats(&of(|_| vec![0.0, 0.0, 1.0]), "VEC3", 4),
+            "TEXCOORD_0": self.floats(&of(|[x, y]| vec![x, 1.0 - y]), "VEC2", 4),
+            "TANGENT": self.floats(&of(|_| vec![1.0, 0.0, 0.0, -1.0]), "VEC4", 4),
+        });
+        json!({ "attributes": attributes, "indices": self.indices(&[0, 1, 2, 0, 2, 3]) })
+    }
+
+    fn indices(&mut self, indices: &[u32]) -> usize {
+        let bytes: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
+        let view = self.view(&bytes);
+        self.accessor(
+            json!({ "bufferView": view, "componentType": 5125, "count": indices.len(), "type": "SCALAR" }),
+        )
+    }
+
+    /// The file with these members.
+    fn glb(self, members: Value) -> Vec<u8> {
+        let mut json = json!({
+            "asset": { "version": "2.0" },
+            "buffers": [{ "byteLength": self.data.len() }],
+            "bufferViews": self.views,
+            "accessors": self.accessors,
+        });
+        let members = members.as_object().expect("members").clone();
+        json.as_object_mut().expect("an object").extend(members);
+        let chunk = |kind: &[u8; 4], content: &[u8], padding: u8| {
+            let length = content.len().next_multiple_of(4);
+            let mut bytes = [&(length as u32).to_le_bytes()[..], kind, content].concat();
+            bytes.resize(8 + length, padding);
+            bytes
+        };
+        let chunks =
+            [chunk(b"JSON", json.to_string().as_bytes(), b' '), chunk(b"BIN\0", &self.data, 0)].concat();
+        [b"glTF", &2u32.to_le_bytes()[..], &(12 + chunks.len() as u32).to_le_bytes(), &chunks].concat()
+    }
+}
+
+/// The bytes of all files below a folder.
+fn size(folder: &Path) -> u64 {
+    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    entries.map(|path| if path.is_dir() { size(&path) } else { path.metadata().expect("a file").len() }).sum()
+}
+
+/// Runs command lines on a file `m.glb` or `m.gltf` of its own. Each must end within the limits, by itself, with code 0 or one sentence.
+#[track_caller]
+fn ends_in_time(name: &str, file: &[u8], lines: &[&str]) {
+    for line in lines {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join(name);
+        fs::write(&path, file).expect("a file");
+        let addresses = (512 << 10) + 10 * file.len() / 1024;
+        let limits = format!("ulimit -t {SECONDS} && ulimit -v {addresses} && exec \"$0\" \"$@\"");
+        let output = Command::new("sh")
+            .env("MALLOC_ARENA_MAX", "1")
+            .args(["-c", &limits, env!("CARGO_BIN_EXE_darboux")])
+            .args(line.split(' ').map(|word| if word == "IN" { text(&path) } else { word }))
+            .current_dir(folder.path())
+            .output()
+            .expect("a shell");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        let shown: String = stderr.chars().take(2000).collect();
+        let is_check = line.starts_with("check");
+        let errors = stderr.lines().filter(|line| line.starts_with("error: ")).count();
+        match output.status.code() {
+            Some(0) => assert!(errors == 0 || is_check, "{line}: {shown}"),
+            Some(1) => assert!(errors == 1 || is_check, "{line}: {shown}"),
+            other => panic!("{line}: {other:?} ({}): {shown}", output.status),
+        }
+        let written = size(folder.path()) + (output.stdout.len() + output.stderr.len()) as u64;
+        assert!(written < (16 << 20) + 30 * file.len() as u64, "{line}: {written} bytes for {}", file.len());
+    }
+}
+
+/// 18,000 primitives of a mesh with a name of a megabyte.
+#[test]
+fn long_names_are_not_copied_for_each_primitive() {
+    let mut builder = Builder::default();
+    let mut primitive = builder.square();
+    primitive["attributes"].as_object_mut().expect("attributes").remove("TANGENT");
+    let mesh = json!({ "name": "n".repeat(1 << 20), "primitives": vec![primitive; 18_000] });
+    let file = builder.glb(json!({ "meshes": [mesh] }));
+    ends_in_time(
+        "m.glb",
+        &file,
+        &["check IN --json", "tangents IN --json -o out.gltf", "inspect IN --json", "convert IN -o out.obj"],
+    );
+}
+
+/// Primitives of one mesh, each with a material of its own, of which `same` follow each other.
+fn with_materials(count: usize, same: usize, change: impl Fn(&mut Value)) -> Vec<u8> {
+    let mut builder = Builder::default();
+    let mut whole = builder.square();
+    change(&mut whole);
+    let primitive = |i: usize| {
+        let mut primitive = whole.clone();
+        primitive["material"] = json!(i / same);
+        primitive
+    };
+    builder.glb(json!({
+        "materials": vec![json!({ "name": "m", "normalTexture": { "index": 0 } }); count],
+        "textures": [{ "source": 0 }],
+        "images": [{ "uri": "missing.png" }],
+        "meshes": [{ "primitives": (0..count).map(primitive).collect::<Vec<_>>() }],
+    }))
+}
+
+#[test]
+fn findings_and_repairs_take_time_in_proportion_to_their_number() {
+    let lines = ["check IN", "check IN --fix -o out.glb"];
+    ends_in_time("m.glb", &with_materials(3000, 1, |_| {}), &lines);
+    ends_in_time("m.glb", &with_materials(3000, 2, |_| {}), &lines);
+    let without_normals = |primitive: &mut Value| {
+        let attributes = primitive["attributes"].as_object_mut().expect("attributes");
+        attributes.remove("NORMAL");
+        attributes.remove("TANGENT");
+    };
+    ends_in_time("m.glb", &with_materials(3000, 1, without_normals), &lines);
+}
+
+#[test]
+fn equal_names_take_no_search() {
+    let file = with_materials(12_000, 1, |_| {});
+    ends_in_time("m.glb", &file, &["convert IN -o out.obj"]);
+    let mut builder = Builder::default();
+    let primitive = builder.square();
+    let (png, count) =
+        (PngImage::from_rgb("i", [1, 1], &[[0u8; 3]]).and_then(|image| image.to_bytes()), 1500);
+    let view = builder.view(&png.expect("an image"));
+    let all = |value: &dyn Fn(usize) -> Value| (0..count).map(value).collect::<Vec<Value>>();
+    let with_material = |i: usize| {
+        let mut primitive = primitive.clone();
+        primitive["material"] = json!(i);
+        primitive
+    };
+    let members = json!({
+        "images": all(&|_| json!({ "bufferView": view, "mimeType": "image/png", "name": "i" })),
+        "textures": all(&|i| json!({ "source": i })),
+        "materials": all(&|i| json!({ "emissiveTexture": { "index": i } })),
+        "meshes": [{ "primitives": all(&with_material) }],
+    });
+    let file = builder.glb(members);
+    ends_in_time("m.glb", &file, &["convert IN -o out.obj"]);
+}
+
+#[test]
+fn nodes_share_what_their_mesh_and_skin_have() {
+    let lines = ["convert IN -o out.obj", "convert IN -o out.ply", "check IN", "inspect IN --quiet"];
+    let nodes = |count: usize, node: &dyn Fn(usize) -> Value| (0..count).map(node).collect::<Vec<Value>>();
+    // Points in a mesh with some triangles, which is at many places.
+    let mut builder = Builder::default();
+    let whole = builder.square();
+    let mut point = whole.clone();
+    point["mode"] = json!(0);
+    let mut primitives = vec![point; 4000];
+    primitives.push(whole.clone());
+    let members = json!({ "meshes": [{ "primitives": primitives }], "nodes": nodes(20_000, &|_| json!({ "mesh": 0 })) });
+    ends_in_time("m.glb", &builder.glb(members), &lines);
+    let mut builder = Builder::default();
+    let whole = builder.square();
+    let mesh = json!({ "primitives": [whole], "weights": vec![1; 100_000] });
+    let members = json!({ "meshes": [mesh], "nodes": nodes(20_000, &|_| json!({ "mesh": 0 })) });
+    ends_in_time("m.glb", &builder.glb(members), &lines);
+    let mut builder = Builder::default();
+    let whole = builder.square();
+    let matrices = builder.floats(&vec![0.0; 16 * 8000], "MAT4", 8000);
+    let count = 8000;
+    let members = json!({
+        "meshes": [{ "primitives": [whole] }],
+        "skins": vec![json!({ "joints": [0], "inverseBindMatrices": matrices }); count],
+        "nodes": nodes(count, &|i| json!({ "mesh": 0, "skin": i })),
+    });
+    ends_in_time("m.glb", &builder.glb(members), &lines);
+}
+
+/// Triangles of one primitive each, which share many vertices.
+#[test]
+fn shared_vertices_are_written_where_they_are_used() {
+    let (count, vertices) = (3000, 30_000);
+    let mut builder = Builder::default();
+    let place = |i: usize| [(i % 200) as f32, (i / 200) as f32];
+    let of = |vector: &dyn Fn([f32; 2]) -> Vec<f32>| {
+        (0..vertices).flat_map(|i| vector(place(i))).collect::<Vec<f32>>()
+    };
+    let attributes = json!({
+        "POSITION": builder.floats(&of(&|[x, y]| vec![x, y, 0.0]), "VEC3", vertices),
+        "NORMAL": builder.floats(&of(&|_| vec![0.0, 0.0, 1.0]), "VEC3", vertices),
+        "TEXCOORD_0": builder.floats(&of(&|[x, y]| vec![x / 200.0, y / 200.0]), "VEC2", vertices),
+    });
+    let primitives: Vec<Value> = (0..count as u32)
+        .map(|i| json!({ "attributes": attributes, "indices": builder.indices(&[9 * i, 9 * i + 1, 9 * i + 200]) }))
+        .collect();
+    let file = builder.glb(json!({ "meshes": [{ "primitives": primitives }] }));
+    ends_in_time(
+        "m.glb",
+        &file,
+        &["convert IN -o out.obj", "convert IN -o out.ply", "tangents IN -o out.glb"],
+    );
+}
+
+#[test]
+fn white_space_is_not_repeated() {
+    use base64::Engine;
+
+    let numbers = format!("{}{}0{}", "[".repeat(90), "0,".repeat(100_000), "]".repeat(90));
+    for (indentation, extras) in [(100_000, "0"), (2, numbers.as_str())] {
+        let mut builder = Builder::default();
+        let primitive = builder.square();
+        let data = base64::engine::general_purpose::STANDARD.encode(&builder.data);
+        let json = json!({
+            "asset": { "version": "2.0" },
+            "buffers": [{ "byteLength": builder.data.len(), "uri": format!("data:application/octet-stream;base64,{data}") }],
+            "bufferViews": builder.views,
+            "accessors": builder.accessors,
+            "meshes": [{ "primitives": vec![primitive; 2000] }],
+        });
+        let file = format!("{{\n{}\"extras\":{extras},{}", " ".repeat(indentation), &json.to_string()[1..]);
+        ends_in_time(
+            "m.gltf",
+            file.as_bytes(),
+            &["normals IN --overwrite -o out.gltf", "tangents IN --overwrite -o out.gltf"],
+        );
+    }
+}
+
+/// What decoding takes is known from the head of an image.
+#[test]
+fn maps_are_decoded_within_the_memory_limit() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("map.png");
+    let side = 3000;
+    let texels = vec![[128u8, 128, 255]; side * side];
+    let image = PngImage::from_rgb("map", [side as u32; 2], &texels).expect("an image");
+    fs::write(&path, image.to_bytes().expect("a file")).expect("a file");
+    let run = common::darboux(&["check", text(&path), "--memory-limit", "64"]);
+    let said = String::from_utf8_lossy(&run.stdout).into_owned() + &run.stderr;
+    assert!(said.contains("3000 x 3000 texels, more than the limit"), "{said}");
+    common::darboux(&["check", text(&path), "--memory-limit", "128"]).exits(0);
+    let run = common::darboux(&[
+        "check",
+        text(&path),
+        "--fix",
+        "-o",
+        text(&folder.path().join("out.png")),
+        "--memory-limit",
+        "64",
+    ]);
+    assert!(
+        run.stderr.contains("memory limit") || run.stderr.contains("more than the limit"),
+        "{}",
+        run.stderr
+    );
+    assert_eq!(common::names_in(folder.path()), ["map.png"]);
+}
