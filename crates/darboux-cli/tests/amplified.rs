@@ -133,7 +133,12 @@ fn long_names_are_not_copied_for_each_primitive() {
     ends_in_time(
         "m.glb",
         &file,
-        &["check IN --json", "tangents IN --json -o out.gltf", "inspect IN --json", "convert IN -o out.obj"],
+        &[
+            "check IN --json",
+            "tangents IN --json -o out.gltf",
+            "inspect IN --json",
+            "convert IN --from gltf --to gltf -o out.obj",
+        ],
     );
 }
 
@@ -171,7 +176,7 @@ fn findings_and_repairs_take_time_in_proportion_to_their_number() {
 #[test]
 fn equal_names_take_no_search() {
     let file = with_materials(12_000, 1, |_| {});
-    ends_in_time("m.glb", &file, &["convert IN -o out.obj"]);
+    ends_in_time("m.glb", &file, &["convert IN --from gltf --to gltf -o out.obj"]);
     let mut builder = Builder::default();
     let primitive = builder.square();
     let (png, count) =
@@ -190,12 +195,17 @@ fn equal_names_take_no_search() {
         "meshes": [{ "primitives": all(&with_material) }],
     });
     let file = builder.glb(members);
-    ends_in_time("m.glb", &file, &["convert IN -o out.obj"]);
+    ends_in_time("m.glb", &file, &["convert IN --from gltf --to gltf -o out.obj"]);
 }
 
 #[test]
 fn nodes_share_what_their_mesh_and_skin_have() {
-    let lines = ["convert IN -o out.obj", "convert IN -o out.ply", "check IN", "inspect IN --quiet"];
+    let lines = [
+        "convert IN --from gltf --to gltf -o out.obj",
+        "convert IN --from gltf --to gltf -o out.ply",
+        "check IN",
+        "inspect IN --quiet",
+    ];
     let nodes = |count: usize, node: &dyn Fn(usize) -> Value| (0..count).map(node).collect::<Vec<Value>>();
     // Points in a mesh with some triangles, which is at many places.
     let mut builder = Builder::default();
@@ -244,7 +254,11 @@ fn shared_vertices_are_written_where_they_are_used() {
     ends_in_time(
         "m.glb",
         &file,
-        &["convert IN -o out.obj", "convert IN -o out.ply", "tangents IN -o out.glb"],
+        &[
+            "convert IN --from gltf --to gltf -o out.obj",
+            "convert IN --from gltf --to gltf -o out.ply",
+            "tangents IN -o out.glb",
+        ],
     );
 }
 

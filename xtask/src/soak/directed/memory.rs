@@ -181,8 +181,8 @@ fn shared_vertices(random: &mut Random) -> Case {
     let triangles = (0..count).map(|number| triangle(number, &mut builder)).collect();
     let file = builder.glb(triangles, Value::Null);
     let words: &[&str] = random.pick(&[
-        &["convert", "in.glb", "-o", "out.obj"],
-        &["convert", "in.glb", "-o", "out.ply"],
+        &["convert", "in.glb", "--from", "gltf", "--to", "gltf", "-o", "out.obj"],
+        &["convert", "in.glb", "--from", "gltf", "--to", "gltf", "-o", "out.ply"],
         &["check", "in.glb"],
         &["tangents", "in.glb"],
         &["normals", "in.glb", "--overwrite"],
@@ -214,8 +214,8 @@ fn shared_by_nodes(random: &mut Random) -> Case {
     });
     let file = builder.glb(Vec::new(), members);
     let words: &[&str] = random.pick(&[
-        &["convert", "in.glb", "-o", "out.obj"],
-        &["convert", "in.glb", "-o", "out.ply"],
+        &["convert", "in.glb", "--from", "gltf", "--to", "gltf", "-o", "out.obj"],
+        &["convert", "in.glb", "--from", "gltf", "--to", "gltf", "-o", "out.ply"],
         &["check", "in.glb"],
         &["inspect", "in.glb"],
     ]);

@@ -142,8 +142,8 @@ fn line(random: &mut Random) -> Vec<&'static str> {
         &["check", "in.glb", "--fix", "-o", "out.gltf"],
         &["tangents", "in.glb", "--json", "-o", "out.gltf"],
         &["normals", "in.glb", "--overwrite", "-o", "out.glb"],
-        &["convert", "in.glb", "-o", "out.obj"],
-        &["convert", "in.glb", "-o", "out.ply"],
+        &["convert", "in.glb", "--from", "gltf", "--to", "gltf", "-o", "out.obj"],
+        &["convert", "in.glb", "--from", "gltf", "--to", "gltf", "-o", "out.ply"],
         &["compare", "in.glb", "in.glb", "--json"],
     ]);
     words.to_vec()
@@ -179,7 +179,9 @@ fn image_names(random: &mut Random) -> Case {
         "images": vec![json!({ "bufferView": view, "mimeType": "image/png", "name": name }); 1 + random.below(3)],
     });
     let file = builder.glb(vec![primitive], members);
-    Case::new(["convert", "in.glb", "-o", "folder/out.obj"]).file("in.glb", file).expects(&[0], "")
+    Case::new(["convert", "in.glb", "--from", "gltf", "--to", "gltf", "-o", "folder/out.obj"])
+        .file("in.glb", file)
+        .expects(&[0], "")
 }
 
 /// `bake --suffixes` on a folder of models under strange names.
