@@ -27,11 +27,14 @@ pub use polygons::PolygonRule;
 pub use provenance::{FaceCounts, PrimitiveSource, Provenance};
 
 pub(crate) use build::{Built, build};
-pub(crate) use files::{FileSource, FoundFile, ModelFiles};
+#[cfg(feature = "obj")]
+pub(crate) use files::FoundFile;
+pub(crate) use files::{FileSource, ModelFiles};
 pub(crate) use format::{detect, name_of_other, without_byte_order_mark};
+#[cfg(any(feature = "fbx", feature = "obj"))]
+pub(crate) use scene::NormalMap;
 pub(crate) use scene::{
-    CornerValues, FaceSizes, NormalMap, SourceImage, SourceMaterial, SourceMesh, SourceScene, SourceTexture,
-    SourceUvSet,
+    CornerValues, FaceSizes, SourceImage, SourceMaterial, SourceMesh, SourceScene, SourceTexture, SourceUvSet,
 };
 #[cfg(feature = "fbx")]
 pub(crate) use scene::{SourceMorph, SourceNode, SourceSkin, VertexWeights};

@@ -8,8 +8,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+#[cfg(any(feature = "fbx", feature = "obj"))]
+use crate::MemoryLimit;
 use crate::error::shortened;
-use crate::{Files, LoadOptions, MemoryLimit, files, paths};
+use crate::{Files, LoadOptions, files, paths};
 
 /// The most paths that are looked up for one model. Each lookup asks the operating system.
 const MAX_LOOKUPS: usize = 100_000;
@@ -34,6 +36,7 @@ pub struct ModelFiles {
     source: FileSource,
     allow_outside: bool,
     allow_outside_name: &'static str,
+    #[cfg(any(feature = "fbx", feature = "obj"))]
     memory_limit: MemoryLimit,
     lookups_left: Cell<usize>,
     /// The files that were read from the disk.
@@ -57,6 +60,7 @@ impl ModelFiles {
             source,
             allow_outside: options.allow_outside,
             allow_outside_name: options.option_names.allow_outside,
+            #[cfg(any(feature = "fbx", feature = "obj"))]
             memory_limit: options.memory_limit,
             lookups_left: Cell::new(MAX_LOOKUPS),
             read: RefCell::default(),
@@ -114,6 +118,7 @@ impl ModelFiles {
     }
 
     /// The memory limit of the model.
+    #[cfg(any(feature = "fbx", feature = "obj"))]
     pub fn memory_limit(&self) -> MemoryLimit {
         self.memory_limit
     }
