@@ -1,7 +1,7 @@
 //! The committed instruction counts: no change makes the AVX2 or the 128-bit code slower unnoticed.
 //!
-//! Counts differ between compilers by more than changes do, so they hold for one version of rustc. Between processors of x86-64 they do not:
-//! valgrind has AVX2 and no AVX-512.
+//! Counts differ between compilers by more than changes do, so they hold for one version of rustc. Between
+//! processors of x86-64 they do not: valgrind has AVX2 and no AVX-512.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -36,8 +36,9 @@ struct Baseline {
     counts: BTreeMap<String, BTreeMap<String, f64>>,
 }
 
-/// Compares or writes what `count` returns. Errors: counts are missing, or differ by more than [`TOLERANCE`], also when they are taken again: the keys
-/// of hash tables are random, and now and then a mesh with undecided vertices takes some percent more or fewer instructions.
+/// Compares or writes what `count` returns. Errors: counts are missing, or differ by more than [`TOLERANCE`],
+/// also when they are taken again: the keys of hash tables are random, and now and then a mesh with undecided
+/// vertices takes some percent more or fewer instructions.
 pub fn run(task: Task, count: impl Fn() -> Result<Vec<Counts>, String>) -> Result<(), String> {
     let counted = || Ok::<_, String>(Baseline { compiler: compiler()?, counts: by_mesh(&count()?)? });
     match task {

@@ -3,7 +3,8 @@
 use crate::engines::Method;
 use crate::run::Tangent;
 
-/// Compares a result with the reference's and returns the text for the table. Errors: the result is not what the engine claims.
+/// Compares a result with the reference's and returns the text for the table. Errors: the result is not what
+/// the engine claims.
 pub fn verdict(method: Method, expected: &[Tangent], found: &[Tangent]) -> Result<String, String> {
     if found.len() != expected.len() {
         return Err(format!("{} tangents for {} corners", found.len(), expected.len()));

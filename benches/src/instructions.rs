@@ -25,7 +25,8 @@ pub fn count(engines: &[Engine]) -> Result<Vec<Counts>, String> {
     Ok(native.map(|engine| Counts { engine: engine.name, of_mesh: of_mesh(engine) }).collect())
 }
 
-/// The difference between three calls and one, so that creating the mesh and the set-up of the first call do not count.
+/// The difference between three calls and one, so that creating the mesh and the set-up of the first call do
+/// not count.
 fn per_triangle(engine: &Engine, name: &str) -> Option<f64> {
     let mesh = meshes::make(name, Size::QUICK).filter(|mesh| engine.takes(&mesh.mesh))?;
     eprintln!("counting {} on {name}", engine.name);

@@ -1,4 +1,5 @@
-//! Times the check of a normal map against decoding it, and the recognition of a recipe against computing tangents, in turns on one thread.
+//! Times the check of a normal map against decoding it, and the recognition of a recipe against computing
+//! tangents, in turns on one thread.
 
 use std::hint::black_box;
 use std::process::Command;
@@ -30,7 +31,8 @@ pub struct Row {
     pub rounds: Vec<f64>,
     /// Per round the time over that of the first task on the same subject in that round.
     pub ratios: Vec<f64>,
-    /// The bytes of the peak, the input included, over those of the file and the decoded map; for the check of a map only.
+    /// The bytes of the peak, the input included, over those of the file and the decoded map; for the check
+    /// of a map only.
     pub memory: Option<f64>,
 }
 
@@ -140,7 +142,8 @@ fn bumps(texels: Texels, side: usize) -> Vec<u8> {
     image.to_bytes().expect("an image can be encoded")
 }
 
-/// The peak of a check of the map with noise over the file and the decoded map, measured in a child process; none if the system does not report it.
+/// The peak of a check of the map with noise over the file and the decoded map, measured in a child process;
+/// none if the system does not report it.
 fn memory_of_a_child(side: usize) -> Option<f64> {
     let mut command = Command::new(std::env::current_exe().ok()?);
     command.args(["--check", "--only-memory", "--map-side", &side.to_string()]);
@@ -148,7 +151,8 @@ fn memory_of_a_child(side: usize) -> Option<f64> {
     String::from_utf8(output.stdout).ok()?.trim().parse().ok()
 }
 
-/// The child process: checks the map with noise once and returns the peak, the file included, over the file and the decoded map.
+/// The child process: checks the map with noise once and returns the peak, the file included, over the file
+/// and the decoded map.
 pub fn memory_of_this_process(side: usize) -> Option<f64> {
     let file = bumps(Texels::Noisy, side);
     let growth = memory::growth(|| drop(black_box(check(&file))))?;

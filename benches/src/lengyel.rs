@@ -1,12 +1,12 @@
-//! Lengyel's method (Foundations of Game Engine Development, volume 2, listing 7.4) as a plain loop: a lower bound for the
-//! cost of tangents per vertex.
+//! Lengyel's method (Foundations of Game Engine Development, volume 2, listing 7.4) as a plain loop: a lower
+//! bound for the cost of tangents per vertex.
 
 use darboux_tests::OwnedMesh;
 
 use crate::run::Tangent;
 
-/// One tangent per vertex of a triangle mesh: the triangles' derivatives of position by u and v, summed without weights,
-/// then made perpendicular to the normal.
+/// One tangent per vertex of a triangle mesh: the triangles' derivatives of position by u and v, summed
+/// without weights, then made perpendicular to the normal.
 pub fn lengyel(mesh: &OwnedMesh, tangents: &mut Vec<Tangent>) {
     let mut sums = vec![[[0.0; 3]; 2]; mesh.positions.len()];
     match &mesh.indices {

@@ -48,19 +48,22 @@ struct Arguments {
     /// Compare the counts of our engines with the committed ones, or replace these.
     #[arg(long, value_name = "TASK", conflicts_with_all = ["engines", "meshes"])]
     baseline: Option<baseline::Task>,
-    /// Time the check of a normal map against decoding it, and the recognition of a recipe against computing tangents, instead.
+    /// Time the check of a normal map against decoding it, and the recognition of a recipe against computing
+    /// tangents, instead.
     #[arg(long)]
     check: bool,
     /// Time all threads against one on meshes of all sizes, instead.
     #[arg(long, conflicts_with_all = ["engines", "check", "instructions", "baseline"])]
     threads: bool,
-    /// Time the primitives of all models below these folders against mikktspace.c and meshoptimizer on one thread, the slowest first, instead.
+    /// Time the primitives of all models below these folders against mikktspace.c and meshoptimizer on one
+    /// thread, the slowest first, instead.
     #[arg(long, num_args = 1.., value_name = "FOLDER", conflicts_with_all = ["engines", "meshes", "check", "threads", "instructions", "baseline"])]
     real: Vec<PathBuf>,
     /// Texels per side of the map of --check.
     #[arg(long, default_value_t = 4096, value_name = "N")]
     map_side: usize,
-    /// Folder with FlightHelmet and other large models; by default the one that the environment variable DARBOUX_MODELS names.
+    /// Folder with FlightHelmet and other large models; by default the one that the environment variable
+    /// DARBOUX_MODELS names.
     #[arg(long, value_name = "FOLDER")]
     models: Option<PathBuf>,
     /// Name of this machine in the record, instead of its processor's name.

@@ -1,4 +1,5 @@
-//! Measures the memory that an engine needs besides input and output: the peak resident memory of a child process that runs it once.
+//! Measures the memory that an engine needs besides input and output: the peak resident memory of a child
+//! process that runs it once.
 //!
 //! Allocations are counted by the kernel, so that C and Rust are measured alike.
 
@@ -11,7 +12,8 @@ use darboux_tests::OwnedMesh;
 use crate::engines::Engine;
 use crate::run::{Tangent, Time};
 
-/// The bytes that one call of an engine needs, measured in a child process; `None` if the system does not report them.
+/// The bytes that one call of an engine needs, measured in a child process; `None` if the system does not
+/// report them.
 pub fn of_a_child(engine: &str, mesh: &str, quick: bool, models: Option<&Path>) -> Option<f64> {
     let mut command = Command::new(std::env::current_exe().ok()?);
     command.args(["--engines", engine, "--meshes", mesh, "--only-memory"]);
@@ -25,8 +27,8 @@ pub fn of_a_child(engine: &str, mesh: &str, quick: bool, models: Option<&Path>) 
     String::from_utf8(output.stdout).ok()?.trim().parse().ok()
 }
 
-/// Makes a child process return freed memory to the system at once. Otherwise what is measured could reuse memory from creating its input,
-/// and that would not be counted.
+/// Makes a child process return freed memory to the system at once. Otherwise what is measured could reuse
+/// memory from creating its input, and that would not be counted.
 pub fn returning_freed(command: &mut Command) -> &mut Command {
     command.env("GLIBC_TUNABLES", "glibc.malloc.mmap_threshold=65536:glibc.malloc.trim_threshold=65536")
 }

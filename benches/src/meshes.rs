@@ -82,7 +82,8 @@ pub fn make(name: &str, size: Size) -> Option<Named> {
     Some(Named { name: name.into(), mesh: maker(size) })
 }
 
-/// `helmet` (all of FlightHelmet as one mesh), its primitives, and every other one of more than 50,000 triangles below a folder.
+/// `helmet` (all of FlightHelmet as one mesh), its primitives, and every other one of more than 50,000
+/// triangles below a folder.
 pub fn real(folder: &Path) -> Vec<Named> {
     let mut found: Vec<Named> = Vec::new();
     for path in models::models(folder) {
@@ -142,8 +143,8 @@ fn bump([x, y]: [f32; 2]) -> darboux_tests::mesh::Vertex {
     ([x, y, height], normalized([-slope[0], -slope[1], 1.0]), uv)
 }
 
-/// A UV sphere of `rings` by `segments` cells, two triangles each: a seam, and at the poles a vertex per segment, so that
-/// every second triangle there has no area.
+/// A UV sphere of `rings` by `segments` cells, two triangles each: a seam, and at the poles a vertex per
+/// segment, so that every second triangle there has no area.
 fn sphere(rings: usize, segments: usize) -> OwnedMesh {
     let mut mesh = OwnedMesh::default();
     for ring in 0..=rings {
@@ -158,8 +159,8 @@ fn sphere(rings: usize, segments: usize) -> OwnedMesh {
     OwnedMesh { indices: Some(cells(segments, rings)), ..mesh }
 }
 
-/// `count` pieces of 50 triangles on a surface, every second one with mirrored UVs, their triangles and vertices shuffled:
-/// the worst case for caches.
+/// `count` pieces of 50 triangles on a surface, every second one with mirrored UVs, their triangles and
+/// vertices shuffled: the worst case for caches.
 fn charts(count: usize) -> OwnedMesh {
     const SIDE: usize = 5;
     let columns = (count as f32).sqrt().ceil() as usize;

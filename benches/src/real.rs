@@ -1,4 +1,5 @@
-//! Times the primitives of real models: Darboux, mikktspace.c and meshoptimizer in turns on one thread, each result compared with the reference's first.
+//! Times the primitives of real models: Darboux, mikktspace.c and meshoptimizer in turns on one thread, each
+//! result compared with the reference's first.
 
 use std::path::{Path, PathBuf};
 

@@ -51,14 +51,15 @@ impl Row {
         Some([*times.first()?, times[times.len() / 2]])
     }
 
-    /// Minimum and median of the relevant time: processor time for one thread, because it does not contain what else the
-    /// machine does; wall time for several threads.
+    /// Minimum and median of the relevant time: processor time for one thread, because it does not contain
+    /// what else the machine does; wall time for several threads.
     pub fn time(&self) -> Option<[f64; 2]> {
         if self.threads == 1 { self.spread(|time| time.cpu) } else { self.spread(|time| time.wall) }
     }
 }
 
-/// The number of rounds of an engine whose first call took this many seconds. Slow engines get fewer; the slowest keep the time of the first call.
+/// The number of rounds of an engine whose first call took this many seconds. Slow engines get fewer; the
+/// slowest keep the time of the first call.
 const ROUNDS_OF_SLOW_ENGINES: [(f64, usize); 2] = [(10.0, 1), (3.0, 3)];
 
 /// A round of a fast engine on a small mesh is as many calls as take this many nanoseconds.
@@ -71,7 +72,8 @@ struct Runner<'a> {
     rounds: Vec<Time>,
 }
 
-/// Measures each engine that takes a mesh's faces in at most `rounds` rounds. An engine that fails, or is not what it claims, gets a row that says so.
+/// Measures each engine that takes a mesh's faces in at most `rounds` rounds. An engine that fails, or is not
+/// what it claims, gets a row that says so.
 pub fn measure(named: &Named, engines: &[Engine], rounds: usize, node: Option<&Path>) -> Vec<Row> {
     let expected = expected(&named.mesh);
     let engines = engines.iter().filter(|engine| engine.takes(&named.mesh));
@@ -142,7 +144,8 @@ impl Runner<'_> {
 /// On smaller meshes, code pages touched by the first call would count more than data.
 const LARGE: usize = 20_000;
 
-/// Fills in the memory of the rows on large meshes whose engines run in this process; not where one call takes so long that it is timed once.
+/// Fills in the memory of the rows on large meshes whose engines run in this process; not where one call
+/// takes so long that it is timed once.
 pub fn add_memory(rows: &mut [Row], engines: &[Engine], quick: bool, models: Option<&Path>) {
     let countable = |row: &Row| {
         let engine = engines.iter().find(|engine| engine.name == row.engine);

@@ -20,7 +20,8 @@ pub trait Run {
 pub struct Time {
     /// Wall time.
     pub wall: f64,
-    /// Processor time of all threads of the process. For a single-threaded engine that is its own, because nothing else runs.
+    /// Processor time of all threads of the process. For a single-threaded engine that is its own, because
+    /// nothing else runs.
     pub cpu: f64,
 }
 

@@ -1,5 +1,5 @@
-//! Times all threads of the machine against one, in turns: on meshes of all sizes, which several threads share, and on a scene of small meshes, of which
-//! each is one thread's.
+//! Times all threads of the machine against one, in turns: on meshes of all sizes, which several threads
+//! share, and on a scene of small meshes, of which each is one thread's.
 
 use std::hint::black_box;
 use std::time::Instant;

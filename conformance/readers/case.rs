@@ -1,4 +1,5 @@
-//! Reads cases and writes results, for adapters in Rust; needs cpu-time and serde_json. Copy it. Licence: CC0.
+//! Reads cases and writes results, for adapters in Rust; needs cpu-time and serde_json. Copy it. Licence:
+//! CC0.
 
 use std::path::Path;
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -47,9 +48,12 @@ impl Case {
         let text = fs::read_to_string(path).expect("a case can be read");
         let case: Value = serde_json::from_str(&text).expect("a case is JSON");
         let bits = &case["bits"];
-        let integers = |key: &str| -> Vec<u32> { list(&case[key]).iter().map(|x| x.as_u64().expect("an integer") as u32).collect() };
+        let integers = |key: &str| -> Vec<u32> {
+            list(&case[key]).iter().map(|x| x.as_u64().expect("an integer") as u32).collect()
+        };
         let faces: Vec<usize> = integers("faces").into_iter().map(|size| size as usize).collect();
-        let first_corners = faces.iter().scan(0, |next, size| Some(std::mem::replace(next, *next + size))).collect();
+        let first_corners =
+            faces.iter().scan(0, |next, size| Some(std::mem::replace(next, *next + size))).collect();
         Self {
             name: case["name"].as_str().expect("a name").into(),
             class: case["class"].as_str().expect("a class").into(),
@@ -87,7 +91,8 @@ pub enum Found {
 /// The seconds after which a case counts as one that does not end.
 const LIMIT: u64 = 60;
 
-/// Runs `compute` on a case; where it panics or does not end, all tangents are NaN. The thread of an endless computation is abandoned.
+/// Runs `compute` on a case; where it panics or does not end, all tangents are NaN. The thread of an endless
+/// computation is abandoned.
 fn guarded(compute: Compute, case: &Case) -> Result<(Found, f64), String> {
     let (sender, receiver) = mpsc::channel();
     let own = case.clone();
@@ -102,7 +107,11 @@ fn guarded(compute: Compute, case: &Case) -> Result<(Found, f64), String> {
     match receiver.recv_timeout(Duration::from_secs(LIMIT)) {
         Ok((found, seconds)) => Ok((found?, seconds)),
         Err(error) => {
-            eprintln!("{}: {}", case.name, if error == RecvTimeoutError::Timeout { "no end" } else { "panic" });
+            eprintln!(
+                "{}: {}",
+                case.name,
+                if error == RecvTimeoutError::Timeout { "no end" } else { "panic" }
+            );
             Ok((Found::PerCorner(vec![[f32::NAN; 4]; case.indices.len()]), f64::INFINITY))
         }
     }
@@ -110,7 +119,8 @@ fn guarded(compute: Compute, case: &Case) -> Result<(Found, f64), String> {
 
 type Compute = fn(&Case) -> Result<Found, String>;
 
-/// Runs an adapter whose last two arguments are the folders of cases and results. An error is the reason for skipping a case.
+/// Runs an adapter whose last two arguments are the folders of cases and results. An error is the reason for
+/// skipping a case.
 pub fn run(compute: Compute) {
     let words: Vec<String> = env::args().collect();
     let [.., cases, results] = words.as_slice() else { panic!("usage: ADAPTER CASES RESULTS") };
@@ -126,12 +136,19 @@ pub fn run(compute: Compute) {
         }
         let text = match found {
             Err(why) => format!("{{\"skipped\": {why:?}}}\n"),
-            Ok((Found::PerCorner(tangents), seconds)) => format!("{{\"seconds\": {}, \"tangents\": {}}}\n", time(seconds), json(&tangents)),
+            Ok((Found::PerCorner(tangents), seconds)) => {
+                format!("{{\"seconds\": {}, \"tangents\": {}}}\n", time(seconds), json(&tangents))
+            }
             Ok((Found::PerVertex(tangents, indices), seconds)) => {
-                format!("{{\"seconds\": {}, \"indices\": {indices:?}, \"tangents\": {}}}\n", time(seconds), json(&tangents))
+                format!(
+                    "{{\"seconds\": {}, \"indices\": {indices:?}, \"tangents\": {}}}\n",
+                    time(seconds),
+                    json(&tangents)
+                )
             }
         };
-        fs::write(Path::new(results).join(path.file_name().expect("a file name")), text).expect("a result is written");
+        fs::write(Path::new(results).join(path.file_name().expect("a file name")), text)
+            .expect("a result is written");
     }
 }
 

@@ -1,5 +1,6 @@
-//! Fuzz target: arbitrary bytes select a function of the C interface and its arguments. The call must return a status without a crash, must
-//! read and write only the memory that its arguments describe, and must write nothing after an error.
+//! Fuzz target: arbitrary bytes select a function of the C interface and its arguments. The call must return
+//! a status without a crash, must read and write only the memory that its arguments describe, and must write
+//! nothing after an error.
 
 #![no_main]
 
@@ -16,7 +17,8 @@ fuzz_target!(|bytes: &[u8]| {
     call(&mut caller);
 });
 
-/// Every function except darboux_set_allocator, after which AddressSanitizer could not check the library's memory.
+/// Every function except darboux_set_allocator, after which AddressSanitizer could not check the library's
+/// memory.
 const CALLS: &[fn(&mut Caller<'_>)] = &[
     tangents,
     tangents,
@@ -45,7 +47,8 @@ const FILL: u8 = 0xa5;
 struct Caller<'a> {
     dice: Dice<'a>,
     blocks: Vec<Box<[u8]>>,
-    /// True when an array would exceed [`ROOM`]. Such a call is skipped, because the library cannot check the true size of memory.
+    /// True when an array would exceed [`ROOM`]. Such a call is skipped, because the library cannot check
+    /// the true size of memory.
     claims_too_much: bool,
 }
 
@@ -62,7 +65,8 @@ impl<'a> Caller<'a> {
         self.dice.pick(&[0, 1, 3, 3, 4, 6, 6, 12, 12, 24, 1 << 31, 1 << 62, usize::MAX / 2, usize::MAX])
     }
 
-    /// Allocates exactly the bytes of `count` elements of `element` bytes, `stride` apart. Sometimes returns null or an odd address.
+    /// Allocates exactly the bytes of `count` elements of `element` bytes, `stride` apart. Sometimes returns
+    /// null or an odd address.
     fn block(&mut self, count: usize, stride: usize, element: usize) -> *mut u8 {
         if self.dice.one_in(24) {
             return null_mut();

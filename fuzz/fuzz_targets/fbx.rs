@@ -1,6 +1,7 @@
 //! Fuzzes FBX, whose parser is C: any bytes give an error or a document that can be written and read again.
 //!
-//! cargo-fuzz checks the addresses of Rust's code only. `CFLAGS=-fsanitize=address,fuzzer-no-link CC=clang` does so in ufbx, too.
+//! cargo-fuzz checks the addresses of Rust's code only. `CFLAGS=-fsanitize=address,fuzzer-no-link CC=clang`
+//! does so in ufbx, too.
 
 #![no_main]
 

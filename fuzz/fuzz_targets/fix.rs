@@ -1,4 +1,5 @@
-//! Fuzzes repairs: any model gives an error or a repaired model that can be written and read again, and a second repair changes nothing.
+//! Fuzzes repairs: any model gives an error or a repaired model that can be written and read again, and a
+//! second repair changes nothing.
 
 #![no_main]
 

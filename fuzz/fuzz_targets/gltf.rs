@@ -1,4 +1,5 @@
-//! Fuzzes files: any bytes give an error or tangents, never a panic, and every written file can be read again.
+//! Fuzzes files: any bytes give an error or tangents, never a panic, and every written file can be read
+//! again.
 
 #![no_main]
 

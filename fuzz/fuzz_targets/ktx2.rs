@@ -1,4 +1,5 @@
-//! Fuzzes KTX 2 files: any bytes give an image of the size that they state, within the limits, or one sentence.
+//! Fuzzes KTX 2 files: any bytes give an image of the size that they state, within the limits, or one
+//! sentence.
 
 #![no_main]
 

@@ -1,5 +1,5 @@
-//! Fuzzes normal maps: any image file gives findings, and any texels a judgement whose numbers are in their ranges; inverting green negates the
-//! z score.
+//! Fuzzes normal maps: any image file gives findings, and any texels a judgement whose numbers are in their
+//! ranges; inverting green negates the z score.
 
 #![no_main]
 

@@ -4,8 +4,8 @@
 
 use std::fs;
 
-use darboux_io::gltf::Document;
 use darboux_io::LoadOptions;
+use darboux_io::gltf::Document;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

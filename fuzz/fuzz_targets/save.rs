@@ -1,5 +1,6 @@
-//! Fuzzes writing: a document that was read, and one with new tangents, is written whole in every format and reads again, or is refused and leaves
-//! nothing. Whatever names it has, nothing is written outside the folder.
+//! Fuzzes writing: a document that was read, and one with new tangents, is written whole in every format and
+//! reads again, or is refused and leaves nothing. Whatever names it has, nothing is written outside the
+//! folder.
 
 #![no_main]
 
@@ -38,7 +39,9 @@ fn write_in_all_formats(document: &Document) {
                 assert!(written.iter().all(|file| file.starts_with(&folder)), "{written:?}");
                 // PLY and OBJ without faces are refused.
                 let is_gltf = ["out.glb", "out.gltf"].contains(&name);
-                if is_gltf || has_triangles && !document.mesh_instances().unwrap_or_default().meshes.is_empty() {
+                if is_gltf
+                    || has_triangles && !document.mesh_instances().unwrap_or_default().meshes.is_empty()
+                {
                     Document::open(&path, &LoadOptions::default()).expect("what was written reads again");
                 }
             }

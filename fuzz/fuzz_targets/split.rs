@@ -1,4 +1,5 @@
-//! Fuzzes splitting: every corner keeps its vertex data and its tangent, with the smallest number of vertices.
+//! Fuzzes splitting: every corner keeps its vertex data and its tangent, with the smallest number of
+//! vertices.
 
 #![no_main]
 

@@ -1,4 +1,5 @@
-//! Tangents of mint's vectors, which many libraries convert to and from. A mint vector is an array of floats by `into`, so that this copies.
+//! Tangents of mint's vectors, which many libraries convert to and from. A mint vector is an array of floats
+//! by `into`, so that this copies.
 
 use darboux::{Error, Mesh, TangentOptions, generate_tangents};
 

@@ -99,7 +99,8 @@ fn tangent_bits(frame: &Frame) -> [u32; 4] {
     frame.tangent_and_sign().map(|x| if x.is_nan() { f32::NAN } else { x }.to_bits())
 }
 
-/// True if the reference's result is usable: finite, unit length, and not along the normal (unless that is zero).
+/// True if the reference's result is usable: finite, unit length, and not along the normal (unless that is
+/// zero).
 pub fn usable(frame: &Frame, normal: [f32; 3]) -> bool {
     let unit = (length(frame.tangent) - 1.0).abs() < 1e-3;
     unit && (is_zero(normal) || cosine(frame.tangent, normal).abs() < 0.999)
@@ -107,9 +108,9 @@ pub fn usable(frame: &Frame, normal: [f32; 3]) -> bool {
 
 /// Checks `frames` (one per corner, unsupported faces included) and returns the first violation.
 ///
-/// In every mode signs are +1 or -1; but for [`Mode::Reference`] tangents are usable; in [`Mode::Corrected`] a face has one
-/// sign. `reference`, where given, are the reference's frames: what is usable there must come out unchanged in
-/// [`Mode::Repaired`], and what is not must be perpendicular to its normal.
+/// In every mode signs are +1 or -1; but for [`Mode::Reference`] tangents are usable; in [`Mode::Corrected`]
+/// a face has one sign. `reference`, where given, are the reference's frames: what is usable there must come
+/// out unchanged in [`Mode::Repaired`], and what is not must be perpendicular to its normal.
 pub fn check_frames(
     mesh: &OwnedMesh,
     frames: &[Frame],
@@ -140,7 +141,8 @@ pub fn check_frames(
         if mode == Mode::Repaired && frame.sign != original.sign {
             return wrong("a repair changed the sign");
         }
-        // In `Corrected` a corner may have another corner's frame, which is as perpendicular as the reference made it.
+        // In `Corrected` a corner may have another corner's frame, which is as perpendicular as the reference
+        // made it.
         let repaired = mode == Mode::Repaired && !keepable;
         if repaired && is_direction(normal) && cosine(frame.tangent, normal).abs() > 1e-3 {
             return wrong("a repair that is not perpendicular");

@@ -1,4 +1,5 @@
-//! Compares frames as bits, with NaN equal to NaN, and reports differences with the mesh that reproduces them.
+//! Compares frames as bits, with NaN equal to NaN, and reports differences with the mesh that reproduces
+//! them.
 
 use std::fmt;
 
@@ -19,7 +20,8 @@ pub struct Difference {
     pub found: Option<Frame>,
 }
 
-/// The nine numbers of a frame as bits, every NaN the same: a NaN's payload and sign differ between processors.
+/// The nine numbers of a frame as bits, every NaN the same: a NaN's payload and sign differ between
+/// processors.
 pub fn bits(frame: &Frame) -> [u32; 9] {
     let ([tx, ty, tz], [bx, by, bz], [s, t]) = (frame.tangent, frame.bitangent, frame.magnitude);
     [tx, ty, tz, bx, by, bz, s, t, frame.sign].map(|x| if x.is_nan() { f32::NAN } else { x }.to_bits())

@@ -1,4 +1,5 @@
-//! Reads the cases of the conformance suite: small meshes for one behaviour each, with what mikktspace.c gives for them.
+//! Reads the cases of the conformance suite: small meshes for one behaviour each, with what mikktspace.c
+//! gives for them.
 //!
 //! `conformance/FORMAT.md` describes the files. Numbers are read from their bits.
 
@@ -37,8 +38,8 @@ pub struct Expected {
 }
 
 impl CorpusCase {
-    /// Reads one file's text. `None` for a large case, which has a generator instead of vertices. The message of an error names the case
-    /// and the member.
+    /// Reads one file's text. `None` for a large case, which has a generator instead of vertices. The message
+    /// of an error names the case and the member.
     pub fn from_text(name: &str, text: &str) -> Result<Option<Self>, String> {
         let case: Value = serde_json::from_str(text).map_err(|error| format!("{name}: {error}"))?;
         if case.get("positions").is_none() {
@@ -91,8 +92,8 @@ fn integers(list: &Value) -> Option<Vec<u32>> {
     list.as_array()?.iter().map(|number| u32::try_from(number.as_u64()?).ok()).collect()
 }
 
-/// The cases of `conformance/cases` that have faces and vertices, sorted by name: what every engine can take, GPUs included. Panics on an
-/// unreadable file, because the cases are part of the tests.
+/// The cases of `conformance/cases` that have faces and vertices, sorted by name: what every engine can take,
+/// GPUs included. Panics on an unreadable file, because the cases are part of the tests.
 pub fn corpus() -> Vec<CorpusCase> {
     let mut cases = all_cases();
     cases.retain(|corpus_case| corpus_case.mesh.corner_count() > 0);

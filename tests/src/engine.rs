@@ -14,8 +14,8 @@ pub trait Engine: Sync {
     /// Its name in messages.
     fn name(&self) -> &'static str;
 
-    /// One frame per corner, `None` for the corners of unsupported faces. The whole result is `None` if the engine
-    /// does not have `mode`.
+    /// One frame per corner, `None` for the corners of unsupported faces. The whole result is `None` if the
+    /// engine does not have `mode`.
     fn run(&self, mesh: &OwnedMesh, threshold: f32, mode: Mode) -> Option<Vec<Option<Frame>>>;
 }
 
@@ -88,7 +88,8 @@ impl Engine for DarbouxTangents {
 
 /// The result of mikktspace.c; `None` for corners that it does not write.
 ///
-/// mikktspace.c recurses over the faces of a vertex and in its sorts, so large meshes need a thread with a large stack.
+/// mikktspace.c recurses over the faces of a vertex and in its sorts, so large meshes need a thread with a
+/// large stack.
 pub fn reference(mesh: &OwnedMesh, threshold: f32) -> Vec<Option<Frame>> {
     const SMALL: usize = 1 << 12;
     if mesh.corner_count() <= SMALL {

@@ -6,8 +6,8 @@ use crate::OwnedMesh;
 
 const UP: [f32; 3] = [0.0, 0.0, 1.0];
 
-/// A bumpy height field of `width` by `height` quads, each one quad or two triangles; `mirrored` repeats u backwards from
-/// the middle on, so that the seam's two sides share their UVs but not their orientation.
+/// A bumpy height field of `width` by `height` quads, each one quad or two triangles; `mirrored` repeats u
+/// backwards from the middle on, so that the seam's two sides share their UVs but not their orientation.
 pub fn grid(width: usize, height: usize, quads: bool, mirrored: bool) -> OwnedMesh {
     let mut mesh = OwnedMesh::default();
     for y in 0..=height {
@@ -59,7 +59,8 @@ pub fn sphere(rings: usize, segments: usize, quads: bool) -> OwnedMesh {
     mesh.with_face_list(&faces)
 }
 
-/// A disc of `count` triangles around one vertex; `polar` unrolls its UVs (u along the angle, v along the radius).
+/// A disc of `count` triangles around one vertex; `polar` unrolls its UVs (u along the angle, v along the
+/// radius).
 pub fn fan(count: usize, polar: bool) -> OwnedMesh {
     let mut mesh = OwnedMesh::default();
     mesh.push(([0.0; 3], UP, if polar { [0.5, 0.0] } else { [0.0; 2] }));
@@ -72,9 +73,10 @@ pub fn fan(count: usize, polar: bool) -> OwnedMesh {
     mesh.with_face_list(&faces)
 }
 
-/// A sector of 73 degrees of `count` triangles around one vertex. All tangents are within 89 degrees of each other, from -44 to 44 degrees of
-/// the x axis; some are far from their mean, because the triangles of the last 53 degrees are few and wide. So at a threshold of 90 degrees
-/// all of them join, which neither a bounding box of the tangents nor their mean can show.
+/// A sector of 73 degrees of `count` triangles around one vertex. All tangents are within 89 degrees of each
+/// other, from -44 to 44 degrees of the x axis; some are far from their mean, because the triangles of the
+/// last 53 degrees are few and wide. So at a threshold of 90 degrees all of them join, which neither a
+/// bounding box of the tangents nor their mean can show.
 pub fn sector(count: usize) -> OwnedMesh {
     let mut mesh = OwnedMesh::default();
     mesh.push(([0.0; 3], UP, [0.0; 2]));
@@ -178,7 +180,8 @@ fn push_quad(faces: &mut Vec<Vec<u32>>, [a, b, c, d]: [u32; 4], quads: bool) {
     }
 }
 
-/// Sine and cosine in single precision, rounded from double precision. The single-precision functions of platforms differ in the last bit.
+/// Sine and cosine in single precision, rounded from double precision. The single-precision functions of
+/// platforms differ in the last bit.
 fn sin_cos(angle: f32) -> (f32, f32) {
     let (sin, cos) = f64::from(angle).sin_cos();
     (sin as f32, cos as f32)

@@ -1,5 +1,6 @@
-//! Generates random meshes from small sets of values, so that cases that are rare in models are common: equal and almost equal values, both
-//! zeros, repeated vertices and faces, edges of many faces, collapsed and mirrored UVs, mixed face sizes, extreme scales.
+//! Generates random meshes from small sets of values, so that cases that are rare in models are common: equal
+//! and almost equal values, both zeros, repeated vertices and faces, edges of many faces, collapsed and
+//! mirrored UVs, mixed face sizes, extreme scales.
 //!
 //! A [`Dice`] makes all choices, from a seed in tests and from the fuzzer's bytes in fuzzing.
 

@@ -1,7 +1,9 @@
-//! The test harness of the workspace: engines, comparators, generators and the cases of the conformance suite.
+//! The test harness of the workspace: engines, comparators, generators and the cases of the conformance
+//! suite.
 //!
-//! [`engine`] runs one mesh through one implementation, [`compare`] compares results, [`generate`] makes meshes from a seed
-//! or from a fuzzer's bytes, [`corpus`] reads the cases of the conformance suite, [`shrink`] shrinks a failing mesh to a new case.
+//! [`engine`] runs one mesh through one implementation, [`compare`] compares results, [`generate`] makes
+//! meshes from a seed or from a fuzzer's bytes, [`corpus`] reads the cases of the conformance suite,
+//! [`shrink`] shrinks a failing mesh to a new case.
 
 pub mod check;
 pub mod compare;

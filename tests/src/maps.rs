@@ -81,7 +81,8 @@ struct Chart {
 /// Of every 200 maps, how many have which side. The time per map grows with the square of the side.
 pub const SHARES: [(usize, u64); 5] = [(256, 125), (512, 54), (1024, 16), (2048, 4), (4096, 1)];
 
-/// The side of a numbered map. 37 has no factor in common with 200, so that the sides are spread over all surfaces.
+/// The side of a numbered map. 37 has no factor in common with 200, so that the sides are spread over all
+/// surfaces.
 fn side_of(number: u64) -> usize {
     let mut place = number * 37 % 200;
     let found = SHARES.iter().find(|(_, share)| {
@@ -240,7 +241,8 @@ impl MapCase {
 struct Heights<'a> {
     case: &'a MapCase,
     chart: &'a Chart,
-    /// The heights at the middles of the texels of the chart and of one texel around it; empty where differences are finer.
+    /// The heights at the middles of the texels of the chart and of one texel around it; empty where
+    /// differences are finer.
     middles: Vec<f32>,
 }
 

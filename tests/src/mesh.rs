@@ -141,7 +141,8 @@ impl OwnedMesh {
         moved
     }
 
-    /// The mesh as text: `v` lines (position, normal, UV), then `f` lines (vertices from 0). Reads back to the same bits.
+    /// The mesh as text: `v` lines (position, normal, UV), then `f` lines (vertices from 0). Reads back to
+    /// the same bits.
     pub fn to_text(&self) -> String {
         let mut text = String::new();
         for v in 0..self.positions.len() {

@@ -1,5 +1,6 @@
-//! Generates parts as real models have them: sheets that share vertices, with mirrored halves, islands without UV area, several fans at a
-//! vertex, edges of three and more triangles, degenerate triangles, and zeros of both signs, in any mixture.
+//! Generates parts as real models have them: sheets that share vertices, with mirrored halves, islands
+//! without UV area, several fans at a vertex, edges of three and more triangles, degenerate triangles, and
+//! zeros of both signs, in any mixture.
 
 use darboux_dice::Dice;
 
@@ -58,7 +59,8 @@ const NORMALS: [[f32; 3]; 5] =
     [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [-0.6, 0.0, 0.8], [0.0, 0.0, 0.0]];
 
 impl Part {
-    /// Adds a grid of up to five by five cells, each a quad or two triangles. Sheets of one number lie in one plane.
+    /// Adds a grid of up to five by five cells, each a quad or two triangles. Sheets of one number lie in one
+    /// plane.
     fn add_sheet(&mut self, dice: &mut Dice, height: f32, quads: bool) {
         let (width, depth) = (1 + dice.below(5), 1 + dice.below(5));
         let (map, normal, is_bumpy) = (dice.pick(&MAPS), dice.pick(&NORMALS), dice.one_in(2));

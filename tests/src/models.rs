@@ -9,8 +9,9 @@ use darboux_io::gltf::{Document, IndexList};
 
 use crate::OwnedMesh;
 
-/// The folder of models beside those of the repository, which the environment variable `DARBOUX_MODELS` names; a relative path starts at the
-/// repository's root. `None` if the variable is not set, with a sentence past the test runner's capture.
+/// The folder of models beside those of the repository, which the environment variable `DARBOUX_MODELS`
+/// names; a relative path starts at the repository's root. `None` if the variable is not set, with a sentence
+/// past the test runner's capture.
 ///
 /// # Panics
 /// The path is not a folder.
@@ -59,7 +60,8 @@ fn mesh(document: &Document, primitive: &Primitive) -> Option<OwnedMesh> {
     (primitive.mode == 4 && whole && in_range).then_some(mesh)
 }
 
-/// The primitives of a model that are triangle lists with positions, normals and UVs, and their numbers; empty if the file cannot be read.
+/// The primitives of a model that are triangle lists with positions, normals and UVs, and their numbers;
+/// empty if the file cannot be read.
 pub fn meshes(path: &Path) -> Vec<(usize, OwnedMesh)> {
     let Ok(document) = Document::open(path, &LoadOptions::default()) else { return Vec::new() };
     let numbered = document.meshes().iter().flat_map(|mesh| &mesh.primitives).enumerate();

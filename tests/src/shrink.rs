@@ -4,7 +4,8 @@ use crate::{Case, OwnedMesh};
 
 /// The smallest case found that still `fails`, with only the vertices it uses.
 ///
-/// Repeats until nothing changes: remove a face, merge a vertex into an earlier one, replace a number by a simpler one.
+/// Repeats until nothing changes: remove a face, merge a vertex into an earlier one, replace a number by a
+/// simpler one.
 pub fn shrink(case: &Case, fails: impl Fn(&Case) -> bool) -> Case {
     let mut best = case.clone();
     loop {

@@ -10,7 +10,8 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
-/// The number of allocations of a call after the first: the least of several calls, because other threads may start during one.
+/// The number of allocations of a call after the first: the least of several calls, because other threads may
+/// start during one.
 fn allocations_of(mut call: impl FnMut()) -> usize {
     call();
     let count = |_| {

@@ -1,4 +1,5 @@
-//! Functions that write into the caller's arrays: the same results as those that allocate, and an error for an array of another length.
+//! Functions that write into the caller's arrays: the same results as those that allocate, and an error for
+//! an array of another length.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -43,7 +44,8 @@ fn have_the_same_tangents_and_splits() {
     }
 }
 
-/// Every method on one thread and on several, with a context that was used for larger and smaller meshes before.
+/// Every method on one thread and on several, with a context that was used for larger and smaller meshes
+/// before.
 #[test]
 fn have_the_same_frames() {
     let large = families::grid(97, 97, false, true);
@@ -80,7 +82,8 @@ fn have_the_same_frames() {
     }
 }
 
-/// A context remembers nothing of a mesh without UV area in a later mesh to which the fast path does not apply.
+/// A context remembers nothing of a mesh without UV area in a later mesh to which the fast path does not
+/// apply.
 #[test]
 fn have_the_same_frames_after_a_mesh_without_uv_area() {
     let mut flat = families::grid(6, 5, false, true);

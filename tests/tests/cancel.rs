@@ -165,8 +165,8 @@ fn computations<'a>(mesh: &'a Mesh<'a>, plans: &'a [Plan], welded: &'a [u32]) ->
     calls
 }
 
-/// What is wrong with the checks of a call on up to `threads` threads: it makes fewer than `least`, or more than [`CHECKS_AFTER`] once it is
-/// cancelled.
+/// What is wrong with the checks of a call on up to `threads` threads: it makes fewer than `least`, or more
+/// than [`CHECKS_AFTER`] once it is cancelled.
 fn failures_of(name: &str, call: &Call<'_>, threads: usize, least: usize) -> Vec<String> {
     const CHECKS_AFTER: usize = 48;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
@@ -190,8 +190,8 @@ fn failures_of(name: &str, call: &Call<'_>, threads: usize, least: usize) -> Vec
     failures
 }
 
-/// The time depends on the machine, so this counts checks of the token instead: a call checks it often enough, and once it is cancelled
-/// makes only as many further checks as there are stages and threads.
+/// The time depends on the machine, so this counts checks of the token instead: a call checks it often
+/// enough, and once it is cancelled makes only as many further checks as there are stages and threads.
 #[test]
 fn every_computation_checks_the_token_regularly_and_stops_soon() {
     const TRIANGLES_PER_CHECK: usize = 1 << 14;
@@ -208,7 +208,8 @@ fn every_computation_checks_the_token_regularly_and_stops_soon() {
     assert!(failures.is_empty(), "{failures:#?}");
 }
 
-/// Below 180 degrees, all pairs of the triangles at one vertex are compared where some tangent is far from the mean.
+/// Below 180 degrees, all pairs of the triangles at one vertex are compared where some tangent is far from
+/// the mean.
 #[test]
 fn a_large_fan_below_180_degrees_checks_the_token_between_its_triangles() {
     const TRIANGLES_PER_CHECK: usize = 64;

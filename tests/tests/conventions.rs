@@ -1,12 +1,13 @@
-//! Conventions: conversion between every pair of presets, compared with a triangle that is defined in each of them.
+//! Conventions: conversion between every pair of presets, compared with a triangle that is defined in each of
+//! them.
 
 use darboux::{
     Axes, Axis, BitangentDirection, Convention, ConventionError, Handedness, Mesh, SignRule,
     TangentDirection, TangentOptions, UvOrigin, Winding, generate_tangents,
 };
 
-/// A triangle's corners as a viewer in front of the model sees it: to the model's right, up, to the front; and in the picture:
-/// to the right, up, from the lower left.
+/// A triangle's corners as a viewer in front of the model sees it: to the model's right, up, to the front;
+/// and in the picture: to the right, up, from the lower left.
 struct Corner {
     place: [f32; 3],
     picture: [f32; 2],

@@ -57,7 +57,8 @@ fn the_layout_of_the_input_does_not_matter() {
     }
 }
 
-/// In `Reference` only: a repair is shared by the corners of one vertex, and NaN keeps the corners of an unindexed mesh from welding.
+/// In `Reference` only: a repair is shared by the corners of one vertex, and NaN keeps the corners of an
+/// unindexed mesh from welding.
 #[test]
 fn indices_do_not_matter() {
     for seed in 0..3_000 {
@@ -85,7 +86,8 @@ fn mirrored_uvs_mirror_the_frames() {
     }
 }
 
-/// Axes permuted cyclically: sums are added in another order, so the last bits may differ by a few dozen roundings of 6e-8.
+/// Axes permuted cyclically: sums are added in another order, so the last bits may differ by a few dozen
+/// roundings of 6e-8.
 #[test]
 fn turned_meshes_have_turned_frames() {
     let turn = |[x, y, z]: [f32; 3]| [z, x, y];

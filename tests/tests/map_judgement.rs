@@ -26,7 +26,8 @@ fn judged<C: Channel, const N: usize>(texels: &[[C; N]], layout: TexelLayout<N>)
     judge_normal_map(texels, [256, 256], layout).expect("the map is whole")
 }
 
-/// Every surface, several charts, stretches, kinds of noise and of compression. `cargo xtask maps` judges thousands.
+/// Every surface, several charts, stretches, kinds of noise and of compression. `cargo xtask maps` judges
+/// thousands.
 #[test]
 fn generated_maps_get_the_right_verdict() {
     let set = MapSet { largest_side: 256, slope: 1.0 };

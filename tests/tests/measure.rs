@@ -118,8 +118,8 @@ fn the_face_s_own_tangents_follow_the_uvs_exactly() {
     }
 }
 
-/// A right angle between the tangents of one side of a square and the true ones turns its interpolated tangents by the arctangent of
-/// x / (1 - x): 45 degrees in the mean.
+/// A right angle between the tangents of one side of a square and the true ones turns its interpolated
+/// tangents by the arctangent of x / (1 - x): 45 degrees in the mean.
 #[test]
 fn interpolated_tangents_are_measured_inside() {
     let mut mesh = OwnedMesh::default();

@@ -1,7 +1,8 @@
-//! A mesh rotated, scaled, mirrored, reordered or triangulated: the frames of every method must be transformed alike.
+//! A mesh rotated, scaled, mirrored, reordered or triangulated: the frames of every method must be
+//! transformed alike.
 //!
-//! Sums are then added in another order, so that the last bits differ: by a few dozen roundings of 6e-8, which thin triangles multiply by up
-//! to 10.
+//! Sums are then added in another order, so that the last bits differ: by a few dozen roundings of 6e-8,
+//! which thin triangles multiply by up to 10.
 
 use darboux::{Frame, Method, TangentOptions, generate_frames};
 use darboux_tests::{METHODS, OwnedMesh, families};
@@ -79,7 +80,8 @@ fn mirrored() {
     }
 }
 
-/// Faces in another order, each with another first corner. A quad begins at the opposite corner, because a tie cuts it from 0 to 2.
+/// Faces in another order, each with another first corner. A quad begins at the opposite corner, because a
+/// tie cuts it from 0 to 2.
 #[test]
 fn reordered() {
     for &method in METHODS {
@@ -103,7 +105,8 @@ fn reordered() {
     }
 }
 
-/// A flat quad with a parallelogram of UVs has one derivative: its halves have the same frames, cut either way.
+/// A flat quad with a parallelogram of UVs has one derivative: its halves have the same frames, cut either
+/// way.
 #[test]
 fn cut_quads() {
     let flat = |[x, y, _]: [f32; 3]| [x, y, 0.0];

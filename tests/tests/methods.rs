@@ -19,8 +19,9 @@ const TWINS: [Twin; 8] = [
     (Method::FromNormal, oracle::from_normal),
 ];
 
-/// Rounding to f32 errs by 6e-8; a derivative is some ten roundings from its input, a sum over at most 16 triangles some 30 more, and
-/// the meshes' triangles are no thinner than 1 to 10, which multiplies the errors of edges as much: 40 * 6e-8 * 10.
+/// Rounding to f32 errs by 6e-8; a derivative is some ten roundings from its input, a sum over at most 16
+/// triangles some 30 more, and the meshes' triangles are no thinner than 1 to 10, which multiplies the errors
+/// of edges as much: 40 * 6e-8 * 10.
 const TOLERANCE: f32 = 2.4e-5;
 
 fn run(mesh: &OwnedMesh, method: Method) -> (Vec<Frame>, Report) {
@@ -214,8 +215,8 @@ fn what_is_not_finite_is_not_uv_degenerate() {
     }
 }
 
-/// meshoptimizer's default weighting. Its arccosine errs by up to 5e-4, which moves the mean of a few tangents by less than that times the
-/// angle between them.
+/// meshoptimizer's default weighting. Its arccosine errs by up to 5e-4, which moves the mean of a few
+/// tangents by less than that times the angle between them.
 #[test]
 fn angle_edge_agrees_with_meshoptimizer() {
     const DEGREES: f64 = 0.1;

@@ -38,7 +38,8 @@ fn every_pair_of_conventions_round_trips() {
     }
 }
 
-/// A converted texel has the same direction: red and green times the directions of tangent and bitangent stay the same.
+/// A converted texel has the same direction: red and green times the directions of tangent and bitangent stay
+/// the same.
 #[test]
 fn a_texel_leans_the_same_way_on_the_picture() {
     let in_picture = |convention: Convention, [x, y, z]: [f32; 3]| {
@@ -83,7 +84,8 @@ fn layouts_keep_x_and_y_and_rebuild_z() {
     let back = repack_texels(&packed, TexelLayout::AG, TexelLayout::RGB);
     for (texel, back) in texels.iter().zip(&back) {
         assert_eq!(texel[..2], back[..2]);
-        // dz = (x dx + y dy) / z, half a step each, and half a step of rounding z itself; near z = 0 the square root of it.
+        // dz = (x dx + y dy) / z, half a step each, and half a step of rounding z itself; near z = 0 the
+        // square root of it.
         let z = f64::from(texel[2]) / 32_767.5 - 1.0;
         let steps = 1.5 + (1.0 / z).min(256.0);
         assert!(f64::from(texel[2].abs_diff(back[2])) <= steps, "{texel:?} {back:?}");

@@ -8,8 +8,9 @@ use darboux_tests::{Case, FaceSizes, OwnedMesh, families, oracle};
 
 const WEIGHTS: [NormalWeight; 3] = [NormalWeight::Angle, NormalWeight::Area, NormalWeight::AngleArea];
 
-/// The result is rounded to f32, 6e-8; the weights hold the angle, whose cosine is rounded so: where it is near one that is an error of some
-/// 3e-4 of a radian in the weight, and a weight's error shows in proportion to the angle between the normals that it weighs.
+/// The result is rounded to f32, 6e-8; the weights hold the angle, whose cosine is rounded so: where it is
+/// near one that is an error of some 3e-4 of a radian in the weight, and a weight's error shows in proportion
+/// to the angle between the normals that it weighs.
 const TOLERANCE: f32 = 1e-5;
 
 fn run(mesh: &OwnedMesh, options: &NormalOptions) -> Normals {

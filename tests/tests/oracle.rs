@@ -1,10 +1,12 @@
-//! MikkTSpace compared with the oracle in double precision, on meshes where no decision depends on the last bits.
+//! MikkTSpace compared with the oracle in double precision, on meshes where no decision depends on the last
+//! bits.
 
 use darboux::{Frame, MikkTSpaceOptions, Mode, TangentOptions, generate_frames};
 use darboux_tests::{OwnedMesh, families, oracle};
 
-/// Rounding to f32 errs by 6e-8; a derivative is some ten roundings from its input, a sum over at most 16 members some 30 more, and
-/// the meshes' triangles are no thinner than 1 to 10, which multiplies the errors of edges as much: 40 * 6e-8 * 10.
+/// Rounding to f32 errs by 6e-8; a derivative is some ten roundings from its input, a sum over at most 16
+/// members some 30 more, and the meshes' triangles are no thinner than 1 to 10, which multiplies the errors
+/// of edges as much: 40 * 6e-8 * 10.
 const TOLERANCE: f32 = 2.4e-5;
 
 fn assert_near(what: &str, mesh: &OwnedMesh, threshold: f32) {
@@ -40,8 +42,8 @@ fn regular_meshes_at_every_threshold() {
             assert_near("cube", &families::cube(quads), threshold);
             assert_near("Möbius strip", &families::moebius(9, quads), threshold);
         }
-        // Triangles only, as the diagonals of its quads tie but for rounding; an odd number of segments, so that none has an
-        // opposite one across the pole.
+        // Triangles only, as the diagonals of its quads tie but for rounding; an odd number of segments, so
+        // that none has an opposite one across the pole.
         assert_near("sphere", &families::sphere(8, 13, false), threshold);
         assert_near("fan", &families::fan(16, false), threshold);
         assert_near("strip", &families::strip(20), threshold);

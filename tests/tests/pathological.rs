@@ -57,7 +57,8 @@ fn tilted_fan(count: usize) -> OwnedMesh {
     mesh
 }
 
-/// A fan on a circle whose UVs turn by a pseudo-random angle from triangle to triangle: tangents in all directions, many of them opposite.
+/// A fan on a circle whose UVs turn by a pseudo-random angle from triangle to triangle: tangents in all
+/// directions, many of them opposite.
 fn turning_fan(count: usize) -> OwnedMesh {
     let mut mesh = families::fan(count, true);
     mesh.uvs[0] = [0.0; 2];

@@ -19,8 +19,8 @@ fn with_pentagon(mesh: &OwnedMesh) -> OwnedMesh {
     mesh.with_face_list(&faces)
 }
 
-/// Scales of x, y and z, also such that squares of lengths are too small or too large for a float. (Quads at 1e-22 had bitangents that were NaN, and so
-/// averaged tangents.)
+/// Scales of x, y and z, also such that squares of lengths are too small or too large for a float. (Quads at
+/// 1e-22 had bitangents that were NaN, and so averaged tangents.)
 const SCALES: [[f32; 3]; 8] = [
     [1.0; 3],
     [1.25, 0.75, -1.5],

@@ -1,6 +1,7 @@
 //! The same bits on every processor: hashes of the results of all methods, recorded on x86-64.
 //!
-//! Run this on another processor to check it. A change that is meant to change tangents must record new hashes.
+//! Run this on another processor to check it. A change that is meant to change tangents must record new
+//! hashes.
 
 use darboux::{Frame, Method, MikkTSpaceOptions, Mode, generate_frames, generate_tangents};
 use darboux_tests::{Case, METHODS, OwnedMesh, compare};

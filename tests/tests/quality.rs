@@ -71,7 +71,8 @@ fn measure_model(path: &Path) -> Option<[f64; COLUMNS.len()]> {
     (area > 0.0).then(|| sums.map(|sum| sum / area))
 }
 
-/// `cargo test -p darboux-tests --test quality -- --ignored --nocapture` prints the table of docs/notes/methods.md.
+/// `cargo test -p darboux-tests --test quality -- --ignored --nocapture` prints the table of
+/// docs/notes/methods.md.
 #[test]
 #[ignore = "long: a table of many models"]
 fn table() {

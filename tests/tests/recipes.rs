@@ -96,7 +96,8 @@ fn every_recipe_is_recognised_on_further_models() {
     }
 }
 
-/// Large meshes are sampled: MikkTSpace is compared on all corners, and so are others where the sample leaves a doubt.
+/// Large meshes are sampled: MikkTSpace is compared on all corners, and so are others where the sample leaves
+/// a doubt.
 #[test]
 fn recipes_of_large_meshes_are_recognised() {
     let mut grid = families::grid(400, 320, false, true);
@@ -118,7 +119,8 @@ fn recipes_of_large_meshes_are_recognised() {
             assert!(recipes().all(|method| matches.iter().any(|found| found.recipe.method == method)));
         }
     }
-    // Slightly noisy tangents of a gently curved grid: several methods are about as close, and are compared on all corners.
+    // Slightly noisy tangents of a gently curved grid: several methods are about as close, and are compared
+    // on all corners.
     let gentle = families::grid(400, 320, false, false);
     let mut noisy = tangents(&gentle.view(), Method::Area);
     noisy.iter_mut().for_each(|tangent| tangent[1] += 1e-4);
@@ -254,7 +256,8 @@ fn quantised_tangents_are_recognised() {
     }
 }
 
-/// The coarsest rounding that all tangents have, which is found whatever the method: bits that differ from every candidate.
+/// The coarsest rounding that all tangents have, which is found whatever the method: bits that differ from
+/// every candidate.
 #[test]
 fn the_rounding_is_the_coarsest_that_explains_every_component() {
     let mesh = families::grid(1, 1, false, false);

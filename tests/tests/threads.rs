@@ -125,7 +125,8 @@ fn quads(triangles: &[[u32; 3]], all: bool) -> (Vec<u32>, Vec<u32>) {
     (corners, sizes)
 }
 
-/// Gives every `step`th corner the vertex of the one before it, which makes some faces degenerate and leaves holes.
+/// Gives every `step`th corner the vertex of the one before it, which makes some faces degenerate and leaves
+/// holes.
 fn damage(corners: &mut [u32], step: usize) {
     (1..corners.len()).step_by(step).for_each(|at| corners[at] = corners[at - 1]);
 }
@@ -142,7 +143,8 @@ fn parts_without_own_vertices() {
     assert_alike(&[1, 4, 7, 8, 9], || hash(&shape, &MIKKTSPACE) ^ hash(&shape, SUMS));
 }
 
-/// Plans after the same context was used for a larger mesh, so that some worker threads have no part of this mesh.
+/// Plans after the same context was used for a larger mesh, so that some worker threads have no part of this
+/// mesh.
 #[test]
 fn plans_after_larger_meshes() {
     let ((large, in_order), (small, mut shuffled)) = (grid(300, 300), grid(150, 150));

@@ -1,8 +1,9 @@
 //! Lists of the public API, one file per published library: `docs/api/<package>.txt`.
 //!
-//! rustdoc describes a library as JSON, and the crate `public-api` turns that into one line per public item. JSON is an unstable output,
-//! which the stable rustdoc gives under `RUSTC_BOOTSTRAP`. Its format belongs to the compiler's version, so that a new compiler may need a
-//! new `public-api`. `cargo xtask gen` writes the lists, and CI compares them, so that no change of the API goes unnoticed.
+//! rustdoc describes a library as JSON, and the crate `public-api` turns that into one line per public item.
+//! JSON is an unstable output, which the stable rustdoc gives under `RUSTC_BOOTSTRAP`. Its format belongs to
+//! the compiler's version, so that a new compiler may need a new `public-api`. `cargo xtask gen` writes the
+//! lists, and CI compares them, so that no change of the API goes unnoticed.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -63,7 +64,8 @@ fn describe() -> Result<PathBuf, String> {
     Ok(target_folder()?.join("doc"))
 }
 
-/// Runs rustdoc with unstable options. Only rustdoc gets the variable: build scripts that read it would have all dependencies built again.
+/// Runs rustdoc with unstable options. Only rustdoc gets the variable: build scripts that read it would have
+/// all dependencies built again.
 pub fn run_rustdoc() -> ExitCode {
     let mut rustdoc = Command::new("rustdoc");
     rustdoc.args(std::env::args_os().skip(1)).env("RUSTC_BOOTSTRAP", "1");

@@ -7,7 +7,8 @@ use std::process::Command;
 use crate::run::{Outcome, program, root, run, works};
 use crate::{npm, python};
 
-/// Makes glibc keep freed memory, so that no engine waits for fresh pages of the kernel, however it allocates.
+/// Makes glibc keep freed memory, so that no engine waits for fresh pages of the kernel, however it
+/// allocates.
 const ALLOCATOR: &str =
     "glibc.malloc.arena_max=1:glibc.malloc.mmap_max=0:glibc.malloc.trim_threshold=17179869184";
 
@@ -44,7 +45,8 @@ pub fn bench_gpu(arguments: &[&str]) -> Outcome {
     run(program(line).args(arguments))
 }
 
-/// `cargo xtask bench --bake`: bakes with Blender's Cycles and with Darboux. `words`: texels per side, threads, models.
+/// `cargo xtask bench --bake`: bakes with Blender's Cycles and with Darboux. `words`: texels per side,
+/// threads, models.
 pub fn bench_bake(words: &[&str]) -> Outcome {
     let [size, threads, models @ ..] = words else {
         return Err("bench --bake needs the texels per side, the threads and, if you like, models".into());
@@ -67,7 +69,8 @@ pub fn judge_real_maps(folders: &[&str]) -> Outcome {
     run(program(line).args(folders))
 }
 
-/// Installs the packages of benches/node at the versions of its lock file; none on a machine without node and npm.
+/// Installs the packages of benches/node at the versions of its lock file; none on a machine without node and
+/// npm.
 fn node_packages() -> Result<Option<PathBuf>, String> {
     if !works(&mut program("npm --version")) || !works(&mut program("node --version")) {
         println!("skipped: engines of npm; install Node.js 20 or newer to have them");

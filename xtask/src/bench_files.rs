@@ -10,7 +10,8 @@ use crate::run::{Outcome, output_of, program, root, run, target_folder, works};
 /// Each tool runs so many times.
 const ROUNDS: usize = 7;
 
-/// Prints wall time, processor time and memory of each tool for a grid of `2 * side * side` triangles. `words`: the side, 708 by default.
+/// Prints wall time, processor time and memory of each tool for a grid of `2 * side * side` triangles.
+/// `words`: the side, 708 by default.
 pub fn bench(words: &[&str]) -> Outcome {
     let side = words.first().unwrap_or(&"708");
     if !works(&mut program("/usr/bin/time --version")) || !works(&mut program("npm --version")) {

@@ -8,14 +8,15 @@ use crate::python::WithoutPython;
 use crate::run::{Outcome, program, root, run, shown, works};
 use crate::validate::WithoutNpm;
 use crate::{
-    bench, conformance, default_build, dist_js, dist_viewer, doc_blocks, generated, layers, packages, python,
-    site, validate,
+    bench, comments, conformance, default_build, dist_js, dist_viewer, doc_blocks, generated, layers,
+    packages, site, validate,
 };
 
 type Step = (&'static str, fn() -> Outcome);
 
 const QUICK: &[Step] = &[
     ("format", || run(&mut program("cargo fmt --all --check"))),
+    ("width of comments", comments::check),
     ("clippy", || run(&mut program("cargo clippy --quiet --workspace --all-targets -- -D warnings"))),
     // A workspace of its own, which the steps above do not see.
     ("fuzz targets compile", || {
@@ -76,10 +77,12 @@ pub fn acos() -> Outcome {
     run(&mut program("cargo test --release --package darboux -- --ignored acos_exhaustive --nocapture"))
 }
 
-/// Compiles hash tables, blocks and windows with a size of two, and starts threads for every mesh, so that rare paths run in small tests.
+/// Compiles hash tables, blocks and windows with a size of two, and starts threads for every mesh, so that
+/// rare paths run in small tests.
 const SMALL_LIMITS: [(&str, &str); 2] = [("RUSTFLAGS", "--cfg small_limits"), ("RAYON_NUM_THREADS", "3")];
 
-/// The comparisons with mikktspace.c with [`SMALL_LIMITS`]. The folder of its own keeps the other builds' cache valid.
+/// The comparisons with mikktspace.c with [`SMALL_LIMITS`]. The folder of its own keeps the other builds'
+/// cache valid.
 fn small_limits() -> Outcome {
     let line = "cargo test --package darboux-tests --target-dir target/small-limits \
                 --test differential --test corpus --test pathological --test plan --test callers_arrays";
@@ -93,7 +96,8 @@ fn all_with_small_limits() -> Outcome {
     run(program(line).envs(SMALL_LIMITS))
 }
 
-/// The tests of bits, on emulated 64-bit Arm. mikktspace.c is compiled without fused operations, which GCC uses on Arm by default.
+/// The tests of bits, on emulated 64-bit Arm. mikktspace.c is compiled without fused operations, which GCC
+/// uses on Arm by default.
 pub fn arm() -> Outcome {
     packages::install(packages::FOR_ARM)?;
     run(&mut program("rustup target add aarch64-unknown-linux-gnu"))?;

@@ -1,4 +1,5 @@
-//! `cargo xtask conformance`: the public suite in `conformance/`. The suite needs only Python; this runs what needs Rust beside it.
+//! `cargo xtask conformance`: the public suite in `conformance/`. The suite needs only Python; this runs what
+//! needs Rust beside it.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -8,8 +9,9 @@ use crate::{dist_c, dist_js, python};
 
 /// `cargo xtask conformance`: runs every adapter that this machine has, and rebuilds the table and the page.
 ///
-/// `--wrong` runs them on wrong inputs and as wrong builds instead, `--regenerate` writes the expected values of all cases, and `--new`
-/// proposes cases from a differential run. Our own interfaces are built first where their adapters are among those that run.
+/// `--wrong` runs them on wrong inputs and as wrong builds instead, `--regenerate` writes the expected values
+/// of all cases, and `--new` proposes cases from a differential run. Our own interfaces are built first where
+/// their adapters are among those that run.
 pub fn task(words: &[&str]) -> Outcome {
     match words {
         ["--regenerate"] => {
@@ -64,8 +66,9 @@ fn compute_reference() -> Outcome {
     run(computer()?.arg(cases).arg(folder("reference")?))
 }
 
-/// The environment variables with which the adapters of our own interfaces find them. The libraries of the named adapters are built; those of all adapters if none
-/// is named; interfaces that cannot be built here are left out, and the scripts say which adapters that skips.
+/// The environment variables with which the adapters of our own interfaces find them. The libraries of the
+/// named adapters are built; those of all adapters if none is named; interfaces that cannot be built here are
+/// left out, and the scripts say which adapters that skips.
 fn interfaces(names: &[&str]) -> Result<Vec<(&'static str, PathBuf)>, String> {
     let target = target_folder()?;
     let built = [

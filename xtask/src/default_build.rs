@@ -1,4 +1,5 @@
-//! The command as a newcomer builds it: the README's first command in a build folder of its own, and the messages about missing features.
+//! The command as a newcomer builds it: the README's first command in a build folder of its own, and the
+//! messages about missing features.
 
 use std::path::Path;
 use std::process::Command;
@@ -34,7 +35,8 @@ pub fn check() -> Outcome {
     completes_no_missing_subcommand(&darboux)
 }
 
-/// Errors: the command does not say that a file is FBX, and how to install what reads it; or the help lists the ending of a format that is not read.
+/// Errors: the command does not say that a file is FBX, and how to install what reads it; or the help lists
+/// the ending of a format that is not read.
 fn names_fbx(darboux: &Path) -> Outcome {
     let install = "cargo install --path crates/darboux-cli --features fbx";
     let file = "assets/blender/scene.fbx";

@@ -1,7 +1,8 @@
-//! `cargo xtask dist-c`: the folder for users of C and C++, with headers, libraries, CMake and pkg-config files, and examples.
+//! `cargo xtask dist-c`: the folder for users of C and C++, with headers, libraries, CMake and pkg-config
+//! files, and examples.
 //!
-//! The two libraries contain the core with different features, so they share nothing. They are built at the same time, each in a target
-//! folder of its own.
+//! The two libraries contain the core with different features, so they share nothing. They are built at the
+//! same time, each in a target folder of its own.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -130,7 +131,8 @@ fn build(library: &Library, target: &Path) -> Outcome {
     run(to_stderr(cargo.arg(target).args(["--package", library.package, "--", "-C", &own_name])))
 }
 
-/// Copies the shared library under its full name, and makes links under the names that loaders and linkers look for.
+/// Copies the shared library under its full name, and makes links under the names that loaders and linkers
+/// look for.
 fn put_shared(library: &Library, built: &Path, folder: &Path) -> Outcome {
     let extension = if cfg!(target_os = "macos") { "dylib" } else { "so" };
     let name = shared_name(library, VERSION);
@@ -152,8 +154,9 @@ fn link_to(name: &str, link: &Path) -> Outcome {
     copy(&link.with_file_name(name), link)
 }
 
-/// Copies the static library. On Linux it becomes one object whose only global symbols are its public functions. Otherwise two libraries
-/// that both contain Rust's standard library could not be linked into one program.
+/// Copies the static library. On Linux it becomes one object whose only global symbols are its public
+/// functions. Otherwise two libraries that both contain Rust's standard library could not be linked into one
+/// program.
 fn put_static(library: &Library, built: &Path, folder: &Path) -> Outcome {
     let (archive, out) = (built.with_extension("a"), folder.join(format!("lib{}.a", library.shipped)));
     if !cfg!(target_os = "linux") {

@@ -8,7 +8,8 @@
 //!
 //! A [`Build`] says which forms of the modules are made, and how much time goes into their size.
 //!
-//! Modules are compiled without function names in the end, but the names say which functions take the time: see [`SIZE_FLAG`].
+//! Modules are compiled without function names in the end, but the names say which functions take the time:
+//! see [`SIZE_FLAG`].
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -63,7 +64,8 @@ impl Build {
         }
     }
 
-    /// The number of modules that are compiled at the same time. Quick ones share a target folder, which Cargo locks.
+    /// The number of modules that are compiled at the same time. Quick ones share a target folder, which
+    /// Cargo locks.
     fn threads(self) -> usize {
         match self {
             Build::Quick => 1,
@@ -72,7 +74,8 @@ impl Build {
     }
 }
 
-/// Compiles a package quickly in the target folder that all quick modules share, with SIMD. Returns the folder of the module.
+/// Compiles a package quickly in the target folder that all quick modules share, with SIMD. Returns the
+/// folder of the module.
 pub fn compile_quickly(package: &str, features: &[&str]) -> Result<PathBuf, String> {
     let target = target_folder()?.join("quick-modules");
     let mut cargo = program("cargo build --quiet --profile quick --package");
@@ -82,13 +85,14 @@ pub fn compile_quickly(package: &str, features: &[&str]) -> Result<PathBuf, Stri
     Ok(target.join(TRIPLE).join("quick"))
 }
 
-/// Flags of most modules: functions with several callers are not inlined, and loops of unknown length are not unrolled. The modules are an
-/// eighth smaller for it and as fast. Optimisation levels for size would lose vectorisation.
+/// Flags of most modules: functions with several callers are not inlined, and loops of unknown length are not
+/// unrolled. The modules are an eighth smaller for it and as fast. Optimisation levels for size would lose
+/// vectorisation.
 const FLAGS: &str = "-Cllvm-args=-inline-threshold=0 -Cllvm-args=-inlinehint-threshold=30 \
     -Cllvm-args=-unroll-runtime=false -Cllvm-args=-unroll-allow-partial=false";
 
-/// A module: the entry of the npm package that embeds it, the features of `darboux-js`, compiler flags, and whether size matters more than speed
-/// outside the hot functions.
+/// A module: the entry of the npm package that embeds it, the features of `darboux-js`, compiler flags, and
+/// whether size matters more than speed outside the hot functions.
 #[derive(Clone, Copy)]
 pub struct Module {
     entry: &'static str,
@@ -115,7 +119,8 @@ const ALL: [Module; 4] = [FULL, SMALL, CHECK, BAKE];
 /// Optimises every function for size. The hot functions are excluded by name.
 const SIZE_FLAG: &str = "-Cllvm-args=-force-attribute=optsize";
 
-/// Part of the mangled name of every hot function: `Width::run`, which runs a kernel (`exec/simd.rs` of the core).
+/// Part of the mangled name of every hot function: `Width::run`, which runs a kernel (`exec/simd.rs` of the
+/// core).
 const HOT_FUNCTION: &str = "5Width3run";
 
 /// Makes the folder and runs the tests of the package.
@@ -212,13 +217,14 @@ fn compile_for_release(module: Module, (form, form_flags): Form) -> Result<PathB
 fn cargo_build(package: &str, target: &Path) -> std::process::Command {
     let mut cargo = program("cargo build --quiet --profile dist --package");
     cargo.args([package, "--target", TRIPLE]).env("CARGO_TARGET_DIR", target);
-    // Names are needed to find functions; `build.mjs` strips them. The setting is part of the mangled names, too.
+    // Names are needed to find functions; `build.mjs` strips them. The setting is part of the mangled names,
+    // too.
     cargo.env("CARGO_PROFILE_DIST_STRIP", "none");
     cargo
 }
 
-/// The mangled names of the hot functions, from the core's LLVM IR before optimisation, which takes seconds to make. Compiler flags are no
-/// part of mangled names.
+/// The mangled names of the hot functions, from the core's LLVM IR before optimisation, which takes seconds
+/// to make. Compiler flags are no part of mangled names.
 fn hot_functions(target: &Path) -> Result<BTreeSet<String>, String> {
     let target = target.join("names");
     let mut cargo = cargo_build("darboux", &target);

@@ -45,7 +45,8 @@ pub fn package() -> Result<PathBuf, String> {
     Ok(target_folder()?.join("dist-viewer/darboux"))
 }
 
-/// Makes the page with the npm package that [`dist_js::test`] has made, and tests it in a browser with the command's server and outputs.
+/// Makes the page with the npm package that [`dist_js::test`] has made, and tests it in a browser with the
+/// command's server and outputs.
 pub fn test(without: WithoutNpm) -> Outcome {
     let can_skip = matches!(without, WithoutNpm::Skip);
     if can_skip && !works(&mut program("npm --version")) {
@@ -81,7 +82,8 @@ fn prepare(build: Build) -> Result<PathBuf, String> {
     Ok(folder.join("darboux_viewer.wasm"))
 }
 
-/// Compiles the module in a target folder of its own, at the same time as those of the npm package. Returns the folder of the module.
+/// Compiles the module in a target folder of its own, at the same time as those of the npm package. Returns
+/// the folder of the module.
 fn compile_for_release() -> Result<PathBuf, String> {
     let target = target_folder()?.join("dist-viewer/module");
     let mut cargo = program("cargo build --quiet --profile page --package");

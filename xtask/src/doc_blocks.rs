@@ -1,12 +1,14 @@
 //! `cargo xtask docs [PAGE ...]`: runs every code block of the documentation.
 //!
-//! Each page gets a folder with sample files. Its blocks run from top to bottom as one shell script, one C, C++, Python or JavaScript program; a TOML
-//! block must be a manifest that cargo reads. The page runs twice, because readers repeat commands: a file of the first run must not make
-//! the second fail. Rust blocks are doctests, which `cargo test` runs; here only the `include_str!` that makes them doctests is checked.
+//! Each page gets a folder with sample files. Its blocks run from top to bottom as one shell script, one C,
+//! C++, Python or JavaScript program; a TOML block must be a manifest that cargo reads. The page runs twice,
+//! because readers repeat commands: a file of the first run must not make the second fail. Rust blocks are
+//! doctests, which `cargo test` runs; here only the `include_str!` that makes them doctests is checked.
 //!
 //! Two comments steer this, each on its own line before a block:
-//! `<!-- not run: REASON -->` leaves the next block out. `<!-- hidden LANGUAGE`, code, `-->` is a block that readers do not see.
-//! A command that is to fail says so in its comment: `darboux check broken.glb  # exit status 1: there are errors`.
+//! `<!-- not run: REASON -->` leaves the next block out. `<!-- hidden LANGUAGE`, code, `-->` is a block that
+//! readers do not see. A command that is to fail says so in its comment: `darboux check broken.glb  # exit
+//! status 1: there are errors`.
 
 mod blocks;
 mod sandbox;
@@ -22,13 +24,15 @@ use sandbox::Sandbox;
 /// Pages outside `docs`.
 const PAGES: &[&str] = &["README.md", "bindings/python/README.md"];
 
-/// Below `docs`: measurements and failed attempts, whose commands belong to the state of the repository at that time.
+/// Below `docs`: measurements and failed attempts, whose commands belong to the state of the repository at
+/// that time.
 const NOTES: &str = "docs/notes";
 
 /// Languages whose blocks are text, output or fragments of shaders.
 const NOT_RUN: &[&str] = &["glsl", "hlsl", "json", "text", "wgsl", "yaml"];
 
-/// Runs the blocks of the named pages, or of all. Errors: a block fails, a page has a block in a language that nothing runs.
+/// Runs the blocks of the named pages, or of all. Errors: a block fails, a page has a block in a language
+/// that nothing runs.
 pub fn run(names: &[&str]) -> Outcome {
     let pages =
         if names.is_empty() { all_pages()? } else { names.iter().map(|name| root().join(name)).collect() };
@@ -103,7 +107,8 @@ fn run_page(page: &Page, sandbox: &Sandbox) -> Outcome {
     Ok(())
 }
 
-/// Errors: no library includes the page in its documentation, so that `cargo test` does not run the page's Rust blocks.
+/// Errors: no library includes the page in its documentation, so that `cargo test` does not run the page's
+/// Rust blocks.
 fn is_doctest(page: &str) -> Outcome {
     let mut folders = vec![root().join("tests/src")];
     let crates = root().join("crates");

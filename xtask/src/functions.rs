@@ -1,8 +1,9 @@
 //! `docs/functions.md`: every function by the name that it has in each language.
 //!
-//! The rows are written by hand in [`rows`]. Each name is looked for in the language's own list: the lists of the public API (Rust), darboux.h (C),
-//! darboux.hpp (C++), the stubs (Python), the modules that the entries export (JavaScript), and the command-line reference. A name that does not
-//! exist is an error, and so is a function of C, Python or JavaScript that is in no row.
+//! The rows are written by hand in [`rows`]. Each name is looked for in the language's own list: the lists of
+//! the public API (Rust), darboux.h (C), darboux.hpp (C++), the stubs (Python), the modules that the entries
+//! export (JavaScript), and the command-line reference. A name that does not exist is an error, and so is a
+//! function of C, Python or JavaScript that is in no row.
 
 mod names;
 mod rows;
@@ -28,7 +29,8 @@ and the same results, bit for bit. A dash means that the language does not have 
 crate, `check:` stands for the npm package's entry `darboux/check` (and so on), and the command's column names the subcommand that does it for files.
 ";
 
-/// Writes the page below `into`, where the lists of the Rust API, darboux.h and the command-line reference lie already.
+/// Writes the page below `into`, where the lists of the Rust API, darboux.h and the command-line reference
+/// lie already.
 pub fn write(into: &Path) -> Outcome {
     let names = Names::read(into)?;
     let missing = missing(&names);

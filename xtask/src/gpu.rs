@@ -1,7 +1,8 @@
 //! `cargo xtask gpu`: records the tests, comparisons and times of a machine with a GPU in one folder.
 //!
-//! The programs are built first, into one folder together with this program. A machine without Rust and without a network needs that
-//! folder and the repository only. Each step can be run alone, and writes its results as it goes.
+//! The programs are built first, into one folder together with this program. A machine without Rust and
+//! without a network needs that folder and the repository only. Each step can be run alone, and writes its
+//! results as it goes.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -64,8 +65,8 @@ const BUILDS: [(&str, &str); 3] = [
 const COMMIT: &str = "commit";
 
 impl<'a> Arguments<'a> {
-    /// Of words in any order: names of steps, `pack`, `--out FOLDER`, and options of the benchmark. Errors: `--out` without a folder, other
-    /// words.
+    /// Of words in any order: names of steps, `pack`, `--out FOLDER`, and options of the benchmark. Errors:
+    /// `--out` without a folder, other words.
     pub fn new(words: &[&'a str]) -> Result<Self, String> {
         let mut wanted = Self::default();
         let mut words = words.iter().copied();
@@ -87,7 +88,8 @@ impl<'a> Arguments<'a> {
     }
 }
 
-/// Builds the programs unless this program was packed with them, runs all steps, and writes a file for each. Errors: a step failed.
+/// Builds the programs unless this program was packed with them, runs all steps, and writes a file for each.
+/// Errors: a step failed.
 pub fn record(wanted: &Arguments<'_>) -> Outcome {
     let packed = std::env::current_exe().ok().and_then(|own| own.parent().map(Path::to_owned));
     let folder = match packed.filter(|folder| folder.join(COMMIT).is_file()) {
@@ -202,7 +204,8 @@ fn read(path: &Path) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| format!("{} cannot be read: {error}", path.display()))
 }
 
-/// Runs a program, prints its output, and returns the lines and, if it failed, its exit status. Errors: it cannot start.
+/// Runs a program, prints its output, and returns the lines and, if it failed, its exit status. Errors: it
+/// cannot start.
 fn lines_of(command: &mut Command) -> Result<(Vec<String>, Option<String>), String> {
     let cannot_start = |error, command: &Command| format!("{} cannot start: {error}", shown(command));
     let mut child = command.stdout(Stdio::piped()).spawn().map_err(|error| cannot_start(error, command))?;

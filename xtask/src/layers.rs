@@ -1,7 +1,8 @@
-//! `cargo xtask layers`: checks which packages import which, and that the files of a package import each other without cycles.
+//! `cargo xtask layers`: checks which packages import which, and that the files of a package import each
+//! other without cycles.
 //!
-//! Packages are compared with the table of ARCHITECTURE.md. Inside a package every file is a node, and a file that names an item of
-//! another file gives an edge; a strongly connected group of files is an error.
+//! Packages are compared with the table of ARCHITECTURE.md. Inside a package every file is a node, and a file
+//! that names an item of another file gives an edge; a strongly connected group of files is an error.
 
 mod cycles;
 mod packages;

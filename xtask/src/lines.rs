@@ -1,4 +1,5 @@
-//! `cargo xtask lines`: counts the lines of code of each part of the repository, without comments, blank lines and unit tests.
+//! `cargo xtask lines`: counts the lines of code of each part of the repository, without comments, blank
+//! lines and unit tests.
 
 use std::ffi::OsStr;
 use std::path::{Component, Path};

@@ -5,6 +5,7 @@ mod bake_pictures;
 mod bench;
 mod bench_files;
 mod ci;
+mod comments;
 mod conformance;
 mod default_build;
 mod dist_c;

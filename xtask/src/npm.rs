@@ -9,7 +9,8 @@ use crate::run::{Outcome, program, run, to_stderr};
 /// A copy of the lock file that the installed packages were made from.
 const INSTALLED: &str = "node_modules/.installed-lock.json";
 
-/// Installs the packages of a folder, unless those of its lock file are installed already. `what` names the folder in progress lines.
+/// Installs the packages of a folder, unless those of its lock file are installed already. `what` names the
+/// folder in progress lines.
 pub fn install(what: &str, folder: &Path) -> Outcome {
     let (lock, installed) = (folder.join("package-lock.json"), folder.join(INSTALLED));
     let wanted = fs::read(&lock).map_err(|error| format!("{} cannot be read: {error}", lock.display()))?;

@@ -1,4 +1,5 @@
-//! Progress of long tasks: a line when a step starts, a line every few seconds while it runs, and a line with its time.
+//! Progress of long tasks: a line when a step starts, a line every few seconds while it runs, and a line with
+//! its time.
 
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;

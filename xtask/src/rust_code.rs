@@ -1,7 +1,8 @@
 //! The modules of one crate and the files that define its items.
 //!
-//! A path is followed through modules, imports, re-exports and globs to the module that defines its item: `use super::X` leads to the
-//! sibling that defines `X` if the parent only re-exports it. Code under `#[cfg(test)]` is ignored.
+//! A path is followed through modules, imports, re-exports and globs to the module that defines its item:
+//! `use super::X` leads to the sibling that defines `X` if the parent only re-exports it. Code under
+//! `#[cfg(test)]` is ignored.
 
 pub mod names;
 
@@ -116,7 +117,8 @@ impl Crate {
         self.load_file(file, folder, Some(parent), read)
     }
 
-    /// The module that defines the item that a path leads to, and the item's name. A path is relative to the module `from`.
+    /// The module that defines the item that a path leads to, and the item's name. A path is relative to the
+    /// module `from`.
     pub fn item(&self, from: usize, path: &[String]) -> Option<(usize, String)> {
         self.find_item(from, path, &mut BTreeSet::new())
     }

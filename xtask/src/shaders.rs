@@ -1,8 +1,9 @@
 //! The shader library in GLSL and HLSL, from its WGSL.
 //!
-//! The WGSL keeps to what all three languages share: functions, structures, `if`, arithmetic and vectors; every `let`, `var` and `const`
-//! names its type; no matrices, whose rows and columns differ, and no samplers. So translating is spelling, word by word, and line n of
-//! each file is line n of the other two, but for a head of its own. What the tables here do not know is an error.
+//! The WGSL keeps to what all three languages share: functions, structures, `if`, arithmetic and vectors;
+//! every `let`, `var` and `const` names its type; no matrices, whose rows and columns differ, and no
+//! samplers. So translating is spelling, word by word, and line n of each file is line n of the other two,
+//! but for a head of its own. What the tables here do not know is an error.
 
 use std::fs;
 use std::path::Path;
@@ -45,7 +46,8 @@ const BUILT_IN: &[[&str; 3]] = &[
     ["sqrt", "sqrt", "sqrt"],
 ];
 
-/// Copies of WGSL files for darboux-render, because a package on crates.io holds no files from outside of its folder.
+/// Copies of WGSL files for darboux-render, because a package on crates.io holds no files from outside of its
+/// folder.
 pub const RENDER_COPIES: &str = "crates/darboux-render/shader_library";
 
 /// The files that darboux-render includes.
@@ -82,7 +84,8 @@ fn write_file(path: &Path, text: &str) -> Outcome {
     written.map_err(|error| format!("{} cannot be written: {error}", path.display()))
 }
 
-/// What stands before the first line. GLSL ES has no precision of its own for `float`, and too little for `int`, in fragment shaders.
+/// What stands before the first line. GLSL ES has no precision of its own for `float`, and too little for
+/// `int`, in fragment shaders.
 fn head(theme: &str, language: Language) -> String {
     let origin = format!("// Generated from shaders/wgsl/{theme}.wgsl by `cargo xtask gen`.\n");
     match language {

@@ -9,8 +9,9 @@
 //! links       every link of every page leads to a file and, if it has one, a heading of the site
 //! ```
 //!
-//! The generator is our own because the parser (pulldown-cmark) is here already, and pages look the same as in the repository: a site of 90 pages is
-//! made in a second, without a program that a fresh machine would have to compile first.
+//! The generator is our own because the parser (pulldown-cmark) is here already, and pages look the same as
+//! in the repository: a site of 90 pages is made in a second, without a program that a fresh machine would
+//! have to compile first.
 
 mod html;
 mod navigation;
@@ -38,7 +39,8 @@ pub fn make() -> Outcome {
     Ok(())
 }
 
-/// `cargo xtask links`: makes the pages alone, and checks their links and titles. Links to other sites are not followed.
+/// `cargo xtask links`: makes the pages alone, and checks their links and titles. Links to other sites are
+/// not followed.
 pub fn check() -> Outcome {
     write(&target_folder()?.join("site-check"))
 }
@@ -108,7 +110,8 @@ fn require_titles(pages: &BTreeMap<PathBuf, Page>) -> Outcome {
     ))
 }
 
-/// Adds the viewer's page, and the entry `darboux` of the npm package, on which the interactive figures compute.
+/// Adds the viewer's page, and the entry `darboux` of the npm package, on which the interactive figures
+/// compute.
 fn add_viewer(folder: &Path) -> Outcome {
     let page = dist_viewer::make_page(Build::Release)?;
     run(to_stderr(program("cp -r").arg(page).arg(folder.join("viewer"))))?;

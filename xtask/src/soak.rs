@@ -1,9 +1,12 @@
-//! `cargo xtask soak`: runs the command on damaged and hostile files, for as long as wanted, and checks what every run must keep.
+//! `cargo xtask soak`: runs the command on damaged and hostile files, for as long as wanted, and checks what
+//! every run must keep.
 //!
-//! Each case is an empty folder with a few files and a command line. Most are models and images of every format with a few damaged bytes or
-//! values; directed cases try one kind of defect each. A run must end by itself with the right exit code, within limits of time and memory,
-//! with clean messages; inputs stay as they were, nothing is left behind, and every output can be read again. A case is made from the seed
-//! and its number alone, so that it can be repeated; only the moment of a signal and the order of processes differ.
+//! Each case is an empty folder with a few files and a command line. Most are models and images of every
+//! format with a few damaged bytes or values; directed cases try one kind of defect each. A run must end by
+//! itself with the right exit code, within limits of time and memory, with clean messages; inputs stay as
+//! they were, nothing is left behind, and every output can be read again. A case is made from the seed
+//! and its number alone, so that it can be repeated; only the moment of a signal and the order of processes
+//! differ.
 
 mod case;
 mod child;
@@ -124,7 +127,8 @@ impl Soak {
         &self.directed[number as usize % self.directed.len()]
     }
 
-    /// The case with a number: first every directed case, then mostly damaged files. `None` if this program cannot run it.
+    /// The case with a number: first every directed case, then mostly damaged files. `None` if this program
+    /// cannot run it.
     fn case(&self, number: u64, random: &mut Random) -> Result<Option<Case>, String> {
         if number < self.directed.len() as u64 || number >= DIRECTED {
             return self.directed_case(self.directed_of(number), random).transpose();
@@ -147,7 +151,8 @@ impl Soak {
         Some(case.map(|case| Case { name: directed.name.to_owned(), ..case }))
     }
 
-    /// A file of any format: each is as frequent as the others, though most seeds are GLB files; these come twice as often.
+    /// A file of any format: each is as frequent as the others, though most seeds are GLB files; these come
+    /// twice as often.
     fn seed(&self, random: &mut Random) -> &Seed {
         let mut kinds: Vec<String> = self.seeds.iter().map(Seed::extension).collect();
         kinds.sort();

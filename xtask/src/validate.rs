@@ -1,4 +1,5 @@
-//! Checks the command's outputs for all models with independent tools: the Khronos validator and glTF-Transform.
+//! Checks the command's outputs for all models with independent tools: the Khronos validator and
+//! glTF-Transform.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -41,7 +42,8 @@ pub fn all_models(without_npm: WithoutNpm) -> Outcome {
     }
 }
 
-/// Runs the command on a folder of models, and on each model with output to the other container, and checks all outputs.
+/// Runs the command on a folder of models, and on each model with output to the other container, and checks
+/// all outputs.
 fn check(folder: &Path, name: &str) -> Outcome {
     let work = root().join("target/models").join(name);
     if work.exists() {
@@ -69,7 +71,8 @@ fn check(folder: &Path, name: &str) -> Outcome {
     })
 }
 
-/// Runs `darboux tangents --overwrite` with these arguments; returns the path of its JSON report, which also lists failures.
+/// Runs `darboux tangents --overwrite` with these arguments; returns the path of its JSON report, which also
+/// lists failures.
 fn tangents(arguments: &[&OsStr], work: &Path, number: usize) -> Result<PathBuf, String> {
     let mut command = program("target/debug/darboux tangents --overwrite --quiet --json");
     command.args(arguments).stderr(Stdio::null());

@@ -9,8 +9,8 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use crate::pointers::null;
 use crate::status::{Error, call, darboux_status};
 
-/// Allocates `size` bytes at a multiple of `alignment`, which is a power of two. `context`: the pointer that was passed to
-/// darboux_set_allocator. Where it returns NULL, the library aborts the program.
+/// Allocates `size` bytes at a multiple of `alignment`, which is a power of two. `context`: the pointer that
+/// was passed to darboux_set_allocator. Where it returns NULL, the library aborts the program.
 pub type darboux_allocate =
     Option<unsafe extern "C" fn(context: *mut c_void, size: usize, alignment: usize) -> *mut c_void>;
 
@@ -20,9 +20,10 @@ pub type darboux_deallocate =
 
 /// Makes the library allocate all of its memory with the caller's functions.
 ///
-/// It must be called before any other function of the library, because memory of the system's allocator cannot be freed with the caller's
-/// functions. `allocate`, `deallocate`: called concurrently, from all threads that call the library and from the worker threads of
-/// contexts. `context`: passed to both functions; may be NULL. Errors: a null function; the library has allocated memory already.
+/// It must be called before any other function of the library, because memory of the system's allocator
+/// cannot be freed with the caller's functions. `allocate`, `deallocate`: called concurrently, from all
+/// threads that call the library and from the worker threads of contexts. `context`: passed to both
+/// functions; may be NULL. Errors: a null function; the library has allocated memory already.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_set_allocator(
     allocate: darboux_allocate,
@@ -58,7 +59,8 @@ const BEING_SET: u8 = 1;
 const SYSTEM: u8 = 2;
 const CALLERS: u8 = 3;
 
-// SAFETY: `functions` is written only by the thread that changed the state from UNDECIDED to BEING_SET, and read only after CALLERS.
+// SAFETY: `functions` is written only by the thread that changed the state from UNDECIDED to BEING_SET, and
+// read only after CALLERS.
 unsafe impl Sync for Allocator {}
 
 impl Allocator {
@@ -84,7 +86,8 @@ impl Allocator {
         loop {
             match self.state.load(Ordering::Acquire) {
                 SYSTEM => return None,
-                // SAFETY: `functions` was written before the state became CALLERS, and is never written again.
+                // SAFETY: `functions` was written before the state became CALLERS, and is never written
+                // again.
                 CALLERS => return unsafe { *self.functions.get() },
                 BEING_SET => std::hint::spin_loop(),
                 _ => _ = self.decide(SYSTEM),
@@ -93,7 +96,8 @@ impl Allocator {
     }
 }
 
-// SAFETY: all calls go either to the system's allocator or to the caller's functions, which must meet the same contract.
+// SAFETY: all calls go either to the system's allocator or to the caller's functions, which must meet the
+// same contract.
 unsafe impl GlobalAlloc for Allocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         match self.functions() {

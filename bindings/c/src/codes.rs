@@ -1,4 +1,5 @@
-//! Enumerations of the C interface. Callers pass them as `uint32_t`, so that an invalid value is an error instead of undefined behaviour.
+//! Enumerations of the C interface. Callers pass them as `uint32_t`, so that an invalid value is an error
+//! instead of undefined behaviour.
 
 use darboux::encode::Encoding;
 use darboux::{
@@ -8,13 +9,16 @@ use darboux::{
 
 use crate::status::{Error, darboux_status};
 
-/// How tangents are computed. A normal map needs the method that it was baked with, nearly always the default.
+/// How tangents are computed. A normal map needs the method that it was baked with, nearly always the
+/// default.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MethodCode {
-    /// The standard of bakers and renderers: sums of unit tangents weighted by corner angles, over welded vertices.
+    /// The standard of bakers and renderers: sums of unit tangents weighted by corner angles, over welded
+    /// vertices.
     Mikktspace = 0,
-    /// MikkTSpace's groups with weights of corner angle times area. The choice where no baked map requires another method.
+    /// MikkTSpace's groups with weights of corner angle times area. The choice where no baked map requires
+    /// another method.
     AngleArea = 1,
     /// The sum of dP/du per vertex and UV orientation, not normalised (Lengyel 2001).
     Lengyel = 2,
@@ -28,7 +32,8 @@ pub enum MethodCode {
     Face = 6,
     /// A perpendicular of the normal. UVs are ignored.
     FromNormal = 7,
-    /// MikkTSpace's groups with weights of corner angle times the lengths of the corner's edges: meshoptimizer's default.
+    /// MikkTSpace's groups with weights of corner angle times the lengths of the corner's edges:
+    /// meshoptimizer's default.
     AngleEdge = 8,
 }
 
@@ -36,9 +41,11 @@ pub enum MethodCode {
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModeCode {
-    /// Every bit of the reference where its result is usable; elsewhere a unit tangent perpendicular to the normal.
+    /// Every bit of the reference where its result is usable; elsewhere a unit tangent perpendicular to the
+    /// normal.
     Repaired = 0,
-    /// Every bit of the reference, its defects included: zero-length tangents, tangents along the normal, NaN.
+    /// Every bit of the reference, its defects included: zero-length tangents, tangents along the normal,
+    /// NaN.
     Reference = 1,
     /// As REPAIRED, with complete edge matching and one sign per face.
     Corrected = 2,
@@ -116,7 +123,8 @@ pub enum SmoothingSeamsCode {
     Respected = 1,
 }
 
-/// Compressed formats of tangents. Each comment gives the largest error of a direction, in degrees. The sign is exact in all formats.
+/// Compressed formats of tangents. Each comment gives the largest error of a direction, in degrees. The sign
+/// is exact in all formats.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentEncodingCode {
@@ -128,7 +136,8 @@ pub enum TangentEncodingCode {
     Snorm16 = 2,
     /// `int16_t[2]`: octahedral map; the lowest bit of y is the sign. 0.0057 degrees.
     Octahedral = 3,
-    /// `uint16_t`: the angle around the normal; the lowest bit is the sign. The decoder needs the same normal. 0.0071 degrees.
+    /// `uint16_t`: the angle around the normal; the lowest bit is the sign. The decoder needs the same
+    /// normal. 0.0071 degrees.
     Diamond = 4,
 }
 
@@ -172,7 +181,8 @@ pub enum UvOriginCode {
     BottomLeft = 1,
 }
 
-/// The direction of the tangent, as a direction in the texture image. More red tilts the normal in this direction.
+/// The direction of the tangent, as a direction in the texture image. More red tilts the normal in this
+/// direction.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentDirectionCode {
@@ -182,8 +192,8 @@ pub enum TangentDirectionCode {
     Left = 1,
 }
 
-/// The direction of the bitangent that a shader rebuilds, as a direction in the texture image. More green tilts the normal in this
-/// direction.
+/// The direction of the bitangent that a shader rebuilds, as a direction in the texture image. More green
+/// tilts the normal in this direction.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BitangentDirectionCode {
@@ -193,7 +203,8 @@ pub enum BitangentDirectionCode {
     Down = 1,
 }
 
-/// The formula by which a shader rebuilds the bitangent from normal, tangent and sign, applied to coordinates of either handedness.
+/// The formula by which a shader rebuilds the bitangent from normal, tangent and sign, applied to coordinates
+/// of either handedness.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SignRuleCode {
@@ -262,7 +273,8 @@ pub type darboux_sign_rule = u32;
 /// The value of a [`ProgramCode`].
 pub type darboux_program = u32;
 
-/// Defines a function that converts a number to a value of the core. Errors: a number that is not in the list.
+/// Defines a function that converts a number to a value of the core. Errors: a number that is not in the
+/// list.
 macro_rules! from_code {
     ($name:ident, $what:literal, $codes:ident => $target:ty { $($code:ident => $value:expr),* $(,)? }) => {
         pub(crate) fn $name(code: u32) -> Result<$target, Error> {
@@ -274,7 +286,8 @@ macro_rules! from_code {
     };
 }
 
-/// The value of a code of a choice of the core: its position in the list. `what`: the type in C. Errors: a code beyond the list.
+/// The value of a code of a choice of the core: its position in the list. `what`: the type in C. Errors: a
+/// code beyond the list.
 fn choice<T: Choice>(what: &str, code: u32) -> Result<T, Error> {
     T::from_code(code)
         .ok_or_else(|| Error::new(darboux_status::UnknownValue, format!("{code} is not a value of {what}")))

@@ -1,7 +1,7 @@
 //! `darboux_context`: reused memory, a thread pool for large meshes, and a cancellation flag.
 //!
-//! A call takes the memory out of the context and puts it back when it returns. A call that panics therefore leaves an empty context, and a
-//! concurrent call with the same context allocates its own memory.
+//! A call takes the memory out of the context and puts it back when it returns. A call that panics therefore
+//! leaves an empty context, and a concurrent call with the same context allocates its own memory.
 
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle, available_parallelism};
@@ -14,8 +14,8 @@ use crate::status::{Error, call, darboux_status};
 
 /// Reused memory, threads for large meshes, and a cancellation flag.
 ///
-/// Calls reuse the memory of the context, and allocate only where a mesh needs more than all meshes before it. One thread at a time may use a
-/// context, except for darboux_context_cancel, which any thread may call.
+/// Calls reuse the memory of the context, and allocate only where a mesh needs more than all meshes before
+/// it. One thread at a time may use a context, except for darboux_context_cancel, which any thread may call.
 #[derive(Default)]
 pub struct darboux_context {
     memory: Mutex<Memory>,
@@ -30,13 +30,15 @@ pub(crate) struct Memory {
     tangents: Vec<[f32; 4]>,
 }
 
-/// A thread pool. Dropping it waits until its threads have ended, because the program may unload the library afterwards.
+/// A thread pool. Dropping it waits until its threads have ended, because the program may unload the library
+/// afterwards.
 struct Pool {
     pool: Option<ThreadPool>,
     threads: Vec<JoinHandle<()>>,
 }
 
-/// The smallest number of corners for which threads are used. Waking a thread costs more than smaller meshes save.
+/// The smallest number of corners for which threads are used. Waking a thread costs more than smaller meshes
+/// save.
 const MIN_CORNERS: usize = 3 << 14;
 
 /// The largest number of threads: a limit against typing errors, which could exhaust the machine.
@@ -127,9 +129,10 @@ impl darboux_context {
 
 /// Creates an empty context. Its memory grows to the requirement of the largest mesh.
 ///
-/// `threads`: the number of threads for large meshes; the results have equal bits for any number. 1: the calling thread only. 2 to 1024:
-/// the threads start now and sleep between calls. 0: the number of the machine's hardware threads. `context`: receives the context; free it
-/// with darboux_context_free. Errors: a null pointer; threads cannot be started.
+/// `threads`: the number of threads for large meshes; the results have equal bits for any number. 1: the
+/// calling thread only. 2 to 1024: the threads start now and sleep between calls. 0: the number of the
+/// machine's hardware threads. `context`: receives the context; free it with darboux_context_free. Errors: a
+/// null pointer; threads cannot be started.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_context_create(
     threads: usize,
@@ -151,9 +154,11 @@ pub unsafe extern "C" fn darboux_context_create(
     call(|| unsafe { pointers::hand_out("context", context, make) })
 }
 
-/// Cancels the running call of a context and all later ones until darboux_context_resume. Any thread may call it.
+/// Cancels the running call of a context and all later ones until darboux_context_resume. Any thread may call
+/// it.
 ///
-/// Cancelled calls return DARBOUX_STATUS_CANCELLED, and their output arrays are unspecified. Errors: a null pointer.
+/// Cancelled calls return DARBOUX_STATUS_CANCELLED, and their output arrays are unspecified. Errors: a null
+/// pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_context_cancel(context: *const darboux_context) -> darboux_status {
     call(|| {

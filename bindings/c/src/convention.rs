@@ -137,12 +137,14 @@ pub unsafe extern "C" fn darboux_convention_of(
     })
 }
 
-/// Computes the convention of the tangents that darboux_generate_tangents writes for a mesh in a given convention.
+/// Computes the convention of the tangents that darboux_generate_tangents writes for a mesh in a given
+/// convention.
 ///
-/// Axes, winding and UV origin stay. The sign can differ, because MikkTSpace takes it from the UV area and does not consider the UV origin.
-/// For example, tangents generated for a glTF mesh become glTF tangents by darboux_convert_tangents from the result of this function to
-/// glTF, which negates w. `convention`: the mesh's convention; may be NULL for glTF. `generated`: receives the tangents' convention.
-/// Errors: those of darboux_convert_vectors.
+/// Axes, winding and UV origin stay. The sign can differ, because MikkTSpace takes it from the UV area and
+/// does not consider the UV origin. For example, tangents generated for a glTF mesh become glTF tangents by
+/// darboux_convert_tangents from the result of this function to glTF, which negates w. `convention`: the
+/// mesh's convention; may be NULL for glTF. `generated`: receives the tangents' convention. Errors: those of
+/// darboux_convert_vectors.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_convention_generated(
     convention: *const darboux_convention,
@@ -158,9 +160,10 @@ pub unsafe extern "C" fn darboux_convention_generated(
 
 /// Converts positions, normals or offsets from one convention to another. Exact.
 ///
-/// `from`, `to`: the conventions; NULL for glTF. `count`: the number of elements. `vectors`: `count` by 3 floats. `converted`: receives
-/// `count` by 3 floats; may equal `vectors`. Strides: bytes from one element to the next; 0 for packed. Errors: an unknown value in a
-/// convention, two parallel axes, a null pointer, a stride smaller than an element.
+/// `from`, `to`: the conventions; NULL for glTF. `count`: the number of elements. `vectors`: `count` by 3
+/// floats. `converted`: receives `count` by 3 floats; may equal `vectors`. Strides: bytes from one element to
+/// the next; 0 for packed. Errors: an unknown value in a convention, two parallel axes, a null pointer, a
+/// stride smaller than an element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_convert_vectors(
     from: *const darboux_convention,
@@ -183,7 +186,8 @@ pub unsafe extern "C" fn darboux_convert_vectors(
 
 /// Converts tangents from one convention to another. Exact.
 ///
-/// `tangents`: `count` by 4 floats, xyz and the sign w. Other parameters and errors: as for darboux_convert_vectors.
+/// `tangents`: `count` by 4 floats, xyz and the sign w. Other parameters and errors: as for
+/// darboux_convert_vectors.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_convert_tangents(
     from: *const darboux_convention,
@@ -206,8 +210,9 @@ pub unsafe extern "C" fn darboux_convert_tangents(
 
 /// Converts UVs from one convention to another: v becomes 1 - v where the origins differ.
 ///
-/// A round trip is exact for multiples of 2^-24 in [0, 1]; its error for other values is at most one ulp of the larger of 1 and |v|. `uvs`:
-/// `count` by 2 floats. Other parameters and errors: as for darboux_convert_vectors.
+/// A round trip is exact for multiples of 2^-24 in [0, 1]; its error for other values is at most one ulp of
+/// the larger of 1 and |v|. `uvs`: `count` by 2 floats. Other parameters and errors: as for
+/// darboux_convert_vectors.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_convert_uvs(
     from: *const darboux_convention,
@@ -230,10 +235,11 @@ pub unsafe extern "C" fn darboux_convert_uvs(
 
 /// Reverses the corners of every face where the winding differs. The first corner of each face stays first.
 ///
-/// A change of handedness alone reverses nothing, because the winding is defined as seen on the screen. `from`, `to`: the conventions; NULL
-/// for glTF. `faces`, `face_sizes`, `face_count`: as in darboux_mesh. `corners`: C packed elements of `corner_size` bytes, changed in
-/// place: the indices, or any other attribute of corners. `corner_count`: C. `corner_size`: bytes per element. Errors: those of
-/// darboux_convert_vectors; corners that do not make whole faces.
+/// A change of handedness alone reverses nothing, because the winding is defined as seen on the screen.
+/// `from`, `to`: the conventions; NULL for glTF. `faces`, `face_sizes`, `face_count`: as in darboux_mesh.
+/// `corners`: C packed elements of `corner_size` bytes, changed in place: the indices, or any other attribute
+/// of corners. `corner_count`: C. `corner_size`: bytes per element. Errors: those of darboux_convert_vectors;
+/// corners that do not make whole faces.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_convert_faces(
     from: *const darboux_convention,
@@ -283,7 +289,8 @@ impl FaceSizes<'_> {
         Err(Error::new(darboux_status::Faces, message))
     }
 
-    /// Reverses the corners of every face. `corners`: elements of `size` bytes, whose number [`FaceSizes::check`] accepted.
+    /// Reverses the corners of every face. `corners`: elements of `size` bytes, whose number
+    /// [`FaceSizes::check`] accepted.
     fn reverse(&self, conversion: &Conversion, corners: &mut [u8], size: usize) {
         if corners.is_empty() {
             // Without corners, `size` may be 0 or huge.
@@ -316,8 +323,8 @@ impl FaceSizes<'_> {
 
 /// Tells which channels of a normal map are inverted: in every texel of n bits, c becomes 2^n - 1 - c.
 ///
-/// `from`, `to`: the conventions; NULL for glTF. `red`, `green`: receive 1 where the channel is inverted, else 0. Errors: those of
-/// darboux_convert_vectors.
+/// `from`, `to`: the conventions; NULL for glTF. `red`, `green`: receive 1 where the channel is inverted,
+/// else 0. Errors: those of darboux_convert_vectors.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_convert_channels(
     from: *const darboux_convention,

@@ -14,11 +14,12 @@ struct Place(*mut u8, usize);
 
 /// Encodes tangents in a compressed format.
 ///
-/// `encoding`: the format, which determines the type of `codes`. `count`: the number of elements of every array. `normals`: `count` by 3
-/// floats, unit length, equal bit for bit to the normals at decoding; read for DARBOUX_TANGENT_ENCODING_DIAMOND only, otherwise may be
-/// NULL. `tangents`: `count` by 4 floats, unit xyz and sign w; a w below zero counts as -1, any other value as +1. `codes`: receives
-/// `count` elements. Strides: bytes from one element to the next; 0 for packed. Errors: a null pointer, a stride smaller than an element,
-/// an unknown encoding.
+/// `encoding`: the format, which determines the type of `codes`. `count`: the number of elements of every
+/// array. `normals`: `count` by 3 floats, unit length, equal bit for bit to the normals at decoding; read for
+/// DARBOUX_TANGENT_ENCODING_DIAMOND only, otherwise may be NULL. `tangents`: `count` by 4 floats, unit xyz
+/// and sign w; a w below zero counts as -1, any other value as +1. `codes`: receives `count` elements.
+/// Strides: bytes from one element to the next; 0 for packed. Errors: a null pointer, a stride smaller than
+/// an element, an unknown encoding.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_encode_tangents(
     encoding: darboux_tangent_encoding,
@@ -49,9 +50,11 @@ pub unsafe extern "C" fn darboux_encode_tangents(
     })
 }
 
-/// Decodes the tangents that darboux_encode_tangents wrote. They have unit length, except in the SNORM formats.
+/// Decodes the tangents that darboux_encode_tangents wrote. They have unit length, except in the SNORM
+/// formats.
 ///
-/// `codes`: read. `tangents`: receives `count` by 4 floats. Other parameters and errors: as for darboux_encode_tangents.
+/// `codes`: read. `tangents`: receives `count` by 4 floats. Other parameters and errors: as for
+/// darboux_encode_tangents.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_decode_tangents(
     encoding: darboux_tangent_encoding,
@@ -84,8 +87,9 @@ pub unsafe extern "C" fn darboux_decode_tangents(
 
 /// Encodes normals as `int16_t[2]`, an octahedral map. The largest error is 0.0038 degrees.
 ///
-/// `count`: the number of elements. `normals`: `count` by 3 floats. `codes`: receives `count` by 2 integers. Strides: bytes from one
-/// element to the next; 0 for packed. Errors: a null pointer, a stride smaller than an element.
+/// `count`: the number of elements. `normals`: `count` by 3 floats. `codes`: receives `count` by 2 integers.
+/// Strides: bytes from one element to the next; 0 for packed. Errors: a null pointer, a stride smaller than
+/// an element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_encode_normals(
     count: usize,
@@ -101,7 +105,8 @@ pub unsafe extern "C" fn darboux_encode_normals(
     })
 }
 
-/// Decodes the normals that darboux_encode_normals wrote, as unit vectors. Parameters and errors: as for darboux_encode_normals.
+/// Decodes the normals that darboux_encode_normals wrote, as unit vectors. Parameters and errors: as for
+/// darboux_encode_normals.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_decode_normals(
     count: usize,
@@ -117,11 +122,12 @@ pub unsafe extern "C" fn darboux_decode_normals(
     })
 }
 
-/// Encodes normals and tangents as `int16_t[4]`, one quaternion, scalar last. The largest error is 0.0047 degrees.
+/// Encodes normals and tangents as `int16_t[4]`, one quaternion, scalar last. The largest error is 0.0047
+/// degrees.
 ///
-/// `count`: the number of elements. `normals`: `count` by 3 floats, unit length. `tangents`: `count` by 4 floats, unit xyz and sign w.
-/// `codes`: receives `count` by 4 integers. Strides: bytes from one element to the next; 0 for packed. Errors: a null pointer, a stride
-/// smaller than an element.
+/// `count`: the number of elements. `normals`: `count` by 3 floats, unit length. `tangents`: `count` by 4
+/// floats, unit xyz and sign w. `codes`: receives `count` by 4 integers. Strides: bytes from one element to
+/// the next; 0 for packed. Errors: a null pointer, a stride smaller than an element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_encode_frames(
     count: usize,
@@ -143,7 +149,8 @@ pub unsafe extern "C" fn darboux_encode_frames(
     })
 }
 
-/// Decodes the unit normals and tangents that darboux_encode_frames wrote. Parameters and errors: as for darboux_encode_frames.
+/// Decodes the unit normals and tangents that darboux_encode_frames wrote. Parameters and errors: as for
+/// darboux_encode_frames.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_decode_frames(
     count: usize,

@@ -1,7 +1,9 @@
-//! The C interface of Darboux. `include/darboux.h` is generated from this crate, and its comments are the contract of every pointer.
+//! The C interface of Darboux. `include/darboux.h` is generated from this crate, and its comments are the
+//! contract of every pointer.
 //!
-//! A call reads its structs and pointers into checked views ([`pointers`]), runs the core, and writes the results. [`status::call`] turns a
-//! panic into a status. A panic outside of it, for example while an object is freed, aborts the program; so does running out of memory.
+//! A call reads its structs and pointers into checked views ([`pointers`]), runs the core, and writes the
+//! results. [`status::call`] turns a panic into a status. A panic outside of it, for example while an object
+//! is freed, aborts the program; so does running out of memory.
 
 #![allow(unsafe_code, reason = "C passes pointers")]
 #![allow(non_camel_case_types, reason = "types are called as C calls them")]

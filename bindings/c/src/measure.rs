@@ -1,4 +1,5 @@
-//! Quality of tangents in C: comparison of two sets of tangents, and of tangents with the derivatives of the UV map.
+//! Quality of tangents in C: comparison of two sets of tangents, and of tangents with the derivatives of the
+//! UV map.
 
 use std::mem::offset_of;
 
@@ -16,7 +17,8 @@ pub const DARBOUX_WORST_CORNERS: usize = 16;
 
 const _: () = assert!(DARBOUX_HISTOGRAM_BINS == TangentDifference::HISTOGRAM_BIN_ENDS.len());
 
-/// The difference of two sets of tangents of one mesh. Angles are in degrees, between the xyz of one corner in both sets.
+/// The difference of two sets of tangents of one mesh. Angles are in degrees, between the xyz of one corner
+/// in both sets.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_tangent_difference {
@@ -114,9 +116,10 @@ impl From<UvFidelity> for darboux_uv_fidelity {
 
 /// Compares two sets of tangents, corner by corner.
 ///
-/// `count`: the number of corners. `a`, `b`: `count` by 4 floats, of the corners of one mesh in the same order. `a_stride`, `b_stride`: bytes
-/// from one tangent to the next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone.
-/// `difference`: receives the result. Errors: a null pointer, a stride smaller than an element.
+/// `count`: the number of corners. `a`, `b`: `count` by 4 floats, of the corners of one mesh in the same
+/// order. `a_stride`, `b_stride`: bytes from one tangent to the next; 0 for packed. `context`: threads and a
+/// cancellation flag; NULL for the calling thread alone. `difference`: receives the result. Errors: a null
+/// pointer, a stride smaller than an element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_measure_tangents(
     count: usize,
@@ -143,9 +146,10 @@ pub unsafe extern "C" fn darboux_measure_tangents(
 
 /// Measures tangents against the derivatives of the UV map, over the surface.
 ///
-/// `mesh`: the mesh of the tangents. `tangents`: C by 4 floats. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0
-/// for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `fidelity`: receives the
-/// result. Errors: those of the mesh; another number of tangents than corners.
+/// `mesh`: the mesh of the tangents. `tangents`: C by 4 floats. `tangent_count`: C. `tangent_stride`: bytes
+/// from one tangent to the next; 0 for packed. `context`: threads and a cancellation flag; NULL for the
+/// calling thread alone. `fidelity`: receives the result. Errors: those of the mesh; another number of
+/// tangents than corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_measure_uv_fidelity(
     mesh: *const darboux_mesh,

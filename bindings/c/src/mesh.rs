@@ -1,4 +1,5 @@
-//! The mesh of the C interface: a struct of pointers, counts and strides, and its conversion to the core's borrowed mesh.
+//! The mesh of the C interface: a struct of pointers, counts and strides, and its conversion to the core's
+//! borrowed mesh.
 
 use std::mem::offset_of;
 
@@ -10,8 +11,9 @@ use crate::status::{Error, darboux_status};
 
 /// A borrowed mesh: V vertices in strided arrays, and C corners (vertices of faces) in face order.
 ///
-/// Fields that are zero are absent. No pointer is used after the call. Positions, normals and UVs may have any values and any alignment;
-/// bytes between the elements are not read. Strides are in bytes; 0 for packed. At most 2^30 - 1 vertices and 2^30 - 1 corners.
+/// Fields that are zero are absent. No pointer is used after the call. Positions, normals and UVs may have
+/// any values and any alignment; bytes between the elements are not read. Strides are in bytes; 0 for packed.
+/// At most 2^30 - 1 vertices and 2^30 - 1 corners.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_mesh {
@@ -23,7 +25,8 @@ pub struct darboux_mesh {
     pub positions: *const f32,
     /// Bytes from one position to the next.
     pub position_stride: usize,
-    /// V by 3 floats, used as given: MikkTSpace expects unit length. Ignored by functions that generate or split normals.
+    /// V by 3 floats, used as given: MikkTSpace expects unit length. Ignored by functions that generate or
+    /// split normals.
     pub normals: *const f32,
     /// Bytes from one normal to the next.
     pub normal_stride: usize,
@@ -31,7 +34,8 @@ pub struct darboux_mesh {
     pub uvs: *const f32,
     /// Bytes from one UV to the next.
     pub uv_stride: usize,
-    /// The vertex of each corner, 32 bits. NULL where `indices_u16` is set, and for an unindexed mesh, whose corner i is vertex i.
+    /// The vertex of each corner, 32 bits. NULL where `indices_u16` is set, and for an unindexed mesh, whose
+    /// corner i is vertex i.
     pub indices_u32: *const u32,
     /// The vertex of each corner, 16 bits; or NULL. At most one of both index arrays may be set.
     pub indices_u16: *const u16,
@@ -39,8 +43,8 @@ pub struct darboux_mesh {
     pub index_count: usize,
     /// How corners are grouped into faces.
     pub faces: darboux_faces,
-    /// The corner count of each face for DARBOUX_FACES_MIXED, otherwise ignored. Tangents of faces with other than 3 or 4 corners are
-    /// perpendiculars of the normals.
+    /// The corner count of each face for DARBOUX_FACES_MIXED, otherwise ignored. Tangents of faces with
+    /// other than 3 or 4 corners are perpendiculars of the normals.
     pub face_sizes: *const u32,
     /// The number of `face_sizes`. Ignored except for DARBOUX_FACES_MIXED.
     pub face_count: usize,
@@ -83,7 +87,8 @@ pub(crate) unsafe fn bare<'a>(mesh: *const darboux_mesh) -> Result<Mesh<'a>, Err
     }
 }
 
-/// The largest number of vertices that the core accepts. It is checked before the array sizes, so that the message is about the count.
+/// The largest number of vertices that the core accepts. It is checked before the array sizes, so that the
+/// message is about the count.
 const MAX_VERTICES: usize = (1 << 30) - 1;
 
 /// Reads the struct and checks the number of vertices.

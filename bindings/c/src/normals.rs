@@ -20,8 +20,9 @@ pub struct darboux_normal_options {
     pub shading: darboux_shading,
     /// The weight of each face at a vertex, for smooth shading. Default: the angle of the face's corner.
     pub weight: darboux_normal_weight,
-    /// The crease angle in degrees: smooth shading stops at edges whose faces' normals differ by more. 0 stands for 180: no creases. With a
-    /// negative value, smooth shading stops at every edge that is not flat.
+    /// The crease angle in degrees: smooth shading stops at edges whose faces' normals differ by more. 0
+    /// stands for 180: no creases. With a negative value, smooth shading stops at every edge that is not
+    /// flat.
     pub crease: f32,
     /// Whether vertices at equal positions are merged, for smooth shading. Default: they are merged.
     pub seams: darboux_smoothing_seams,
@@ -44,8 +45,8 @@ pub struct darboux_normal_report {
     pub faces: usize,
     /// Faces without an area or with values that are not finite. They are skipped.
     pub degenerate_faces: usize,
-    /// Corners whose faces' normals cancel or are missing. Their normal is that of their face, else the mean at their vertex, else (0, 0,
-    /// 1).
+    /// Corners whose faces' normals cancel or are missing. Their normal is that of their face, else the mean
+    /// at their vertex, else (0, 0, 1).
     pub repaired_corners: usize,
     /// Edges between two faces at which smooth shading stops because of the crease angle.
     pub creased_edges: usize,
@@ -71,10 +72,11 @@ impl From<NormalReport> for darboux_normal_report {
 
 /// Computes a unit normal for every corner. darboux_split_normals computes vertices from them.
 ///
-/// `mesh`: positions, indices and faces of 3 or more corners, which wind counter-clockwise seen from the side that their normal points to.
-/// `options`: NULL for the defaults. `context`: threads and a cancellation flag; NULL for the calling thread alone. `normals`: receives C by
-/// 3 floats. `normal_count`: C. `normal_stride`: bytes from one normal to the next; 0 for packed. `report`: receives the counts; may be
-/// NULL. Errors: those of the mesh; another count than C; see darboux_status.
+/// `mesh`: positions, indices and faces of 3 or more corners, which wind counter-clockwise seen from the side
+/// that their normal points to. `options`: NULL for the defaults. `context`: threads and a cancellation flag;
+/// NULL for the calling thread alone. `normals`: receives C by 3 floats. `normal_count`: C. `normal_stride`:
+/// bytes from one normal to the next; 0 for packed. `report`: receives the counts; may be NULL. Errors: those
+/// of the mesh; another count than C; see darboux_status.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_generate_normals(
     mesh: *const darboux_mesh,

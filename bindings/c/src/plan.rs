@@ -1,4 +1,5 @@
-//! Plans in C: the topology of a mesh is computed once, and tangents are evaluated for any number of deformed copies.
+//! Plans in C: the topology of a mesh is computed once, and tangents are evaluated for any number of deformed
+//! copies.
 
 use darboux::Plan;
 
@@ -17,8 +18,9 @@ pub struct darboux_plan {
 
 /// Computes the tangents of a mesh and a plan for its deformed copies.
 ///
-/// `mesh`, `options`: as for darboux_generate_tangents. `context`: threads and a cancellation flag; NULL for the calling thread alone.
-/// `plan`: receives the plan; free it with darboux_plan_free. Errors: those of darboux_generate_tangents.
+/// `mesh`, `options`: as for darboux_generate_tangents. `context`: threads and a cancellation flag; NULL for
+/// the calling thread alone. `plan`: receives the plan; free it with darboux_plan_free. Errors: those of
+/// darboux_generate_tangents.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_create(
     mesh: *const darboux_mesh,
@@ -48,8 +50,8 @@ pub unsafe extern "C" fn darboux_plan_free(plan: *mut darboux_plan) {
 
 /// Writes the tangents of the mesh that the plan was created from: the result of darboux_generate_tangents.
 ///
-/// `tangents`, `tangent_count`, `tangent_stride`, `report`: as for darboux_generate_tangents. Errors: a null pointer, another count than
-/// the mesh's corners.
+/// `tangents`, `tangent_count`, `tangent_stride`, `report`: as for darboux_generate_tangents. Errors: a null
+/// pointer, another count than the mesh's corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_base(
     plan: *const darboux_plan,
@@ -76,9 +78,10 @@ pub unsafe extern "C" fn darboux_plan_base(
 
 /// Computes the tangents of a deformed mesh, with the groups, subgroups and signs of the plan.
 ///
-/// `mesh`: the plan's faces, indices and UVs, with other positions and normals. `context`: reused memory, threads and a cancellation flag;
-/// NULL for the calling thread alone. `tangents`, `tangent_count`, `tangent_stride`: as for darboux_generate_tangents. Errors: those of the
-/// mesh; another number of corners or vertices than the plan's.
+/// `mesh`: the plan's faces, indices and UVs, with other positions and normals. `context`: reused memory,
+/// threads and a cancellation flag; NULL for the calling thread alone. `tangents`, `tangent_count`,
+/// `tangent_stride`: as for darboux_generate_tangents. Errors: those of the mesh; another number of corners
+/// or vertices than the plan's.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_evaluate(
     plan: *const darboux_plan,
@@ -101,9 +104,11 @@ pub unsafe extern "C" fn darboux_plan_evaluate(
     })
 }
 
-/// Counts the corners whose tangents from darboux_plan_evaluate and from darboux_generate_tangents on the deformed mesh differ in bits.
+/// Counts the corners whose tangents from darboux_plan_evaluate and from darboux_generate_tangents on the
+/// deformed mesh differ in bits.
 ///
-/// `mesh`, `context`: as for darboux_plan_evaluate. `count`: receives the number of corners. Errors: those of darboux_plan_evaluate.
+/// `mesh`, `context`: as for darboux_plan_evaluate. `count`: receives the number of corners. Errors: those of
+/// darboux_plan_evaluate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_count_regrouped(
     plan: *const darboux_plan,

@@ -1,6 +1,7 @@
 //! Checked views of the caller's memory. All reads and writes through a caller's pointer are in this file.
 //!
-//! Checked are: null pointers, alignment, strides, sizes, and address overflow. The true size of the caller's memory cannot be checked.
+//! Checked are: null pointers, alignment, strides, sizes, and address overflow. The true size of the caller's
+//! memory cannot be checked.
 
 use std::borrow::Cow;
 use std::marker::PhantomData;
@@ -10,7 +11,8 @@ use darboux::Strided;
 
 use crate::status::{Error, darboux_status};
 
-/// A C struct whose first field is its size, so that programs and libraries of different versions are compatible.
+/// A C struct whose first field is its size, so that programs and libraries of different versions are
+/// compatible.
 ///
 /// # Safety
 ///
@@ -18,8 +20,8 @@ use crate::status::{Error, darboux_status};
 pub(crate) unsafe trait Versioned: Copy {
     /// The name of the struct in C.
     const NAME: &str;
-    /// The size of the struct in the version that introduced it, for which a `size` of 0 stands. It is computed from the last field of that
-    /// version, so that later fields do not change it.
+    /// The size of the struct in the version that introduced it, for which a `size` of 0 stands. It is
+    /// computed from the last field of that version, so that later fields do not change it.
     const FIRST_SIZE: usize;
 }
 
@@ -30,11 +32,13 @@ pub(crate) const fn size_through<Struct, Last>(offset: usize) -> usize {
 
 /// Copies the struct at `from`. Fields that the caller's version lacks become zero.
 ///
-/// A struct larger than this version's is accepted where all additional bytes are zero. Errors: a null pointer, an invalid size.
+/// A struct larger than this version's is accepted where all additional bytes are zero. Errors: a null
+/// pointer, an invalid size.
 ///
 /// # Safety
 ///
-/// `from` is null or points to as many bytes as the struct's size field gives; where it is 0, to [`Versioned::FIRST_SIZE`] bytes.
+/// `from` is null or points to as many bytes as the struct's size field gives; where it is 0, to
+/// [`Versioned::FIRST_SIZE`] bytes.
 pub(crate) unsafe fn read<T: Versioned>(from: *const T) -> Result<T, Error> {
     // SAFETY: the caller's promise.
     let size = unsafe { size_of_struct(from) }?;
@@ -130,7 +134,8 @@ impl<T: Versioned> Receiver<T> {
     }
 }
 
-/// The slice of `count` integers at `data`, which may be null where `count` is 0. Errors: a null pointer, alignment, a size overflow.
+/// The slice of `count` integers at `data`, which may be null where `count` is 0. Errors: a null pointer,
+/// alignment, a size overflow.
 ///
 /// # Safety
 ///
@@ -149,7 +154,8 @@ pub(crate) unsafe fn slice<'a, T>(what: &str, data: *const T, count: usize) -> R
     Ok(unsafe { std::slice::from_raw_parts(data, count) })
 }
 
-/// The bytes of `count` writable elements of `size` bytes. Errors: a null pointer, a size of 0, a size overflow.
+/// The bytes of `count` writable elements of `size` bytes. Errors: a null pointer, a size of 0, a size
+/// overflow.
 ///
 /// # Safety
 ///
@@ -170,12 +176,13 @@ pub(crate) unsafe fn bytes_mut<'a>(
     }
 }
 
-/// Slices of `count` rows of `width` elements. Rows are `stride` bytes apart (0: packed). Errors: as for [`slice`]; a stride smaller than a
-/// row or that leaves rows unaligned.
+/// Slices of `count` rows of `width` elements. Rows are `stride` bytes apart (0: packed). Errors: as for
+/// [`slice`]; a stride smaller than a row or that leaves rows unaligned.
 ///
 /// # Safety
 ///
-/// `data` points to as many rows, which do not change while the slices are used; every bit pattern is a valid `T`.
+/// `data` points to as many rows, which do not change while the slices are used; every bit pattern is a valid
+/// `T`.
 pub(crate) unsafe fn row_slices<'a, T: 'a>(
     what: &str,
     data: *const u8,
@@ -191,7 +198,8 @@ pub(crate) unsafe fn row_slices<'a, T: 'a>(
         return Err(Error::new(darboux_status::Alignment, message));
     }
     let count = if row == 0 { 0 } else { count };
-    // SAFETY: not null, aligned, inside the array, whose size was computed without overflow; the rest is the caller's promise.
+    // SAFETY: not null, aligned, inside the array, whose size was computed without overflow; the rest is the
+    // caller's promise.
     Ok((0..count).map(move |at| unsafe { std::slice::from_raw_parts(data.add(at * stride).cast(), width) }))
 }
 
@@ -207,12 +215,13 @@ pub(crate) unsafe fn put<T>(to: *mut T, value: T) {
     }
 }
 
-/// A view of `count` elements of `N` floats, `stride` bytes apart (0: packed), with any alignment. `data` may be null where `count` is 0.
-/// Errors: a null pointer, a stride smaller than an element, a size overflow.
+/// A view of `count` elements of `N` floats, `stride` bytes apart (0: packed), with any alignment. `data` may
+/// be null where `count` is 0. Errors: a null pointer, a stride smaller than an element, a size overflow.
 ///
 /// # Safety
 ///
-/// `data` points to as many elements, which do not change while the view is used. Bytes between the elements are not read.
+/// `data` points to as many elements, which do not change while the view is used. Bytes between the elements
+/// are not read.
 pub(crate) unsafe fn strided<'a, const N: usize>(
     what: &str,
     data: *const f32,
@@ -256,7 +265,8 @@ impl<T: Copy> Output<T> {
     ///
     /// # Safety
     ///
-    /// `data` points to as many elements, which are used by nothing else while the output exists; `T` has no padding.
+    /// `data` points to as many elements, which are used by nothing else while the output exists; `T` has no
+    /// padding.
     pub unsafe fn new(what: &str, data: *mut u8, count: usize, stride: usize) -> Result<Self, Error> {
         let stride = stride_of(what, stride, size_of::<T>())?;
         bytes(what, data, size_of::<T>(), stride, count)?;
@@ -280,7 +290,8 @@ impl<T: Copy> Output<T> {
         unsafe { Self::new(what, data, count, stride) }
     }
 
-    /// Calls `write` with the array where it is packed and aligned; otherwise with `memory`, and copies the elements from there.
+    /// Calls `write` with the array where it is packed and aligned; otherwise with `memory`, and copies the
+    /// elements from there.
     pub fn fill<R>(
         self,
         memory: &mut Vec<T>,
@@ -293,7 +304,8 @@ impl<T: Copy> Output<T> {
         if self.count > 0 && self.stride == size_of::<T>() && first.is_aligned() {
             // SAFETY: the promise of `new`; the array has `count` elements.
             unsafe { initialize(first, self.count) };
-            // SAFETY: not null, aligned, initialised, no longer than `isize::MAX` bytes; the rest is the promise of `new`.
+            // SAFETY: not null, aligned, initialised, no longer than `isize::MAX` bytes; the rest is the
+            // promise of `new`.
             return write(unsafe { std::slice::from_raw_parts_mut(first, self.count) });
         }
         memory.resize(self.count, T::default());
@@ -325,10 +337,12 @@ impl<T: Copy> Output<T> {
     }
 }
 
-/// Makes memory that the caller may never have written valid for a `&mut [T]`, without cost on targets with inline assembly.
+/// Makes memory that the caller may never have written valid for a `&mut [T]`, without cost on targets with
+/// inline assembly.
 ///
-/// Rust forbids references to uninitialised memory. The compiler must assume that the empty assembly block writes to its pointer, so it
-/// treats the memory as initialised. In hardware, the memory holds some bytes in any case.
+/// Rust forbids references to uninitialised memory. The compiler must assume that the empty assembly block
+/// writes to its pointer, so it treats the memory as initialised. In hardware, the memory holds some bytes in
+/// any case.
 ///
 /// # Safety
 ///
@@ -347,7 +361,8 @@ unsafe fn initialize<T>(first: *mut T, count: usize) {
     }
 }
 
-/// Iterates over copies of `count` elements, `stride` bytes apart (0: packed), with any alignment. Errors: as for [`strided`].
+/// Iterates over copies of `count` elements, `stride` bytes apart (0: packed), with any alignment. Errors: as
+/// for [`strided`].
 ///
 /// # Safety
 ///
@@ -364,8 +379,8 @@ pub(crate) unsafe fn copied<T: Copy>(
     Ok((0..count).map(move |at| unsafe { data.add(at * stride).cast::<T>().read_unaligned() }))
 }
 
-/// A caller's matrix of `count` rows of `width` elements. Rows are `stride` bytes apart (0: packed), with any alignment. Errors: as for
-/// [`strided`].
+/// A caller's matrix of `count` rows of `width` elements. Rows are `stride` bytes apart (0: packed), with any
+/// alignment. Errors: as for [`strided`].
 ///
 /// # Safety
 ///
@@ -454,8 +469,8 @@ fn one_per_corner(what: &str, count: usize, corners: usize) -> Result<(), Error>
     Err(Error::new(darboux_status::Length, message))
 }
 
-/// Allocates the result of `make` and writes its address to `to`. The caller owns the object until [`take_back`]. Errors: null; those of
-/// `make`.
+/// Allocates the result of `make` and writes its address to `to`. The caller owns the object until
+/// [`take_back`]. Errors: null; those of `make`.
 ///
 /// # Safety
 ///

@@ -12,7 +12,8 @@ use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{self, Output, Receiver, Versioned, gathered_of_corners};
 use crate::status::{Error, call, darboux_status};
 
-/// The verdict on a normal map and the counts behind it. Counts leave out black, white and middle grey texels.
+/// The verdict on a normal map and the counts behind it. Counts leave out black, white and middle grey
+/// texels.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_map_judgement {
@@ -26,7 +27,8 @@ pub struct darboux_map_judgement {
     pub correlation: f32,
     /// The correlation in units of its standard error.
     pub z_score: f32,
-    /// Half the logarithm of the unmixed derivatives' energy over that of the mixed ones. Negative where red and green are exchanged.
+    /// Half the logarithm of the unmixed derivatives' energy over that of the mixed ones. Negative where red
+    /// and green are exchanged.
     pub log_energy_ratio: f32,
     /// The mean length of the vectors.
     pub mean_length: f32,
@@ -116,11 +118,13 @@ impl From<&RecipeMatch> for darboux_recipe_match {
     }
 }
 
-/// Judges a normal map by its texels: whether green points up (OpenGL) or down (DirectX), and whether they are normals at all.
+/// Judges a normal map by its texels: whether green points up (OpenGL) or down (DirectX), and whether they
+/// are normals at all.
 ///
-/// `texels`: `height` rows of `width` texels, the top row first; each texel has `channels` channels of `bits` bits. `bits`: 8 or 16 (native
-/// byte order, aligned). `channels`: 2 (x, y), 3 (x, y, z) or 4 (x, y, z, ignored). `row_stride`: bytes from one row to the next; 0 for packed.
-/// `judgement`: receives the verdict. Errors: a null pointer, other `bits` or `channels`, alignment, a stride smaller than a row.
+/// `texels`: `height` rows of `width` texels, the top row first; each texel has `channels` channels of `bits`
+/// bits. `bits`: 8 or 16 (native byte order, aligned). `channels`: 2 (x, y), 3 (x, y, z) or 4 (x, y, z,
+/// ignored). `row_stride`: bytes from one row to the next; 0 for packed. `judgement`: receives the verdict.
+/// Errors: a null pointer, other `bits` or `channels`, alignment, a stride smaller than a row.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_judge_normal_map(
     texels: *const u8,
@@ -177,10 +181,11 @@ unsafe fn judged<C: Channel, const N: usize>(
 
 /// Ranks the ways in which the tangents of a mesh could have been computed, the best one first.
 ///
-/// `mesh`: normals and UVs are required. `tangents`: C by 4 floats, with the sign that darboux_generate_tangents gives. `tangent_count`: C.
-/// `tangent_stride`: bytes from one tangent to the next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread
-/// alone. `matches`: receives the best matches, at most `capacity`. `match_count`: receives the number of matches that exist, which may be
-/// larger; may be NULL. Errors: those of the mesh; another number of tangents than corners.
+/// `mesh`: normals and UVs are required. `tangents`: C by 4 floats, with the sign that
+/// darboux_generate_tangents gives. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next;
+/// 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `matches`:
+/// receives the best matches, at most `capacity`. `match_count`: receives the number of matches that exist,
+/// which may be larger; may be NULL. Errors: those of the mesh; another number of tangents than corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_recognise_recipe(
     mesh: *const darboux_mesh,

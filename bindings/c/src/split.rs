@@ -9,14 +9,16 @@ use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{gathered_of_corners, hand_out, take_back};
 use crate::status::{call, darboux_status};
 
-/// The vertices of an indexed mesh after splitting by tangents. The old vertices come first and keep their numbers.
+/// The vertices of an indexed mesh after splitting by tangents. The old vertices come first and keep their
+/// numbers.
 #[repr(C)]
 pub struct darboux_vertex_split {
     /// The number of new vertices, old ones included.
     pub vertex_count: usize,
     /// One tangent per new vertex: unit xyz and sign w. (1, 0, 0, 1) for vertices that no corner uses.
     pub tangent_of_vertex: *const [f32; 4],
-    /// The old vertex that each new vertex copies. All other attributes follow from it: new[v] = old[source_of_vertex[v]].
+    /// The old vertex that each new vertex copies. All other attributes follow from it: new[v] =
+    /// old[source_of_vertex[v]].
     pub source_of_vertex: *const u32,
     /// The number of corners.
     pub index_count: usize,
@@ -24,14 +26,16 @@ pub struct darboux_vertex_split {
     pub indices: *const u32,
 }
 
-/// The vertices of an indexed mesh after splitting by normals. The old vertices come first and keep their numbers.
+/// The vertices of an indexed mesh after splitting by normals. The old vertices come first and keep their
+/// numbers.
 #[repr(C)]
 pub struct darboux_normal_split {
     /// The number of new vertices, old ones included.
     pub vertex_count: usize,
     /// One normal per new vertex. (0, 0, 1) for vertices that no corner uses.
     pub normal_of_vertex: *const [f32; 3],
-    /// The old vertex that each new vertex copies. All other attributes follow from it: new[v] = old[source_of_vertex[v]].
+    /// The old vertex that each new vertex copies. All other attributes follow from it: new[v] =
+    /// old[source_of_vertex[v]].
     pub source_of_vertex: *const u32,
     /// The number of corners.
     pub index_count: usize,
@@ -48,10 +52,12 @@ struct Owned<View, Arrays> {
 
 /// Splits the vertices whose corners have different tangents.
 ///
-/// Each distinct pair of old vertex and tangent (four floats, compared as bits; NaN equals NaN) becomes one vertex. `mesh`: the mesh of the tangents.
-/// `tangents`: C by 4 floats, as darboux_generate_tangents writes them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the
-/// next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `split`: receives the result;
-/// free it with darboux_vertex_split_free. Errors: those of the mesh; another number of tangents than corners.
+/// Each distinct pair of old vertex and tangent (four floats, compared as bits; NaN equals NaN) becomes one
+/// vertex. `mesh`: the mesh of the tangents. `tangents`: C by 4 floats, as darboux_generate_tangents writes
+/// them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0 for packed. `context`:
+/// threads and a cancellation flag; NULL for the calling thread alone. `split`: receives the result;
+/// free it with darboux_vertex_split_free. Errors: those of the mesh; another number of tangents than
+/// corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_split_vertices(
     mesh: *const darboux_mesh,
@@ -88,10 +94,11 @@ pub unsafe extern "C" fn darboux_vertex_split_free(split: *mut darboux_vertex_sp
 
 /// Splits the vertices whose corners have different normals.
 ///
-/// Each distinct pair of old vertex and normal (three floats, compared as bits) becomes one vertex. `mesh`: as for
-/// darboux_generate_normals. `normals`: C by 3 floats, as darboux_generate_normals writes them. `normal_count`: C. `normal_stride`: bytes
-/// from one normal to the next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `split`: receives
-/// the result; free it with darboux_normal_split_free. Errors: those of the mesh; another number of normals than corners.
+/// Each distinct pair of old vertex and normal (three floats, compared as bits) becomes one vertex. `mesh`:
+/// as for darboux_generate_normals. `normals`: C by 3 floats, as darboux_generate_normals writes them.
+/// `normal_count`: C. `normal_stride`: bytes from one normal to the next; 0 for packed. `context`: threads
+/// and a cancellation flag; NULL for the calling thread alone. `split`: receives the result; free it with
+/// darboux_normal_split_free. Errors: those of the mesh; another number of normals than corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_split_normals(
     mesh: *const darboux_mesh,

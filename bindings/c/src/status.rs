@@ -1,5 +1,5 @@
-//! Status codes and error messages. [`call`] runs every C function: it turns an error into a status and a message, and a panic into an
-//! error.
+//! Status codes and error messages. [`call`] runs every C function: it turns an error into a status and a
+//! message, and a panic into an error.
 
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
@@ -7,8 +7,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The result of a call. darboux_last_error returns a message for every error.
 ///
-/// Degenerate triangles and values that are not finite are not errors; reports count them. After an error other than
-/// DARBOUX_STATUS_INTERNAL and DARBOUX_STATUS_CANCELLED, nothing has been written to the caller's arrays.
+/// Degenerate triangles and values that are not finite are not errors; reports count them. After an error
+/// other than DARBOUX_STATUS_INTERNAL and DARBOUX_STATUS_CANCELLED, nothing has been written to the caller's
+/// arrays.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum darboux_status {
@@ -16,7 +17,8 @@ pub enum darboux_status {
     Ok = 0,
     /// A required pointer is null.
     NullPointer = 1,
-    /// The `size` of a struct is invalid, or the struct has non-zero fields that this version of the library does not support.
+    /// The `size` of a struct is invalid, or the struct has non-zero fields that this version of the library
+    /// does not support.
     StructSize = 2,
     /// A value is not in its enumeration, or two fields are set of which one must be null.
     UnknownValue = 3,
@@ -92,16 +94,18 @@ pub(crate) fn call(body: impl FnOnce() -> Result<(), Error>) -> darboux_status {
     }
 }
 
-/// Stores the message that [`darboux_last_error`] returns. Does nothing on a thread whose thread-local storage is already destroyed.
+/// Stores the message that [`darboux_last_error`] returns. Does nothing on a thread whose thread-local
+/// storage is already destroyed.
 fn keep(message: String) {
     let message = CString::new(message).unwrap_or_default();
     let _ = LAST_ERROR.try_with(|last| last.replace(message));
 }
 
-/// Returns the message of the last error on this thread: one sentence in UTF-8. The empty string where no call has failed yet.
+/// Returns the message of the last error on this thread: one sentence in UTF-8. The empty string where no
+/// call has failed yet.
 ///
-/// The pointer is valid until the next call on this thread that fails, or until the thread ends. Calls that succeed do not change the
-/// message.
+/// The pointer is valid until the next call on this thread that fails, or until the thread ends. Calls that
+/// succeed do not change the message.
 #[unsafe(no_mangle)]
 pub extern "C" fn darboux_last_error() -> *const c_char {
     const NONE: &CStr = c"";

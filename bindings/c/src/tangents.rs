@@ -13,7 +13,8 @@ use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{self, Output, Receiver, Versioned};
 use crate::status::{Error, call, darboux_status};
 
-/// Options of darboux_generate_tangents. All zeros are the defaults, which are right for normal maps from today's bakers.
+/// Options of darboux_generate_tangents. All zeros are the defaults, which are right for normal maps from
+/// today's bakers.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_tangent_options {
@@ -21,11 +22,13 @@ pub struct darboux_tangent_options {
     pub size: usize,
     /// The method. Default: MikkTSpace.
     pub method: darboux_method,
-    /// How faithfully defects of the reference are kept. Default: repaired. Must be 0 for all methods but MikkTSpace.
+    /// How faithfully defects of the reference are kept. Default: repaired. Must be 0 for all methods but
+    /// MikkTSpace.
     pub mode: darboux_mode,
-    /// The angular threshold of MikkTSpace in degrees: faces around a vertex share a tangent while their tangents and their bitangents
-    /// differ by less. 0 stands for 180, which is what bakers use; for a threshold of zero, pass 0.001, which gives the same bits. Must be
-    /// 0 for all other methods. Below 180 the faces around a vertex are compared in pairs: a vertex with 20,000 faces takes about 2 s, one
+    /// The angular threshold of MikkTSpace in degrees: faces around a vertex share a tangent while their
+    /// tangents and their bitangents differ by less. 0 stands for 180, which is what bakers use; for a
+    /// threshold of zero, pass 0.001, which gives the same bits. Must be 0 for all other methods. Below
+    /// 180 the faces around a vertex are compared in pairs: a vertex with 20,000 faces takes about 2 s, one
     /// with 100,000 about a minute.
     pub threshold: f32,
     /// Must be 0. It is space for an option of a later version.
@@ -50,7 +53,8 @@ pub struct darboux_report {
     pub unsupported_faces: usize,
     /// Triangles with two equal positions.
     pub degenerate_triangles: usize,
-    /// Triangles whose UVs span no area, or too little area for a direction. Degenerate and non-finite triangles are not counted.
+    /// Triangles whose UVs span no area, or too little area for a direction. Degenerate and non-finite
+    /// triangles are not counted.
     pub uv_degenerate_triangles: usize,
     /// Corners with NaN or infinity in the position, normal or UV.
     pub non_finite_corners: usize,
@@ -62,7 +66,8 @@ pub struct darboux_report {
     pub mirrored_edges: usize,
     /// Vertices whose corners have different tangents. darboux_split_vertices splits them.
     pub split_vertices: usize,
-    /// Vertices at which triangles of both UV orientations share one tangent. Zero for all methods but DARBOUX_METHOD_LENGYEL_PER_VERTEX.
+    /// Vertices at which triangles of both UV orientations share one tangent. Zero for all methods but
+    /// DARBOUX_METHOD_LENGYEL_PER_VERTEX.
     pub merged_vertices: usize,
 }
 
@@ -96,7 +101,8 @@ impl From<Report> for darboux_report {
 pub struct darboux_frame {
     /// The direction of increasing u, unit length, perpendicular to the normal.
     pub tangent: [f32; 3],
-    /// The direction of increasing v, unit length, perpendicular to the normal but not always to the tangent.
+    /// The direction of increasing v, unit length, perpendicular to the normal but not always to the
+    /// tangent.
     pub bitangent: [f32; 3],
     /// World units per unit of u and per unit of v.
     pub magnitude: [f32; 2],
@@ -140,12 +146,15 @@ pub(crate) unsafe fn options(options: *const darboux_tangent_options) -> Result<
 
 /// Computes the tangent of every corner.
 ///
-/// These are not vertex tangents: corners of one vertex can have different tangents, so do not write them through the mesh's index list.
-/// darboux_split_vertices computes vertices and new indices. In an unindexed mesh, corner i is vertex i, so the tangents can be written
-/// into the vertices. `mesh`: normals and UVs are required. `options`: NULL for the defaults. `context`: reused memory, threads and a
-/// cancellation flag; NULL for the calling thread alone, with memory of its own. `tangents`: receives C by 4 floats, unit xyz and the sign
-/// w, where bitangent = w * cross(normal, xyz). It must not overlap the mesh's elements, but may lie between them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0 for packed. `report`: receives the counts; may be NULL.
-/// Errors: those of the mesh; another count than C; see darboux_status.
+/// These are not vertex tangents: corners of one vertex can have different tangents, so do not write them
+/// through the mesh's index list. darboux_split_vertices computes vertices and new indices. In an unindexed
+/// mesh, corner i is vertex i, so the tangents can be written into the vertices. `mesh`: normals and UVs are
+/// required. `options`: NULL for the defaults. `context`: reused memory, threads and a cancellation flag;
+/// NULL for the calling thread alone, with memory of its own. `tangents`: receives C by 4 floats, unit xyz
+/// and the sign w, where bitangent = w * cross(normal, xyz). It must not overlap the mesh's elements, but may
+/// lie between them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0 for packed.
+/// `report`: receives the counts; may be NULL. Errors: those of the mesh; another count than C; see
+/// darboux_status.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_generate_tangents(
     mesh: *const darboux_mesh,
@@ -173,10 +182,11 @@ pub unsafe extern "C" fn darboux_generate_tangents(
     })
 }
 
-/// Computes the whole frame of every corner: tangent, bitangent, magnitudes and sign. Slower than darboux_generate_tangents.
+/// Computes the whole frame of every corner: tangent, bitangent, magnitudes and sign. Slower than
+/// darboux_generate_tangents.
 ///
-/// `frames`: receives C frames. `frame_count`: C. `frame_stride`: bytes from one frame to the next; 0 for packed. `mesh`, `options`,
-/// `context`, `report` and errors: as for darboux_generate_tangents.
+/// `frames`: receives C frames. `frame_count`: C. `frame_stride`: bytes from one frame to the next; 0 for
+/// packed. `mesh`, `options`, `context`, `report` and errors: as for darboux_generate_tangents.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_generate_frames(
     mesh: *const darboux_mesh,

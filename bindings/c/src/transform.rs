@@ -10,7 +10,8 @@ use crate::status::{Error, call, darboux_status};
 type Normal = [f32; 3];
 type Tangent = [f32; 4];
 
-/// Input and output arrays of normals and tangents, one element per vertex. Strides are in bytes; 0 for packed.
+/// Input and output arrays of normals and tangents, one element per vertex. Strides are in bytes; 0 for
+/// packed.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_frame_arrays {
@@ -30,7 +31,8 @@ pub struct darboux_frame_arrays {
     pub out_normals: *mut f32,
     /// Bytes from one output normal to the next.
     pub out_normal_stride: usize,
-    /// Receives `count` by 4 floats, unit length and perpendicular to the output normals. May equal `tangents`.
+    /// Receives `count` by 4 floats, unit length and perpendicular to the output normals. May equal
+    /// `tangents`.
     pub out_tangents: *mut f32,
     /// Bytes from one output tangent to the next.
     pub out_tangent_stride: usize,
@@ -76,10 +78,11 @@ unsafe impl Versioned for darboux_skin {
 
 /// Transforms normals and tangents by a node's matrix, which may mirror or scale non-uniformly.
 ///
-/// A normal that the matrix maps to zero is not changed. A tangent that the matrix maps to zero becomes a perpendicular of the normal.
-/// `matrix`: column-major; of a 4 by 4 matrix only the upper left 3 by 3 is read. `column_stride`: bytes from one column to the next: 16
-/// for 4 by 4; 0 for packed, 3 by 3. `arrays`: the normals and tangents. `orientation`: receives -1 where the matrix mirrors, which
-/// reverses the winding of faces, else +1; may be NULL. Errors: a null pointer, a stride smaller than an element.
+/// A normal that the matrix maps to zero is not changed. A tangent that the matrix maps to zero becomes a
+/// perpendicular of the normal. `matrix`: column-major; of a 4 by 4 matrix only the upper left 3 by 3 is
+/// read. `column_stride`: bytes from one column to the next: 16 for 4 by 4; 0 for packed, 3 by 3. `arrays`:
+/// the normals and tangents. `orientation`: receives -1 where the matrix mirrors, which reverses the winding
+/// of faces, else +1; may be NULL. Errors: a null pointer, a stride smaller than an element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_transform_frames(
     matrix: *const f32,
@@ -105,9 +108,10 @@ pub unsafe extern "C" fn darboux_transform_frames(
 
 /// Transforms normals and tangents by a skin: each by the weighted mean of its bones' matrices.
 ///
-/// The change of the weights over the surface is ignored, as is common practice, so normals of strongly bent skins are approximate. `skin`:
-/// bones, and joints and weights of `count` vertices. `arrays`: the normals and tangents. Errors: a null pointer, a stride smaller than an
-/// element, a joint out of range. Source: B. Merry et al., "Normal Transformations for Articulated Models", SIGGRAPH Sketches 2006.
+/// The change of the weights over the surface is ignored, as is common practice, so normals of strongly bent
+/// skins are approximate. `skin`: bones, and joints and weights of `count` vertices. `arrays`: the normals
+/// and tangents. Errors: a null pointer, a stride smaller than an element, a joint out of range. Source: B.
+/// Merry et al., "Normal Transformations for Articulated Models", SIGGRAPH Sketches 2006.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_skin_frames(
     skin: *const darboux_skin,
@@ -157,8 +161,8 @@ impl Arrays<(), ()> {
 }
 
 impl<Normals: Iterator<Item = Normal>, Tangents: Iterator<Item = Tangent>> Arrays<Normals, Tangents> {
-    /// Writes `moved(vertex, normal, tangent)` for every vertex. Each input element is read before its output element is written, so that
-    /// outputs may equal inputs.
+    /// Writes `moved(vertex, normal, tangent)` for every vertex. Each input element is read before its output
+    /// element is written, so that outputs may equal inputs.
     fn write(self, moved: impl Fn(usize, Normal, Tangent) -> (Normal, Tangent)) {
         for (vertex, (normal, tangent)) in self.normals.zip(self.tangents).enumerate() {
             let (normal, tangent) = moved(vertex, normal, tangent);

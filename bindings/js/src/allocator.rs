@@ -1,4 +1,5 @@
-//! The allocator of the modules. It notes a failed allocation, by which JavaScript tells missing memory from a fault: both end in the same trap.
+//! The allocator of the modules. It notes a failed allocation, by which JavaScript tells missing memory from
+//! a fault: both end in the same trap.
 
 #[cfg(target_family = "wasm")]
 use std::alloc::{GlobalAlloc, Layout};
@@ -6,7 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 static HAS_FAILED: AtomicBool = AtomicBool::new(false);
 
-/// Smaller than the standard library's allocator by 2.4 kB compressed. The larger modules, which allocate more often, keep that one.
+/// Smaller than the standard library's allocator by 2.4 kB compressed. The larger modules, which allocate
+/// more often, keep that one.
 #[cfg(all(target_family = "wasm", not(any(feature = "full", feature = "bake", feature = "check"))))]
 #[global_allocator]
 static ALLOCATOR: Watched<talc::wasm::WasmDynamicTalc> = Watched(talc::wasm::new_wasm_dynamic_allocator());

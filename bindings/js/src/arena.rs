@@ -1,4 +1,5 @@
-//! The arrays that JavaScript and WebAssembly share: one arena per instance of the module, reused from call to call.
+//! The arrays that JavaScript and WebAssembly share: one arena per instance of the module, reused from call
+//! to call.
 //!
 //! A call goes like this:
 //!

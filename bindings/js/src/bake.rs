@@ -1,4 +1,5 @@
-//! `bakeModels` of `darboux/bake`: maps of a low model from the detail of high ones; and what its other functions share with it.
+//! `bakeModels` of `darboux/bake`: maps of a low model from the detail of high ones; and what its other
+//! functions share with it.
 
 use std::collections::BTreeMap;
 
@@ -223,7 +224,8 @@ pub fn bake_surfaces(surfaces: Surfaces<'_>, context: &mut Context) -> Result<Ba
     bake(low, high, settings, context, &mut tell).map_err(text)
 }
 
-/// Keeps the images and the report of a bake, or the sentence why there is none. Returns the address of the JSON.
+/// Keeps the images and the report of a bake, or the sentence why there is none. Returns the address of the
+/// JSON.
 pub fn put_baked(arrays: &mut BakeArrays, result: Result<(Baked, Setup), String>) -> *const u8 {
     let outcome = match result {
         Ok((baked, setup)) => {

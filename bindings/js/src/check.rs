@@ -51,8 +51,9 @@ enum Checked {
     Error { error: String },
 }
 
-/// Checks the file of a model or, with `is_map`, of a normal map; with `repairs`, repairs the model. `assumed_map`: 0 for no assumption, otherwise 1 more than
-/// its index among all. Returns the address of the JSON.
+/// Checks the file of a model or, with `is_map`, of a normal map; with `repairs`, repairs the model.
+/// `assumed_map`: 0 for no assumption, otherwise 1 more than its index among all. Returns the address of the
+/// JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn check_file(
     is_map: bool,
@@ -127,8 +128,8 @@ struct Tiles {
     correlations: Vec<Option<f32>>,
 }
 
-/// Judges the texels in the bytes: `channels` channels of 8 bits or, with `is_wide`, of 16. Returns the address of the JSON, or null for another
-/// number of texels than width times height.
+/// Judges the texels in the bytes: `channels` channels of 8 bits or, with `is_wide`, of 16. Returns the
+/// address of the JSON, or null for another number of texels than width times height.
 #[unsafe(no_mangle)]
 pub extern "C" fn judge_normal_map(is_wide: bool, channels: usize, width: usize, height: usize) -> *const u8 {
     with_arena(|arena| {
@@ -206,7 +207,8 @@ struct Recognised {
     worst: f64,
 }
 
-/// Ranks the recipes of the tangents. Returns the address of the JSON, or null where an index is out of range.
+/// Ranks the recipes of the tangents. Returns the address of the JSON, or null where an index is out of
+/// range.
 #[unsafe(no_mangle)]
 pub extern "C" fn recognise_recipe() -> *const u8 {
     with_arena(|arena| {

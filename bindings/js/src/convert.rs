@@ -13,9 +13,10 @@ pub extern "C" fn convention_texts(bytes: usize) -> *mut u8 {
     with_arena(|arena| resized(&mut arena.extras.convention_texts, bytes))
 }
 
-/// Converts the positions, normals, UVs, given tangents and faces in the arena in place. The text of the source has `source_bytes` bytes.
-/// `generated`: the tangents come from `generate_tangents`. Returns bit 0 where red is inverted and bit 1 where green is; -1 where the source
-/// is no convention, -2 where the target is none, and -3 where the face sizes do not add up to the corners.
+/// Converts the positions, normals, UVs, given tangents and faces in the arena in place. The text of the
+/// source has `source_bytes` bytes. `generated`: the tangents come from `generate_tangents`. Returns bit 0
+/// where red is inverted and bit 1 where green is; -1 where the source is no convention, -2 where the target
+/// is none, and -3 where the face sizes do not add up to the corners.
 #[unsafe(no_mangle)]
 pub extern "C" fn convert(source_bytes: usize, generated: bool) -> i32 {
     with_arena(|arena| {
@@ -57,7 +58,8 @@ fn convert_faces(arena: &mut Arena, change: &Conversion) -> Option<()> {
     rest.is_empty().then_some(())
 }
 
-/// Converts the texels in the encoded bytes in place: `channels` channels of 8 bits or, with `is_wide`, of 16. Returns as [`convert`].
+/// Converts the texels in the encoded bytes in place: `channels` channels of 8 bits or, with `is_wide`, of
+/// 16. Returns as [`convert`].
 #[unsafe(no_mangle)]
 pub extern "C" fn convert_texels(source_bytes: usize, is_wide: bool, channels: usize) -> i32 {
     with_arena(|arena| {

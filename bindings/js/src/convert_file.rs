@@ -9,7 +9,8 @@ use crate::arena::with_arena;
 use crate::inputs::resized;
 use crate::reading::load_options;
 
-/// Four lines: the source convention, the target convention, the channels of the vector in the source and in the target.
+/// Four lines: the source convention, the target convention, the channels of the vector in the source and in
+/// the target.
 #[unsafe(no_mangle)]
 pub extern "C" fn conversion_text(bytes: usize) -> *mut u8 {
     with_arena(|arena| resized(&mut arena.check.conversion_text, bytes))
@@ -24,8 +25,8 @@ enum Converted {
     Error(String),
 }
 
-/// Converts the file that `file_bytes` holds: a PNG image or a model. The new file lies where that of a repair does (`repaired_file`). Returns the
-/// address of the JSON.
+/// Converts the file that `file_bytes` holds: a PNG image or a model. The new file lies where that of a
+/// repair does (`repaired_file`). Returns the address of the JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn convert_file() -> *const u8 {
     with_arena(|arena| {

@@ -6,8 +6,8 @@ use darboux::encode::{self, Encoding};
 use crate::arena::with_arena;
 use crate::mesh_arrays::rows;
 
-/// Encodes the given tangents and returns the address of the bytes. `encoding` is a position in `ENCODINGS` of `lib/core/choices.ts`.
-/// 'diamond' also reads the arena's normals, one per tangent.
+/// Encodes the given tangents and returns the address of the bytes. `encoding` is a position in `ENCODINGS`
+/// of `lib/core/choices.ts`. 'diamond' also reads the arena's normals, one per tangent.
 #[unsafe(no_mangle)]
 pub extern "C" fn encode_tangents(encoding: u32) -> *const u8 {
     with_arena(|arena| {

@@ -6,8 +6,8 @@ use crate::arena::with_arena;
 use crate::extras::FrameArrays;
 use crate::options::tangent_options;
 
-/// Computes the frames of all corners and returns the address of their tangents (four floats per corner), or null where an index is
-/// out of range. Options are those of `generate_tangents`.
+/// Computes the frames of all corners and returns the address of their tangents (four floats per corner), or
+/// null where an index is out of range. Options are those of `generate_tangents`.
 #[unsafe(no_mangle)]
 pub extern "C" fn generate_frames(mode: u32, threshold: f32, method: u32) -> *const f32 {
     with_arena(|arena| {

@@ -1,4 +1,5 @@
-//! `planTopology`: the arrays with which the shaders of `darboux/webgpu` evaluate tangents wherever the vertices are.
+//! `planTopology`: the arrays with which the shaders of `darboux/webgpu` evaluate tangents wherever the
+//! vertices are.
 
 use darboux::Context;
 use darboux::internal::gpu_plan::{PlanArrays, PlanRefusal};
@@ -6,8 +7,8 @@ use darboux::internal::gpu_plan::{PlanArrays, PlanRefusal};
 use crate::arena::with_arena;
 use crate::options::tangent_options;
 
-/// Plans a mesh of triangles for shaders. Returns 0; or the number of members of the largest sum where that exceeds `max_members`; or
-/// -1 where an index is out of range.
+/// Plans a mesh of triangles for shaders. Returns 0; or the number of members of the largest sum where that
+/// exceeds `max_members`; or -1 where an index is out of range.
 #[unsafe(no_mangle)]
 pub extern "C" fn plan_topology(mode: u32, threshold: f32, max_members: usize) -> i32 {
     with_arena(|arena| {

@@ -11,8 +11,9 @@ pub extern "C" fn threshold_cosine(threshold: f32) -> f32 {
     gpu_resume::threshold_cosine(&mikkt_options(0, threshold))
 }
 
-/// Computes the tangents that the GPU left open, in the array of given tangents, from `welded_vertices`. The mesh is indexed and of
-/// triangles. Returns the number of corners computed here, or -1 where an index is out of range.
+/// Computes the tangents that the GPU left open, in the array of given tangents, from `welded_vertices`. The
+/// mesh is indexed and of triangles. Returns the number of corners computed here, or -1 where an index is out
+/// of range.
 #[unsafe(no_mangle)]
 pub extern "C" fn complete_tangents(mode: u32, threshold: f32) -> i32 {
     with_arena(|arena| {

@@ -1,12 +1,14 @@
-//! The inputs of calls. Each function resizes one array of the arena and returns the address where JavaScript writes its elements.
+//! The inputs of calls. Each function resizes one array of the arena and returns the address where JavaScript
+//! writes its elements.
 //!
-//! Memory may move whenever an array grows, so JavaScript asks for all addresses of a call before it writes the first element.
+//! Memory may move whenever an array grows, so JavaScript asks for all addresses of a call before it writes
+//! the first element.
 
 use crate::allocator::end_without_memory;
 use crate::arena::with_arena;
 
-/// Seeds the hash keys with 64 random bits, in two halves. JavaScript calls this once per instance, before anything else, because
-/// WebAssembly itself has no randomness.
+/// Seeds the hash keys with 64 random bits, in two halves. JavaScript calls this once per instance, before
+/// anything else, because WebAssembly itself has no randomness.
 #[cfg(target_family = "wasm")]
 #[unsafe(no_mangle)]
 pub extern "C" fn seed_random(low: u32, high: u32) {

@@ -1,7 +1,7 @@
 //! The WebAssembly side of the npm package `darboux`.
 //!
-//! JavaScript writes a mesh into memory that this side owns, calls a function, and reads the result (see `arena`). Only numbers cross
-//! the border. The TypeScript side (`lib/`) checks arguments and words errors.
+//! JavaScript writes a mesh into memory that this side owns, calls a function, and reads the result (see
+//! `arena`). Only numbers cross the border. The TypeScript side (`lib/`) checks arguments and words errors.
 
 #![allow(unsafe_code, reason = "functions are exported under the names that JavaScript calls")]
 

@@ -1,12 +1,14 @@
-//! `measureTangents`: the angles between two sets of tangents. `measureUvFidelity`: those between tangents and the UVs.
+//! `measureTangents`: the angles between two sets of tangents. `measureUvFidelity`: those between tangents
+//! and the UVs.
 
 use darboux::{measure_tangents as measure, measure_uv_fidelity as measure_fidelity};
 
 use crate::arena::with_arena;
 use crate::mesh_arrays::rows;
 
-/// Compares the given tangents with as many other tangents. Returns the address of the numbers in the order in
-/// which `measureTangents` of `lib/darboux.ts` reads them; last the number of worst corners, and each of these with its angle.
+/// Compares the given tangents with as many other tangents. Returns the address of the numbers in the order
+/// in which `measureTangents` of `lib/darboux.ts` reads them; last the number of worst corners, and each of
+/// these with its angle.
 #[unsafe(no_mangle)]
 pub extern "C" fn measure_tangents() -> *const f64 {
     with_arena(|arena| {
@@ -25,8 +27,8 @@ pub extern "C" fn measure_tangents() -> *const f64 {
     })
 }
 
-/// Compares the given tangents with the derivatives of the UVs of the mesh. Returns the address of four numbers in the order in which
-/// `measureUvFidelity` reads them; null where an index is out of range.
+/// Compares the given tangents with the derivatives of the UVs of the mesh. Returns the address of four
+/// numbers in the order in which `measureUvFidelity` reads them; null where an index is out of range.
 #[unsafe(no_mangle)]
 pub extern "C" fn measure_uv_fidelity() -> *const f64 {
     with_arena(|arena| {

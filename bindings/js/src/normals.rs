@@ -5,8 +5,8 @@ use darboux::{NormalOptions, generate_normals as generate};
 use crate::arena::with_arena;
 use crate::options::choice;
 
-/// Computes the normals of all corners and returns their address (three floats per corner), or null where an index is out of range.
-/// Options are positions in the lists of `lib/core/choices.ts`.
+/// Computes the normals of all corners and returns their address (three floats per corner), or null where an
+/// index is out of range. Options are positions in the lists of `lib/core/choices.ts`.
 #[unsafe(no_mangle)]
 pub extern "C" fn generate_normals(shading: u32, weight: u32, crease: f32, seams: u32) -> *const f32 {
     let options = NormalOptions::new()

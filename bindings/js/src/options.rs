@@ -1,4 +1,5 @@
-//! Options, which JavaScript passes as codes: positions in the lists of `lib/core/choices.ts`, which are those of the core.
+//! Options, which JavaScript passes as codes: positions in the lists of `lib/core/choices.ts`, which are
+//! those of the core.
 
 use darboux::{Choice, Method, MikkTSpaceOptions, Mode, TangentOptions};
 

@@ -9,8 +9,8 @@ use crate::extras::{Extras, StoredPlan};
 use crate::mesh_arrays::Vertices;
 use crate::options::tangent_options;
 
-/// Plans the mesh in the arena and takes its surface arrays. Returns the plan's id, or -1 where an index is out of range. Options are
-/// those of `generate_tangents`.
+/// Plans the mesh in the arena and takes its surface arrays. Returns the plan's id, or -1 where an index is
+/// out of range. Options are those of `generate_tangents`.
 #[unsafe(no_mangle)]
 pub extern "C" fn make_plan(mode: u32, threshold: f32, method: u32) -> i32 {
     with_arena(|arena| {
@@ -33,8 +33,8 @@ pub extern "C" fn plan_base(plan: usize) -> *const f32 {
     with_arena(|arena| arena.extras.plans[plan].as_ref().map_or(std::ptr::null(), base))
 }
 
-/// Evaluates a plan with the positions and normals in the arena, as many as the planned mesh has, and returns the address of the
-/// tangents.
+/// Evaluates a plan with the positions and normals in the arena, as many as the planned mesh has, and returns
+/// the address of the tangents.
 #[unsafe(no_mangle)]
 pub extern "C" fn evaluate_plan(plan: usize) -> *const f32 {
     with_arena(|arena| {
@@ -48,7 +48,8 @@ pub extern "C" fn evaluate_plan(plan: usize) -> *const f32 {
     })
 }
 
-/// The number of corners whose tangent a fresh run on the moved mesh would compute differently from [`evaluate_plan`].
+/// The number of corners whose tangent a fresh run on the moved mesh would compute differently from
+/// [`evaluate_plan`].
 #[unsafe(no_mangle)]
 pub extern "C" fn count_regrouped(plan: usize) -> u32 {
     with_arena(|arena| {

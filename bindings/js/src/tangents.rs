@@ -5,7 +5,8 @@ use darboux::write_tangents;
 use crate::arena::{Arena, with_arena};
 use crate::options::tangent_options;
 
-/// Computes the tangents of all corners and returns their address (four floats per corner), or null where an index is out of range.
+/// Computes the tangents of all corners and returns their address (four floats per corner), or null where an
+/// index is out of range.
 #[unsafe(no_mangle)]
 pub extern "C" fn generate_tangents(mode: u32, threshold: f32, method: u32) -> *const f32 {
     let options = tangent_options(mode, threshold, method);

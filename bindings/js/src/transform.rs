@@ -24,7 +24,8 @@ pub extern "C" fn weights(joints: usize) -> *mut f32 {
     with_arena(|arena| resized(&mut arena.extras.weights, joints))
 }
 
-/// Transforms the arena's normals and given tangents by the first matrix, in place. Returns the orientation of the matrix, 1 or -1.
+/// Transforms the arena's normals and given tangents by the first matrix, in place. Returns the orientation
+/// of the matrix, 1 or -1.
 #[unsafe(no_mangle)]
 pub extern "C" fn transform_frames() -> f32 {
     with_arena(|arena| {
@@ -34,7 +35,8 @@ pub extern "C" fn transform_frames() -> f32 {
     })
 }
 
-/// Transforms the arena's normals and given tangents in place, each by the weighted sum of `influences` matrices.
+/// Transforms the arena's normals and given tangents in place, each by the weighted sum of `influences`
+/// matrices.
 #[unsafe(no_mangle)]
 pub extern "C" fn skin_frames(influences: usize) {
     with_arena(|arena| {

@@ -91,7 +91,8 @@ impl<'py, const N: usize> Rows<'py, N> {
     }
 }
 
-/// The bytes of the array that owns the memory (the end of the chain of `base`), if that array is packed and readable as bytes.
+/// The bytes of the array that owns the memory (the end of the chain of `base`), if that array is packed and
+/// readable as bytes.
 fn owner_bytes<'py>(array: &Bound<'py, PyUntypedArray>) -> PyResult<Option<Bound<'py, PyArrayDyn<u8>>>> {
     let mut owner = array.clone();
     while let Ok(base) = owner.getattr("base")?.cast_into::<PyUntypedArray>() {

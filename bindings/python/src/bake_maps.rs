@@ -1,4 +1,5 @@
-//! What belongs to a bake: the error of its map in degrees, maps in another space, cages that are made, tiles.
+//! What belongs to a bake: the error of its map in degrees, maps in another space, cages that are made,
+//! tiles.
 
 use darboux::{Cancel, Context, Convention, TexelLayout};
 use darboux_bake::{
@@ -25,8 +26,8 @@ const SPACES: &[(&str, NormalSpace)] = &[("tangent", NormalSpace::Tangent), ("ob
 
 /// Measure how far the normals that a renderer shows are from those of the high mesh, in degrees.
 ///
-/// The low mesh is shaded with the map as a renderer does it, filtered bilinearly, at one random point per texel. The truth is the normal where the point's own
-/// ray hits the high mesh.
+/// The low mesh is shaded with the map as a renderer does it, filtered bilinearly, at one random point per
+/// texel. The truth is the normal where the point's own ray hits the high mesh.
 ///
 /// Parameters
 /// ----------
@@ -35,8 +36,8 @@ const SPACES: &[(&str, NormalSpace)] = &[("tangent", NormalSpace::Tangent), ("ob
 /// baked : BakedMaps
 ///     What bake returned for these meshes and options, with the map 'normal'.
 /// written : (H, W, 3) array_like, optional
-///     The map as it is in its file: uint8 or uint16 codes, or floats from -1 to 1. Without, the map of `baked`.
-/// distance, cage, source, target, bitangent, back_faces, skew, udim, threads
+///     The map as it is in its file: uint8 or uint16 codes, or floats from -1 to 1. Without, the map of
+/// `baked`. distance, cage, source, target, bitangent, back_faces, skew, udim, threads
 ///     As for bake.
 ///
 /// Returns
@@ -111,7 +112,8 @@ pub fn verify<'py>(
 
 /// Convert a normal map from object space to tangent space or back, without rays.
 ///
-/// Each texel is converted by the frame of the mesh at its centre, as a renderer interpolates it; texels outside the charts are filled from the nearest one.
+/// Each texel is converted by the frame of the mesh at its centre, as a renderer interpolates it; texels
+/// outside the charts are filled from the nearest one.
 ///
 /// Parameters
 /// ----------
@@ -179,7 +181,8 @@ pub fn convert_space<'py>(
 
 /// Make the closest cage from which rays see all of the high mesh that belongs to the low one.
 ///
-/// Detail that stands on the surface lies inside the cage, and what stands over it behind a gap, such as a handle over a lid, outside.
+/// Detail that stands on the surface lies inside the cage, and what stands over it behind a gap, such as a
+/// handle over a lid, outside.
 ///
 /// Parameters
 /// ----------
@@ -246,7 +249,8 @@ pub fn auto_cage<'py>(
 /// positions, normals, uvs, indices
 ///     The mesh, as for bake.
 /// source : str
-///     Its convention, one of CONVENTIONS: rows of tiles count upwards in the image, where glTF's v points down.
+///     Its convention, one of CONVENTIONS: rows of tiles count upwards in the image, where glTF's v points
+/// down.
 ///
 /// Raises
 /// ------

@@ -31,20 +31,21 @@ const CONVENTIONS: &[(&str, BitangentDirection)] =
 /// Parameters
 /// ----------
 /// source : path-like or Document
-///     A .glb or .gltf file, or an image (.png, .jpg, .webp), which is checked as a normal map; or a document that load has read.
-/// convention : str
+///     A .glb or .gltf file, or an image (.png, .jpg, .webp), which is checked as a normal map; or a document
+/// that load has read. convention : str
 ///     Where the green of normal maps should point: 'opengl' (up, as in glTF) or 'directx' (down).
 /// maps : bool
 ///     Decode and judge the normal maps of a model. Without it they are taken to be right.
 /// assume : str, optional
-///     What normal maps are where neither their texels nor the faces decide it: 'opengl', 'directx', 'red-inverted' or 'both-inverted'.
-/// allow_outside, memory_limit
+///     What normal maps are where neither their texels nor the faces decide it: 'opengl', 'directx',
+/// 'red-inverted' or 'both-inverted'. allow_outside, memory_limit
 ///     As in load; for files.
 ///
 /// Returns
 /// -------
 /// Findings
-///     A list of Finding, empty for a healthy file. Its `diagnosis` says what happened, what it looks like and what to do.
+///     A list of Finding, empty for a healthy file. Its `diagnosis` says what happened, what it looks like
+/// and what to do.
 ///
 /// Raises
 /// ------
@@ -112,10 +113,11 @@ fn check_options(convention: &str, maps: bool, assume: Option<&str>) -> PyResult
     Ok(CheckOptions::default().with_green(green).with_maps(maps).with_assumed_map(assumed))
 }
 
-/// Repair what can be repaired without guessing: tangents, normals, and the texels of PNG and JPEG normal maps, as `darboux check --fix` does.
+/// Repair what can be repaired without guessing: tangents, normals, and the texels of PNG and JPEG normal
+/// maps, as `darboux check --fix` does.
 ///
-/// Nothing is left to repair in the repaired document, and data that no finding names is kept. After an error the document is unusable: load it
-/// again.
+/// Nothing is left to repair in the repaired document, and data that no finding names is kept. After an error
+/// the document is unusable: load it again.
 ///
 /// Parameters
 /// ----------
@@ -202,7 +204,8 @@ fn finding<'py>(py: Python<'py>, finding: ReportedFinding) -> PyResult<Bound<'py
     results_class(py, "Finding")?.call((), Some(&fields))
 }
 
-/// Judge a normal map by its texels: whether green points up (OpenGL) or down (DirectX), and whether they are normals at all.
+/// Judge a normal map by its texels: whether green points up (OpenGL) or down (DirectX), and whether they are
+/// normals at all.
 ///
 /// Parameters
 /// ----------

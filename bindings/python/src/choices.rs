@@ -18,8 +18,8 @@ pub fn choice<T: Copy>(what: &str, name: &str, choices: &[(&str, T)]) -> PyResul
     })
 }
 
-/// The options of the core. Errors: an unknown name; a threshold that is not a number; a mode or threshold with another method than
-/// MikkTSpace.
+/// The options of the core. Errors: an unknown name; a threshold that is not a number; a mode or threshold
+/// with another method than MikkTSpace.
 pub fn tangent_options(method: &str, mode: &str, threshold: f32) -> PyResult<TangentOptions> {
     let method = named_choice::<Method>(method)?;
     let mode = named_choice::<Mode>(mode)?;

@@ -15,17 +15,19 @@ pub fn convention(what: &str, text: &str) -> PyResult<Convention> {
     text.parse().map_err(|error| PyValueError::new_err(format!("{what}: {error}")))
 }
 
-/// Convert vertex data from one convention to another. The surface, its texture and its lighting do not change.
+/// Convert vertex data from one convention to another. The surface, its texture and its lighting do not
+/// change.
 ///
-/// The w of tangents from generate_tangents is MikkTSpace's sign, which is not yet in any program's convention. For these, pass the convention of
-/// the mesh as source, and `generated=True`. Even from 'gltf' to 'gltf' this negates w, because v points down in glTF.
+/// The w of tangents from generate_tangents is MikkTSpace's sign, which is not yet in any program's
+/// convention. For these, pass the convention of the mesh as source, and `generated=True`. Even from 'gltf'
+/// to 'gltf' this negates w, because v points down in glTF.
 ///
 /// Parameters
 /// ----------
 /// source, target : str
-///     One of CONVENTIONS, optionally with changes: 'gltf,green=down'. The changes are axes=-x/y/z (right, up, front), fronts=ccw or cw, v0=bottom
-///     or top, red=right or left, green=up or down, w=n-cross-t or t-cross-n.
-/// positions, normals : (V, 3) array_like, optional
+///     One of CONVENTIONS, optionally with changes: 'gltf,green=down'. The changes are axes=-x/y/z (right,
+/// up, front), fronts=ccw or cw, v0=bottom     or top, red=right or left, green=up or down, w=n-cross-t or
+/// t-cross-n. positions, normals : (V, 3) array_like, optional
 ///     Vectors; offsets of morph targets are converted in the same way.
 /// uvs : (V, 2) array_like, optional
 /// indices : (C,), (F, 3) or (F, 4) array_like of integers, optional
@@ -40,7 +42,8 @@ pub fn convention(what: &str, text: &str) -> PyResult<Convention> {
 /// Returns
 /// -------
 /// Converted
-///     New arrays, None for missing arguments; and whether the red and green channels of the normal map must be inverted.
+///     New arrays, None for missing arguments; and whether the red and green channels of the normal map must
+/// be inverted.
 ///
 /// Raises
 /// ------
@@ -78,7 +81,8 @@ pub fn convert<'py>(
     named(py, "Converted", fields)
 }
 
-/// Convert the texels of a normal map from one convention to another: red and green are inverted where the conventions differ.
+/// Convert the texels of a normal map from one convention to another: red and green are inverted where the
+/// conventions differ.
 ///
 /// The conversion is exact, so that converting back restores the texels. The image is not flipped.
 ///

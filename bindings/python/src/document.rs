@@ -19,7 +19,8 @@ use crate::normals::normal_options;
 use crate::numbers::{Natural, degrees, place};
 use crate::threads::run_interruptibly;
 
-/// A glTF document in memory: read by load, edited by its methods, written by save. Everything that no method changes stays as it was.
+/// A glTF document in memory: read by load, edited by its methods, written by save. Everything that no method
+/// changes stays as it was.
 #[pyclass(module = "darboux")]
 pub struct Document {
     document: gltf::Document,
@@ -35,7 +36,8 @@ pub struct Document {
 /// allow_outside : bool
 ///     Also read files outside the document's folder.
 /// memory_limit : int, optional
-///     The most memory for decoding the file and computing from it, in MiB. By default 256 MiB plus 64 times the size of the file.
+///     The most memory for decoding the file and computing from it, in MiB. By default 256 MiB plus 64 times
+/// the size of the file.
 ///
 /// Raises
 /// ------
@@ -64,8 +66,8 @@ pub fn load(
 /// name : str
 ///     The name of the file in messages.
 /// base : path-like, optional
-///     The folder of external files. Without it, buffers must be embedded, and references to images stay as they are.
-/// memory_limit : int, optional
+///     The folder of external files. Without it, buffers must be embedded, and references to images stay as
+/// they are. memory_limit : int, optional
 ///     As in load.
 ///
 /// Raises
@@ -169,8 +171,8 @@ impl Document {
     /// Returns
     /// -------
     /// dict
-    ///     Per attribute, such as 'POSITION', a float32 array with one row per vertex (normalized integers are decoded); 'indices', (C,)
-    ///     uint32, if the primitive has indices.
+    ///     Per attribute, such as 'POSITION', a float32 array with one row per vertex (normalized integers
+    /// are decoded); 'indices', (C,)     uint32, if the primitive has indices.
     ///
     /// Raises
     /// ------
@@ -218,7 +220,8 @@ impl Document {
         python_of(py, &infos.map_err(file_error)?)
     }
 
-    /// Add tangents to every triangle primitive that has positions, normals and UVs. Vertices are split where their corners need different tangents.
+    /// Add tangents to every triangle primitive that has positions, normals and UVs. Vertices are split where
+    /// their corners need different tangents.
     ///
     /// After Ctrl-C or an error the document is unusable: load it again.
     ///
@@ -318,9 +321,9 @@ impl Document {
 
     /// Convert the vertex data of every primitive from one convention to another.
     ///
-    /// A correct glTF file is in glTF's convention and needs no conversion. This is for files whose writer copied the numbers of
-    /// another convention, and for programs that read the numbers without converting them. After Ctrl-C or an error the document is unusable: load it
-    /// again.
+    /// A correct glTF file is in glTF's convention and needs no conversion. This is for files whose writer
+    /// copied the numbers of another convention, and for programs that read the numbers without
+    /// converting them. After Ctrl-C or an error the document is unusable: load it again.
     ///
     /// Parameters
     /// ----------

@@ -108,7 +108,8 @@ pub fn tangent_from_snorm10<'py>(py: Python<'py>, codes: &Bound<'py, PyAny>) -> 
     Ok(rows_array(py, tangents)?.into_any())
 }
 
-/// (C, 3) and (C, 4) float32 to (C,) uint16: the angle around the normal. The decoder must get exactly the same normal.
+/// (C, 3) and (C, 4) float32 to (C,) uint16: the angle around the normal. The decoder must get exactly the
+/// same normal.
 ///
 /// The error is up to 0.0071 degrees.
 #[pyfunction]

@@ -53,7 +53,8 @@ pub fn measure_tangents<'py>(
     named(py, "TangentDifference", fields)
 }
 
-/// Measure tangents against the derivatives of the UV map: the angle between the interpolated tangent and dP/du, over the surface.
+/// Measure tangents against the derivatives of the UV map: the angle between the interpolated tangent and
+/// dP/du, over the surface.
 ///
 /// Parameters
 /// ----------

@@ -1,4 +1,5 @@
-//! The mesh arguments of a call. Arrays of floats stay borrowed while the core reads them; indices are copied.
+//! The mesh arguments of a call. Arrays of floats stay borrowed while the core reads them; indices are
+//! copied.
 
 use std::fmt::Display;
 
@@ -56,8 +57,8 @@ pub fn owned(indices: Indices<'_>) -> Option<Vec<u32>> {
     }
 }
 
-/// A copy of the indices. They are never borrowed: the core checks once that they are in range, and another thread of the program could
-/// change numpy's memory after that.
+/// A copy of the indices. They are never borrowed: the core checks once that they are in range, and another
+/// thread of the program could change numpy's memory after that.
 pub struct IndexArray {
     list: IndexList,
     /// Their shape in Python.
@@ -159,8 +160,8 @@ pub enum FaceSizes {
 }
 
 impl FaceSizes {
-    /// Corner counts as `faces` gives them: 3, 4 or one number per face. Without, indices of shape (F, 4) are quads and all else
-    /// triangles.
+    /// Corner counts as `faces` gives them: 3, 4 or one number per face. Without, indices of shape (F, 4) are
+    /// quads and all else triangles.
     pub fn new(
         value: Option<&Bound<'_, PyAny>>,
         indices: &IndexArray,

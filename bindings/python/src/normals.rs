@@ -25,8 +25,8 @@ pub fn normal_options(shading: &str, weight: &str, crease: f32, seams: &str) -> 
 
 /// Compute a unit normal for every corner.
 ///
-/// The result is per corner, not per vertex: split_normals returns vertices and new indices. Faces are counter-clockwise seen from the side to which their normal
-/// points.
+/// The result is per corner, not per vertex: split_normals returns vertices and new indices. Faces are
+/// counter-clockwise seen from the side to which their normal points.
 ///
 /// Parameters
 /// ----------
@@ -34,12 +34,12 @@ pub fn normal_options(shading: &str, weight: &str, crease: f32, seams: &str) -> 
 /// indices : (C,), (F, 3) or (F, 4) array_like of integers, optional
 ///     The vertex of each corner. Without indices, every vertex is a corner of its own.
 /// faces : 3, 4 or (F,) array_like of integers, optional
-///     Corners per face, of any size from 3 on. Without, indices of shape (F, 4) are quads, all else triangles.
-/// shading : str
+///     Corners per face, of any size from 3 on. Without, indices of shape (F, 4) are quads, all else
+/// triangles. shading : str
 ///     'smooth', or 'flat': every corner has its face's normal.
 /// weight : str
-///     How much each face counts at a vertex: 'angle', 'area', or 'angle-area', which keeps wide faces flat beside bevels.
-/// crease : float
+///     How much each face counts at a vertex: 'angle', 'area', or 'angle-area', which keeps wide faces flat
+/// beside bevels. crease : float
 ///     Degrees: smooth shading stops at edges whose faces' normals differ by more.
 /// seams : str
 ///     'ignored': vertices at equal positions share normals; 'respected': only vertices of the index list do.

@@ -11,12 +11,14 @@ use crate::arrays::{shape_text, wrong_type};
 pub enum Target<'py> {
     /// Written in place.
     Direct(PyReadwriteArray2<'py, f32>),
-    /// Written into a new array first and copied, because the caller's array is not packed or overlaps the input.
+    /// Written into a new array first and copied, because the caller's array is not packed or overlaps the
+    /// input.
     Copied { to: Bound<'py, PyUntypedArray>, from: Bound<'py, PyArray2<f32>> },
 }
 
 impl<'py> Target<'py> {
-    /// The caller's array, or a new one. Errors: not an array of float32, not of shape (corners, 4), read-only.
+    /// The caller's array, or a new one. Errors: not an array of float32, not of shape (corners, 4),
+    /// read-only.
     pub fn new(py: Python<'py>, out: Option<&Bound<'py, PyAny>>, corners: usize) -> PyResult<Self> {
         let Some(out) = out else { return Ok(Self::Direct(fresh(py, corners, 4)?.try_readwrite()?)) };
         let Ok(array) = out.cast::<PyUntypedArray>() else {
@@ -64,7 +66,8 @@ impl<'py> Target<'py> {
     }
 }
 
-/// A new array of shape (rows, columns). numpy requests large pages from the system, which is faster than many small ones.
+/// A new array of shape (rows, columns). numpy requests large pages from the system, which is faster than
+/// many small ones.
 pub fn fresh(py: Python<'_>, rows: usize, columns: usize) -> PyResult<Bound<'_, PyArray2<f32>>> {
     let made = py.import("numpy")?.call_method1("empty", ((rows, columns), numpy::dtype::<f32>(py)))?;
     Ok(made.cast_into()?)

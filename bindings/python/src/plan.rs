@@ -15,8 +15,9 @@ use crate::threads::cancellable;
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved.
 ///
-/// Methods other than 'mikktspace', 'angle-area' and 'angle-edge' keep only the signs and compute everything else again.
-/// The plan keeps copies of UVs and indices, and no reference to the arrays. Several threads may use a plan at the same time.
+/// Methods other than 'mikktspace', 'angle-area' and 'angle-edge' keep only the signs and compute everything
+/// else again. The plan keeps copies of UVs and indices, and no reference to the arrays. Several threads may
+/// use a plan at the same time.
 ///
 /// Parameters
 /// ----------
@@ -108,7 +109,8 @@ impl Plan {
     /// positions, normals : (V, 3) array_like
     ///     Of the moved vertices, in the same order.
     /// threads, out
-    ///     As for generate_tangents. With `out`, nothing is allocated unless some vertices need the exact stages.
+    ///     As for generate_tangents. With `out`, nothing is allocated unless some vertices need the exact
+    /// stages.
     ///
     /// Returns
     /// -------

@@ -13,8 +13,9 @@ use crate::results::named;
 
 /// Split the vertices whose corners need different tangents, into as few vertices as possible.
 ///
-/// One vertex per distinct pair of old vertex and tangent (all four floats compared as bits; NaN equals NaN). Old vertices keep their number, new
-/// ones come after them. Copy all other attributes with the source table: new = old[split.source_of_vertex].
+/// One vertex per distinct pair of old vertex and tangent (all four floats compared as bits; NaN equals NaN).
+/// Old vertices keep their number, new ones come after them. Copy all other attributes with the source table:
+/// new = old[split.source_of_vertex].
 ///
 /// Parameters
 /// ----------
@@ -27,8 +28,8 @@ use crate::results::named;
 ///
 /// Returns
 /// -------
-/// VertexSplit(tangent_of_vertex (W, 4) float32, indices uint32 of the old shape, source_of_vertex (W,) uint32); vertices that no corner
-/// uses get (1, 0, 0, 1)
+/// VertexSplit(tangent_of_vertex (W, 4) float32, indices uint32 of the old shape, source_of_vertex (W,)
+/// uint32); vertices that no corner uses get (1, 0, 0, 1)
 ///
 /// Raises
 /// ------
@@ -78,8 +79,8 @@ pub fn split_vertices<'py>(
 ///
 /// Returns
 /// -------
-/// NormalSplit(normal_of_vertex (W, 3) float32, indices uint32 of the old shape, source_of_vertex (W,) uint32); vertices that no corner
-/// uses get (0, 0, 1)
+/// NormalSplit(normal_of_vertex (W, 3) float32, indices uint32 of the old shape, source_of_vertex (W,)
+/// uint32); vertices that no corner uses get (0, 0, 1)
 ///
 /// Raises
 /// ------
@@ -113,7 +114,8 @@ pub fn split_normals<'py>(
 /// Vertex buffers up to this size may belong to any number of corners.
 const MAX_UNUSED_VERTICES: usize = 1 << 24;
 
-/// The largest number of vertices per corner beyond that: results have one row per vertex, and a wrong count must not take all memory.
+/// The largest number of vertices per corner beyond that: results have one row per vertex, and a wrong count
+/// must not take all memory.
 const MAX_VERTICES_PER_CORNER: usize = 64;
 
 /// Errors: far more vertices than the corners could use, or more than there is memory for.

@@ -16,8 +16,9 @@ use crate::threads::cancellable;
 
 /// Compute the tangent of every corner: unit xyz and the sign w, bitangent = w * cross(normal, xyz).
 ///
-/// The result is per corner, not per vertex. Corners of one vertex can have different tangents (at mirrored seams they do), so they cannot be written
-/// through the mesh's indices: split_vertices returns vertices and new indices. Without indices, corners are vertices.
+/// The result is per corner, not per vertex. Corners of one vertex can have different tangents (at mirrored
+/// seams they do), so they cannot be written through the mesh's indices: split_vertices returns vertices and
+/// new indices. Without indices, corners are vertices.
 ///
 /// Parameters
 /// ----------
@@ -27,21 +28,21 @@ use crate::threads::cancellable;
 /// indices : (C,), (F, 3) or (F, 4) array_like of integers, optional
 ///     The vertex of each corner. Without, every vertex is a corner of its own.
 /// faces : 3, 4 or (F,) array_like of integers, optional
-///     Corners per face. By default indices of shape (F, 4) are quads and all others triangles. Faces with more corners get tangents from their
-///     normals only, and are counted.
+///     Corners per face. By default indices of shape (F, 4) are quads and all others triangles. Faces with
+/// more corners get tangents from their     normals only, and are counted.
 /// method : str
-///     'mikktspace', which bakers use, 'angle-area', 'angle-edge', 'lengyel', 'lengyel-per-vertex', 'average', 'area', 'face' or 'from-normal'.
-/// mode : str
-///     For 'mikktspace'. 'reference': the bits of mikktspace.c, its defects included; 'repaired': the same, with unusable tangents replaced;
-///     'corrected': repaired, and the known defects corrected.
+///     'mikktspace', which bakers use, 'angle-area', 'angle-edge', 'lengyel', 'lengyel-per-vertex',
+/// 'average', 'area', 'face' or 'from-normal'. mode : str
+///     For 'mikktspace'. 'reference': the bits of mikktspace.c, its defects included; 'repaired': the same,
+/// with unusable tangents replaced;     'corrected': repaired, and the known defects corrected.
 /// threshold : float
-///     For 'mikktspace', in degrees: faces around a vertex share a tangent if their tangents and bitangents differ by less.
-///     Below 180 the faces are compared in pairs: a vertex with 20,000 faces takes about 2 s, one with 100,000 about a minute.
-/// full : bool
+///     For 'mikktspace', in degrees: faces around a vertex share a tangent if their tangents and bitangents
+/// differ by less.     Below 180 the faces are compared in pairs: a vertex with 20,000 faces takes about 2 s,
+/// one with 100,000 about a minute. full : bool
 ///     Return Frames instead: tangent, bitangent and magnitude.
 /// threads : int, optional
-///     The number of threads for large meshes; by default all hardware threads. The result does not depend on it.
-/// out : (C, 4) float32 array, optional
+///     The number of threads for large meshes; by default all hardware threads. The result does not depend on
+/// it. out : (C, 4) float32 array, optional
 ///     The result is written here and returned. Calls with `out` reuse their working memory.
 /// return_report : bool
 ///     Return (result, Report). The report counts non-finite and degenerate input and more.
@@ -57,8 +58,8 @@ use crate::threads::cancellable;
 /// ValueError
 ///     Wrong shapes, lengths that differ, an index out of range, corners that are not whole faces.
 ///
-/// float32 arrays that are packed, or whose packed rows lie at equal distances in a packed array, are not copied; nor are packed uint16
-/// and uint32 indices.
+/// float32 arrays that are packed, or whose packed rows lie at equal distances in a packed array, are not
+/// copied; nor are packed uint16 and uint32 indices.
 #[pyfunction]
 #[pyo3(signature = (
     positions, normals, uvs, indices=None, *, faces=None, method="mikktspace", mode="repaired", threshold=180.0,
@@ -107,8 +108,8 @@ pub fn generate_tangents<'py>(
     }
 }
 
-/// The context that calls with `out` reuse, so that repeated calls allocate nothing. A call that runs at the same time as another one makes
-/// a context of its own.
+/// The context that calls with `out` reuse, so that repeated calls allocate nothing. A call that runs at the
+/// same time as another one makes a context of its own.
 static KEPT_CONTEXT: Mutex<Option<Context>> = Mutex::new(None);
 
 fn take_context() -> Context {

@@ -1,7 +1,7 @@
 //! Runs work without the GIL, on the requested number of threads.
 //!
-//! Each process has thread pools of its own: a forked child has none of its parent's threads, so work for the parent's pool would
-//! wait forever.
+//! Each process has thread pools of its own: a forked child has none of its parent's threads, so work for the
+//! parent's pool would wait forever.
 
 use std::collections::HashMap;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -37,7 +37,8 @@ pub fn limited<R: Send>(
     Ok(py.detach(|| pool.install(work)))
 }
 
-/// The pool of this process with this number of threads; 0 stands for the number of hardware threads. The GIL is held, so no fork can happen while the lock is held.
+/// The pool of this process with this number of threads; 0 stands for the number of hardware threads. The GIL
+/// is held, so no fork can happen while the lock is held.
 fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
@@ -59,8 +60,8 @@ fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     Ok(pool)
 }
 
-/// Runs `work` on this number of corners without the GIL, with `context`. Ctrl-C cancels it. `is_slow`: the work may take quadratic
-/// time.
+/// Runs `work` on this number of corners without the GIL, with `context`. Ctrl-C cancels it. `is_slow`: the
+/// work may take quadratic time.
 pub fn cancellable<R: Send>(
     py: Python<'_>,
     threads: Option<Threads>,
@@ -84,9 +85,11 @@ pub fn cancellable<R: Send>(
 /// The interval between checks for Ctrl-C while another thread works.
 const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Runs `work` on a pool without the GIL. This thread waits, passes messages of the work to `receive`, and checks for Ctrl-C.
+/// Runs `work` on a pool without the GIL. This thread waits, passes messages of the work to `receive`, and
+/// checks for Ctrl-C.
 ///
-/// After Ctrl-C or an error of `receive`, it calls `stop` and waits for the work to end; the result is dropped. `threads`: as for [`pool`].
+/// After Ctrl-C or an error of `receive`, it calls `stop` and waits for the work to end; the result is
+/// dropped. `threads`: as for [`pool`].
 pub fn run_interruptibly<M: Send, R: Send>(
     py: Python<'_>,
     threads: usize,

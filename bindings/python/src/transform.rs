@@ -15,14 +15,15 @@ type Columns = [[f32; 3]; 3];
 
 /// Transform normals and tangents by a node's matrix, which may mirror or scale non-uniformly.
 ///
-/// Tangents transform by the matrix, normals by its inverse transpose, and w changes its sign where the matrix mirrors. A normal that the matrix
-/// maps to zero does not change; a tangent that it maps to zero becomes a perpendicular of the normal.
+/// Tangents transform by the matrix, normals by its inverse transpose, and w changes its sign where the
+/// matrix mirrors. A normal that the matrix maps to zero does not change; a tangent that it maps to zero
+/// becomes a perpendicular of the normal.
 ///
 /// Parameters
 /// ----------
 /// matrix : (3, 3), (3, 4) or (4, 4) array_like
-///     For column vectors: new = matrix @ old. Only the upper left 3 by 3 is read. The matrices of glTF are stored by columns: transpose
-///     them.
+///     For column vectors: new = matrix @ old. Only the upper left 3 by 3 is read. The matrices of glTF are
+/// stored by columns: transpose     them.
 /// normals : (V, 3) array_like
 ///     Unit length.
 /// tangents : (V, 4) array_like
@@ -53,14 +54,15 @@ pub fn transform_frames<'py>(
 
 /// Transform normals and tangents by a skin: each by the weighted mean of its bones' matrices.
 ///
-/// The change of the weights over the surface is ignored, as is common practice, so normals of strongly bent skins are approximate. Source: B. Merry
-/// et al., "Normal Transformations for Articulated Models", SIGGRAPH Sketches 2006.
+/// The change of the weights over the surface is ignored, as is common practice, so normals of strongly bent
+/// skins are approximate. Source: B. Merry et al., "Normal Transformations for Articulated Models", SIGGRAPH
+/// Sketches 2006.
 ///
 /// Parameters
 /// ----------
 /// bones : (B, 3, 3), (B, 3, 4) or (B, 4, 4) array_like
-///     The matrix of each bone, from the pose of the given frames to the current pose, for column vectors as in transform_frames.
-/// joints : (V, K) array_like of integers
+///     The matrix of each bone, from the pose of the given frames to the current pose, for column vectors as
+/// in transform_frames. joints : (V, K) array_like of integers
 ///     The bones of each vertex.
 /// weights : (V, K) array_like
 ///     The weight of each of these bones.
@@ -92,7 +94,8 @@ pub fn skin_frames<'py>(
     frames.map(py, |vertex, normal, tangent| skin.transform(vertex).frame(normal, tangent))
 }
 
-/// The upper left 3 by 3 of every matrix, by columns. `stacked`: the number of dimensions before those of a matrix.
+/// The upper left 3 by 3 of every matrix, by columns. `stacked`: the number of dimensions before those of a
+/// matrix.
 fn matrices(name: &str, value: &Bound<'_, PyAny>, stacked: usize) -> PyResult<Vec<Columns>> {
     let array = array_of(name, value)?;
     let shape = array.shape().to_vec();

@@ -1,7 +1,8 @@
 //! Measures a bake: a wavy sphere of about two million triangles onto one of twenty thousand.
 //!
-//! `cargo run --release --package darboux-bake --all-features --example measure -- SIZE THREADS CELLS` prints wall and processor time, rays per second and
-//! the peak of memory (Linux). The sphere has 2 * CELLS * CELLS triangles.
+//! `cargo run --release --package darboux-bake --all-features --example measure -- SIZE THREADS CELLS` prints
+//! wall and processor time, rays per second and the peak of memory (Linux). The sphere has 2 * CELLS * CELLS
+//! triangles.
 
 use std::f64::consts::{PI, TAU};
 use std::time::Instant;
@@ -30,7 +31,8 @@ fn sphere(cells: usize, height: f64) -> Arrays {
     arrays
 }
 
-/// The seconds of processor time of this process, and its peak of memory in bytes; zeros where the system does not say.
+/// The seconds of processor time of this process, and its peak of memory in bytes; zeros where the system
+/// does not say.
 fn usage() -> (f64, u64) {
     let text = |name: &str| std::fs::read_to_string(format!("/proc/self/{name}")).unwrap_or_default();
     let ticks: f64 =

@@ -1,12 +1,14 @@
-//! Bakes the same pairs with Blender's Cycles and with Darboux, and measures the errors of both in the same way, and their times.
+//! Bakes the same pairs with Blender's Cycles and with Darboux, and measures the errors of both in the same
+//! way, and their times.
 //!
-//! `cargo xtask bench --bake` builds and starts it: `peers PYTHON SCRIPT FOLDER SIZE THREADS [MODEL ...]`. PYTHON has the package bpy, SCRIPT is
-//! `benches/bake/blender_bake.py`, FOLDER holds what both sides exchange, and MODEL is a glTF model, of which the first primitive is
-//! simplified to a tenth of its triangles.
+//! `cargo xtask bench --bake` builds and starts it: `peers PYTHON SCRIPT FOLDER SIZE THREADS [MODEL ...]`.
+//! PYTHON has the package bpy, SCRIPT is `benches/bake/blender_bake.py`, FOLDER holds what both sides
+//! exchange, and MODEL is a glTF model, of which the first primitive is simplified to a tenth of its
+//! triangles.
 //!
-//! Both sides get the same cage, have the meshes in memory when the clock starts, and make tangents and the tree while it runs. The maps are
-//! rounded to 16 bits by the same function. The errors of pairs that are known in closed form are measured as the tests of this package do,
-//! those of models by `verify`.
+//! Both sides get the same cage, have the meshes in memory when the clock starts, and make tangents and the
+//! tree while it runs. The maps are rounded to 16 bits by the same function. The errors of pairs that are
+//! known in closed form are measured as the tests of this package do, those of models by `verify`.
 
 #[path = "../tests/support/mod.rs"]
 mod support;
@@ -117,7 +119,8 @@ fn analytic(pair: Pair) -> Meshes {
     Meshes { name: pair.name.to_owned(), low, high, cage, distance: DISTANCE, pair: Some(pair) }
 }
 
-/// The first primitive of a model, and a tenth of its triangles. The cage lies at 2 % of the diagonal of its box.
+/// The first primitive of a model, and a tenth of its triangles. The cage lies at 2 % of the diagonal of its
+/// box.
 fn simplified(path: &Path) -> Result<Meshes> {
     let document = Document::open(path, &LoadOptions::default())?;
     let all = document.corners()?;

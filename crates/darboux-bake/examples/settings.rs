@@ -1,6 +1,8 @@
-//! Writes the models of the pictures in docs/bake.md into a folder: a crate with a handle above it, as low.glb and high.glb.
+//! Writes the models of the pictures in docs/bake.md into a folder: a crate with a handle above it, as
+//! low.glb and high.glb.
 //!
-//! The low crate is a box with hard edges; the high one has round edges, bolts and a ring. `cargo xtask bake-pictures` bakes and draws them.
+//! The low crate is a box with hard edges; the high one has round edges, bolts and a ring. `cargo xtask
+//! bake-pictures` bakes and draws them.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -59,7 +61,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The parts as an OBJ, with so many cells per side of a face. One cell is a flat face with its own normal, and has UVs.
+/// The parts as an OBJ, with so many cells per side of a face. One cell is a flat face with its own normal,
+/// and has UVs.
 fn text(suffix: &str, cells: usize) -> Result<String, std::fmt::Error> {
     let mut text = String::new();
     let mut first = 1;

@@ -1,7 +1,9 @@
-//! Makes a low model of a high one by meshoptimizer: `cargo run --release --package darboux-bake --example simplify -- HIGH SHARE LOW.glb`.
+//! Makes a low model of a high one by meshoptimizer: `cargo run --release --package darboux-bake --example
+//! simplify -- HIGH SHARE LOW.glb`.
 //!
-//! SHARE is the part of the triangles that stays, such as 0.05. The vertices, UVs and materials stay as they are, so that the low model shares the high one's
-//! textures; its tangents are made again, and the normal map is left out, because it was made for other triangles.
+//! SHARE is the part of the triangles that stays, such as 0.05. The vertices, UVs and materials stay as they
+//! are, so that the low model shares the high one's textures; its tangents are made again, and the normal map
+//! is left out, because it was made for other triangles.
 
 use std::path::Path;
 

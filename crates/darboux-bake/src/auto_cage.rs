@@ -1,8 +1,9 @@
 //! [`auto_cage`]: the closest cage from which rays see all of the high surface that belongs to the low one.
 //!
-//! From points all over the low triangles, lines run along the directions of the cage, and all their hits within a distance are listed. Going outwards
-//! from the low surface, a line first leaves the body that it is in. Where it enters another body behind a gap, such as a handle above a lid, what follows
-//! belongs to that body. The last hit before decides how far outside the ray of the point has to begin.
+//! From points all over the low triangles, lines run along the directions of the cage, and all their hits
+//! within a distance are listed. Going outwards from the low surface, a line first leaves the body that it is
+//! in. Where it enters another body behind a gap, such as a handle above a lid, what follows belongs to that
+//! body. The last hit before decides how far outside the ray of the point has to begin.
 //!
 //! ```text
 //! points     spread over every triangle, more on larger ones
@@ -32,7 +33,8 @@ const MOST_HITS: usize = 64;
 /// A body behind a gap of more than this share of the reach is another one.
 const GAP: f64 = 0.05;
 
-/// How far outside of what they have to see rays begin, and how far inside of it they end, as a share of the reach.
+/// How far outside of what they have to see rays begin, and how far inside of it they end, as a share of the
+/// reach.
 const MARGIN: f64 = 0.02;
 
 /// Triangles per job.
@@ -69,8 +71,8 @@ pub struct AutoCage {
 
 /// Makes the cage of low surfaces.
 ///
-/// Vertices at equal positions have equal offsets, so that hard edges leave no gaps. The cage has the same bits for every number of threads. Errors: options
-/// out of range; the context's token was cancelled.
+/// Vertices at equal positions have equal offsets, so that hard edges leave no gaps. The cage has the same
+/// bits for every number of threads. Errors: options out of range; the context's token was cancelled.
 pub fn auto_cage(
     surfaces: &PreparedSurfaces<'_>,
     options: &AutoCageOptions,
@@ -162,7 +164,8 @@ impl Lines<'_> {
         (highest.max(0.0), (-deepest).max(0.0))
     }
 
-    /// Where the ray of a point has to begin, as a multiple of the cage's direction; negative inside. None where nothing is hit.
+    /// Where the ray of a point has to begin, as a multiple of the cage's direction; negative inside. None
+    /// where nothing is hit.
     fn height(&self, point: Vector, direction: Vector, stack: &mut Stack) -> Option<f64> {
         let size = length(direction);
         let outwards = unit(direction)?;
@@ -174,7 +177,8 @@ impl Lines<'_> {
             hits.iter().rev().map(|&(distance, is_front)| (reach - distance, is_front)).collect();
         let near = 1e-3 * reach;
         let inside = places.iter().rposition(|&(place, is_front)| is_front && place <= near);
-        // Without a front below, the point lies inside the body, whose front comes before the back of any other.
+        // Without a front below, the point lies inside the body, whose front comes before the back of any
+        // other.
         let above = || places.iter().position(|&(place, _)| place > near).filter(|&at| places[at].1);
         let first = inside.or_else(above)?;
         let mut height = places[first].0;
@@ -222,7 +226,8 @@ fn all_hits(bvh: &Bvh, origin: Vector, direction: Vector, end: f64, stack: &mut 
     hits
 }
 
-/// The weights of a point of an even sequence over a triangle (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018).
+/// The weights of a point of an even sequence over a triangle (M. Roberts, "The Unreasonable Effectiveness of
+/// Quasirandom Sequences", 2018).
 fn spread(index: usize) -> [f64; 3] {
     const STEP: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
     let [u, v] = STEP.map(|step| (0.5 + step * index as f64).fract());

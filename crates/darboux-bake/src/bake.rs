@@ -43,9 +43,10 @@ pub struct Baked {
 
 /// Bakes the detail of the high surfaces into images over the UVs of the low surfaces.
 ///
-/// From every sample of every texel that a low triangle covers, a ray passes from outside through the low surface; its first hit on a high
-/// surface of the same group gives the content. The first triangle, in the order of surfaces and triangles, owns texels that several cover;
-/// texels without a hit are filled from around. The images have the same bits for every number of threads. `progress` is called on any
+/// From every sample of every texel that a low triangle covers, a ray passes from outside through the low
+/// surface; its first hit on a high surface of the same group gives the content. The first triangle, in the
+/// order of surfaces and triangles, owns texels that several cover; texels without a hit are filled from
+/// around. The images have the same bits for every number of threads. `progress` is called on any
 /// thread, after each row of blocks.
 ///
 /// Errors: options out of range; no triangles; more memory than the limit; the context's token was cancelled.

@@ -106,7 +106,8 @@ impl Bake<'_> {
         }
     }
 
-    /// Stage 3: the rays of the samples of a tile. `first`: the upper left texel of the block; `from`: that of the tile in the block.
+    /// Stage 3: the rays of the samples of a tile. `first`: the upper left texel of the block; `from`: that
+    /// of the tile in the block.
     fn find_rays(&self, first: [usize; 2], from: [usize; 2], sample: [i64; 2], scratch: &mut Scratch) {
         scratch.rays_of_tile.clear();
         let mut last: Option<Face> = None;

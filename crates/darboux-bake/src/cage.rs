@@ -6,23 +6,25 @@ use crate::BakeError;
 use crate::common_box::CommonBox;
 use crate::vector::{Vector, add_scaled, narrow, wide};
 
-/// How far a cage lies outside a model without another choice: 2 % of the diagonal of the model's box, in the same unit.
+/// How far a cage lies outside a model without another choice: 2 % of the diagonal of the model's box, in the
+/// same unit.
 pub fn default_cage_offset(diagonal: f64) -> f32 {
     (0.02 * diagonal).max(f64::from(f32::MIN_POSITIVE)) as f32
 }
 
 /// The vertices of a mesh, moved outwards by `offset`: a cage without gaps.
 ///
-/// Vertices at equal positions move in the same direction, the mean of the normals of their faces weighted by angle, also where the normals of
-/// the mesh differ as at hard edges. Vertices that no corner uses stay. Errors: faces that are not triangles.
+/// Vertices at equal positions move in the same direction, the mean of the normals of their faces weighted by
+/// angle, also where the normals of the mesh differ as at hard edges. Vertices that no corner uses stay.
+/// Errors: faces that are not triangles.
 pub fn inflated_cage(mesh: &Mesh<'_>, offset: f32) -> Result<Vec<[f32; 3]>, BakeError> {
     inflated_cage_by(mesh, &vec![offset; mesh.vertex_count()])
 }
 
 /// As [`inflated_cage`], each vertex by its own offset.
 ///
-/// `offset_of_vertex`: one per vertex. Where vertices at equal positions have different offsets, the cage has a gap. Errors: faces that are not
-/// triangles; another number of offsets.
+/// `offset_of_vertex`: one per vertex. Where vertices at equal positions have different offsets, the cage has
+/// a gap. Errors: faces that are not triangles; another number of offsets.
 pub fn inflated_cage_by(mesh: &Mesh<'_>, offset_of_vertex: &[f32]) -> Result<Vec<[f32; 3]>, BakeError> {
     let vertices = mesh.vertex_count();
     if offset_of_vertex.len() != vertices {
@@ -41,7 +43,8 @@ pub fn inflated_cage_by(mesh: &Mesh<'_>, offset_of_vertex: &[f32]) -> Result<Vec
     Ok((0..vertices).map(moved).collect())
 }
 
-/// The directions in which the vertices of a cage move; none for vertices that no corner uses. Errors: faces that are not triangles.
+/// The directions in which the vertices of a cage move; none for vertices that no corner uses. Errors: faces
+/// that are not triangles.
 pub(crate) fn cage_directions(mesh: &Mesh<'_>) -> Result<Vec<Option<Vector>>, BakeError> {
     if !matches!(mesh.faces(), Faces::Triangles) {
         return Err(BakeError::NotTriangles);

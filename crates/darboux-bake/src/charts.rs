@@ -13,8 +13,8 @@ pub struct Charts {
 }
 
 impl Charts {
-    /// Finds the charts: triangles of a surface belong together where corners have the same position and the same UV, bit for bit. Charts are numbered
-    /// in the order of surfaces and of their first triangles.
+    /// Finds the charts: triangles of a surface belong together where corners have the same position and the
+    /// same UV, bit for bit. Charts are numbered in the order of surfaces and of their first triangles.
     pub fn of(low: &[LowSurface<'_>]) -> Self {
         let mut next = 0;
         let chart_of_triangle = low.iter().map(|surface| number(surface, &mut next)).collect();
@@ -39,7 +39,8 @@ fn number(surface: &LowSurface<'_>, next: &mut u32) -> Vec<u32> {
         let (a, b) = (root(&mut parents, first), root(&mut parents, triangle));
         parents[a.max(b) as usize] = a.min(b);
     }
-    // Roots are the first triangles of their charts, so that their numbers are known before those of the others.
+    // Roots are the first triangles of their charts, so that their numbers are known before those of the
+    // others.
     let mut charts = Vec::with_capacity(parents.len());
     for triangle in 0..parents.len() as u32 {
         let root = root(&mut parents, triangle);

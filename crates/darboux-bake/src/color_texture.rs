@@ -1,7 +1,8 @@
 //! [`ColorTexture`]: a texture of a material, filtered over the footprint of a texel.
 //!
-//! Texels are averaged in linear light: mip levels by boxes, between and within levels linearly, along the longer side of the footprint by up to
-//! [`MOST_TAPS`] places, as GPUs filter anisotropically (L. Williams, "Pyramidal Parametrics", 1983; EXT_texture_filter_anisotropic).
+//! Texels are averaged in linear light: mip levels by boxes, between and within levels linearly, along the
+//! longer side of the footprint by up to [`MOST_TAPS`] places, as GPUs filter anisotropically (L. Williams,
+//! "Pyramidal Parametrics", 1983; EXT_texture_filter_anisotropic).
 
 use std::sync::LazyLock;
 
@@ -46,8 +47,8 @@ struct Level {
 impl ColorTexture {
     /// A texture that repeats.
     ///
-    /// `size`: texels per row, and rows; `texels`: row after row, the top row first; `is_srgb`: whether red, green and blue are in sRGB. Errors:
-    /// another number of texels.
+    /// `size`: texels per row, and rows; `texels`: row after row, the top row first; `is_srgb`: whether red,
+    /// green and blue are in sRGB. Errors: another number of texels.
     pub fn new(size: [u32; 2], texels: Vec<[u8; 4]>, is_srgb: bool) -> Result<Self, BakeError> {
         let size = size.map(|side| side as usize);
         if size[0].checked_mul(size[1]) != Some(texels.len()) || texels.is_empty() {
@@ -96,7 +97,8 @@ impl ColorTexture {
         [color[r], color[g], color[b], LINEAR_OF_CODE[a]].map(f64::from)
     }
 
-    /// The mean over a footprint around a UV, in linear light. `along`: the two sides of the footprint, in UVs. `None` where a number is not finite.
+    /// The mean over a footprint around a UV, in linear light. `along`: the two sides of the footprint, in
+    /// UVs. `None` where a number is not finite.
     pub(crate) fn mean(&self, uv: Place, along: [Place; 2]) -> Option<Color> {
         if !uv.iter().chain(along.as_flattened()).all(|x| x.is_finite()) {
             return None;
@@ -144,7 +146,8 @@ impl ColorTexture {
     }
 }
 
-/// The level at which a length of texels is one texel: log2, linear between powers of two, so that it has the same bits on every platform.
+/// The level at which a length of texels is one texel: log2, linear between powers of two, so that it has the
+/// same bits on every platform.
 fn level_of(length: f64) -> f64 {
     if length <= 1.0 {
         return 0.0;

@@ -1,7 +1,8 @@
-//! Brings the models into one box before rays are followed, so that products of their coordinates neither overflow nor underflow.
+//! Brings the models into one box before rays are followed, so that products of their coordinates neither
+//! overflow nor underflow.
 //!
-//! The factor is a power of two. Scaling is then exact, and a model that is larger or smaller by a power of two has the same content, bit for bit, and
-//! heights and positions that differ by that power.
+//! The factor is a power of two. Scaling is then exact, and a model that is larger or smaller by a power of
+//! two has the same content, bit for bit, and heights and positions that differ by that power.
 
 use crate::vector::wide;
 
@@ -13,7 +14,8 @@ pub struct CommonBox {
 }
 
 impl CommonBox {
-    /// The box around positions. Coordinates that are not finite do not count; without any, nothing is scaled.
+    /// The box around positions. Coordinates that are not finite do not count; without any, nothing is
+    /// scaled.
     pub fn around(positions: impl Iterator<Item = [f32; 3]>) -> Self {
         let finite = positions.flatten().filter(|x| x.is_finite());
         Self::of_largest(finite.fold(0.0, |largest, x| f64::from(x.abs()).max(largest)))

@@ -1,7 +1,8 @@
 //! Stage 2: which triangle covers each sample of a block.
 //!
-//! Corners are rounded to 1 / 256 texel, so the test is exact. A sample on an edge belongs to the triangle that contains the point a little to
-//! the right of it (and below it, if that decides nothing): two triangles that share an edge neither overlap there nor leave a gap.
+//! Corners are rounded to 1 / 256 texel, so the test is exact. A sample on an edge belongs to the triangle
+//! that contains the point a little to the right of it (and below it, if that decides nothing): two triangles
+//! that share an edge neither overlap there nor leave a gap.
 
 use crate::layout::{BLOCK, Placed, area};
 use crate::samples::STEPS;
@@ -9,7 +10,8 @@ use crate::samples::STEPS;
 /// Texels per block.
 pub const TEXELS: usize = BLOCK * BLOCK;
 
-/// The texels of a block that still need triangles. Where many triangles lie over each other, most of them find none.
+/// The texels of a block that still need triangles. Where many triangles lie over each other, most of them
+/// find none.
 #[derive(Clone, Debug)]
 pub struct Open {
     /// One bit per texel.
@@ -20,8 +22,9 @@ impl Open {
     /// All texels.
     pub const ALL: Self = Self { rows: [u32::MAX; BLOCK] };
 
-    /// Visits the open texels whose sample a triangle covers, and closes those for which `visit` returns true. `corners`: in steps from the upper
-    /// left corner of the block; `sample`: the place of the samples within their texels.
+    /// Visits the open texels whose sample a triangle covers, and closes those for which `visit` returns
+    /// true. `corners`: in steps from the upper left corner of the block; `sample`: the place of the
+    /// samples within their texels.
     pub fn visit_covered(
         &mut self,
         corners: [[i64; 2]; 3],
@@ -76,7 +79,8 @@ impl Coverage {
         self.open = Open::ALL;
     }
 
-    /// Adds a triangle. `corners`: in steps from the upper left corner of the block; `sample`: the place of the samples within their texels.
+    /// Adds a triangle. `corners`: in steps from the upper left corner of the block; `sample`: the place of
+    /// the samples within their texels.
     pub fn add(&mut self, placed: Placed, corners: [[i64; 2]; 3], sample: [i64; 2]) {
         let Self { owners, overlaps, open } = self;
         open.visit_covered(corners, sample, |texel| {
@@ -91,14 +95,16 @@ impl Coverage {
 struct Edge {
     from: [i64; 2],
     along: [i64; 2],
-    /// The least value of the edge function that counts as inside: 0 for edges that own their points, else 1.
+    /// The least value of the edge function that counts as inside: 0 for edges that own their points, else
+    /// 1.
     least: i64,
 }
 
 impl Edge {
     fn new(from: [i64; 2], to: [i64; 2]) -> Self {
         let along = [to[0] - from[0], to[1] - from[1]];
-        // The edge function grows to the right where the edge runs upwards, and downwards where it runs to the right.
+        // The edge function grows to the right where the edge runs upwards, and downwards where it runs to
+        // the right.
         let owns_points = along[1] < 0 || (along[1] == 0 && along[0] > 0);
         Self { from, along, least: if owns_points { 0 } else { 1 } }
     }
@@ -115,7 +121,8 @@ mod tests {
 
     use super::*;
 
-    /// Whether a triangle contains a point that is moved right by e and down by e * e, for an infinitely small e.
+    /// Whether a triangle contains a point that is moved right by e and down by e * e, for an infinitely
+    /// small e.
     fn contains(corners: [[i64; 2]; 3], at: [i64; 2]) -> bool {
         let [a, b, c] = corners;
         let side = |p: [i64; 2], q: [i64; 2]| {

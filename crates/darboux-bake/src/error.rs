@@ -5,7 +5,8 @@ use std::fmt;
 use crate::limits::{MAX_SAMPLES_PER_AXIS, MAX_SIDE, MAX_TRIANGLES};
 use crate::udim::Udim;
 
-/// The error of [`bake`](crate::bake()) and of the surfaces that it takes. Degenerate geometry is no error: the report counts it.
+/// The error of [`bake`](crate::bake()) and of the surfaces that it takes. Degenerate geometry is no error:
+/// the report counts it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum BakeError {

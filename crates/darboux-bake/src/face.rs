@@ -78,14 +78,15 @@ impl<'a> Face<'a> {
         [[a, b], [b, c], [c, a]].map(distance).into_iter().fold(f64::INFINITY, f64::min)
     }
 
-    /// The point at a place of the image, in texels. A place outside the triangle, where rounding has put it, moves to its edge.
+    /// The point at a place of the image, in texels. A place outside the triangle, where rounding has put it,
+    /// moves to its edge.
     pub fn point(&self, at: [f64; 2]) -> SurfacePoint {
         let weights = self.continued_weights(at).map(|weight| weight.max(0.0));
         self.mixed(scale(1.0 / weights.iter().sum::<f64>(), weights), at)
     }
 
-    /// The point at a place outside the triangle, where its plane, cage and frames are continued; `None` farther away than the triangle is large,
-    /// where errors would grow.
+    /// The point at a place outside the triangle, where its plane, cage and frames are continued; `None`
+    /// farther away than the triangle is large, where errors would grow.
     pub fn continued_point(&self, at: [f64; 2]) -> Option<SurfacePoint> {
         let weights = self.continued_weights(at);
         weights.iter().all(|weight| (-1.0..=2.0).contains(weight)).then(|| self.mixed(weights, at))

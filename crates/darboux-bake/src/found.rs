@@ -24,7 +24,8 @@ pub struct Found<'a> {
     pub frame: ShadingFrame,
     /// The normal in this frame; none where it is degenerate.
     pub normal: Option<Vector>,
-    /// The sides of the sample's area on the low surface; zeros unless [`MapList::needs_sides`](crate::maps::MapList::needs_sides).
+    /// The sides of the sample's area on the low surface; zeros unless
+    /// [`MapList::needs_sides`](crate::maps::MapList::needs_sides).
     pub sides: [Vector; 2],
     pub options: &'a BakeOptions,
     /// For random choices.

@@ -1,8 +1,8 @@
 //! Stage 5: a normal in the frame of the low surface, as a renderer will undo it.
 //!
-//! A renderer computes n = x T + y B + z N from the texel (x, y, z) and normalises n (M. Mikkelsen, "Simulation of Wrinkled Surfaces
-//! Revisited", 2008). T and N are interpolated and not normalised, and for one choice of [`Bitangent`] B is w cross(N, T). So the texel is the
-//! solution of that equation, normalised.
+//! A renderer computes n = x T + y B + z N from the texel (x, y, z) and normalises n (M. Mikkelsen,
+//! "Simulation of Wrinkled Surfaces Revisited", 2008). T and N are interpolated and not normalised, and for
+//! one choice of [`Bitangent`] B is w cross(N, T). So the texel is the solution of that equation, normalised.
 
 use crate::Bitangent;
 use crate::point::SurfacePoint;
@@ -44,7 +44,8 @@ impl ShadingFrame {
         unit([0, 1, 2].map(|i| x * t[i] + y * b[i] + z * n[i]))
     }
 
-    /// The unit vector m with x T + y B + z N along `normal`, by Cramer's rule; `None` where the frame is degenerate.
+    /// The unit vector m with x T + y B + z N along `normal`, by Cramer's rule; `None` where the frame is
+    /// degenerate.
     pub fn to_tangent_space(self, normal: Vector) -> Option<Vector> {
         let Self { tangent: t, bitangent: b, normal: n } = self;
         let volume = dot(t, cross(b, n));

@@ -1,22 +1,26 @@
-//! The triangles nearest to texels near charts. There a filter mixes a chart's texels with those outside, which must continue the chart: a
-//! copy of the nearest texel would be wrong by what the content changes over a texel.
+//! The triangles nearest to texels near charts. There a filter mixes a chart's texels with those outside,
+//! which must continue the chart: a copy of the nearest texel would be wrong by what the content changes over
+//! a texel.
 
 use crate::LowSurface;
 use crate::coverage::TEXELS;
 use crate::layout::{BLOCK, Layout, Placed};
 use crate::vector::Place;
 
-/// The distance in texels between a texel's centre and a triangle up to which the triangle is continued: more than the diagonal of a texel.
+/// The distance in texels between a texel's centre and a triangle up to which the triangle is continued: more
+/// than the diagonal of a texel.
 const REACH: f64 = 1.5;
 
-/// For every texel of a block the triangle nearest to its centre, of those within [`REACH`]; the first of several.
+/// For every texel of a block the triangle nearest to its centre, of those within [`REACH`]; the first of
+/// several.
 #[derive(Debug)]
 pub struct Gutter {
     nearest: Vec<Option<(f64, Placed)>>,
 }
 
 impl Gutter {
-    /// Finds the triangles. `triangles`: of the block, in order, with their corners in texels from its upper left corner.
+    /// Finds the triangles. `triangles`: of the block, in order, with their corners in texels from its upper
+    /// left corner.
     pub fn of(triangles: impl Iterator<Item = (Placed, [Place; 3])>) -> Self {
         let mut nearest: Vec<Option<(f64, Placed)>> = vec![None; TEXELS];
         for (placed, corners) in triangles {

@@ -10,12 +10,13 @@ use crate::layout::BLOCK;
 use crate::rays::ray_of;
 use crate::samples::STEPS;
 
-/// The least z of a normal in the gutter of a chart. Where the surface turns away further than 60 degrees, the chart does not continue.
+/// The least z of a normal in the gutter of a chart. Where the surface turns away further than 60 degrees,
+/// the chart does not continue.
 const LEAST_Z: f64 = 0.5;
 
 impl Bake<'_> {
-    /// Follows the rays of a block's samples that no triangle covers, on the nearest triangle, continued. What does not continue the chart is
-    /// left to padding.
+    /// Follows the rays of a block's samples that no triangle covers, on the nearest triangle, continued.
+    /// What does not continue the chart is left to padding.
     ///
     /// `gutter`: of the block; it is made when the first sample needs it.
     pub fn sample_gutter(
@@ -49,7 +50,8 @@ impl Bake<'_> {
         }
     }
 
-    /// Adds what the ray of a sample finds, if it continues the chart. `at`: the texel in the image; `texel`: in the block.
+    /// Adds what the ray of a sample finds, if it continues the chart. `at`: the texel in the image; `texel`:
+    /// in the block.
     fn sample_continued(
         &self,
         face: &Face<'_>,

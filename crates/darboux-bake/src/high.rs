@@ -23,7 +23,8 @@ pub struct HighPoint {
     /// The place of the surface in its group.
     pub surface: usize,
     pub triangle: usize,
-    /// The normal that the surface's map shows, or else the interpolated one, or that of the triangle's plane; unit length.
+    /// The normal that the surface's map shows, or else the interpolated one, or that of the triangle's
+    /// plane; unit length.
     pub normal: Vector,
     /// The normal of the triangle's plane, towards the ray's origin; not normalised, not zero.
     pub face_normal: Vector,
@@ -32,7 +33,8 @@ pub struct HighPoint {
 }
 
 impl<'a> HighGroup<'a> {
-    /// Builds the hierarchy over the surfaces of a group. Errors: too many triangles; the context's token was cancelled.
+    /// Builds the hierarchy over the surfaces of a group. Errors: too many triangles; the context's token was
+    /// cancelled.
     pub fn new(all: &[HighSurface<'a>], group: usize, context: &Context) -> Result<Self, BakeError> {
         let surfaces: Vec<_> = all.iter().filter(|surface| surface.group == group).copied().collect();
         let count: u64 = surfaces.iter().map(|surface| surface.triangle_count() as u64).sum();

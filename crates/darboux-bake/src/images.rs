@@ -85,7 +85,8 @@ impl Images {
 
     /// A normal map in tangent space that was baked earlier, for [`verify`](crate::verify()).
     ///
-    /// `size`: texels per row, and rows; `states`, `normals`: row after row, the top row first. Errors: another number of texels.
+    /// `size`: texels per row, and rows; `states`, `normals`: row after row, the top row first. Errors:
+    /// another number of texels.
     pub fn of_normals(
         size: [u32; 2],
         states: Vec<TexelState>,
@@ -140,8 +141,8 @@ impl Images {
         bands
     }
 
-    /// Continues the normals of charts into the texels around them, where they are copies: a filter between a copy and the chart would flatten what
-    /// changes across the border. Sharp changes are not continued.
+    /// Continues the normals of charts into the texels around them, where they are copies: a filter between a
+    /// copy and the chart would flatten what changes across the border. Sharp changes are not continued.
     pub(crate) fn continue_normals(&mut self, source_of_texel: &[u32]) {
         let [width, height] = self.size.map(|side| side as usize);
         let Self { images, states, .. } = self;
@@ -171,8 +172,8 @@ impl Images {
         }
     }
 
-    /// Copies texels within every image. `source_of_texel`: for each texel the one that it copies, which copies itself. Maps of the low surface keep
-    /// what they have in charts.
+    /// Copies texels within every image. `source_of_texel`: for each texel the one that it copies, which
+    /// copies itself. Maps of the low surface keep what they have in charts.
     pub(crate) fn copy_texels(&mut self, source_of_texel: &[u32]) {
         for Image { kind, numbers } in &mut self.images {
             let channels = kind.channels();

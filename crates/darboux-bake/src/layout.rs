@@ -1,4 +1,5 @@
-//! Stage 1: where the triangles of the low surfaces lie in the image, and which triangles each block of texels needs.
+//! Stage 1: where the triangles of the low surfaces lie in the image, and which triangles each block of
+//! texels needs.
 
 use std::collections::BTreeSet;
 
@@ -12,14 +13,15 @@ use crate::{BakeError, LowSurface};
 /// Texels per side of a block.
 pub const BLOCK: usize = 32;
 
-/// The most tiles of the UV plane that a triangle may touch along an axis. Places in steps then stay below 2^27, and their products below 2^55.
+/// The most tiles of the UV plane that a triangle may touch along an axis. Places in steps then stay below
+/// 2^27, and their products below 2^55.
 const MAX_TILES: i64 = 16;
 
 /// The distance in texels up to which a block's list has triangles outside it.
 const MARGIN: f64 = 2.0;
 
-/// A triangle of a low surface in one tile of the UV plane. Triangles in other tiles than the first are moved into it, as a repeated texture
-/// shows them.
+/// A triangle of a low surface in one tile of the UV plane. Triangles in other tiles than the first are moved
+/// into it, as a repeated texture shows them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Placed {
     pub surface: u32,
@@ -58,7 +60,8 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Places all triangles, or those of a tile. Triangles without an area, not finite or across too many tiles are left out and counted.
+    /// Places all triangles, or those of a tile. Triangles without an area, not finite or across too many
+    /// tiles are left out and counted.
     ///
     /// `budget`: the lists of the layout are added to it. Errors: they exceed it.
     pub fn new(
@@ -194,7 +197,8 @@ impl Layout {
         }
     }
 
-    /// The area of all triangles in square texels, in all their tiles: the number of pairs of a texel and a triangle that covers it, on average.
+    /// The area of all triangles in square texels, in all their tiles: the number of pairs of a texel and a
+    /// triangle that covers it, on average.
     pub fn charted_area(&self, low: &[LowSurface<'_>]) -> f64 {
         let is_first =
             |pair: &[Placed]| (pair[0].surface, pair[0].triangle) != (pair[1].surface, pair[1].triangle);
@@ -242,7 +246,8 @@ impl Layout {
         self.blocks_per_row() * self.size[1].div_ceil(BLOCK)
     }
 
-    /// The triangles of a block, in the order of surfaces and triangles. Some may not cover any of its texels.
+    /// The triangles of a block, in the order of surfaces and triangles. Some may not cover any of its
+    /// texels.
     pub fn block(&self, column: usize, row: usize) -> impl Iterator<Item = &Placed> {
         let block = row * self.blocks_per_row() + column;
         let range = self.starts[block] as usize..self.starts[block + 1] as usize;

@@ -1,8 +1,9 @@
-//! Bakes the detail of high-poly models into maps of low-poly models: normals, heights, occlusion, thickness, curvature, materials and more.
+//! Bakes the detail of high-poly models into maps of low-poly models: normals, heights, occlusion, thickness,
+//! curvature, materials and more.
 //!
-//! A normal map is right only together with the tangent frames of the mesh that it was baked for. [`bake()`] puts the normals of the high
-//! surfaces into the frames that a renderer will use: MikkTSpace's, interpolated and not normalised, with the bitangent per pixel or per
-//! vertex.
+//! A normal map is right only together with the tangent frames of the mesh that it was baked for. [`bake()`]
+//! puts the normals of the high surfaces into the frames that a renderer will use: MikkTSpace's, interpolated
+//! and not normalised, with the bitangent per pixel or per vertex.
 //!
 //! ```text
 //! layout     1  which low triangles each block of the image needs

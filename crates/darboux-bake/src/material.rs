@@ -20,7 +20,8 @@ pub enum MaterialProperty {
     Texture,
 }
 
-/// All parts of a surface's material, by [`MaterialProperty`]; none are as a material of glTF without members: white, rough, metal, dark.
+/// All parts of a surface's material, by [`MaterialProperty`]; none are as a material of glTF without
+/// members: white, rough, metal, dark.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SurfaceMaterial<'a>([Option<Property<'a>>; 4]);
 

@@ -13,8 +13,8 @@ pub struct NameMatch {
 
 /// Pairs parts by their names: `crate_low` with `crate_high`, `crate_high_bolts` and so on.
 ///
-/// What precedes the last `_low` or `_high` counts, in upper or lower case; of other names all but a number after a point, as in `crate.001`.
-/// Low parts of the same name share a group.
+/// What precedes the last `_low` or `_high` counts, in upper or lower case; of other names all but a number
+/// after a point, as in `crate.001`. Low parts of the same name share a group.
 pub fn match_names(low: &[&str], high: &[&str]) -> NameMatch {
     let mut bases: Vec<String> = Vec::new();
     let mut group = |name: &&str| {

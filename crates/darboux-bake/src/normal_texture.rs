@@ -21,9 +21,9 @@ pub struct NormalTexture {
 impl NormalTexture {
     /// A texture that repeats.
     ///
-    /// `size`: texels per row, and rows; `texels`: row after row, the top row first, as [`darboux::TexelLayout::vector`] decodes them;
-    /// `map_convention`: the directions of red and green; `surface_convention`: that of the surface that has the map. Errors: another number
-    /// of texels.
+    /// `size`: texels per row, and rows; `texels`: row after row, the top row first, as
+    /// [`darboux::TexelLayout::vector`] decodes them; `map_convention`: the directions of red and green;
+    /// `surface_convention`: that of the surface that has the map. Errors: another number of texels.
     pub fn new(
         size: [u32; 2],
         mut texels: Vec<[f32; 3]>,

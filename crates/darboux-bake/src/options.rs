@@ -12,44 +12,50 @@ pub struct BakeOptions {
     pub size: [u32; 2],
     /// The images that are made. They share their rays.
     pub maps: MapSet,
-    /// Samples per texel and axis: 1 takes the centre of each texel, 4 takes 16 samples, evenly spaced. From 1 to 16.
+    /// Samples per texel and axis: 1 takes the centre of each texel, 4 takes 16 samples, evenly spaced. From
+    /// 1 to 16.
     pub samples_per_axis: u32,
-    /// How far rays begin outside the low surface along its normals, and how far inside they end, in units of the positions. A surface with
-    /// a cage has its rays begin there instead; the second distance is used for both.
+    /// How far rays begin outside the low surface along its normals, and how far inside they end, in units
+    /// of the positions. A surface with a cage has its rays begin there instead; the second distance is
+    /// used for both.
     pub distance: [f32; 2],
-    /// Whether rays may hit triangles from behind. By default such triangles are transparent: behind a hole in the high mesh, the far wall
-    /// would be in the map.
+    /// Whether rays may hit triangles from behind. By default such triangles are transparent: behind a hole
+    /// in the high mesh, the far wall would be in the map.
     pub back_faces: bool,
     /// How a renderer rebuilds the bitangent.
     pub bitangent: Bitangent,
-    /// The convention of the surfaces: axes, and the origin of UVs. Tangents are those that [`darboux::generate_tangents`] gives for them.
-    /// Default: glTF's.
+    /// The convention of the surfaces: axes, and the origin of UVs. Tangents are those that
+    /// [`darboux::generate_tangents`] gives for them. Default: glTF's.
     pub surface_convention: Convention,
-    /// The convention of the maps: directions of red and green, and for object-space normals and positions the axes. Default: glTF's.
+    /// The convention of the maps: directions of red and green, and for object-space normals and positions
+    /// the axes. Default: glTF's.
     pub map_convention: Convention,
-    /// How far texels outside the charts are filled from the nearest one, in texels. Default: all are filled, so that no mip level shows
-    /// the background.
+    /// How far texels outside the charts are filled from the nearest one, in texels. Default: all are
+    /// filled, so that no mip level shows the background.
     pub padding: Option<u32>,
     /// Rays per sample of ambient occlusion.
     pub occlusion_rays: u32,
     /// How far a surface occludes another, in units of the positions. Default: any distance.
     pub occlusion_distance: f32,
-    /// How occlusion fades with the distance, up to [`BakeOptions::occlusion_distance`]. Default: not at all.
+    /// How occlusion fades with the distance, up to [`BakeOptions::occlusion_distance`]. Default: not at
+    /// all.
     pub occlusion_falloff: OcclusionFalloff,
     /// How the directions of occlusion and bent normals are weighted. Default: by the cosine.
     pub occlusion_weights: OcclusionWeights,
     /// Whether surfaces are occluded by their own part only. Default: by all parts of their group.
     pub own_part_only: bool,
-    /// How far the other side of a surface is looked for, in units of the positions. Rays that meet nothing count as this distance; they do not
-    /// count where it is infinite. Default: infinite.
+    /// How far the other side of a surface is looked for, in units of the positions. Rays that meet nothing
+    /// count as this distance; they do not count where it is infinite. Default: infinite.
     pub thickness_distance: f32,
     /// The radius in which curvature is measured. Default: 4 texels.
     pub curvature_radius: CurvatureRadius,
     /// What the colours of [`MapKind::Id`] stand for. Default: materials.
     pub id_source: IdSource,
-    /// The direction of [`MapKind::WorldDirection`], along the axes of the surfaces. Default: (0, 1, 0), up in glTF.
+    /// The direction of [`MapKind::WorldDirection`], along the axes of the surfaces. Default: (0, 1, 0), up
+    /// in glTF.
     pub world_direction: [f32; 3],
-    /// The tile of the UV plane that is baked. Default: all tiles lie over each other, as a repeated texture shows them.
+    /// The tile of the UV plane that is baked. Default: all tiles lie over each other, as a repeated texture
+    /// shows them.
     pub udim: Option<Udim>,
     /// The most bytes that a run may take. Default: no limit.
     pub memory_limit: Option<u64>,
@@ -138,7 +144,8 @@ impl BakeOptions {
         Self { padding, ..self }
     }
 
-    /// These options with so many rays of ambient occlusion per sample, and the distance over which surfaces occlude.
+    /// These options with so many rays of ambient occlusion per sample, and the distance over which surfaces
+    /// occlude.
     #[must_use]
     pub fn with_occlusion(self, rays: u32, distance: f32) -> Self {
         Self { occlusion_rays: rays, occlusion_distance: distance, ..self }
@@ -199,11 +206,13 @@ impl BakeOptions {
     }
 }
 
-/// How a renderer rebuilds the bitangent. A map shows the right normals only where it was baked in the same way.
+/// How a renderer rebuilds the bitangent. A map shows the right normals only where it was baked in the same
+/// way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Bitangent {
-    /// w * cross(N, T) of the interpolated N and T: the recommendation of MikkTSpace and the default of Blender, Unreal Engine and Unity.
+    /// w * cross(N, T) of the interpolated N and T: the recommendation of MikkTSpace and the default of
+    /// Blender, Unreal Engine and Unity.
     #[default]
     PerPixel,
     /// w * cross(N, T) at each vertex, interpolated.

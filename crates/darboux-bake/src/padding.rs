@@ -1,8 +1,9 @@
 //! Stage 7: fills texels without a hit from the nearest texel that has one.
 //!
-//! A renderer mixes texels across the border of a chart, more of them at every mip level. Without padding the background shows there as a
-//! seam. The nearest texel is exact: A. Meijster, J. Roerdink, W. Hesselink, "A General Algorithm for Computing Distance Transforms in Linear
-//! Time", 2000. Its first phase finds the nearest row of every column, the second the nearest column of every row.
+//! A renderer mixes texels across the border of a chart, more of them at every mip level. Without padding the
+//! background shows there as a seam. The nearest texel is exact: A. Meijster, J. Roerdink, W. Hesselink, "A
+//! General Algorithm for Computing Distance Transforms in Linear Time", 2000. Its first phase finds the
+//! nearest row of every column, the second the nearest column of every row.
 
 use darboux::internal::jobs;
 use darboux::{Context, Error};
@@ -18,10 +19,12 @@ const NONE: u32 = u32::MAX;
 /// Rows per job.
 const ROWS: usize = 16;
 
-/// For each texel the one whose content it gets: itself where it has content, or where nothing is near enough.
+/// For each texel the one whose content it gets: itself where it has content, or where nothing is near
+/// enough.
 ///
-/// `padding`: how far texels outside the charts are filled, in texels; missed texels in charts are always filled. The nearest texel with content
-/// counts; of several, that in the leftmost column, and in it the upper one. Errors: the context's token was cancelled.
+/// `padding`: how far texels outside the charts are filled, in texels; missed texels in charts are always
+/// filled. The nearest texel with content counts; of several, that in the leftmost column, and in it the
+/// upper one. Errors: the context's token was cancelled.
 pub fn sources(
     states: &[TexelState],
     width: usize,
@@ -72,7 +75,8 @@ fn nearest_rows(states: &[TexelState], width: usize) -> Vec<u32> {
 /// The lower envelope of the parabolas (x - column)^2 + (row - nearest row)^2 of a row.
 #[derive(Default)]
 struct Envelope {
-    /// The columns of the parabolas, with their squared distances of rows, and where each begins to be the lowest.
+    /// The columns of the parabolas, with their squared distances of rows, and where each begins to be the
+    /// lowest.
     parts: Vec<(i64, i64, i64)>,
 }
 

@@ -23,9 +23,11 @@ const SPARE: usize = 24;
 /// The most colours that are compared for a label.
 const MOST_COMPARED: usize = 4096;
 
-/// Replaces the labels in the first channel of a map, each plus 1, by colours from 0 to 1. Returns the colours, in the order of the labels.
+/// Replaces the labels in the first channel of a map, each plus 1, by colours from 0 to 1. Returns the
+/// colours, in the order of the labels.
 ///
-/// Labels get their colours one after the other: the unused one that is farthest from those of its neighbours, and from all others.
+/// Labels get their colours one after the other: the unused one that is farthest from those of its
+/// neighbours, and from all others.
 pub fn color_labels(images: &mut Images, kind: MapKind) -> Vec<IdColor> {
     let size = images.size.map(|side| side as usize);
     let is_low = kind.is_of_low_surface();
@@ -48,7 +50,8 @@ pub fn color_labels(images: &mut Images, kind: MapKind) -> Vec<IdColor> {
     texels_of_label.into_iter().map(entry).collect()
 }
 
-/// Replaces labels, each plus 1, that are codes of colours, as [`MapKind::Id`] of vertex colours has them, by these colours.
+/// Replaces labels, each plus 1, that are codes of colours, as [`MapKind::Id`] of vertex colours has them, by
+/// these colours.
 pub fn unpack_colors(images: &mut Images, kind: MapKind) {
     let Some(numbers) = images.numbers_mut(kind) else { return };
     for texel in numbers.as_chunks_mut::<3>().0 {
@@ -103,7 +106,8 @@ fn choose(labels: &[u32], neighbors: &BTreeMap<u32, BTreeSet<u32>>) -> BTreeMap<
     colors
 }
 
-/// At least `count` colours: a grid over red, green and blue without its darkest corner. The background is black.
+/// At least `count` colours: a grid over red, green and blue without its darkest corner. The background is
+/// black.
 fn candidates(count: usize) -> Vec<[u8; 3]> {
     let levels = (2..=256usize).find(|levels| levels.pow(3) * 3 / 4 >= count).unwrap_or(256);
     let code = |level: usize| (level * 255 / (levels - 1)) as u8;

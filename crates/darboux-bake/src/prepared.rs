@@ -1,4 +1,5 @@
-//! [`PreparedSurfaces`]: surfaces in their common box, with the hierarchies over the high ones, for several bakes.
+//! [`PreparedSurfaces`]: surfaces in their common box, with the hierarchies over the high ones, for several
+//! bakes.
 
 use darboux::Context;
 
@@ -7,8 +8,8 @@ use crate::common_box::CommonBox;
 use crate::high::HighGroup;
 use crate::{BakeError, BakeOptions, CurvatureRadius, HighSurface, LowSurface, memory};
 
-/// Low and high surfaces with all that does not depend on the options of a bake: bakes with other options, of other UDIM tiles or with another cage
-/// skip what costs most of the time before the first ray.
+/// Low and high surfaces with all that does not depend on the options of a bake: bakes with other options, of
+/// other UDIM tiles or with another cage skip what costs most of the time before the first ray.
 pub struct PreparedSurfaces<'a> {
     pub(crate) space: CommonBox,
     /// In the box.
@@ -40,8 +41,9 @@ impl<'a> PreparedSurfaces<'a> {
         Ok(Self { space, low, high, groups })
     }
 
-    /// These surfaces with other low ones, such as the same with another cage. The hierarchies are kept where the new surfaces lie in the same box and
-    /// groups, and are built anew otherwise. Errors: as of [`PreparedSurfaces::new`].
+    /// These surfaces with other low ones, such as the same with another cage. The hierarchies are kept where
+    /// the new surfaces lie in the same box and groups, and are built anew otherwise. Errors: as of
+    /// [`PreparedSurfaces::new`].
     pub fn with_low(self, low: &[LowSurface<'a>], context: &Context) -> Result<Self, BakeError> {
         let is_same = box_around(low) == self.space && group_count(low) == self.groups.len();
         if !is_same {

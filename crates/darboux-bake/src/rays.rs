@@ -15,8 +15,9 @@ pub struct SampleRay {
 
 /// The ray of a point; `None` where neither normals nor the triangle give a direction.
 ///
-/// Without a cage it begins at `distance[0]` outside along the normal. With a cage it begins at the cage's point and passes through the
-/// surface's. It ends at `distance[1]` inside. The surface's skew correction turns it.
+/// Without a cage it begins at `distance[0]` outside along the normal. With a cage it begins at the cage's
+/// point and passes through the surface's. It ends at `distance[1]` inside. The surface's skew correction
+/// turns it.
 pub fn ray_of(point: &SurfacePoint, distance: [f32; 2]) -> Option<SampleRay> {
     let [outwards, inwards] = distance.map(f64::from);
     let outwards_direction = unit(point.normal).or_else(|| unit(point.face_normal))?;
@@ -32,7 +33,8 @@ pub fn ray_of(point: &SurfacePoint, distance: [f32; 2]) -> Option<SampleRay> {
     Some(ray_from(origin, inwards_direction, surface, inwards))
 }
 
-/// The ray of a point whose direction turns to the normal of the triangle; it begins as far outside as before.
+/// The ray of a point whose direction turns to the normal of the triangle; it begins as far outside as
+/// before.
 fn straightened(point: &SurfacePoint, surface: f64, outwards: Vector, inwards: f64) -> SampleRay {
     let outwards = turned(outwards, point.face_normal, point.skew);
     ray_from(add_scaled(point.position, surface, outwards), scale(-1.0, outwards), surface, inwards)

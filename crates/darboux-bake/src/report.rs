@@ -16,12 +16,14 @@ pub struct BakeReport {
     pub back_facing_texels: u64,
     /// Texels that more than one triangle covers. The first triangle owns them.
     pub overlapping_texels: u64,
-    /// The area of all charts in texels: the number of pairs of a texel and a triangle that covers it, on average over the places of texels.
-    /// Greater than `charted_texels` where charts overlap or repeat.
+    /// The area of all charts in texels: the number of pairs of a texel and a triangle that covers it, on
+    /// average over the places of texels. Greater than `charted_texels` where charts overlap or repeat.
     pub chart_area: u64,
-    /// Texels at which the normal of the high mesh points to the back of its triangle: normals or winding are inverted there.
+    /// Texels at which the normal of the high mesh points to the back of its triangle: normals or winding
+    /// are inverted there.
     pub inverted_texels: u64,
-    /// Texels at which tangent, bitangent and normal of the low mesh do not span space. Their normal is (0, 0, 1).
+    /// Texels at which tangent, bitangent and normal of the low mesh do not span space. Their normal is (0,
+    /// 0, 1).
     pub frameless_texels: u64,
     /// Texels whose normal points below the low surface (z < 0), which maps of two channels cannot hold.
     pub below_horizon_texels: u64,
@@ -29,7 +31,8 @@ pub struct BakeReport {
     pub rays: u64,
     /// Triangles of the low surfaces.
     pub low_triangles: u64,
-    /// Triangles of the low surfaces without an area in the image, or with UVs that are not finite. They are not baked.
+    /// Triangles of the low surfaces without an area in the image, or with UVs that are not finite. They are
+    /// not baked.
     pub degenerate_triangles: u64,
     /// Triangles of the low surfaces across more than 16 tiles of UVs. They are not baked.
     pub oversized_triangles: u64,
@@ -42,7 +45,8 @@ pub struct BakeReport {
 }
 
 impl BakeReport {
-    /// The counts of several tiles of the same surfaces: the sums over texels and rays. Triangles that have an area in one of the tiles are not degenerate.
+    /// The counts of several tiles of the same surfaces: the sums over texels and rays. Triangles that have
+    /// an area in one of the tiles are not degenerate.
     #[must_use]
     pub fn with_tile(self, tile: &Self) -> Self {
         if self.texels == 0 {

@@ -1,7 +1,7 @@
 //! The places of samples within a texel.
 
-/// Steps per texel and axis: places of samples and corners of triangles are multiples of 1 / 256 texel, so that the test whether a triangle
-/// covers a sample is exact.
+/// Steps per texel and axis: places of samples and corners of triangles are multiples of 1 / 256 texel, so
+/// that the test whether a triangle covers a sample is exact.
 pub const STEPS: i64 = 256;
 
 /// The samples of a texel, evenly spaced, row after row, in steps from the upper left corner of the texel.

@@ -1,7 +1,8 @@
 //! [`SkewCorrection`]: turns rays from the smooth direction towards the normal of the triangle.
 //!
-//! On a flat face of a low surface with smooth normals, the rays lean outwards, so that details of the high surface are displaced and distorted in
-//! the map; rays along the face's normal leave them straight. At hard edges such rays leave gaps, so that the correction is best painted.
+//! On a flat face of a low surface with smooth normals, the rays lean outwards, so that details of the high
+//! surface are displaced and distorted in the map; rays along the face's normal leave them straight. At hard
+//! edges such rays leave gaps, so that the correction is best painted.
 
 use crate::vector::{Vector, dot, scale, unit};
 use crate::{BakeError, ColorTexture};
@@ -14,7 +15,8 @@ pub enum SkewCorrection<'a> {
     Everywhere(f32),
     /// One amount per triangle.
     PerTriangle(&'a [f32]),
-    /// The red of a map over the UVs of the baked image, filtered: black is 0 and white 1. Its image has to be linear.
+    /// The red of a map over the UVs of the baked image, filtered: black is 0 and white 1. Its image has to
+    /// be linear.
     Map(&'a ColorTexture),
 }
 
@@ -51,7 +53,8 @@ impl SkewCorrection<'_> {
     }
 }
 
-/// The unit direction `smooth`, turned towards a triangle's unit normal by an amount. The side of the normal is that of the direction.
+/// The unit direction `smooth`, turned towards a triangle's unit normal by an amount. The side of the normal
+/// is that of the direction.
 pub fn turned(smooth: Vector, face_normal: Vector, amount: f64) -> Vector {
     let side = if dot(smooth, face_normal) < 0.0 { -1.0 } else { 1.0 };
     let straight = scale(side, face_normal);

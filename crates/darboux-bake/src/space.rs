@@ -42,9 +42,11 @@ pub struct SpaceOptions {
     pub from_convention: Convention,
     /// The convention of the result. Default: glTF's.
     pub to_convention: Convention,
-    /// How far texels outside the charts are filled, as in [`BakeOptions::padding`](crate::BakeOptions::padding).
+    /// How far texels outside the charts are filled, as in
+    /// [`BakeOptions::padding`](crate::BakeOptions::padding).
     pub padding: Option<u32>,
-    /// The tile of the UV plane that the map covers. Default: all tiles lie over each other, as a repeated texture shows them.
+    /// The tile of the UV plane that the map covers. Default: all tiles lie over each other, as a repeated
+    /// texture shows them.
     pub udim: Option<Udim>,
     /// The most bytes that a run may take. Default: no limit.
     pub memory_limit: Option<u64>,
@@ -120,11 +122,13 @@ pub struct ConvertedSpace {
 
 /// Converts a normal map from object space to tangent space or back.
 ///
-/// `texels`: row after row, the top row first, as [`darboux::TexelLayout::vector`] decodes them; their lengths do not count. Each texel is
-/// converted by the frame at its centre, as a renderer interpolates it; texels within one of a chart by the nearest triangle's, continued; all
-/// others are filled from the nearest. A texel without a frame or a direction becomes (0, 0, 1), or the normal of the low surface.
+/// `texels`: row after row, the top row first, as [`darboux::TexelLayout::vector`] decodes them; their
+/// lengths do not count. Each texel is converted by the frame at its centre, as a renderer interpolates it;
+/// texels within one of a chart by the nearest triangle's, continued; all others are filled from the nearest.
+/// A texel without a frame or a direction becomes (0, 0, 1), or the normal of the low surface.
 ///
-/// Errors: another number of texels; a size out of range; no triangles; more memory than the limit; the context's token was cancelled.
+/// Errors: another number of texels; a size out of range; no triangles; more memory than the limit; the
+/// context's token was cancelled.
 pub fn convert_space(
     low: &[LowSurface<'_>],
     texels: &[[f32; 3]],

@@ -22,9 +22,10 @@ pub struct LowSurface<'a> {
 impl<'a> LowSurface<'a> {
     /// A surface of group 0 without a cage.
     ///
-    /// `tangents`: one per corner, as [`darboux::generate_tangents`] gives them for the mesh, or as a renderer will read them from the file,
-    /// converted to [`Convention::generated`](darboux::Convention::generated) of the surface's convention. Errors: faces that are not
-    /// triangles; another number of tangents than corners.
+    /// `tangents`: one per corner, as [`darboux::generate_tangents`] gives them for the mesh, or as a
+    /// renderer will read them from the file, converted to
+    /// [`Convention::generated`](darboux::Convention::generated) of the surface's convention. Errors: faces
+    /// that are not triangles; another number of tangents than corners.
     pub fn new(mesh: Mesh<'a>, tangents: &'a [[f32; 4]]) -> Result<Self, BakeError> {
         if !matches!(mesh.faces(), Faces::Triangles) {
             return Err(BakeError::NotTriangles);
@@ -38,7 +39,8 @@ impl<'a> LowSurface<'a> {
 
     /// This surface with a cage, from which rays begin: the mesh with its vertices moved.
     ///
-    /// `positions`: one per vertex of the mesh. [`inflated_cage`](crate::inflated_cage) and [`auto_cage`](crate::auto_cage()) make one. Errors: another number of positions.
+    /// `positions`: one per vertex of the mesh. [`inflated_cage`](crate::inflated_cage) and
+    /// [`auto_cage`](crate::auto_cage()) make one. Errors: another number of positions.
     pub fn with_cage(self, positions: impl Into<Strided<'a, 3>>) -> Result<Self, BakeError> {
         let positions = positions.into();
         if positions.len() != self.mesh.vertex_count() {
@@ -47,8 +49,8 @@ impl<'a> LowSurface<'a> {
         Ok(Self { cage: Some(positions), ..self })
     }
 
-    /// This surface with rays that turn from the smooth direction towards the normals of triangles. Errors: amounts that do not fit the surface, or do
-    /// not lie from 0 to 1.
+    /// This surface with rays that turn from the smooth direction towards the normals of triangles. Errors:
+    /// amounts that do not fit the surface, or do not lie from 0 to 1.
     pub fn with_skew_correction(self, skew: SkewCorrection<'a>) -> Result<Self, BakeError> {
         skew.check(self.triangle_count())?;
         Ok(Self { skew: Some(skew), ..self })
@@ -70,7 +72,8 @@ impl<'a> LowSurface<'a> {
         &self.mesh
     }
 
-    /// The diagonal of the box around all vertices, in units of the positions: a measure for the distances of rays.
+    /// The diagonal of the box around all vertices, in units of the positions: a measure for the distances of
+    /// rays.
     ///
     /// Coordinates that are not finite do not count; without any, it is 0.
     pub fn diagonal(&self) -> f64 {
@@ -120,8 +123,9 @@ struct SurfaceMap<'a> {
 impl<'a> HighSurface<'a> {
     /// A surface of group 0.
     ///
-    /// `positions`: V by 3; `normals`: V by 3, or none, which makes every triangle flat; `indices`: 3 per triangle, counter-clockwise as seen
-    /// from the front. Errors: lengths that differ, an index out of range, corners that are not whole triangles.
+    /// `positions`: V by 3; `normals`: V by 3, or none, which makes every triangle flat; `indices`: 3 per
+    /// triangle, counter-clockwise as seen from the front. Errors: lengths that differ, an index out of
+    /// range, corners that are not whole triangles.
     pub fn new(
         positions: impl Into<Strided<'a, 3>>,
         normals: Option<Strided<'a, 3>>,
@@ -142,9 +146,11 @@ impl<'a> HighSurface<'a> {
         })
     }
 
-    /// This surface with a normal map of its own: its normals are those that a renderer shows, with the bitangent per pixel.
+    /// This surface with a normal map of its own: its normals are those that a renderer shows, with the
+    /// bitangent per pixel.
     ///
-    /// `uvs`: one per vertex, where the texture is read; `tangents`: one per corner, as of [`LowSurface::new`]. Errors: other lengths.
+    /// `uvs`: one per vertex, where the texture is read; `tangents`: one per corner, as of
+    /// [`LowSurface::new`]. Errors: other lengths.
     pub fn with_normal_map(
         self,
         texture: &'a NormalTexture,
@@ -163,7 +169,8 @@ impl<'a> HighSurface<'a> {
         Ok(Self { normal_map: Some(SurfaceMap { texture, uvs, tangents }), ..self })
     }
 
-    /// This surface with colours: red, green, blue and alpha of each vertex, in linear light. Errors: another number of colours than vertices.
+    /// This surface with colours: red, green, blue and alpha of each vertex, in linear light. Errors: another
+    /// number of colours than vertices.
     pub fn with_colors(self, colors: impl Into<Strided<'a, 4>>) -> Result<Self, BakeError> {
         let colors = colors.into();
         let expected = self.mesh.vertex_count();
@@ -173,7 +180,8 @@ impl<'a> HighSurface<'a> {
         Ok(Self { colors: Some(colors), ..self })
     }
 
-    /// This surface with a property of its material: a factor, times a texture and the UVs, one per vertex, where it is read.
+    /// This surface with a property of its material: a factor, times a texture and the UVs, one per vertex,
+    /// where it is read.
     ///
     /// `factor`: red, green, blue and alpha in linear light. Errors: another number of UVs than vertices.
     pub fn with_property(
@@ -202,8 +210,8 @@ impl<'a> HighSurface<'a> {
         self.labels
     }
 
-    /// The unit normal that the normal map shows at a point of a triangle whose interpolated normal is `normal`; `None` without a map, and where
-    /// the frame gives no direction.
+    /// The unit normal that the normal map shows at a point of a triangle whose interpolated normal is
+    /// `normal`; `None` without a map, and where the frame gives no direction.
     pub(crate) fn mapped_normal(&self, triangle: usize, weights: [f64; 3], normal: Vector) -> Option<Vector> {
         let map = self.normal_map?;
         let corners = [0, 1, 2].map(|corner| 3 * triangle + corner);

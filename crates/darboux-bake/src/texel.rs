@@ -54,7 +54,8 @@ impl TexelSums {
         unit(self.normal).is_some_and(|normal| normal[2] < 0.0)
     }
 
-    /// 1 over the number of hits, and 1 over the number of samples on the low surface; none where there are none.
+    /// 1 over the number of hits, and 1 over the number of samples on the low surface; none where there are
+    /// none.
     pub fn shares(&self) -> [Option<f64>; 2] {
         let extended = self.hits - self.charted_hits;
         let share = |count: u32| (count > 0).then(|| 1.0 / f64::from(count));

@@ -4,7 +4,8 @@ use std::fmt;
 
 /// A tile of the UV plane: 1001 + column + 10 * row, with columns 0 to 9 to the right and rows upwards.
 ///
-/// Rows are counted in the direction in which images are seen: with glTF's UVs, whose v points down, the tile above the first has v from -1 to 0.
+/// Rows are counted in the direction in which images are seen: with glTF's UVs, whose v points down, the tile
+/// above the first has v from -1 to 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Udim(u16);
 

@@ -50,12 +50,14 @@ pub fn weighted<const N: usize>(weights: [f64; 3], corners: [[f32; N]; 3]) -> [f
     std::array::from_fn(|i| weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i])
 }
 
-/// The diagonal of the box around positions. Coordinates that are not finite do not count; without any, it is 0.
+/// The diagonal of the box around positions. Coordinates that are not finite do not count; without any, it is
+/// 0.
 pub fn box_diagonal(positions: impl Iterator<Item = [f32; 3]>) -> f64 {
     length(box_extents(positions))
 }
 
-/// The extents of the box around positions along the axes. Coordinates that are not finite do not count; without any, they are 0.
+/// The extents of the box around positions along the axes. Coordinates that are not finite do not count;
+/// without any, they are 0.
 pub fn box_extents(positions: impl Iterator<Item = [f32; 3]>) -> Vector {
     let empty = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     let [low, high] = positions.fold(empty, |[mut low, mut high], position| {
@@ -68,8 +70,8 @@ pub fn box_extents(positions: impl Iterator<Item = [f32; 3]>) -> Vector {
     [0, 1, 2].map(|axis| (high[axis] - low[axis]).max(0.0))
 }
 
-/// Two unit vectors that with the unit `normal` make a right-handed frame (T. Duff et al., "Building an Orthonormal Basis, Revisited",
-/// JCGT 6(1), 2017, listing 3).
+/// Two unit vectors that with the unit `normal` make a right-handed frame (T. Duff et al., "Building an
+/// Orthonormal Basis, Revisited", JCGT 6(1), 2017, listing 3).
 pub fn perpendiculars([x, y, z]: Vector) -> [Vector; 2] {
     let sign = 1f64.copysign(z);
     let a = -1.0 / (sign + z);

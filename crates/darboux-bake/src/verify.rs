@@ -1,4 +1,5 @@
-//! [`verify`]: shades the low surfaces with a map that was written, as a renderer does, and measures the angle to the high surfaces.
+//! [`verify`]: shades the low surfaces with a map that was written, as a renderer does, and measures the
+//! angle to the high surfaces.
 //!
 //! ```text
 //! points      one per texel and triangle that covers it, of at most 64, at a random place
@@ -29,12 +30,14 @@ pub use errors::ErrorStatistics;
 pub use places::{Mistake, VerifiedPlace};
 pub use summary::Verification;
 
-/// Compares what a renderer shows with the high surfaces, at one random point per texel and triangle, of at most the first 64 at a texel (fewer where the map has more than 2048
-/// rows or columns, or where there would be more than 8,388,608 points: then one texel in each square of several is compared).
+/// Compares what a renderer shows with the high surfaces, at one random point per texel and triangle, of at
+/// most the first 64 at a texel (fewer where the map has more than 2048 rows or columns, or where there would
+/// be more than 8,388,608 points: then one texel in each square of several is compared).
 ///
-/// `low`: as the renderer has them; `baked`: the images of [`bake`](crate::bake()) with these options; `written`: the normal map as it is in its
-/// file, in the options' conventions. The truth at a point is the normal where its ray hits, also between texels, so that the error of resolution and
-/// filter is part of the result. `progress` is called on any thread, after each row of blocks.
+/// `low`: as the renderer has them; `baked`: the images of [`bake`](crate::bake()) with these options;
+/// `written`: the normal map as it is in its file, in the options' conventions. The truth at a point is the
+/// normal where its ray hits, also between texels, so that the error of resolution and filter is part of the
+/// result. `progress` is called on any thread, after each row of blocks.
 ///
 /// Errors: as of [`bake`](crate::bake()); images without a normal map or of another size.
 pub fn verify(
@@ -87,7 +90,8 @@ impl PreparedSurfaces<'_> {
     }
 }
 
-/// Refuses, before anything is baked, what [`verify`] would refuse after the bake: options out of range, no triangles, more memory than the limit.
+/// Refuses, before anything is baked, what [`verify`] would refuse after the bake: options out of range, no
+/// triangles, more memory than the limit.
 pub fn check_verification(
     low: &[LowSurface<'_>],
     high: &[HighSurface<'_>],

@@ -84,7 +84,8 @@ fn an_automatic_cage_has_bolts_and_no_handle() {
     let options = AutoCageOptions::new(0.001, 0.8);
     let (baked, [least, most]) = caged(&low, &crate_with_handle(), &options);
     assert_eq!(baked.report.missed_texels, 0);
-    // The cage of the lid rises above the bolt along the diagonals of its corners; that of the floor lies at the margin.
+    // The cage of the lid rises above the bolt along the diagonals of its corners; that of the floor lies at
+    // the margin.
     assert!((least - 0.016).abs() < 1e-4, "{least}");
     assert!((most - (0.1 * 3f32.sqrt() + 0.016)).abs() < 1e-3, "{most}");
     let heights = baked.images.numbers(MapKind::Height).expect("chosen");
@@ -109,7 +110,8 @@ fn an_automatic_cage_is_as_close_as_the_detail_allows() {
         let (low, high) = (pair.low(24), pair.high(96));
         let (baked, [least, most]) = caged(&low, &high, &AutoCageOptions::new(0.0, 0.2));
         assert_eq!(baked.report.missed_texels, 0, "{}", pair.name);
-        // Detail is 0.01 to 0.02 high; chords of the low meshes lie up to 0.02 below, at the box's edges; the margin is 0.004.
+        // Detail is 0.01 to 0.02 high; chords of the low meshes lie up to 0.02 below, at the box's edges; the
+        // margin is 0.004.
         assert!(least > 0.0 && most < 0.045, "{}: {least} {most}", pair.name);
     }
 }
@@ -174,7 +176,8 @@ fn row_of_hits(skew: Option<SkewCorrection<'_>>) -> Vec<f32> {
 fn skew_correction_makes_rays_straight() {
     let x = |texel: usize| (texel as f32 + 0.5) / 8.0 - 1.0;
     let smooth = row_of_hits(None);
-    // The direction leans by as much as the place is away from the middle, so that hits lie nearer to it by half of that.
+    // The direction leans by as much as the place is away from the middle, so that hits lie nearer to it by
+    // half of that.
     assert!((smooth[0] - 0.5 * x(0)).abs() < 1e-3, "{smooth:?}");
     let is_straight =
         |hits: &[f32]| hits.iter().enumerate().all(|(texel, hit)| (hit - x(texel)).abs() < 1e-5);

@@ -1,4 +1,5 @@
-//! Maps of what surfaces show beside their shape: labels, colours, textures, charts; and equal bits of all maps for every number of threads.
+//! Maps of what surfaces show beside their shape: labels, colours, textures, charts; and equal bits of all
+//! maps for every number of threads.
 
 mod support;
 

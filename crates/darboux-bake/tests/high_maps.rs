@@ -42,7 +42,8 @@ fn largest_difference(baked: &Baked, expected: impl Fn(usize, usize) -> [f32; 3]
     texels.map(difference).fold(0.0, f32::max)
 }
 
-/// A hit lies within some 1e-6 of its place, a few 1e-5 of a texel, over which the map changes by at most as much times 2.
+/// A hit lies within some 1e-6 of its place, a few 1e-5 of a texel, over which the map changes by at most as
+/// much times 2.
 const TOLERANCE: f32 = 1e-4;
 
 #[test]

@@ -93,7 +93,8 @@ fn occlusion_in_a_wedge_is_what_geometry_says() {
             let options = options(8, MapKind::Occlusion).with_occlusion(1024, f32::INFINITY);
             mean(&baked(&low, &wedge(angle), &options.with_occlusion_weights(weights)), MapKind::Occlusion)
         };
-        // The form factor of the open part of a half plane; the share of its solid angle. The wall ends: 1e-3.
+        // The form factor of the open part of a half plane; the share of its solid angle. The wall ends:
+        // 1e-3.
         let cosine = (1.0 - angle.cos()) / 2.0;
         assert!((with(OcclusionWeights::Cosine) - cosine).abs() < 0.004, "{angle} {cosine}");
         assert!((with(OcclusionWeights::Uniform) - angle / PI).abs() < 0.004, "{angle}");
@@ -274,14 +275,16 @@ fn cube(half: f32, is_room: bool) -> Shape {
 fn a_box_in_a_box_is_closed_and_has_the_thickness_of_its_walls() {
     let mut low = plate();
     low.positions.iter_mut().for_each(|p| *p = [0.1 * p[0], 0.1 * p[1], 1.0]);
-    // A solid box in a room: no ray leaves it; with a reach of D those of a cosine below the gap over D are open.
+    // A solid box in a room: no ray leaves it; with a reach of D those of a cosine below the gap over D are
+    // open.
     let room = joined(cube(1.0, false), &cube(3.0, true));
     let closed = options(8, MapKind::Occlusion).with_occlusion(256, f32::INFINITY);
     assert!(largest_error(&baked(&low, &room, &closed), MapKind::Occlusion, 0.0) == 0.0);
     let near = options(8, MapKind::Occlusion).with_occlusion(1024, 2.5);
     let found = mean(&baked(&low, &room, &near), MapKind::Occlusion);
     assert!((found - (2.0f64 / 2.5).powi(2)).abs() < 0.004, "{found}");
-    // A hollow box: the wall is 0.2 thick, and rays that are longer than D count as D: the mean of min(d / u, D) for the cosine u with the density 2 u.
+    // A hollow box: the wall is 0.2 thick, and rays that are longer than D count as D: the mean of min(d / u,
+    // D) for the cosine u with the density 2 u.
     let hollow = joined(cube(1.0, false), &cube(0.8, true));
     let (wall, reach) = (0.2, 0.5);
     let limited =

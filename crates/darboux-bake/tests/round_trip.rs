@@ -1,5 +1,5 @@
-//! Bakes surfaces that are known in closed form, shades the low mesh as a renderer does, and measures the angle to the true normal.
-//! [`support::shading`] knows the truth.
+//! Bakes surfaces that are known in closed form, shades the low mesh as a renderer does, and measures the
+//! angle to the true normal. [`support::shading`] knows the truth.
 
 mod support;
 
@@ -55,10 +55,11 @@ fn a_renderer_shows_the_true_normals_at_2048() {
     measure(2048, 96, 1000);
 }
 
-/// The median error of filtered texels whose components are wrong by up to half a code, evenly and independently: the limit of 8 bits.
+/// The median error of filtered texels whose components are wrong by up to half a code, evenly and
+/// independently: the limit of 8 bits.
 ///
-/// Rounding moves x and y by up to a = 1/255 (half of a code of 2/255). For normals near z the angle is the length of that error. A bilinear
-/// filter adds the errors of four texels with its weights.
+/// Rounding moves x and y by up to a = 1/255 (half of a code of 2/255). For normals near z the angle is the
+/// length of that error. A bilinear filter adds the errors of four texels with its weights.
 fn limit_of_8_bits() -> f64 {
     let mut dice = Dice::from_seed(2);
     let mut error = || {

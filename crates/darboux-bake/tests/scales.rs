@@ -1,4 +1,5 @@
-//! Models of every size bake: to the same bits up to the scale where that is a power of two, and without a crash at the ends of the numbers.
+//! Models of every size bake: to the same bits up to the scale where that is a power of two, and without a
+//! crash at the ends of the numbers.
 
 mod support;
 

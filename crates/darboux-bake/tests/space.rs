@@ -33,8 +33,9 @@ fn largest_angle(a: &[[f32; 3]], b: &[[f32; 3]]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Rounding to codes moves each component by up to half a code, h = 1 / (2^bits - 1), and the vector by sqrt(3) h. The first rounding acts
-/// through the frame, whose condition is below 2 where the normals of a triangle differ by less than 30 degrees; the second acts on the result.
+/// Rounding to codes moves each component by up to half a code, h = 1 / (2^bits - 1), and the vector by
+/// sqrt(3) h. The first rounding acts through the frame, whose condition is below 2 where the normals of a
+/// triangle differ by less than 30 degrees; the second acts on the result.
 fn tolerance(bits: i32) -> f64 {
     let h = 1.0 / (2f64.powi(bits) - 1.0);
     (3.0 * 3f64.sqrt() * h).to_degrees()

@@ -202,7 +202,8 @@ fn memory_for_the_comparison_is_checked_before_the_bake() {
     assert!(bake(&low, &high, &options, &mut Context::new(), &mut |_| {}).is_ok());
 }
 
-/// Prints the table of docs/matching-your-baker.md: what each difference between baker and renderer costs, on the sphere with waves.
+/// Prints the table of docs/matching-your-baker.md: what each difference between baker and renderer costs, on
+/// the sphere with waves.
 #[test]
 fn every_mismatch_costs_degrees() {
     let mut bench = Bench::new(1);
@@ -253,8 +254,8 @@ fn every_mismatch_costs_degrees() {
     costs("read as sRGB", &bench.verified(&baked, |texel| texel.map(decoded)).all);
 }
 
-/// Charts that cover the image 256 times would need 9.4 million points. One texel in each square of 2 x 2 is compared instead, with
-/// the first 64 triangles that cover it.
+/// Charts that cover the image 256 times would need 9.4 million points. One texel in each square of 2 x 2 is
+/// compared instead, with the first 64 triangles that cover it.
 #[test]
 fn repeated_uvs_are_compared_at_fewer_points_and_the_progress_is_told() {
     let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];

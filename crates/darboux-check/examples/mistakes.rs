@@ -1,7 +1,8 @@
-//! Writes a healthy model, and the same with each mistake that can be made on it, into a folder: healthy.glb and CODE.glb; and CODE.svg where a
-//! UV layout shows more.
+//! Writes a healthy model, and the same with each mistake that can be made on it, into a folder: healthy.glb
+//! and CODE.glb; and CODE.svg where a UV layout shows more.
 //!
-//! docs/check.md shows those that look different, as `darboux render` draws them; CONTRIBUTING.md says how they are drawn again.
+//! docs/check.md shows those that look different, as `darboux render` draws them; CONTRIBUTING.md says how
+//! they are drawn again.
 
 #[path = "../tests/support/mod.rs"]
 mod support;

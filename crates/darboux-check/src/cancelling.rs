@@ -1,4 +1,5 @@
-//! Mistakes in a map and in the tangents of a surface that cancel each other: bumps look right, and would be inverted if one were repaired alone.
+//! Mistakes in a map and in the tangents of a surface that cancel each other: bumps look right, and would be
+//! inverted if one were repaired alone.
 
 use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Fault, MapFault, PAIRS, Pair};
@@ -8,7 +9,8 @@ use crate::severity::Severity;
 const CODES: [Code; 4] =
     [Code::MapGreenFlipped, Code::MapRedFlipped, Code::TangentSignFlipped, Code::TangentNegated];
 
-/// The pair that the defects of a map and those of a surface that uses it make; none where they do not cancel.
+/// The pair that the defects of a map and those of a surface that uses it make; none where they do not
+/// cancel.
 pub fn pair_of<'a>(
     on_map: impl IntoIterator<Item = &'a Defect>,
     on_surface: impl IntoIterator<Item = &'a Defect>,
@@ -23,8 +25,9 @@ pub fn pair_of<'a>(
     PAIRS.iter().find(|pair| are_exactly(&of_map, pair.on_map) && are_exactly(&of_surface, pair.on_surface))
 }
 
-/// Marks which defects of a map and of the surfaces that use it cancel. The map's are marked where they cancel on all surfaces, and their codes are
-/// returned. What cancels makes no picture wrong: it is a warning, and one finding says all where the map is marked. `image`: that of the map.
+/// Marks which defects of a map and of the surfaces that use it cancel. The map's are marked where they
+/// cancel on all surfaces, and their codes are returned. What cancels makes no picture wrong: it is a
+/// warning, and one finding says all where the map is marked. `image`: that of the map.
 pub fn mark(
     on_map: &mut [Defect],
     surfaces: &mut [Vec<&mut Defect>],

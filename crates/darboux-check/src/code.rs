@@ -27,8 +27,8 @@ pub(crate) enum Family {
     Transforms,
 }
 
-/// Defines the codes, by family, and their sections from one list: what it means, what it looks like, how it comes about, the cure, and what a
-/// repair does.
+/// Defines the codes, by family, and their sections from one list: what it means, what it looks like, how it
+/// comes about, the cure, and what a repair does.
 macro_rules! codes {
     ($([$family:ident] $($code:ident $name:literal $severity:ident { $meaning:literal $looks:literal $cause:literal $cure:literal $fix:ident $clause:literal })*)*) => {
         /// The kind of a finding. The names are stable.
@@ -467,8 +467,8 @@ codes! {
 }
 
 impl Code {
-    /// Whether its findings count triangles and [`Finding::first`](crate::Finding::first) holds the numbers of triangles. Those of other findings on
-    /// a mesh are vertices.
+    /// Whether its findings count triangles and [`Finding::first`](crate::Finding::first) holds the numbers
+    /// of triangles. Those of other findings on a mesh are vertices.
     pub fn counts_triangles(self) -> bool {
         matches!(
             self,

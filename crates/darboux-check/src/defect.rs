@@ -33,7 +33,8 @@ pub struct Defect {
     pub obstacle: Option<Obstacle>,
     /// The mistake elsewhere that cancels it, so that bumps look right now.
     pub cancelled: Option<Cancelled>,
-    /// In percent of the model's area: what it spoils, weighted by the angle; none where its severity does not depend on that.
+    /// In percent of the model's area: what it spoils, weighted by the angle; none where its severity does
+    /// not depend on that.
     pub spoiled: Option<f64>,
 }
 
@@ -279,7 +280,8 @@ impl Defect {
         self.fault.code()
     }
 
-    /// The image of the map with which it is one finding, because two conventions cancel; none where it is a finding of its own.
+    /// The image of the map with which it is one finding, because two conventions cancel; none where it is a
+    /// finding of its own.
     pub fn joint(&self) -> Option<Option<usize>> {
         match &self.cancelled {
             Some(Cancelled::ByMap { image, is_whole: true, .. }) => Some(*image),
@@ -319,8 +321,8 @@ impl Defect {
         Self { severity, ..self }
     }
 
-    /// Whether two defects say the same of the same place. Tangents that are not those of the method that made the others are one thing, and that
-    /// method is another.
+    /// Whether two defects say the same of the same place. Tangents that are not those of the method that
+    /// made the others are one thing, and that method is another.
     pub fn is_same(&self, other: &Self) -> bool {
         self.sameness() == other.sameness()
     }

@@ -7,7 +7,8 @@ use crate::code::Code;
 use crate::report::ReportedFinding;
 use crate::severity::Severity;
 
-/// What happened to a file, what it looks like and what to do, in one to three sentences: the first thing that a report says.
+/// What happened to a file, what it looks like and what to do, in one to three sentences: the first thing
+/// that a report says.
 ///
 /// `findings`: those of the file, before or after a repair.
 pub fn diagnosis(findings: &[ReportedFinding]) -> String {

@@ -16,11 +16,13 @@ pub struct SurfaceFacts<'a> {
     pub surface: &'a Surface,
     /// The triangles by the side to which their normals point.
     pub sides: Sides,
-    /// MikkTSpace's tangents of all corners in glTF's convention; none where the surface has no tangents, or none can be computed.
+    /// MikkTSpace's tangents of all corners in glTF's convention; none where the surface has no tangents, or
+    /// none can be computed.
     pub expected: Option<Vec<[f32; 4]>>,
     /// Per vertex whether MikkTSpace's tangents of its corners have both signs; empty without `expected`.
     pub is_on_mirrored_seam: Vec<bool>,
-    /// Per vertex whether its tangent is that of MikkTSpace for a corner without an area, which is no evidence.
+    /// Per vertex whether its tangent is that of MikkTSpace for a corner without an area, which is no
+    /// evidence.
     pub has_own_tangent: Vec<bool>,
     /// Whether all tangents are those of MikkTSpace, bit for bit.
     pub is_mikktspace: bool,
@@ -28,9 +30,11 @@ pub struct SurfaceFacts<'a> {
     pub reversal: Option<Reversal>,
     /// The vertices whose normals point to the back of all faces around them.
     pub reversed: Option<Reversed>,
-    /// In which other axes its normals are; then nothing is measured that depends on them. None where they fit the faces, or in no axes.
+    /// In which other axes its normals are; then nothing is measured that depends on them. None where they
+    /// fit the faces, or in no axes.
     pub other_axes: Option<OtherAxes>,
-    /// How its tangents differ from MikkTSpace's, in their directions and in their signs; empty where that cannot be measured.
+    /// How its tangents differ from MikkTSpace's, in their directions and in their signs; empty where that
+    /// cannot be measured.
     pub fits: Vec<Fit>,
 }
 
@@ -65,7 +69,8 @@ impl<'a> SurfaceFacts<'a> {
         facts
     }
 
-    /// Whether a repair can compute tangents. Where it cannot, tangents that lean towards damaged normals stay when the normals are repaired.
+    /// Whether a repair can compute tangents. Where it cannot, tangents that lean towards damaged normals
+    /// stay when the normals are repaired.
     pub fn has_repairable_tangents(&self) -> bool {
         let is_about_all = |reason: Undecided| reason != Undecided::OnlyAPart;
         let is_undecided = matches!(self.reversal, Some(Reversal::Unknown(reason)) if is_about_all(reason));

@@ -33,7 +33,8 @@ pub struct Finding {
     pub severity: Severity,
     /// Where it is.
     pub place: Place,
-    /// The number of vertices, corners, faces or texels that show it, as the text says; 1 for a property of the whole.
+    /// The number of vertices, corners, faces or texels that show it, as the text says; 1 for a property of
+    /// the whole.
     pub count: usize,
     /// The indices of the first ones, in the order of the file; empty for a property of the whole.
     pub first: Vec<usize>,
@@ -43,7 +44,8 @@ pub struct Finding {
     pub text: String,
     /// The cure here: what the reader can do.
     pub cure: Cow<'static, str>,
-    /// Why a repair leaves it, as a clause; none where [`fix_document`](crate::fix_document) or [`fix_map`](crate::fix_map) repairs it.
+    /// Why a repair leaves it, as a clause; none where [`fix_document`](crate::fix_document) or
+    /// [`fix_map`](crate::fix_map) repairs it.
     pub left_because: Option<String>,
     /// What it says: one defect, or several that are one finding.
     pub(crate) defects: Vec<Defect>,

@@ -1,4 +1,5 @@
-//! Which channels of a map are inverted: one space of hypotheses per map, with the likelihood of each from all witnesses.
+//! Which channels of a map are inverted: one space of hypotheses per map, with the likelihood of each from
+//! all witnesses.
 //!
 //! ```text
 //! witness                                   what it tells
@@ -9,8 +10,9 @@
 //! the user (`--assume`)                     what the derivatives leave open
 //! ```
 //!
-//! A repair needs one hypothesis with 99 % at least. What is not identified is left, because the repair of one of two mistakes that cancel makes a
-//! right picture wrong, and that of green where red is inverted makes a wrong one worse.
+//! A repair needs one hypothesis with 99 % at least. What is not identified is left, because the repair of
+//! one of two mistakes that cancel makes a right picture wrong, and that of green where red is inverted makes
+//! a wrong one worse.
 
 use darboux::BitangentDirection;
 
@@ -30,8 +32,9 @@ pub enum Inverted {
 
 const ALL: [Inverted; 4] = [Inverted::None, Inverted::Green, Inverted::Red, Inverted::Both];
 
-/// How often each is so on a model whose signs w are right, and on one where all are flipped. None of 264 published maps had its red inverted: one in a
-/// thousand is assumed. Of seven published models with flipped signs, four had inverted green.
+/// How often each is so on a model whose signs w are right, and on one where all are flipped. None of 264
+/// published maps had its red inverted: one in a thousand is assumed. Of seven published models with flipped
+/// signs, four had inverted green.
 const PRIORS: [[f64; 4]; 2] = [[0.953, 0.045, 0.001, 0.001], [0.428, 0.57, 0.001, 0.001]];
 
 /// How much likelier a map has the inversion that the faces show for another map of its model.
@@ -43,7 +46,8 @@ pub const IDENTIFIED: f64 = 0.99;
 /// What the texels and the faces tell of a map; inverted is what is not as the options want it.
 #[derive(Clone, Copy, Debug)]
 pub struct MapWitness {
-    /// The probability that an odd number of channels is inverted, as the derivatives show it; none where they do not.
+    /// The probability that an odd number of channels is inverted, as the derivatives show it; none where
+    /// they do not.
     pub odd: Option<f64>,
     /// The logarithm of the odds that red is right, by the faces of the meshes; 0 where they do not decide.
     pub faces: f64,
@@ -79,7 +83,8 @@ impl MapWitness {
             prior[index] * by_faces * by_sibling
         };
         let mut weights: [f64; 4] = std::array::from_fn(likelihood);
-        // The confidence of the derivatives is that of real maps, so that it replaces the prior of an odd number.
+        // The confidence of the derivatives is that of real maps, so that it replaces the prior of an odd
+        // number.
         let odd = self.odd.unwrap_or(0.5);
         for (members, probability) in [([0, 3], 1.0 - odd), ([1, 2], odd)] {
             let sum: f64 = members.iter().map(|&index| weights[index]).sum();
@@ -133,8 +138,9 @@ pub fn has_flipped_signs(defect: &Defect) -> bool {
     defect.code() == Code::TangentSignFlipped && !defect.lists_items()
 }
 
-/// Leaves what is not identified: inverted channels of a map, and flipped signs that it may cancel. `surfaces`: the defects of each that uses the map.
-/// `sibling`: another image of the model and what the faces show of it. `image`: that of the map.
+/// Leaves what is not identified: inverted channels of a map, and flipped signs that it may cancel.
+/// `surfaces`: the defects of each that uses the map. `sibling`: another image of the model and what the
+/// faces show of it. `image`: that of the map.
 pub fn leave_unidentified(
     on_map: &mut [Defect],
     witness: &MapWitness,
@@ -186,7 +192,8 @@ mod tests {
         }
     }
 
-    /// Inverted red and green look alike to the derivatives: faces, another map, flipped signs and the user tell them apart.
+    /// Inverted red and green look alike to the derivatives: faces, another map, flipped signs and the user
+    /// tell them apart.
     #[test]
     fn green_needs_a_second_witness() {
         let green = |witness: MapWitness, flipped, sibling| witness.posterior(flipped, sibling)[1];

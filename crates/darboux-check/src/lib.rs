@@ -7,8 +7,8 @@
 //! words/     defects -> findings, as people read them
 //! ```
 //!
-//! [`Code`] lists all findings, with what each looks like on screen, how it comes about and the cure. [`fix_document`] and [`fix_map`] repair what can be
-//! repaired without guessing.
+//! [`Code`] lists all findings, with what each looks like on screen, how it comes about and the cure.
+//! [`fix_document`] and [`fix_map`] repair what can be repaired without guessing.
 //!
 //! ```
 //! use std::path::Path;

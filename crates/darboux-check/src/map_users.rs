@@ -19,7 +19,8 @@ pub struct MapUsers<'a> {
 }
 
 impl<'a> MapUsers<'a> {
-    /// Finds the users of all images; primitives with the same data once. `materials`: of the document. Errors: invalid data of primitives.
+    /// Finds the users of all images; primitives with the same data once. `materials`: of the document.
+    /// Errors: invalid data of primitives.
     pub fn new(document: &'a Document, materials: &[Material]) -> Result<Self, Error> {
         let mut users: BTreeMap<usize, BTreeMap<usize, Vec<TextureUse>>> = BTreeMap::new();
         let mut primitives = Vec::new();

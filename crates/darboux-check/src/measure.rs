@@ -1,4 +1,5 @@
-//! The measurements, one file each. Rules read them from [`SurfaceFacts`](crate::facts::SurfaceFacts) and [`Map`](map::Map).
+//! The measurements, one file each. Rules read them from [`SurfaceFacts`](crate::facts::SurfaceFacts) and
+//! [`Map`](map::Map).
 
 pub mod contradiction;
 pub mod directions;

@@ -1,4 +1,5 @@
-//! [`ModelArea`]: the area of all surfaces of a model in its scene, which the area that a defect spoils is compared with.
+//! [`ModelArea`]: the area of all surfaces of a model in its scene, which the area that a defect spoils is
+//! compared with.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +14,8 @@ use crate::surface::{cross, length, sub};
 pub struct ModelArea {
     /// That of all surfaces, in the units of the scene.
     total: f64,
-    /// By the index of a mesh: how many times its area is in the scene, scaled as its nodes are. 1 for a mesh that no node has.
+    /// By the index of a mesh: how many times its area is in the scene, scaled as its nodes are. 1 for a
+    /// mesh that no node has.
     scale_of_mesh: BTreeMap<usize, f64>,
 }
 
@@ -37,8 +39,8 @@ impl ModelArea {
         Ok(area)
     }
 
-    /// The area of a part of the primitive at a place in percent of the model's; none for a model without an area. `own`: in the units of its
-    /// positions.
+    /// The area of a part of the primitive at a place in percent of the model's; none for a model without an
+    /// area. `own`: in the units of its positions.
     pub fn percent(&self, place: &Place, own: f64) -> Option<f64> {
         let mesh = place.primitive.as_ref()?.mesh;
         let share = own * self.scale(mesh) * (1 + place.same_as) as f64 / self.total;
@@ -67,7 +69,8 @@ fn scales(instances: &MeshInstances) -> BTreeMap<usize, f64> {
     scales
 }
 
-/// The factor by which a transform changes areas, averaged over their directions where it stretches: the determinant to the power of 2/3.
+/// The factor by which a transform changes areas, averaged over their directions where it stretches: the
+/// determinant to the power of 2/3.
 fn area_scale([x, y, z, _]: &[[f64; 4]; 4]) -> f64 {
     let determinant = x[0] * (y[1] * z[2] - y[2] * z[1]) - y[0] * (x[1] * z[2] - x[2] * z[1])
         + z[0] * (x[1] * y[2] - x[2] * y[1]);

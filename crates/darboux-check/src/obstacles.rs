@@ -30,7 +30,8 @@ pub fn of_surface(defect: &Defect, facts: &SurfaceFacts<'_>) -> Option<Obstacle>
     }
 }
 
-/// New tangents would side with the faces, and then seem to show that the normals are the ones that are reversed.
+/// New tangents would side with the faces, and then seem to show that the normals are the ones that are
+/// reversed.
 fn undecided_side(reversal: Reversal) -> Option<Obstacle> {
     match reversal {
         Reversal::Unknown(reason) if reason != Undecided::OnlyAPart => {

@@ -7,7 +7,8 @@
 //! outcome    the report: the difference between the defects before and after
 //! ```
 //!
-//! A repair is final: it goes on until a round changes nothing, so that a second repair would change nothing either.
+//! A repair is final: it goes on until a round changes nothing, so that a second repair would change nothing
+//! either.
 
 mod apply;
 mod maps;
@@ -43,9 +44,11 @@ pub struct PlannedEdit {
     pub action: String,
 }
 
-/// What [`fix_document`] begins with: the first edit of each primitive, and what is done to images. What it finds after that decides how it goes on.
+/// What [`fix_document`] begins with: the first edit of each primitive, and what is done to images. What it
+/// finds after that decides how it goes on.
 ///
-/// `findings`: those of [`check_document`](crate::check_document) with the same options on the same document. Errors: invalid data of the materials.
+/// `findings`: those of [`check_document`](crate::check_document) with the same options on the same document.
+/// Errors: invalid data of the materials.
 pub fn plan_repair(
     document: &Document,
     findings: &[Finding],
@@ -68,9 +71,10 @@ pub fn plan_repair(
 
 /// Repairs a document.
 ///
-/// `findings`: those of [`check_document`](crate::check_document) with the same options on the same document. Data that no finding names is
-/// kept, byte for byte; a compressed document is written without compression if anything is repaired. Errors: invalid data; more memory than the limit
-/// permits. After an error the document is unspecified: drop it.
+/// `findings`: those of [`check_document`](crate::check_document) with the same options on the same document.
+/// Data that no finding names is kept, byte for byte; a compressed document is written without compression if
+/// anything is repaired. Errors: invalid data; more memory than the limit permits. After an error the
+/// document is unspecified: drop it.
 pub fn fix_document(
     document: &mut Document,
     findings: Vec<Finding>,

@@ -31,7 +31,8 @@ pub struct ReportedFinding {
     pub material: Option<usize>,
     /// The index of the image.
     pub image: Option<usize>,
-    /// The number of vertices, corners, triangles or texels that show it, as the text says; 1 for a property of the whole.
+    /// The number of vertices, corners, triangles or texels that show it, as the text says; 1 for a property
+    /// of the whole.
     pub count: usize,
     /// The indices of the first ones, in the order of the file; empty for a property of the whole.
     pub first: Vec<usize>,

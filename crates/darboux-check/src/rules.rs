@@ -1,4 +1,5 @@
-//! The rules: each turns the facts of one surface, map or material into defects. No rule knows another: what several need is measured before.
+//! The rules: each turns the facts of one surface, map or material into defects. No rule knows another: what
+//! several need is measured before.
 
 mod maps;
 mod normals;

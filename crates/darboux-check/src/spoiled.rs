@@ -1,7 +1,9 @@
-//! How much of a picture of the surface a defect spoils: the area of the faces that show it, each weighted by how far it turns the light.
+//! How much of a picture of the surface a defect spoils: the area of the faces that show it, each weighted by
+//! how far it turns the light.
 //!
-//! A face whose tangent frame is turned by a right angle or more, or mirrored, counts whole; one that is turned less counts by its angle over 90
-//! degrees, and one that is turned by less than [`SEEN`] does not count.
+//! A face whose tangent frame is turned by a right angle or more, or mirrored, counts whole; one that is
+//! turned less counts by its angle over 90 degrees, and one that is turned by less than [`SEEN`] does not
+//! count.
 
 use crate::defect::{Fault, TangentDifference};
 use crate::facts::SurfaceFacts;
@@ -17,7 +19,8 @@ pub const SEEN: f64 = 15.0;
 /// The length below which a normal has no direction.
 pub const NO_LENGTH: f64 = 0.1;
 
-/// The area that a defect spoils, in the units of the positions; none where its severity does not depend on that.
+/// The area that a defect spoils, in the units of the positions; none where its severity does not depend on
+/// that.
 pub fn spoiled(fault: &Fault, facts: &SurfaceFacts<'_>) -> Option<f64> {
     let surface = facts.surface;
     let at = |vertices: &Indices| Some(area_at(surface, vertices, |_| 1.0));

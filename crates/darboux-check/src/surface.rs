@@ -35,8 +35,9 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// Reads a primitive; none where it has no positions. All attributes have as many elements, or the document would not have opened.
-    /// `info`: where it is absent, the surface does not need tangents, and they follow the first UV set. Errors: invalid accessors; an index out of range.
+    /// Reads a primitive; none where it has no positions. All attributes have as many elements, or the
+    /// document would not have opened. `info`: where it is absent, the surface does not need tangents,
+    /// and they follow the first UV set. Errors: invalid accessors; an index out of range.
     pub fn read(
         document: &Document,
         corners: &PrimitiveCorners<'_>,
@@ -90,7 +91,8 @@ impl Surface {
         length(cross(sub(b, a), sub(c, a))) > 0.0
     }
 
-    /// The connected part of every vertex, named by one of its vertices. Vertices with the same key are one vertex.
+    /// The connected part of every vertex, named by one of its vertices. Vertices with the same key are one
+    /// vertex.
     pub fn parts<K: Eq + Hash>(&self, key: impl Fn(usize) -> K) -> Vec<usize> {
         let mut first = HashMap::new();
         let vertices = 0..self.positions.len();
@@ -117,7 +119,8 @@ impl Surface {
         self.is_used().into_iter().filter(|is_used| *is_used).count()
     }
 
-    /// The vertices that triangles use whose elements fulfil a condition; none where none does. `elements`: one per vertex.
+    /// The vertices that triangles use whose elements fulfil a condition; none where none does. `elements`:
+    /// one per vertex.
     pub fn vertices_where<T>(&self, elements: &[T], condition: impl Fn(&T) -> bool) -> Option<Part> {
         let found = self.used(indices_where(elements, condition));
         if found.is_empty() { None } else { Part::new(&found, self.used_count()) }
@@ -156,7 +159,8 @@ fn root(parents: &mut [usize], mut vertex: usize) -> usize {
     vertex
 }
 
-/// The values of an attribute at all vertices. Errors: invalid data; an index of a corner that is out of range.
+/// The values of an attribute at all vertices. Errors: invalid data; an index of a corner that is out of
+/// range.
 fn vertices<const N: usize>(
     document: &Document,
     corners: &PrimitiveCorners<'_>,

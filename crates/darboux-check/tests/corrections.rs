@@ -69,7 +69,8 @@ fn only_the_wrong_tangents_of_another_recipe_change() {
                 let is_wrong = wrong.contains(&(model.indices[corner] as usize));
                 let is_same = old.map(f32::to_bits) == new.map(f32::to_bits);
                 assert!(is_same || is_wrong, "{recipe}, {code}: corner {corner} changed");
-                // The recipe is recognised, so that the new ones are those that were there before, up to rounding.
+                // The recipe is recognised, so that the new ones are those that were there before, up to
+                // rounding.
                 assert!(is_same || distance(*old, *new) < 1e-5, "{recipe}, {code}: corner {corner}");
             }
         }

@@ -1,4 +1,5 @@
-//! Where most tangents are right, whatever recipe they come from, a repair changes those that are wrong and no others.
+//! Where most tangents are right, whatever recipe they come from, a repair changes those that are wrong and
+//! no others.
 
 mod support;
 
@@ -61,7 +62,8 @@ fn tangents(document: &Document) -> Vec<[f32; 4]> {
     corners.iter().flat_map(|corners| of(corners).unwrap_or_default()).collect()
 }
 
-/// Whether all corners have the bits of other ones, but those of some vertices, which are the same up to rounding.
+/// Whether all corners have the bits of other ones, but those of some vertices, which are the same up to
+/// rounding.
 fn assert_restored(document: &Document, before: &Model, wrong: &BTreeSet<u32>, what: &str) {
     let old = tangents(&before.document());
     for ((corner, vertex), (old, new)) in

@@ -1,5 +1,5 @@
-//! A repair is final: a second one repairs nothing and changes nothing, nothing is found that was not there before, and nothing that is left is called
-//! fixable.
+//! A repair is final: a second one repairs nothing and changes nothing, nothing is found that was not there
+//! before, and nothing that is left is called fixable.
 
 mod support;
 
@@ -11,7 +11,8 @@ use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
 use support::damaged::{corpus, damaged, sources};
 
-/// The findings on a model, what a repair said of them, and the model after it; none where the model cannot be read.
+/// The findings on a model, what a repair said of them, and the model after it; none where the model cannot
+/// be read.
 fn repaired(glb: &[u8], options: &FixOptions) -> Option<(Vec<Finding>, FixedDocument, Vec<u8>)> {
     let mut document = Document::from_bytes("damaged", glb.to_vec(), None, &LoadOptions::default()).ok()?;
     let findings = check_document(&document, &options.check).ok()?;
@@ -24,7 +25,8 @@ fn is_same(a: &Finding, b: &Finding) -> bool {
     (a.code, &a.place.primitive, a.place.image) == (b.code, &b.place.primitive, b.place.image)
 }
 
-/// Whether a repair changed a model, and what is not final about it, one sentence each; none where the model cannot be read.
+/// Whether a repair changed a model, and what is not final about it, one sentence each; none where the model
+/// cannot be read.
 fn problems(glb: &[u8], options: &FixOptions) -> Option<(bool, Vec<String>)> {
     let (before, first, once) = repaired(glb, options)?;
     let (left, second, twice) = repaired(&once, options).expect("a repaired model can be read");

@@ -92,7 +92,8 @@ fn tangents_far_from_mikktspace_are_an_error() {
     }
 }
 
-/// Single tangents that were turned are found in thin triangles, too, where the tangents of the others show that the UVs were not rounded since.
+/// Single tangents that were turned are found in thin triangles, too, where the tangents of the others show
+/// that the UVs were not rounded since.
 #[test]
 fn single_tangents_are_found_in_thin_triangles() {
     for name in ["wavy grid", "sphere", "mirrored fine wavy grid"] {
@@ -120,7 +121,8 @@ fn single_tangents_are_found_in_thin_triangles() {
     }
 }
 
-/// Tangents of any recipe that are MikkTSpace's to a tenth of a degree are not called those of another recipe.
+/// Tangents of any recipe that are MikkTSpace's to a tenth of a degree are not called those of another
+/// recipe.
 #[test]
 fn mikktspace_is_preferred_where_it_explains_all_tangents() {
     let mut cases = 0;
@@ -324,7 +326,8 @@ fn bare_maps_are_repaired_by_the_faces_of_their_model() {
     }
 }
 
-/// The faces show which channels of one map are inverted: those of another map of the model are likely the same.
+/// The faces show which channels of one map are inverted: those of another map of the model are likely the
+/// same.
 #[test]
 fn maps_of_one_model_are_compared() {
     let mut model = baked_models().remove(0);
@@ -377,7 +380,8 @@ fn negative_scales_of_normal_textures_are_named() {
     assert_eq!((found.severity, found.evidence[0].value), (Severity::Warning, -0.5));
 }
 
-/// The normal map of a clear coat is one, too, and the surfaces of all materials of a primitive's variants vote.
+/// The normal map of a clear coat is one, too, and the surfaces of all materials of a primitive's variants
+/// vote.
 #[test]
 fn clear_coats_and_variants_are_checked() {
     let mut model = baked_models().remove(0);

@@ -1,6 +1,8 @@
-//! Published models, and those of this repository, have no finding of severity error, but for those that are really wrong.
+//! Published models, and those of this repository, have no finding of severity error, but for those that are
+//! really wrong.
 //!
-//! Each exception was verified without Darboux: by reading the file, or with a few lines of numpy over its accessors.
+//! Each exception was verified without Darboux: by reading the file, or with a few lines of numpy over its
+//! accessors.
 
 use std::path::{Path, PathBuf};
 
@@ -99,7 +101,8 @@ fn errors(path: &Path) -> Option<Vec<Code>> {
     Some(codes)
 }
 
-/// Every model below a folder has the errors of the list and no others; and no entry is about a model without errors.
+/// Every model below a folder has the errors of the list and no others; and no entry is about a model without
+/// errors.
 fn verify(folder: &Path) {
     let paths = models(folder);
     assert!(!paths.is_empty(), "{} has models", folder.display());

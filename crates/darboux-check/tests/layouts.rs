@@ -1,4 +1,5 @@
-//! Maps that were baked for another UV layout than that of the mesh: turned UVs and turned images are named, and other maps are not.
+//! Maps that were baked for another UV layout than that of the mesh: turned UVs and turned images are named,
+//! and other maps are not.
 
 mod support;
 
@@ -17,7 +18,8 @@ const CHARTS: usize = 4;
 /// Where each chart lies: in no order that a turned layout would have, too.
 const PLACES: [usize; CHARTS * CHARTS] = [5, 12, 0, 9, 14, 3, 10, 7, 1, 15, 6, 2, 11, 8, 4, 13];
 
-/// A sphere whose quads are cut into charts, every second of which is turned by a right angle, with the seams smooth.
+/// A sphere whose quads are cut into charts, every second of which is turned by a right angle, with the seams
+/// smooth.
 fn charted() -> OwnedMesh {
     let (rows, columns) = (CHARTS * QUADS, CHARTS * QUADS);
     let mut mesh = families::sphere(4, 4, false);

@@ -1,4 +1,5 @@
-//! What is said of maps that are no normal maps, or whose channels are in another order, and of mistakes that cancel.
+//! What is said of maps that are no normal maps, or whose channels are in another order, and of mistakes that
+//! cancel.
 
 mod support;
 
@@ -31,7 +32,8 @@ fn through(map: &Map, change: Change) -> Vec<u8> {
     map.with_texels(map.texels.iter().map(|texel| change(*texel)).collect()).file
 }
 
-/// A map whose left half or one island has green inverted: which part contradicts the rest, and no repair of the whole.
+/// A map whose left half or one island has green inverted: which part contradicts the rest, and no repair of
+/// the whole.
 #[test]
 fn parts_that_contradict_each_other_are_named() {
     for number in 0..2 {
@@ -67,7 +69,8 @@ fn parts_that_contradict_each_other_are_named() {
     }
 }
 
-/// With half of its contrast, every map has vectors of half the length, whatever else its texels show, and gets them back.
+/// With half of its contrast, every map has vectors of half the length, whatever else its texels show, and
+/// gets them back.
 #[test]
 fn maps_of_half_the_contrast_are_scaled() {
     for map in (0..6).map(healthy_map) {
@@ -81,7 +84,8 @@ fn maps_of_half_the_contrast_are_scaled() {
     }
 }
 
-/// Of a map without flat parts that leans on purpose, the lengths of the vectors show what was encoded or decoded.
+/// Of a map without flat parts that leans on purpose, the lengths of the vectors show what was encoded or
+/// decoded.
 #[test]
 fn lengths_show_what_was_encoded_as_srgb() {
     let texel = |i: usize| {
@@ -128,7 +132,8 @@ fn maps_of_one_colour_are_wrong_unless_they_are_flat() {
     }
 }
 
-/// Maps whose blue is elsewhere point along another axis; no one order of the channels is certain, and nothing is repaired.
+/// Maps whose blue is elsewhere point along another axis; no one order of the channels is certain, and
+/// nothing is repaired.
 #[test]
 fn channels_in_another_order_are_no_object_space() {
     let orders: [(Change, &str); 4] = [
@@ -221,7 +226,8 @@ fn mistakes_that_cancel_are_repaired_together_or_not() {
     assert_eq!(says_so(&check(&model)), [Code::ConventionsCancel]);
 }
 
-/// An eighth of a map has relief, and the rest faint detail with green inverted: the verdict is that of the relief, and nothing is repaired.
+/// An eighth of a map has relief, and the rest faint detail with green inverted: the verdict is that of the
+/// relief, and nothing is repaired.
 #[test]
 fn detail_of_another_convention_is_named() {
     const SIDE: usize = 512;
@@ -245,7 +251,8 @@ fn detail_of_another_convention_is_named() {
     assert!(fixed.expect("a map").image.is_none());
 }
 
-/// A map in WebP, which the texture names in EXT_texture_webp only: its texels are judged as those of a PNG are.
+/// A map in WebP, which the texture names in EXT_texture_webp only: its texels are judged as those of a PNG
+/// are.
 #[test]
 fn maps_of_the_extension_for_webp_are_judged() {
     let mut model = healthy_models().remove(9);

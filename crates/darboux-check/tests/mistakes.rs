@@ -1,4 +1,5 @@
-//! Every mistake, made alone on healthy models, is named, no other error is, and the repair makes the healthy model of it.
+//! Every mistake, made alone on healthy models, is named, no other error is, and the repair makes the healthy
+//! model of it.
 
 mod support;
 
@@ -30,7 +31,8 @@ fn healthy_models_have_no_error_and_no_warning() {
     }
 }
 
-/// Maps that were baked for their models have no error, and the facets of a model say nothing about other maps.
+/// Maps that were baked for their models have no error, and the facets of a model say nothing about other
+/// maps.
 #[test]
 fn baked_maps_have_no_error() {
     for model in baked_models() {
@@ -63,7 +65,8 @@ fn every_mistake_is_named_alone_and_repaired() {
 /// The page of the table.
 const PAGE: &str = "../../docs/check-mistakes.md";
 
-/// Each of the six flips of handedness is named in its own way, except that the UV origin looks like the sign w.
+/// Each of the six flips of handedness is named in its own way, except that the UV origin looks like the sign
+/// w.
 #[test]
 fn flips_of_handedness_are_told_apart() {
     for healthy in healthy_models().iter().step_by(5) {
@@ -94,7 +97,8 @@ fn reversed_parts_are_named() {
     }
 }
 
-/// Normals of a part of a smooth surface, or of scattered vertices, which are in triangles with normals on both sides.
+/// Normals of a part of a smooth surface, or of scattered vertices, which are in triangles with normals on
+/// both sides.
 #[test]
 fn reversed_normals_of_some_vertices_are_named() {
     for healthy in healthy_models() {
@@ -184,8 +188,9 @@ fn names_are_distinct_and_parse_and_every_mistake_is_in_the_table() {
     let in_maps = MAP_MISTAKES.iter().map(|mistake| mistake.code);
     let in_baked_maps = BAKED_MISTAKES.iter().map(|mistake| mistake.code);
     let made: BTreeSet<Code> = in_models.chain(in_maps).chain(in_baked_maps).collect();
-    // Mirrored UVs are no mistake, and a broken file is none in a map's texels. Two conventions that cancel are made in undecided.rs, other layouts in
-    // layouts.rs, detail of another convention in maps.rs, and reliefs on faces in reliefs.rs.
+    // Mirrored UVs are no mistake, and a broken file is none in a map's texels. Two conventions that cancel
+    // are made in undecided.rs, other layouts in layouts.rs, detail of another convention in maps.rs, and
+    // reliefs on faces in reliefs.rs.
     let made_elsewhere =
         [Code::ConventionsCancel, Code::MapOtherLayout, Code::MapDetailFlipped, Code::MapMayBeDents];
     let rest = [Code::UvMirrored, Code::UvOverlapping, Code::MapUnreadable];
@@ -193,7 +198,8 @@ fn names_are_distinct_and_parse_and_every_mistake_is_in_the_table() {
     assert!(without.iter().all(|code| rest.contains(code) || made_elsewhere.contains(code)), "{without:?}");
 }
 
-/// Rounding can flip the u direction of a triangle that is thin in UV space. Its tangents are right, or as good as any.
+/// Rounding can flip the u direction of a triangle that is thin in UV space. Its tangents are right, or as
+/// good as any.
 #[test]
 fn slivers_do_not_make_tangents_wrong() {
     let mut model = healthy_models().remove(1);

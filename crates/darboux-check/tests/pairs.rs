@@ -1,4 +1,5 @@
-//! Two mistakes on one model are both named, or docs/check-mistakes.md says why not, and the repair leaves nothing without a reason.
+//! Two mistakes on one model are both named, or docs/check-mistakes.md says why not, and the repair leaves
+//! nothing without a reason.
 
 mod support;
 

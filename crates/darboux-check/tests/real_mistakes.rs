@@ -1,5 +1,6 @@
-//! Every mistake on real models with their own maps, and real meshes with maps that were not baked for them: what is named, and that no repair makes a
-//! picture worse. The picture is the normal that a shader computes in the middle of every triangle, and its error the angle to that of the healthy model.
+//! Every mistake on real models with their own maps, and real meshes with maps that were not baked for them:
+//! what is named, and that no repair makes a picture worse. The picture is the normal that a shader computes
+//! in the middle of every triangle, and its error the angle to that of the healthy model.
 
 mod support;
 
@@ -114,7 +115,8 @@ fn models(limit: usize) -> Vec<Model> {
     read.take(limit).collect()
 }
 
-/// The normals that a shader computes in the middle of every triangle; none where a vector has no direction. Empty where an attribute is missing.
+/// The normals that a shader computes in the middle of every triangle; none where a vector has no direction.
+/// Empty where an attribute is missing.
 fn shading(document: &Document, uv_set: usize) -> Vec<Option<[f64; 3]>> {
     let corners = document.corners().expect("valid indices");
     let corners = &corners[0];
@@ -156,7 +158,8 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The mean angle in degrees to the truth; a normal without a direction counts as 90. None where they cannot be compared.
+/// The mean angle in degrees to the truth; a normal without a direction counts as 90. None where they cannot
+/// be compared.
 fn error(truth: &[Option<[f64; 3]>], document: &Document, uv_set: usize) -> Option<f64> {
     let found = shading(document, uv_set);
     let angle = |(a, b): (&Option<[f64; 3]>, &Option<[f64; 3]>)| match (a, b) {
@@ -215,7 +218,8 @@ impl<'a> Shows<'a> {
         }
     }
 
-    /// Whether a model with a mistake shows it. `is_open`: whether the check says that two hypotheses are left.
+    /// Whether a model with a mistake shows it. `is_open`: whether the check says that two hypotheses are
+    /// left.
     fn can_show(&self, code: Code, made: &Model, is_open: bool) -> bool {
         // One code of 8 bits of z is a visible angle only where most slopes are lost.
         let is_other = |(a, b): (&[u8; 3], &[u8; 3])| (0..3).any(|i| a[i].abs_diff(b[i]) > 4);
@@ -336,7 +340,8 @@ fn no_repair_of_a_map_that_was_not_baked_for_the_mesh_makes_it_worse() {
         let (_, _, errors) = outcome(&model, &truth);
         let Some([before, after]) = errors else { continue };
         repaired += usize::from(after + ROUNDING < before);
-        // Both channels inverted look in every file like none, and hide one axis of the mistake that flipped signs are.
+        // Both channels inverted look in every file like none, and hide one axis of the mistake that flipped
+        // signs are.
         if after > before + ROUNDING && (is_flipped, turn) == (true, HIDDEN) {
             hidden += 1;
         } else if after > before + ROUNDING {

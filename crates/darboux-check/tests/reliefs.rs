@@ -1,5 +1,6 @@
-//! Maps with a relief of their own on every face: studs, rivets and dents on boxes and spheres, which no face of the mesh was baked into. Their texels lean
-//! with the faces or against them, and that must invert nothing.
+//! Maps with a relief of their own on every face: studs, rivets and dents on boxes and spheres, which no face
+//! of the mesh was baked into. Their texels lean with the faces or against them, and that must invert
+//! nothing.
 
 mod support;
 
@@ -40,8 +41,8 @@ fn boxes() -> Vec<Quad> {
     quads
 }
 
-/// The quads of a closed strip around the z axis. `ring`: the distance from the axis and the height at a part of the way from top to bottom, and their
-/// changes on the way.
+/// The quads of a closed strip around the z axis. `ring`: the distance from the axis and the height at a part
+/// of the way from top to bottom, and their changes on the way.
 fn lathe(ring: impl Fn(f32) -> [[f32; 2]; 2]) -> Vec<Quad> {
     let corner = |row: usize, column: usize| {
         let around = std::f32::consts::TAU * (column % CELLS) as f32 / CELLS as f32;
@@ -85,7 +86,8 @@ fn mesh(quads: &[Quad]) -> OwnedMesh {
     mesh
 }
 
-/// The shape of what lies in the middle of a face: the slope away from the middle, where 1 is the border of the cell.
+/// The shape of what lies in the middle of a face: the slope away from the middle, where 1 is the border of
+/// the cell.
 type Profile = fn(f32) -> f32;
 
 const PROFILES: [(&str, Profile); 2] = [

@@ -115,7 +115,8 @@ fn a_part_of_three_mistakes_that_cancel_is_left() {
     assert_repaired_together(&model, &codes);
 }
 
-/// A map with both channels inverted under a scale of -1 gives the right picture, which a repair of the map alone would flip.
+/// A map with both channels inverted under a scale of -1 gives the right picture, which a repair of the map
+/// alone would flip.
 #[test]
 fn channels_that_a_negative_scale_inverts_are_left() {
     let mut model = baked_models().remove(0);
@@ -367,7 +368,8 @@ fn images_of_other_kinds_are_recognised() {
     assert!(PngImage::obstacle(&healthy_models().remove(0).map.file).is_none());
 }
 
-/// Tangents of another method than MikkTSpace that were asked for are written once: the finding stays, and a second repair changes nothing.
+/// Tangents of another method than MikkTSpace that were asked for are written once: the finding stays, and a
+/// second repair changes nothing.
 #[test]
 fn another_method_is_not_called_a_repair() {
     let mut model = healthy_models().remove(1);
@@ -389,7 +391,8 @@ fn another_method_is_not_called_a_repair() {
     assert!(!second.is_changed && !document.is_changed(), "{:?}", second.findings);
 }
 
-/// A repair that ends in an error that was not there is taken back; that of another primitive of the file is kept.
+/// A repair that ends in an error that was not there is taken back; that of another primitive of the file is
+/// kept.
 #[test]
 fn repairs_add_no_errors() {
     for damage in [
@@ -526,7 +529,8 @@ fn turned_faces_stay_shared() {
     assert_eq!(indices(&document).len(), 1);
 }
 
-/// Blue of one value alone does not make a map of two channels: red and green have to be the slopes of a surface.
+/// Blue of one value alone does not make a map of two channels: red and green have to be the slopes of a
+/// surface.
 #[test]
 fn blue_is_computed_only_for_slopes() {
     let map = healthy_models().remove(0).map;

@@ -1,4 +1,5 @@
-//! Texture transforms that mirror or turn the normal map: what is right after the transform is not called wrong before it, and nothing is repaired that would then be wrong.
+//! Texture transforms that mirror or turn the normal map: what is right after the transform is not called
+//! wrong before it, and nothing is repaired that would then be wrong.
 
 mod support;
 

@@ -1,4 +1,5 @@
-//! What a map that nobody can judge means for the tangents: a repair of one half of what may be a pair could make a right picture wrong.
+//! What a map that nobody can judge means for the tangents: a repair of one half of what may be a pair could
+//! make a right picture wrong.
 
 mod support;
 
@@ -118,7 +119,8 @@ fn mistakes_that_cancel_are_one_warning() {
     assert!(left.iter().all(|finding| finding.severity <= Severity::Info), "{left:#?}");
 }
 
-/// Inverted red and inverted green of a map that was not baked for the mesh look alike. Inverting the wrong one would make the picture worse.
+/// Inverted red and inverted green of a map that was not baked for the mesh look alike. Inverting the wrong
+/// one would make the picture worse.
 #[test]
 fn a_channel_that_is_not_identified_is_left_unless_the_user_says_which() {
     let healthy = healthy_models().remove(9);

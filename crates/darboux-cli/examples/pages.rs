@@ -1,5 +1,6 @@
-//! Writes the files that are generated from the definition of the command line and from the findings of `darboux check` into a folder:
-//! docs/cli.md, docs/check.md, man pages, completions, and the list of all options that `cargo xtask soak` chooses from.
+//! Writes the files that are generated from the definition of the command line and from the findings of
+//! `darboux check` into a folder: docs/cli.md, docs/check.md, man pages, completions, and the list of all
+//! options that `cargo xtask soak` chooses from.
 //!
 //! `cargo xtask gen` runs it on the repository's root.
 
@@ -44,8 +45,8 @@ fn write_completions(command: &mut Command, folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// The arguments of every subcommand as JSON, one per line: its option (null: it stands alone), the kind of its values (null: a flag), the
-/// values if they are listed, and whether it is required.
+/// The arguments of every subcommand as JSON, one per line: its option (null: it stands alone), the kind of
+/// its values (null: a flag), the values if they are listed, and whether it is required.
 fn options(command: &Command) -> String {
     let describe = |argument: &Arg| {
         let values = argument.get_possible_values();

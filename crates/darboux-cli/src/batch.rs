@@ -1,7 +1,8 @@
-//! Runs a subcommand that writes files: plans the jobs, processes them on several threads, prints messages and the report.
+//! Runs a subcommand that writes files: plans the jobs, processes them on several threads, prints messages
+//! and the report.
 //!
-//! The results of a file do not depend on the other files, and messages and reports come in the order of the inputs. So the output is the
-//! same for every number of threads.
+//! The results of a file do not depend on the other files, and messages and reports come in the order of the
+//! inputs. So the output is the same for every number of threads.
 
 pub mod command;
 pub mod distributed;
@@ -96,8 +97,8 @@ fn refuse_terminal(jobs: Vec<Job>) -> Result<Vec<Job>, UsageError> {
     Ok(jobs)
 }
 
-/// Processes the files on several threads, then one by one those during which an earlier run was killed. Messages and reports come in the order
-/// of the jobs.
+/// Processes the files on several threads, then one by one those during which an earlier run was killed.
+/// Messages and reports come in the order of the jobs.
 fn process_all<W: FileCommand>(
     command: &W,
     jobs: &[Job],
@@ -136,7 +137,8 @@ fn process_all<W: FileCommand>(
         Ok(())
     })
     .and_then(|()| {
-        // Without any worker, for one file or where no thread can be started, this thread processes the files.
+        // Without any worker, for one file or where no thread can be started, this thread processes the
+        // files.
         while let Some((index, finished)) = process_next() {
             results.add(index, finished?);
         }
@@ -199,8 +201,8 @@ fn is_brief(command: &impl FileCommand, files: usize) -> bool {
     files > MAX_DETAILED_FILES && !command.files().verbose
 }
 
-/// Takes finished files, which arrive in any order, and prints and counts them in the order of the jobs. Then they are dropped, so that a run over
-/// many files does not need more and more memory.
+/// Takes finished files, which arrive in any order, and prints and counts them in the order of the jobs. Then
+/// they are dropped, so that a run over many files does not need more and more memory.
 struct Results<'a, 'w, W: FileCommand> {
     messages: &'a Messages,
     tally: &'a mut Tally<'w, W>,

@@ -1,4 +1,5 @@
-//! The definition of the command line: the program and its subcommands. Help, man pages, completions and docs/cli.md are generated from it.
+//! The definition of the command line: the program and its subcommands. Help, man pages, completions and
+//! docs/cli.md are generated from it.
 
 use clap::{Parser, Subcommand};
 
@@ -22,7 +23,8 @@ use crate::commands::tangents::arguments::{self as tangents, TangentsArguments};
 use crate::commands::view::arguments::{self as view, ViewArguments};
 use crate::options::formats::with_endings;
 
-/// Finds and repairs what is wrong with the normal maps and tangents of 3D models; computes, bakes and converts them
+/// Finds and repairs what is wrong with the normal maps and tangents of 3D models; computes, bakes and
+/// converts them
 #[derive(Debug, Parser)]
 #[command(name = "darboux", version, about, long_about = LONG_ABOUT, arg_required_else_help = true, max_term_width = 100)]
 pub struct Arguments {

@@ -36,8 +36,8 @@ impl<'a> Source<'a> {
         Ok(Self { input, stdin })
     }
 
-    /// The bytes of an image; none for a model. The extension decides what a file is, and the first bytes of standard input. Errors: the file cannot be
-    /// read.
+    /// The bytes of an image; none for a model. The extension decides what a file is, and the first bytes of
+    /// standard input. Errors: the file cannot be read.
     pub fn image(&self) -> Result<Option<Cow<'_, [u8]>>, String> {
         match (&self.stdin, self.input) {
             (Some(bytes), _) => Ok(RgbaImage::is_format_known(bytes).then_some(Cow::Borrowed(bytes))),
@@ -128,7 +128,8 @@ pub fn read_stdin() -> Result<Vec<u8>, String> {
         .map_err(|error| format!("{}: cannot be read: {}", Input::Stdin, system_reason(&error)))
 }
 
-/// Writes a document and returns its status and the files written. `changed`: whether the command changed the document.
+/// Writes a document and returns its status and the files written. `changed`: whether the command changed the
+/// document.
 pub fn save(
     document: &Document,
     output: &Output,

@@ -17,8 +17,8 @@ impl HeatRange {
     /// The range of `darboux compare`, the viewer and `darboux render`.
     pub const WHOLE: Self = Self(ENDS);
 
-    /// The range from a tenth of the median angle to the greatest, each rounded outwards to 1, 2 or 5 times a power of ten. Values that are not finite do not
-    /// count.
+    /// The range from a tenth of the median angle to the greatest, each rounded outwards to 1, 2 or 5 times a
+    /// power of ten. Values that are not finite do not count.
     #[cfg(feature = "bake")]
     pub fn fitting(degrees: impl Iterator<Item = f64>) -> Self {
         let mut known: Vec<f64> = degrees.filter(|angle| angle.is_finite() && *angle > 0.0).collect();
@@ -108,7 +108,8 @@ fn shown(x: f64) -> f64 {
     format!("{x:.3e}").parse().unwrap_or(x)
 }
 
-/// The colours from the smallest to the largest angle: nine of viridis (N. Smith and S. van der Walt, 2015, CC0), whose lightness increases evenly.
+/// The colours from the smallest to the largest angle: nine of viridis (N. Smith and S. van der Walt, 2015,
+/// CC0), whose lightness increases evenly.
 pub const RAMP: [[u8; 3]; 9] = [
     [68, 1, 84],
     [71, 44, 122],

@@ -1,4 +1,5 @@
-//! The frame of the pages that `darboux report` and `darboux bake --report` write: one HTML file that loads nothing.
+//! The frame of the pages that `darboux report` and `darboux bake --report` write: one HTML file that loads
+//! nothing.
 
 #[cfg(feature = "gpu")]
 pub mod drawing;
@@ -50,7 +51,8 @@ impl HtmlPage<'_> {
     }
 }
 
-/// Refuses a path that cannot be a page's: another ending, or a folder that does not exist. The error is one sentence.
+/// Refuses a path that cannot be a page's: another ending, or a folder that does not exist. The error is one
+/// sentence.
 pub fn refuse_no_page(path: &Path) -> Result<(), String> {
     refuse_other_ending(path)?;
     refuse_missing_folder(path)

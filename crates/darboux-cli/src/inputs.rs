@@ -73,7 +73,8 @@ pub struct FoundInputs {
     pub failed: Vec<(PathBuf, String)>,
     /// Outputs of earlier runs, which are skipped.
     pub skipped: Vec<PathBuf>,
-    /// Models in formats that this build does not read, which are skipped: one sentence per folder and format.
+    /// Models in formats that this build does not read, which are skipped: one sentence per folder and
+    /// format.
     pub unread: Vec<String>,
 }
 

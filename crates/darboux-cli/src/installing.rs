@@ -6,8 +6,9 @@ pub fn install_with(feature: &str) -> String {
     format!("cargo install {} --features {feature}", package(env!("CARGO_MANIFEST_DIR")))
 }
 
-/// What `cargo install` is told to build. `folder`: where the sources of this build were. The folder of a package from a registry ends with its
-/// version; cargo keeps what `cargo install --git` builds in a folder of its own, of which a user knows only the address.
+/// What `cargo install` is told to build. `folder`: where the sources of this build were. The folder of a
+/// package from a registry ends with its version; cargo keeps what `cargo install --git` builds in a folder
+/// of its own, of which a user knows only the address.
 fn package(folder: &str) -> &'static str {
     let is_checkout = folder.ends_with("darboux-cli");
     let is_of_git = folder.contains("/git/checkouts/") || folder.contains(r"\git\checkouts\");

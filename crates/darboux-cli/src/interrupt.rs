@@ -1,5 +1,6 @@
-//! Ctrl-C, SIGTERM and SIGHUP: the process ends after the file that is being renamed is complete, and without temporary files, so that no partial
-//! file remains. A journal is told first. SIGXFSZ, which a file larger than `ulimit -f` causes, becomes an error of the write.
+//! Ctrl-C, SIGTERM and SIGHUP: the process ends after the file that is being renamed is complete, and without
+//! temporary files, so that no partial file remains. A journal is told first. SIGXFSZ, which a file larger
+//! than `ulimit -f` causes, becomes an error of the write.
 //!
 //! A thread waits for the signals, so nothing here runs inside a signal handler.
 
@@ -14,9 +15,11 @@ static WRITING: Mutex<()> = Mutex::new(());
 /// What a journal gets when a signal ends the process.
 static NOTE: Mutex<Option<(File, Vec<u8>)>> = Mutex::new(None);
 
-/// From now on Ctrl-C, SIGTERM and SIGHUP wait for the guard of [`writing`]; then the signal's default action ends the process.
+/// From now on Ctrl-C, SIGTERM and SIGHUP wait for the guard of [`writing`]; then the signal's default action
+/// ends the process.
 ///
-/// A signal that is ignored, as under `nohup`, or that the program around this library handles, stays as it is.
+/// A signal that is ignored, as under `nohup`, or that the program around this library handles, stays as it
+/// is.
 #[cfg(unix)]
 pub fn wait_for_writes() {
     use std::sync::mpsc;
@@ -74,7 +77,8 @@ fn note() -> MutexGuard<'static, Option<(File, Vec<u8>)>> {
     NOTE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Handles SIGXFSZ, whose default action would end the process and leave its temporary file: the write then fails with EFBIG.
+/// Handles SIGXFSZ, whose default action would end the process and leave its temporary file: the write then
+/// fails with EFBIG.
 #[cfg(unix)]
 fn refuse_large_files() {
     use signal_hook::consts::SIGXFSZ;

@@ -32,7 +32,8 @@ use std::io::Write;
 use clap::Parser;
 
 pub use batch::distributed::{DistributedBatch, failed_task, run_task};
-/// For examples/pages.rs, which writes the reference. Not part of the API, because it shows clap's types.
+/// For examples/pages.rs, which writes the reference. Not part of the API, because it shows clap's
+/// types.
 #[doc(hidden)]
 pub use command_line::Arguments;
 use command_line::Command;
@@ -44,8 +45,8 @@ pub use out_of_memory::ExitWithoutMemory;
 
 /// Runs the command on the process's standard streams and returns its exit code.
 ///
-/// The first argument is the program's name. Exit codes: 0 done, 1 an input is bad or a file failed, 2 wrong usage, 3 the compared files
-/// differ by more than the tolerance.
+/// The first argument is the program's name. Exit codes: 0 done, 1 an input is bad or a file failed, 2 wrong
+/// usage, 3 the compared files differ by more than the tolerance.
 pub fn run<A>(arguments: impl IntoIterator<Item = A>) -> u8
 where
     A: Into<OsString> + Clone,

@@ -1,13 +1,15 @@
 //! The memory that this process may use, and how its jobs share it.
 //!
-//! On Linux the limits are those of the control groups (memory.max, or memory.limit_in_bytes of version 1) and of addresses (`ulimit -v`).
-//! What is in use at the start is subtracted once, so that a file is refused or not whatever else is processed at the same time.
+//! On Linux the limits are those of the control groups (memory.max, or memory.limit_in_bytes of version 1)
+//! and of addresses (`ulimit -v`). What is in use at the start is subtracted once, so that a file is refused
+//! or not whatever else is processed at the same time.
 
 use std::fs;
 use std::path::Path;
 use std::sync::{Condvar, Mutex, OnceLock, PoisonError};
 
-/// The estimate of the memory for a file of a batch: the largest peaks measured (`normals`), per byte of a model without compression.
+/// The estimate of the memory for a file of a batch: the largest peaks measured (`normals`), per byte of a
+/// model without compression.
 const PER_BYTE: u64 = 10;
 
 /// What processing an empty file takes, about.
@@ -19,7 +21,8 @@ pub fn of_process() -> Option<u64> {
     *BYTES.get_or_init(|| [left_of_addresses(), left_of_groups(Path::new("/"))].into_iter().flatten().min())
 }
 
-/// The bytes that the process may use and that the system can give without swapping; none where it does not say.
+/// The bytes that the process may use and that the system can give without swapping; none where it does not
+/// say.
 #[cfg(feature = "bake")]
 pub fn available() -> Option<u64> {
     let of_system = || {
@@ -42,7 +45,8 @@ fn left_of_addresses() -> Option<u64> {
     Some(limit.saturating_sub(used << 10))
 }
 
-/// The least that a control group of this process, or one above it, has left. `root`: the root of the file system.
+/// The least that a control group of this process, or one above it, has left. `root`: the root of the file
+/// system.
 fn left_of_groups(root: &Path) -> Option<u64> {
     let groups = fs::read_to_string(root.join("proc/self/cgroup")).ok()?;
     let paths = groups.lines().filter_map(|line| {
@@ -78,7 +82,8 @@ fn left_of_group(group: &Path, [limit, usage]: [&str; 2]) -> Option<u64> {
     Some(limit.saturating_sub(number(usage)?.saturating_sub(droppable)))
 }
 
-/// Lets jobs begin while the estimates of those at work fit into the memory of the process; a larger one works alone.
+/// Lets jobs begin while the estimates of those at work fit into the memory of the process; a larger one
+/// works alone.
 pub struct JobMemory {
     total: Option<u64>,
     used: Mutex<u64>,

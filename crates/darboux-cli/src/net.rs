@@ -8,8 +8,8 @@ use std::panic::{self, AssertUnwindSafe, catch_unwind};
 use crate::exit;
 use crate::terminal::Messages;
 
-/// Returns the result of `work` on an input, or one sentence for its panic. `work` shares no state with later inputs except complete files on
-/// disk.
+/// Returns the result of `work` on an input, or one sentence for its panic. `work` shares no state with later
+/// inputs except complete files on disk.
 pub fn catch<T>(input: &impl Display, work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     let panicked = |payload| Err(sentence(&format!("{input}: darboux failed on this file"), payload));
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(panicked)
@@ -33,8 +33,8 @@ fn sentence(what: &str, payload: Box<dyn Any + Send>) -> String {
     )
 }
 
-/// Leaves the description of a panic to the net's sentence, unless RUST_BACKTRACE asks for its place in the code. For programs of their own only:
-/// the setting is the process's.
+/// Leaves the description of a panic to the net's sentence, unless RUST_BACKTRACE asks for its place in the
+/// code. For programs of their own only: the setting is the process's.
 pub fn silence_panics() {
     if env::var_os("RUST_BACKTRACE").is_none_or(|value| value == "0") {
         panic::set_hook(Box::new(|_| {}));

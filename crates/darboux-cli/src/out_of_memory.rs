@@ -1,21 +1,26 @@
-//! The last resort where memory is missing: one sentence and the exit code of a failed file, where Rust's own allocator ends the process by SIGABRT.
+//! The last resort where memory is missing: one sentence and the exit code of a failed file, where Rust's own
+//! allocator ends the process by SIGABRT.
 //!
-//! Limits that are known are kept before memory is allocated (`memory.rs`). This allocator answers where the system still refuses.
+//! Limits that are known are kept before memory is allocated (`memory.rs`). This allocator answers where the
+//! system still refuses.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 
 use crate::exit;
 
-/// The system's allocator; if it has no memory, the process ends with a sentence. For programs of their own only.
+/// The system's allocator; if it has no memory, the process ends with a sentence. For programs of their own
+/// only.
 pub struct ExitWithoutMemory;
 
 const SENTENCE: &[u8] = b"error: there is not enough memory; give the process more memory (ulimit -v, the limit of its container), \
     process fewer files at the same time (--jobs 1), or smaller ones\n";
 
-/// Ends the process where `memory` is null. Nothing is allocated, and no handler runs: temporary files are left to the next run.
+/// Ends the process where `memory` is null. Nothing is allocated, and no handler runs: temporary files are
+/// left to the next run.
 fn or_exit(memory: *mut u8) -> *mut u8 {
     if memory.is_null() {
-        // SAFETY: `write` reads the bytes of a constant, and `_exit` does not return; both may be called anywhere.
+        // SAFETY: `write` reads the bytes of a constant, and `_exit` does not return; both may be called
+        // anywhere.
         unsafe {
             libc::write(libc::STDERR_FILENO, SENTENCE.as_ptr().cast(), SENTENCE.len());
             libc::_exit(exit::FAILED.into());
@@ -24,7 +29,8 @@ fn or_exit(memory: *mut u8) -> *mut u8 {
     memory
 }
 
-// SAFETY: every call goes to the system's allocator with the caller's arguments, and its memory is returned as it is.
+// SAFETY: every call goes to the system's allocator with the caller's arguments, and its memory is returned
+// as it is.
 unsafe impl GlobalAlloc for ExitWithoutMemory {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // SAFETY: the caller keeps the contract of `alloc`.

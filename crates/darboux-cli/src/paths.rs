@@ -1,4 +1,5 @@
-//! Questions about paths: their file kind, a canonical spelling to compare them by, and whether their folder exists.
+//! Questions about paths: their file kind, a canonical spelling to compare them by, and whether their folder
+//! exists.
 
 use std::path::{Path, PathBuf};
 

@@ -11,7 +11,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::text::{printable, sentence};
 
-/// Prints messages. They are coloured on a terminal unless NO_COLOR is set; a closed standard error is ignored.
+/// Prints messages. They are coloured on a terminal unless NO_COLOR is set; a closed standard error is
+/// ignored.
 pub struct Messages {
     quiet: bool,
     progress: ProgressBar,
@@ -59,7 +60,8 @@ impl Messages {
                 let prefix =
                     of_vertex.map(|percent| format!("{percent} % of a vertex with very many faces, "));
                 progress.set_prefix(prefix.unwrap_or_default());
-                // Not `enable_steady_tick`: it starts a thread of its own, and panics where the system refuses one.
+                // Not `enable_steady_tick`: it starts a thread of its own, and panics where the system
+                // refuses one.
                 progress.tick();
                 thread::sleep(FRAME);
             }

@@ -19,7 +19,8 @@ pub fn nonzero_counts<'a>(counts: impl IntoIterator<Item = (usize, &'a str, &'a 
     counts.map(|(count, one, many)| format!(", {}", counted(count, one, many))).collect()
 }
 
-/// Escapes the characters that a terminal would interpret: control characters, line breaks included, and marks of text direction.
+/// Escapes the characters that a terminal would interpret: control characters, line breaks included, and
+/// marks of text direction.
 ///
 /// Names from files must not move the cursor, colour the text or start a line of their own.
 pub fn printable(text: &str) -> Cow<'_, str> {
@@ -34,7 +35,8 @@ fn is_unprintable(c: char) -> bool {
     c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A message as a terminal may show it: [`printable`], and cut where a file's content made it too long to read.
+/// A message as a terminal may show it: [`printable`], and cut where a file's content made it too long to
+/// read.
 pub fn sentence(text: &str) -> Cow<'_, str> {
     let text = printable(text);
     match text.char_indices().nth(MAX_SENTENCE) {
@@ -46,7 +48,8 @@ pub fn sentence(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// A command line to copy: `darboux` with these arguments and then these file names, quoted for a POSIX shell.
+/// A command line to copy: `darboux` with these arguments and then these file names, quoted for a POSIX
+/// shell.
 pub fn command_line(arguments: &[&str], files: &[&str]) -> String {
     let separator = files.iter().any(|file| file.starts_with('-')).then_some("--");
     let words = ["darboux"].iter().chain(arguments).copied().chain(separator).chain(files.iter().copied());
@@ -64,7 +67,8 @@ fn shell_word(word: &str) -> String {
     format!("'{}'", word.replace('\'', r"'\''"))
 }
 
-/// Replaces each argument that has control characters by its printable form, in a message that quotes arguments.
+/// Replaces each argument that has control characters by its printable form, in a message that quotes
+/// arguments.
 pub fn with_printable_arguments(message: String, arguments: &[impl AsRef<OsStr>]) -> String {
     arguments.iter().fold(message, |message, argument| {
         let argument = argument.as_ref().to_string_lossy();

@@ -1,5 +1,6 @@
-//! Small files whose names, white space, vertices, weights or matrices were copied for each of many elements in an earlier version: each run must
-//! end within a limit of processor time that those copies pass by far, in 512 MiB and ten times the file of addresses, and write little.
+//! Small files whose names, white space, vertices, weights or matrices were copied for each of many elements
+//! in an earlier version: each run must end within a limit of processor time that those copies pass by far,
+//! in 512 MiB and ten times the file of addresses, and write little.
 
 #![cfg(target_os = "linux")]
 
@@ -92,7 +93,8 @@ fn size(folder: &Path) -> u64 {
     entries.map(|path| if path.is_dir() { size(&path) } else { path.metadata().expect("a file").len() }).sum()
 }
 
-/// Runs command lines on a file `m.glb` or `m.gltf` of its own. Each must end within the limits, by itself, with code 0 or one sentence.
+/// Runs command lines on a file `m.glb` or `m.gltf` of its own. Each must end within the limits, by itself,
+/// with code 0 or one sentence.
 #[track_caller]
 fn ends_in_time(name: &str, file: &[u8], lines: &[&str]) {
     for line in lines {

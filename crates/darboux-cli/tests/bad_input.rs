@@ -1,4 +1,5 @@
-//! Files that the command refuses: one sentence each, no output, and the other files of the batch are processed.
+//! Files that the command refuses: one sentence each, no output, and the other files of the batch are
+//! processed.
 
 mod common;
 

@@ -377,7 +377,8 @@ fn maps_with_a_palette_are_repaired() {
     assert!(fixed.pixels().map(|pixel| pixel.0).eq(expected));
 }
 
-/// Files in which nothing is repaired are not copied, and a second run over a folder changes nothing and fails on nothing.
+/// Files in which nothing is repaired are not copied, and a second run over a folder changes nothing and
+/// fails on nothing.
 #[test]
 fn a_folder_can_be_repaired_twice() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -51,8 +51,8 @@ fn write_square(path: &Path, side: u32) {
     fs::write(path, model.to_string()).expect("a file");
 }
 
-/// Runs the command on small models and then on a large one, for which the device has too little memory. The limit is set after all
-/// shaders are compiled, when the first small model is done.
+/// Runs the command on small models and then on a large one, for which the device has too little memory. The
+/// limit is set after all shaders are compiled, when the first small model is done.
 fn in_little_memory(device: &str, folder: &Path) -> Output {
     let (input, out) = (folder.join("in"), folder.join(device));
     let mut command = program();
@@ -80,7 +80,8 @@ fn in_little_memory(device: &str, folder: &Path) -> Output {
     let status = fs::read_to_string(format!("/proc/{id}/status")).expect("Linux");
     let size = status.lines().find_map(|line| line.strip_prefix("VmSize:")?.trim().strip_suffix(" kB"));
     let size: u64 = size.and_then(|size| size.trim().parse().ok()).expect("a size");
-    // Between what the CPU needs for the large model and what the device does, twice as much and half as much.
+    // Between what the CPU needs for the large model and what the device does, twice as much and half as
+    // much.
     let limit = format!("--as={}", 1024 * size + (150 << 20));
     let limited = Command::new("prlimit").args([format!("--pid={id}"), limit]).status();
     assert!(limited.is_ok_and(|status| status.success()));

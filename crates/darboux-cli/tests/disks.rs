@@ -1,5 +1,5 @@
-//! Disks that are full to the brim, folders that nobody may write into, and an output that takes nothing: each is one sentence and exit code 1,
-//! and nothing is left or changed.
+//! Disks that are full to the brim, folders that nobody may write into, and an output that takes nothing:
+//! each is one sentence and exit code 1, and nothing is left or changed.
 
 #![cfg(target_os = "linux")]
 
@@ -25,7 +25,8 @@ const WRITING: &[&str] = &[
     "bake shield.glb --high shield.glb -o out.png --size 64 --map normal,height --write-model out.glb",
 ];
 
-/// Runs the command with a disk of its own at `disk`, below `folder`: `mount` and its options. None where the system mounts nothing for us.
+/// Runs the command with a disk of its own at `disk`, below `folder`: `mount` and its options. None where the
+/// system mounts nothing for us.
 fn on_disk(folder: &Path, prepare: &str, line: &str) -> Option<Output> {
     let script = format!(
         "{prepare} && cd disk && \"$@\"; code=$?; ls -A > ../left; cat shield.glb > ../input; exit $code"

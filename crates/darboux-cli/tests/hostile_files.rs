@@ -1,7 +1,8 @@
-//! Small files that ask for much time or memory, and references to nothing: each is refused by one sentence, and nothing is left.
+//! Small files that ask for much time or memory, and references to nothing: each is refused by one sentence,
+//! and nothing is left.
 //!
-//! Where the system can limit memory, the command runs with 256 MiB and four times the file of addresses, so that a large allocation ends
-//! it.
+//! Where the system can limit memory, the command runs with 256 MiB and four times the file of addresses, so
+//! that a large allocation ends it.
 
 mod common;
 
@@ -53,8 +54,8 @@ fn glb(json: &Value, binary: &[u8]) -> Vec<u8> {
     [b"glTF", &2u32.to_le_bytes()[..], &(12 + chunks.len() as u32).to_le_bytes(), &chunks].concat()
 }
 
-/// Runs the command on a file that is alone in its folder. It must refuse the file by one sentence with this part, and
-/// leave the folder as it was.
+/// Runs the command on a file that is alone in its folder. It must refuse the file by one sentence with this
+/// part, and leave the folder as it was.
 #[track_caller]
 fn refused(name: &str, bytes: &[u8], words: &[&str], part: &str) {
     refused_with_addresses((256 << 20) + 4 * bytes.len(), name, bytes, words, part);
@@ -125,7 +126,8 @@ fn broken_references_are_found_where_there_is_nothing_to_do() {
     }
 }
 
-/// Every command refuses at opening what another one would refuse, so that none writes a file that another one cannot read.
+/// Every command refuses at opening what another one would refuse, so that none writes a file that another
+/// one cannot read.
 #[test]
 fn every_command_refuses_modes_that_do_not_exist() {
     for mode in [7, 65535] {
@@ -186,7 +188,8 @@ fn models_under_names_that_uris_cannot_spell_stay_readable() {
     }
 }
 
-/// A PNG of zeros with 16 bits per channel. Its zlib stream has no end, which does not matter: the file is refused by its size.
+/// A PNG of zeros with 16 bits per channel. Its zlib stream has no end, which does not matter: the file is
+/// refused by its size.
 fn flat_png(side: u32, texels: usize) -> Vec<u8> {
     let header = [&side.to_be_bytes()[..], &side.to_be_bytes(), &[16, 6, 0, 0, 0]].concat();
     let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
@@ -249,7 +252,8 @@ fn strips_over_the_same_bytes_are_refused() {
     }
 }
 
-/// Missing memory is one sentence where the limit was raised beyond the memory, and where the process has less than a file needs.
+/// Missing memory is one sentence where the limit was raised beyond the memory, and where the process has
+/// less than a file needs.
 #[test]
 #[cfg(target_os = "linux")]
 fn missing_memory_is_one_sentence() {
@@ -265,7 +269,8 @@ fn missing_memory_is_one_sentence() {
     }
 }
 
-/// The batch goes on after a file that was refused; one that ended two runs is named, and the others are done.
+/// The batch goes on after a file that was refused; one that ended two runs is named, and the others are
+/// done.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_batch_goes_on_beside_a_file_that_needs_too_much_memory() {
@@ -295,7 +300,8 @@ fn a_batch_goes_on_beside_a_file_that_needs_too_much_memory() {
     assert!(said.contains("more than the memory limit of"), "{said}");
 }
 
-/// Every view names the same stream of half a megabyte, which is all zero after its first byte and decodes to 32 MiB.
+/// Every view names the same stream of half a megabyte, which is all zero after its first byte and decodes to
+/// 32 MiB.
 #[test]
 fn views_over_one_compressed_stream_are_refused() {
     let (count, views) = (8 << 20, 31);
@@ -424,7 +430,8 @@ fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
     names_in(folder).into_iter().map(read).collect()
 }
 
-/// A file that grows beyond `ulimit -f` gets a signal that ends the process, or an error where the signal is ignored.
+/// A file that grows beyond `ulimit -f` gets a signal that ends the process, or an error where the signal is
+/// ignored.
 #[test]
 #[cfg(unix)]
 fn a_limit_on_the_size_of_files_leaves_nothing() {

@@ -22,7 +22,8 @@ fn all_further_models_get_their_tangents_and_keep_them() {
     }
 }
 
-/// Each primitive that can have tangents has them in the output; a second run has nothing to do and copies every byte.
+/// Each primitive that can have tangents has them in the output; a second run has nothing to do and copies
+/// every byte.
 fn check(folder: &Path) {
     let work = tempfile::tempdir().expect("a temporary folder");
     let (first, second) = (work.path().join("first"), work.path().join("second"));

@@ -1,4 +1,5 @@
-//! The command where the system starts no thread for it, as under `ulimit -u`: it works on one thread and writes the same files.
+//! The command where the system starts no thread for it, as under `ulimit -u`: it works on one thread and
+//! writes the same files.
 
 #![cfg(target_os = "linux")]
 

@@ -184,7 +184,8 @@ fn read_only_files_are_not_replaced() {
     darboux(&["tangents", text(&input)]).exits(0);
 }
 
-/// By SIGTERM, as batch systems end what takes too long; ignored signals, as `nohup` and scripts leave them, do not matter.
+/// By SIGTERM, as batch systems end what takes too long; ignored signals, as `nohup` and scripts leave them,
+/// do not matter.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_file_that_is_being_written_is_finished_or_withdrawn() {
@@ -240,7 +241,8 @@ fn a_second_run_in_place_changes_nothing() {
 /// A triangle with UVs and normals.
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n";
 
-/// A folder is searched for all formats that are read; where names would collide, converted models keep their ending.
+/// A folder is searched for all formats that are read; where names would collide, converted models keep their
+/// ending.
 #[test]
 fn folders_have_models_of_all_formats() {
     let folder =

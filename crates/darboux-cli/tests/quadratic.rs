@@ -1,5 +1,6 @@
-//! Small files whose time grew with the square of their size in an earlier version: many triangles over the same texels, and faces of many
-//! corners. Each must end within a limit of processor time that a quadratic method passes by far, in 512 MiB and ten times the file of addresses.
+//! Small files whose time grew with the square of their size in an earlier version: many triangles over the
+//! same texels, and faces of many corners. Each must end within a limit of processor time that a quadratic
+//! method passes by far, in 512 MiB and ten times the file of addresses.
 
 #![cfg(target_os = "linux")]
 
@@ -12,10 +13,12 @@ use std::process::Command;
 
 use common::text;
 
-/// Seconds of the processor. Today's release build takes 0.1 to 1.8, tests are built without optimisation, and quadratic methods took minutes.
+/// Seconds of the processor. Today's release build takes 0.1 to 1.8, tests are built without optimisation,
+/// and quadratic methods took minutes.
 const SECONDS: usize = 40;
 
-/// Runs the command on a file `m.obj` of its own. It must end within the limits, by itself, with code 0 or one sentence.
+/// Runs the command on a file `m.obj` of its own. It must end within the limits, by itself, with code 0 or
+/// one sentence.
 #[track_caller]
 fn ends_in_time(model: &str, line: &str) {
     let folder = tempfile::tempdir().expect("a folder");

@@ -161,7 +161,8 @@ fn legends_are_below_and_hide_nothing() {
     let with = sample(folder.path(), "480x240", &view);
     let bare = sample(folder.path(), "480x240", &[&view[..], &["--no-legend"]].concat());
     assert_eq!((with.len(), bare.len()), (480 * 240, 480 * 240));
-    // The scale's ends, and the red of signs that differ: the last rows have them, and otherwise the background.
+    // The scale's ends, and the red of signs that differ: the last rows have them, and otherwise the
+    // background.
     let below = &with[480 * 203..];
     let background = [0xec, 0xef, 0xf1];
     for color in [[68, 1, 84], [253, 231, 37], [230, 40, 40], [0, 0, 0], background] {

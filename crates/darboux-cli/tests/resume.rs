@@ -216,7 +216,8 @@ fn a_killed_run_goes_on() {
     }
     killed.kill().expect("it can be killed");
     killed.wait().expect("it ends");
-    // Temporary files of this run, of another one and of none, all killed; and a file that only looks like one.
+    // Temporary files of this run, of another one and of none, all killed; and a file that only looks like
+    // one.
     let journal = fs::read_to_string(out.join(JOURNAL)).expect("the journal");
     let begun: Value = serde_json::from_str(journal.lines().next().expect("a line")).expect("JSON");
     let run = begun["run"].as_str().expect("a run");
@@ -239,7 +240,8 @@ fn a_killed_run_goes_on() {
     assert!(relative(&out) == relative(&whole), "{:?}", names_in(&out));
 }
 
-/// A file that was at work when a run was killed is tried again; at the second time it is skipped and named, until it is asked for.
+/// A file that was at work when a run was killed is tried again; at the second time it is skipped and named,
+/// until it is asked for.
 #[test]
 fn a_file_that_kills_runs_is_named() {
     let (_folder, models, out) = library();

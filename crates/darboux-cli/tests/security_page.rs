@@ -1,4 +1,5 @@
-//! The table of docs/security.md names the test of each promise: each named test exists, in the file that the table names.
+//! The table of docs/security.md names the test of each promise: each named test exists, in the file that the
+//! table names.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,5 @@
-//! Computes the cases of the conformance suite on the adapter that wgpu prefers: `conformance CASES RESULTS reference|repaired|corrected`.
+//! Computes the cases of the conformance suite on the adapter that wgpu prefers: `conformance CASES RESULTS
+//! reference|repaired|corrected`.
 
 use std::time::Instant;
 use std::{env, fs, path::Path};

@@ -1,7 +1,8 @@
-//! Draws a waving flag. The GPU moves its vertices, and a plan computes their normals and tangents, all in one command encoder.
+//! Draws a waving flag. The GPU moves its vertices, and a plan computes their normals and tangents, all in
+//! one command encoder.
 //!
-//! The UVs of its outer half mirror those of the inner half. The upper row uses the tangents of the plan, the lower row those of the flag at
-//! rest.
+//! The UVs of its outer half mirror those of the inner half. The upper row uses the tangents of the plan, the
+//! lower row those of the flag at rest.
 //!
 //! `cargo run -p darboux-gpu --example flag -- docs/flag.png`
 

@@ -1,7 +1,8 @@
 //! Compares MikkTSpace on each adapter with the core, on families of meshes, the corpus and random meshes.
 //!
-//! `cargo run -p darboux-gpu --example report` prints a table in Markdown: the number of corners with the bits of the core, the largest
-//! difference of a component in ulp, the number of corners with another sign or in another group, and of corners that the CPU computed.
+//! `cargo run -p darboux-gpu --example report` prints a table in Markdown: the number of corners with the
+//! bits of the core, the largest difference of a component in ulp, the number of corners with another sign or
+//! in another group, and of corners that the CPU computed.
 
 use darboux::internal::stage_arrays::{NONE, Stages};
 use darboux::{Context, Faces, MikkTSpaceOptions, Mode, TangentOptions, generate_tangents};
@@ -47,7 +48,8 @@ fn meshes() -> Vec<OwnedMesh> {
     meshes.extend(corpus::corpus().into_iter().map(|corpus_case| corpus_case.mesh));
     meshes.extend((0..2_000).map(|seed| Case::from_seed(seed).mesh));
     meshes.retain(|mesh| matches!(mesh.view().faces(), Faces::Triangles) && mesh.corner_count() > 0);
-    // Random meshes have few complete triangle fans. Grids with noise have only complete fans, and all kinds of rounding.
+    // Random meshes have few complete triangle fans. Grids with noise have only complete fans, and all kinds
+    // of rounding.
     meshes.extend((0..20).map(noisy_grid));
     meshes
 }
@@ -90,7 +92,8 @@ fn ordered(x: f32) -> i64 {
     if x.is_sign_negative() { -size } else { size }
 }
 
-/// The number of corners that are in another group than in the core, at vertices without UV-degenerate triangles.
+/// The number of corners that are in another group than in the core, at vertices without UV-degenerate
+/// triangles.
 fn other_groups(kernels: &MikkTSpace, mesh: &OwnedMesh) -> Result<usize, GpuError> {
     let options = MikkTSpaceOptions::new().with_mode(Mode::Corrected);
     let found = kernels.stage_arrays(&mesh.view(), &options)?;

@@ -21,7 +21,8 @@ use wgpu::{Buffer, BufferUsages};
 /// The numbers of triangles of the grids.
 const SIZES: [usize; 4] = [2_000, 200_000, 1_000_000, 10_000_000];
 const QUICK: [usize; 2] = [2_000, 20_000];
-/// The largest product of vertices and triangles for which brute force is measured: on a GPU, on a software adapter.
+/// The largest product of vertices and triangles for which brute force is measured: on a GPU, on a software
+/// adapter.
 const BRUTE_FORCE_ENDS: [usize; 2] = [30_000_000_000, 50_000_000];
 /// The bytes of the copy that measures the memory bandwidth, more than any cache holds.
 const COPIED: u64 = 1 << 28;
@@ -158,7 +159,8 @@ impl Bench<'_> {
             per: TangentsPer::Vertex,
         };
         let [vertices, triangles] = [uploaded.vertex_count, uploaded.triangle_count].map(u64::from);
-        // Positions, normals, tangents; triangles, members and ends of sums, vertices of sums, sums of vertices.
+        // Positions, normals, tangents; triangles, members and ends of sums, vertices of sums, sums of
+        // vertices.
         let bytes = (24 + 16) * vertices + (20 + 12) * triangles + 12 * vertices;
         for precision in [Precision::Exact, Precision::Fast] {
             let planner = Planner::new(&self.gpu.device, precision);

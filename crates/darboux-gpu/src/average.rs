@@ -1,5 +1,5 @@
-//! `Method::Average` and `Method::Lengyel` of the core on the GPU: each vertex gets the sum of the tangents and bitangents of its triangles,
-//! made unit before they are added or not. One thread computes one vertex.
+//! `Method::Average` and `Method::Lengyel` of the core on the GPU: each vertex gets the sum of the tangents
+//! and bitangents of its triangles, made unit before they are added or not. One thread computes one vertex.
 
 use wgpu::{Buffer, CommandEncoder, ComputePipeline, Device};
 
@@ -13,18 +13,21 @@ use crate::mikktspace::adjacency::{Adjacency, AdjacencyKernels};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Search {
-    /// Each vertex tests all triangles. The time is proportional to vertices times triangles, the memory is 64 bytes per vertex.
+    /// Each vertex tests all triangles. The time is proportional to vertices times triangles, the memory is
+    /// 64 bytes per vertex.
     BruteForce,
-    /// Each vertex reads its range of an adjacency table, which the GPU builds. The memory is 4 bytes per vertex and 24 per triangle.
+    /// Each vertex reads its range of an adjacency table, which the GPU builds. The memory is 4 bytes per
+    /// vertex and 24 per triangle.
     Adjacency,
 }
 
-/// `Method::Average` or `Method::Lengyel` of the core per vertex, compiled for a device: the direction of the sum of what the triangles around
-/// a vertex add, in the plane of its normal.
+/// `Method::Average` or `Method::Lengyel` of the core per vertex, compiled for a device: the direction of the
+/// sum of what the triangles around a vertex add, in the plane of its normal.
 ///
-/// The core splits a vertex with triangles of both UV orientations. Here such a vertex gets the frame of the orientation with more triangles,
-/// or of the unmirrored one if both have as many, and is counted; split the vertices first to avoid this (`darboux::split_vertices`). A
-/// vertex without a direction, such as an unused one, gets a direction perpendicular to its normal, or (1, 0, 0), and is counted too.
+/// The core splits a vertex with triangles of both UV orientations. Here such a vertex gets the frame of the
+/// orientation with more triangles, or of the unmirrored one if both have as many, and is counted; split the
+/// vertices first to avoid this (`darboux::split_vertices`). A vertex without a direction, such as an unused
+/// one, gets a direction perpendicular to its normal, or (1, 0, 0), and is counted too.
 #[derive(Clone, Debug)]
 pub struct Average {
     device: Device,
@@ -58,8 +61,8 @@ impl Average {
         Self::compile(device, UNIT_TERMS, search)
     }
 
-    /// Compiles `Method::Lengyel`: every triangle adds dP/du and dP/dv, not normalised, so that triangles with little UV area for their size
-    /// count more.
+    /// Compiles `Method::Lengyel`: every triangle adds dP/du and dP/dv, not normalised, so that triangles
+    /// with little UV area for their size count more.
     ///
     /// Source: E. Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001.
     pub fn lengyel(device: &Device, search: Search) -> Self {
@@ -89,9 +92,10 @@ impl Average {
 
     /// Checks the buffers and creates everything that recording needs.
     ///
-    /// Errors: an offset or stride that is not a multiple of 4; parts of a vertex that overlap or do not lie in their buffer; a buffer
-    /// without `BufferUsages::STORAGE`, that would be read and written at once, or that is past a limit of the device; a number of indices
-    /// that is not a multiple of 3, or above 2^30 - 1.
+    /// Errors: an offset or stride that is not a multiple of 4; parts of a vertex that overlap or do not lie
+    /// in their buffer; a buffer without `BufferUsages::STORAGE`, that would be read and written at once,
+    /// or that is past a limit of the device; a number of indices that is not a multiple of 3, or above
+    /// 2^30 - 1.
     pub fn of_mesh(
         &self,
         mesh: &MeshBuffers<'_>,
@@ -150,7 +154,8 @@ impl Average {
 }
 
 impl AverageOfMesh {
-    /// Records everything: the adjacency table, if there is one, and the frames. Call this at least once, and after the indices changed.
+    /// Records everything: the adjacency table, if there is one, and the frames. Call this at least once, and
+    /// after the indices changed.
     pub fn record(&self, encoder: &mut CommandEncoder) {
         if let Some(adjacency) = &self.adjacency {
             adjacency.record(encoder);
@@ -167,8 +172,9 @@ impl AverageOfMesh {
         self.dispatches.iter().for_each(|dispatch| dispatch.record(encoder));
     }
 
-    /// A buffer of three counts, with `BufferUsages::COPY_SRC`: vertices without a direction; vertices with triangles of both UV
-    /// orientations; vertices with more than 32,768 triangles, which the adjacency search leaves without a direction.
+    /// A buffer of three counts, with `BufferUsages::COPY_SRC`: vertices without a direction; vertices with
+    /// triangles of both UV orientations; vertices with more than 32,768 triangles, which the adjacency
+    /// search leaves without a direction.
     pub fn counts(&self) -> &Buffer {
         &self.counts
     }
@@ -183,7 +189,8 @@ pub(crate) const WRITE_TO_BUFFER: &str = include_str!("../shaders/average/write_
 pub(crate) const UNIT_TERMS: &str = include_str!("../shaders/average/unit_terms.wgsl");
 pub(crate) const LENGYEL_TERMS: &str = include_str!("../shaders/average/lengyel_terms.wgsl");
 
-/// The files of the shader. `terms`: [`UNIT_TERMS`] or [`LENGYEL_TERMS`]. `storage`: [`WRITE_IN_PLACE`] or [`WRITE_TO_BUFFER`].
+/// The files of the shader. `terms`: [`UNIT_TERMS`] or [`LENGYEL_TERMS`]. `storage`: [`WRITE_IN_PLACE`] or
+/// [`WRITE_TO_BUFFER`].
 pub(crate) fn shader_files(terms: &'static str, search: Search, storage: &'static str) -> [&'static str; 8] {
     [
         include_str!("../shaders/device/mesh.wgsl"),

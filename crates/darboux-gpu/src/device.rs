@@ -1,4 +1,5 @@
-//! What every algorithm of this crate needs of a device: adapters, buffers, compute kernels, exact arithmetic, prefix sums and reading back.
+//! What every algorithm of this crate needs of a device: adapters, buffers, compute kernels, exact
+//! arithmetic, prefix sums and reading back.
 
 pub mod adapters;
 pub mod buffers;

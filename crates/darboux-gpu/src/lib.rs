@@ -1,9 +1,11 @@
 //! Tangent frames on the GPU, with wgpu.
 //!
-//! - [`Average`] writes frames into the caller's vertex buffers, recorded into the caller's command encoder, without reading back: means of
-//!   unit tangents, or Lengyel's sums of tangents.
-//! - [`Planner`] prepares a mesh once; its [`Plan`] then computes MikkTSpace tangents every frame for vertices that move on the GPU.
-//! - [`MikkTSpace`] computes the tangents of a mesh in CPU memory, with the bits of `darboux::generate_tangents`.
+//! - [`Average`] writes frames into the caller's vertex buffers, recorded into the caller's command encoder,
+//!   without reading back: means of unit tangents, or Lengyel's sums of tangents.
+//! - [`Planner`] prepares a mesh once; its [`Plan`] then computes MikkTSpace tangents every frame for
+//!   vertices that move on the GPU.
+//! - [`MikkTSpace`] computes the tangents of a mesh in CPU memory, with the bits of
+//!   `darboux::generate_tangents`.
 //! - [`Splitter`] turns tangents per corner into an indexed mesh with tangents per vertex.
 //!
 //! ```no_run

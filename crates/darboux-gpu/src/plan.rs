@@ -1,4 +1,5 @@
-//! Tangents every frame for meshes that move on the GPU: the topology is analysed once on the CPU, each frame evaluates it on the GPU.
+//! Tangents every frame for meshes that move on the GPU: the topology is analysed once on the CPU, each frame
+//! evaluates it on the GPU.
 //!
 //! ```text
 //! planner        once per mesh: groups the corners on the CPU and uploads what does not depend on positions

@@ -1,6 +1,8 @@
-//! Turns tangents per corner into an indexed mesh with tangents per vertex, as `darboux::split_vertices` does, on the GPU.
+//! Turns tangents per corner into an indexed mesh with tangents per vertex, as `darboux::split_vertices`
+//! does, on the GPU.
 //!
-//! The head of `shaders/split.wgsl` has the algorithm: a hash table finds equal corners, a prefix sum numbers the new vertices.
+//! The head of `shaders/split.wgsl` has the algorithm: a hash table finds equal corners, a prefix sum numbers
+//! the new vertices.
 
 use bytemuck::cast_slice;
 use darboux::{Context, CornerTangents, Mesh, VertexSplit, split_vertices_with};
@@ -62,16 +64,17 @@ impl Splitter {
         })
     }
 
-    /// Splits the vertices whose corners have different tangents. Returns the arrays of `darboux::split_vertices`. Blocks until the device has
-    /// finished.
+    /// Splits the vertices whose corners have different tangents. Returns the arrays of
+    /// `darboux::split_vertices`. Blocks until the device has finished.
     ///
-    /// Errors: the tangents are of another number of corners; a buffer is past a limit of the device; the device is out of memory or lost.
+    /// Errors: the tangents are of another number of corners; a buffer is past a limit of the device; the
+    /// device is out of memory or lost.
     pub fn split_vertices(&self, mesh: &Mesh<'_>, corners: &CornerTangents) -> Result<VertexSplit, GpuError> {
         self.split_vertices_with(mesh, corners, &mut Context::new())
     }
 
-    /// As [`Splitter::split_vertices`], with a context. Further error: the context's token was cancelled; the device still finishes the
-    /// commands that it has.
+    /// As [`Splitter::split_vertices`], with a context. Further error: the context's token was cancelled; the
+    /// device still finishes the commands that it has.
     pub fn split_vertices_with(
         &self,
         mesh: &Mesh<'_>,

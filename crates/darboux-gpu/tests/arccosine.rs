@@ -1,4 +1,5 @@
-//! Compares the arccosine of the shaders with that of the platform in double precision, rounded to floats, which is that of the core.
+//! Compares the arccosine of the shaders with that of the platform in double precision, rounded to floats,
+//! which is that of the core.
 
 mod common;
 
@@ -34,7 +35,8 @@ fn check(sizes: impl Iterator<Item = u32>) {
 
 #[test]
 fn arccosines_are_those_of_the_cpu() {
-    // A sample of all floats, the float that is rounded twice, and all floats next to 1, to 1/2 and to where asin x is half an ulp of pi/2.
+    // A sample of all floats, the float that is rounded twice, and all floats next to 1, to 1/2 and to where
+    // asin x is half an ulp of pi/2.
     let around = |x: f32| x.to_bits() - 30_000..(x.to_bits() + 30_000).min(ONE + 1);
     let sample = (0..=ONE).step_by(1_999);
     check(

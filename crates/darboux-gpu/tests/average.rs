@@ -1,4 +1,5 @@
-//! Compares the methods `Average` and `Lengyel` on every adapter, with both searches, with the core and with the oracle in double precision.
+//! Compares the methods `Average` and `Lengyel` on every adapter, with both searches, with the core and with
+//! the oracle in double precision.
 
 mod common;
 
@@ -27,7 +28,8 @@ fn check(name: &str, mesh: &OwnedMesh, [average, lengyel]: &mut [Tally; 2]) {
     check_method(Method::Lengyel, &format!("{name}, Lengyel"), mesh, lengyel);
 }
 
-/// Runs a mesh with both searches, into a separate buffer and in place, and compares the frames with the core.
+/// Runs a mesh with both searches, into a separate buffer and in place, and compares the frames with the
+/// core.
 fn check_method(method: Method, name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
     let mesh = triangulated(mesh);
     if mesh.corner_count() == 0 {
@@ -225,7 +227,8 @@ fn triangles_with_indices_out_of_range_are_ignored() {
 
 #[test]
 fn vertices_without_a_direction_and_of_both_orientations_are_counted() {
-    // Two columns of quads, of which the second is mirrored: the three vertices between them have both orientations. One vertex is unused.
+    // Two columns of quads, of which the second is mirrored: the three vertices between them have both
+    // orientations. One vertex is unused.
     let mut mesh = triangulated(&families::grid(2, 2, false, true));
     mesh.push(([0.0; 3], [0.0, 0.0, -1.0], [0.0; 2]));
     for gpu in gpus() {

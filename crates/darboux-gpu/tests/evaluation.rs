@@ -1,4 +1,5 @@
-//! Compares the derivatives and frames of the shaders with the core, bit by bit. The groups are those of the core.
+//! Compares the derivatives and frames of the shaders with the core, bit by bit. The groups are those of the
+//! core.
 
 mod common;
 
@@ -20,7 +21,8 @@ struct Batch {
     vertex_of_corner: Vec<u32>,
     triangle_flags: Vec<u32>,
     seed_of_corner: Vec<u32>,
-    /// Eight words per triangle, and its orientation; none for halves of quads, whose orientation depends on the other half.
+    /// Eight words per triangle, and its orientation; none for halves of quads, whose orientation depends on
+    /// the other half.
     derivatives: Vec<([u32; 8], u32)>,
     /// Eight words per corner; none for corners with several sums.
     frames: Vec<Option<[u32; 8]>>,

@@ -53,7 +53,8 @@ fn just_above_half() -> impl Iterator<Item = [u32; 3]> {
     })
 }
 
-/// All pairs of hard words, and pairs of random words, of random words of similar size and of small ones. Each has a third word from 0 to 8.
+/// All pairs of hard words, and pairs of random words, of random words of similar size and of small ones.
+/// Each has a third word from 0 to 8.
 fn pairs() -> Vec<[u32; 3]> {
     let hard = hard();
     let mut pairs: Vec<[u32; 3]> =
@@ -79,7 +80,8 @@ fn is_plain(x: f32) -> bool {
     x.is_normal() || x == 0.0
 }
 
-/// Checks that every result has the bits of Rust if operands and result are normal or zero. Zeros may have any sign.
+/// Checks that every result has the bits of Rust if operands and result are normal or zero. Zeros may have
+/// any sign.
 fn check(name: &str, body: &str, exact: impl Fn(f32, f32) -> f32, is_defined: impl Fn(f32, f32) -> bool) {
     let pairs = pairs();
     for (device, gpu) in DEVICES.iter().flat_map(|device| gpus().iter().map(move |gpu| (device, gpu))) {

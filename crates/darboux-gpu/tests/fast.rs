@@ -13,7 +13,8 @@ use darboux::{Context, MikkTSpaceOptions, Mode};
 use darboux_gpu::{Gpu, Planner, Precision, TangentsPer};
 use darboux_tests::{Case, OwnedMesh, families, models};
 
-/// Counts of compared tangents, the largest error in radians, and the largest error as a fraction of its bound.
+/// Counts of compared tangents, the largest error in radians, and the largest error as a fraction of its
+/// bound.
 #[derive(Debug, Default)]
 struct Tally {
     compared: usize,

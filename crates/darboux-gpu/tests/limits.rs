@@ -1,4 +1,5 @@
-//! Tests devices with small limits: meshes in several tiles, and errors that name the buffer that is too large.
+//! Tests devices with small limits: meshes in several tiles, and errors that name the buffer that is too
+//! large.
 
 mod common;
 

@@ -49,7 +49,8 @@ fn check(planner: &Planner, gpu: &Gpu, name: &str, meshes: [&OwnedMesh; 2], mode
     tally.counts = std::array::from_fn(|k| tally.counts[k] + counts[k]);
 }
 
-/// Checks a replaced tangent: a unit vector perpendicular to the normal of its vertex, or of a vertex that it was welded with.
+/// Checks a replaced tangent: a unit vector perpendicular to the normal of its vertex, or of a vertex that it
+/// was welded with.
 fn check_replaced(name: &str, corner: usize, [x, y, z, _]: [f32; 4], [base, moved]: [&OwnedMesh; 2]) {
     let dot = |a: [f32; 3], b: [f32; 3]| (0..3).map(|i| f64::from(a[i]) * f64::from(b[i])).sum::<f64>();
     let (tangent, own) = ([x, y, z], base.vertex_of_corner(corner));

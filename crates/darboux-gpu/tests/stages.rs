@@ -42,8 +42,8 @@ fn check(name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
     }
 }
 
-/// Checks that the welded vertices of corners form the same classes as in the core, and that each class is represented by its first
-/// vertex.
+/// Checks that the welded vertices of corners form the same classes as in the core, and that each class is
+/// represented by its first vertex.
 fn check_weld(name: &str, mesh: &OwnedMesh, core: &Triangulation, found: &StageArrays) {
     let mut core_names = vec![NONE; mesh.corner_count()];
     for list in [&core.good, &core.degenerate] {
@@ -88,7 +88,8 @@ fn check_triangles(name: &str, core: &Stages, found: &StageArrays) {
     }
 }
 
-/// Checks the groups at vertices without UV-degenerate triangles: all corners of a group, and no others, have its seed.
+/// Checks the groups at vertices without UV-degenerate triangles: all corners of a group, and no others, have
+/// its seed.
 fn check_groups(name: &str, core: &Stages, found: &StageArrays, tally: &mut Tally) {
     let good = &core.triangulation.good;
     let place = |member: u32| 3 * good.face[member as usize / 3] + member % 3;

@@ -27,7 +27,8 @@ pub enum Error {
         /// What is not supported, and what to do.
         problem: String,
     },
-    /// A buffer or image outside the file cannot be used: it is missing, remote, or outside the input's folder.
+    /// A buffer or image outside the file cannot be used: it is missing, remote, or outside the input's
+    /// folder.
     #[error("{file}: {}{problem}", prefix(at))]
     Resource {
         /// The input, as the caller named it.
@@ -86,7 +87,8 @@ fn prefix(at: &str) -> String {
 /// The most characters of a file's text in a message.
 const LONGEST_QUOTE: usize = 200;
 
-/// Text from a file as a message may show it: without characters that a terminal interprets, and at most 200 characters long.
+/// Text from a file as a message may show it: without characters that a terminal interprets, and at most 200
+/// characters long.
 pub(crate) fn shortened(text: &str) -> String {
     let printable = printable(text);
     match printable.char_indices().nth(LONGEST_QUOTE) {
@@ -95,7 +97,8 @@ pub(crate) fn shortened(text: &str) -> String {
     }
 }
 
-/// Escapes the characters that a terminal interprets: control characters, line breaks included, and marks of text direction.
+/// Escapes the characters that a terminal interprets: control characters, line breaks included, and marks of
+/// text direction.
 fn printable(text: &str) -> String {
     let is_unprintable = |c: char| {
         c.is_control()

@@ -20,7 +20,8 @@ use crate::LoadOptions;
 use crate::error::ContentError;
 use crate::source::{ModelFiles, SourceScene};
 
-/// Reads an FBX. Errors: bytes that are no FBX, or a truncated or broken one; a scene that needs more memory than the limit.
+/// Reads an FBX. Errors: bytes that are no FBX, or a truncated or broken one; a scene that needs more memory
+/// than the limit.
 pub(crate) fn read(
     bytes: &[u8],
     files: &ModelFiles,

@@ -1,4 +1,5 @@
-//! The JSON of documents: values that keep the order of keys and the spelling of numbers, read from text strictly and written in its layout.
+//! The JSON of documents: values that keep the order of keys and the spelling of numbers, read from text
+//! strictly and written in its layout.
 //!
 //! ```text
 //! value   Value, Map, Number
@@ -27,7 +28,8 @@ macro_rules! object {
 }
 pub(crate) use object;
 
-/// Removes an extension from an object, and an `extensions` that is empty then. Returns whether the object had it.
+/// Removes an extension from an object, and an `extensions` that is empty then. Returns whether the object
+/// had it.
 pub(crate) fn remove_extension(object: &mut Value, name: &str) -> bool {
     let Some(object) = object.as_object_mut() else { return false };
     let Some(Value::Object(extensions)) = object.get_mut("extensions") else { return false };

@@ -1,13 +1,16 @@
-//! Reads 3D model files, gives their vertex data as arrays, adds tangents and normals, and writes the files back.
+//! Reads 3D model files, gives their vertex data as arrays, adds tangents and normals, and writes the files
+//! back.
 //!
-//! - [`gltf`]: glTF 2.0 and GLB. [`gltf::Document`] is a file that can be edited; everything that is not edited is kept. Functions add
-//!   [tangents](gltf::add_tangents) and [normals](gltf::add_normals), [convert](gltf::convert_vertices) conventions,
-//!   [inspect](gltf::inspect) and [compare](gltf::pair_tangents) files.
+//! - [`gltf`]: glTF 2.0 and GLB. [`gltf::Document`] is a file that can be edited; everything that is not
+//!   edited is kept. Functions add [tangents](gltf::add_tangents) and [normals](gltf::add_normals),
+//!   [convert](gltf::convert_vertices) conventions, [inspect](gltf::inspect) and
+//!   [compare](gltf::pair_tangents) files.
 //! - [`image`]: normal maps in PNG; textures in PNG, JPEG and WebP (feature `textures`).
-//! - [`source`]: models of other formats, which become documents: OBJ, PLY, STL and FBX, each with a feature of its name. [`gltf::Document::open`] reads
-//!   all of them; the content of a file decides.
+//! - [`source`]: models of other formats, which become documents: OBJ, PLY, STL and FBX, each with a feature
+//!   of its name. [`gltf::Document::open`] reads all of them; the content of a file decides.
 //!
-//! Files come from anywhere, so every number in them is checked, and a [`MemoryLimit`] bounds what a small file can ask for.
+//! Files come from anywhere, so every number in them is checked, and a [`MemoryLimit`] bounds what a small
+//! file can ask for.
 //!
 //! ```
 //! use std::path::Path;

@@ -3,7 +3,8 @@
 use crate::memory_limit::{Budget, MemoryLimit};
 use crate::source::PolygonRule;
 
-/// How a file is read. The default reads files in the folder of the input or below only, with the default memory limit.
+/// How a file is read. The default reads files in the folder of the input or below only, with the default
+/// memory limit.
 #[derive(Clone, Copy, Debug, Default)]
 #[non_exhaustive]
 pub struct LoadOptions {
@@ -17,8 +18,9 @@ pub struct LoadOptions {
     pub option_names: OptionNames,
 }
 
-/// The names of options in the sentences of errors and warnings. The default names those of this crate, such as
-/// `LoadOptions::memory_limit`; a program that offers these options under other names sets its own, such as `--memory-limit`.
+/// The names of options in the sentences of errors and warnings. The default names those of this crate, such
+/// as `LoadOptions::memory_limit`; a program that offers these options under other names sets its own, such
+/// as `--memory-limit`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct OptionNames {
@@ -26,7 +28,9 @@ pub struct OptionNames {
     pub memory_limit: &'static str,
     /// The name of [`LoadOptions::allow_outside`].
     pub allow_outside: &'static str,
-    /// The name of [`AddTangentsOptions::apply_texture_transform`](crate::gltf::AddTangentsOptions::apply_texture_transform).
+    /// The name of
+    /// [`AddTangentsOptions::apply_texture_transform`](crate::gltf::AddTangentsOptions::apply_texture_transform).
+    ///
     pub apply_texture_transform: &'static str,
     /// What to do about a file whose format this build does not read: a clause.
     pub missing_reader: &'static str,

@@ -1,9 +1,11 @@
-//! A limit on the memory that reading or processing a file may take, so that a small file cannot ask for all of it.
+//! A limit on the memory that reading or processing a file may take, so that a small file cannot ask for all
+//! of it.
 //!
-//! Compressed data, accessors over the same bytes, and lists of tiny primitives can need a thousand times the size of their file. Each
-//! such request is estimated and compared with the limit before memory is allocated.
+//! Compressed data, accessors over the same bytes, and lists of tiny primitives can need a thousand times the
+//! size of their file. Each such request is estimated and compared with the limit before memory is allocated.
 
-/// The most bytes that a file's content may take in memory. The default is 256 MiB and 64 times the size of the file.
+/// The most bytes that a file's content may take in memory. The default is 256 MiB and 64 times the size of
+/// the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MemoryLimit {
     /// The limit for files of any size; without it, the default.
@@ -15,7 +17,8 @@ pub struct MemoryLimit {
 /// The default limit of an empty file.
 const BASE: usize = 256 << 20;
 
-/// What the default limit grows by for each byte of the file. Draco and meshopt compress honest meshes to a twentieth and less.
+/// What the default limit grows by for each byte of the file. Draco and meshopt compress honest meshes to a
+/// twentieth and less.
 const PER_BYTE: usize = 64;
 
 /// What the default limit grows by for each byte that was decompressed. A corner has about ten such bytes.
@@ -33,7 +36,8 @@ impl MemoryLimit {
         Self { fixed: Some(bytes), process: None }
     }
 
-    /// The default limit, and at most the `bytes` that the process may use, file included; none for a process without a limit.
+    /// The default limit, and at most the `bytes` that the process may use, file included; none for a process
+    /// without a limit.
     pub const fn of_process(bytes: Option<u64>) -> Self {
         Self { fixed: None, process: bytes }
     }
@@ -74,7 +78,8 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// What is wrong with a file that needs more, and what to do. `what` is a clause such as `the file decompresses to`.
+    /// What is wrong with a file that needs more, and what to do. `what` is a clause such as `the file
+    /// decompresses to`.
     pub fn exceeded(&self, what: &str) -> String {
         let limit = self.bytes.div_ceil(1 << 20);
         let option = self.option;

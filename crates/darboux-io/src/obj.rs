@@ -1,7 +1,7 @@
 //! Wavefront OBJ with its material libraries (MTL) and textures.
 //!
-//! [`companions`] lists the files that an OBJ refers to. The reader (feature `obj`) gives objects and groups as meshes, with faces of any size and smoothing
-//! groups.
+//! [`companions`] lists the files that an OBJ refers to. The reader (feature `obj`) gives objects and groups
+//! as meshes, with faces of any size and smoothing groups.
 
 mod companions;
 #[cfg(feature = "obj")]

@@ -1,6 +1,7 @@
 //! File kinds by extension, and checks of paths before they are read or written.
 //!
-//! Only regular files are read and written, links resolved: a pipe would block until its other end opens, and a device may never end.
+//! Only regular files are read and written, links resolved: a pipe would block until its other end opens, and
+//! a device may never end.
 
 #[cfg(unix)]
 use std::fs::OpenOptions;
@@ -123,7 +124,8 @@ impl FileKind {
     }
 }
 
-/// What is wrong with an output of a kind that documents are not written as: a clause whose subject is the file.
+/// What is wrong with an output of a kind that documents are not written as: a clause whose subject is the
+/// file.
 pub fn wrong_output(kind: Option<FileKind>) -> String {
     let endings = FileKind::written_endings();
     match kind.and_then(|kind| Some((kind, kind.format_name()?))) {
@@ -153,8 +155,8 @@ pub fn resolve_input(path: &Path) -> Result<PathBuf, Error> {
 
 /// Opens a regular file at a path whose links were resolved before.
 ///
-/// Another process may have replaced the file since. So the opened file is checked, not the path: errors are a link in the path, and anything
-/// but a regular file, which is not waited for.
+/// Another process may have replaced the file since. So the opened file is checked, not the path: errors are
+/// a link in the path, and anything but a regular file, which is not waited for.
 pub fn open_resolved(path: &Path) -> io::Result<File> {
     let file = open_at_once(path)?;
     let opened = file.metadata()?;
@@ -175,7 +177,8 @@ pub fn read_regular(path: &Path) -> Result<Vec<u8>, Error> {
     read_resolved(&resolved).map_err(|source| Error::Read { file: path.to_owned(), source })
 }
 
-/// The content of a regular file at a path whose links were resolved before. Errors: those of [`open_resolved`].
+/// The content of a regular file at a path whose links were resolved before. Errors: those of
+/// [`open_resolved`].
 pub fn read_resolved(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     open_resolved(path)?.read_to_end(&mut bytes)?;
@@ -208,9 +211,11 @@ fn is_same_file(_: &fs::Metadata, _: &fs::Metadata) -> bool {
     true
 }
 
-/// The regular file to write at `path`, links resolved. `why_not` gives the reason when an existing file must not be replaced.
+/// The regular file to write at `path`, links resolved. `why_not` gives the reason when an existing file must
+/// not be replaced.
 ///
-/// Errors: a broken link; an existing file that is not regular, is read-only, or must not be replaced; an existing file without `force`.
+/// Errors: a broken link; an existing file that is not regular, is read-only, or must not be replaced; an
+/// existing file without `force`.
 pub fn resolve_output(
     path: &Path,
     force: bool,
@@ -235,7 +240,8 @@ pub fn resolve_output(
     if force { Ok(target) } else { Err(refuse("exists; force its replacement or name another output")) }
 }
 
-/// Refuses to replace a read-only file. Its folder would permit that, but version control marks files so to prevent changes.
+/// Refuses to replace a read-only file. Its folder would permit that, but version control marks files so to
+/// prevent changes.
 pub fn refuse_read_only(path: &Path, metadata: &fs::Metadata) -> Result<(), Error> {
     if metadata.permissions().readonly() {
         let problem = "is read-only; make it writable, or name another output".to_owned();

@@ -6,8 +6,8 @@
 //! drop     without commit: removes everything that was made
 //! ```
 //!
-//! A temporary file is locked while its process runs. A process that is killed leaves its temporary files without a lock, and the
-//! next process that writes into the folder deletes them.
+//! A temporary file is locked while its process runs. A process that is killed leaves its temporary files
+//! without a lock, and the next process that writes into the folder deletes them.
 
 use std::collections::HashSet;
 use std::ffi::OsStr;
@@ -42,7 +42,8 @@ struct Staged {
     replace: bool,
 }
 
-/// Several outputs that are written together or not at all: each is staged under a temporary name, and [`Outputs::commit`] renames them all.
+/// Several outputs that are written together or not at all: each is staged under a temporary name, and
+/// [`Outputs::commit`] renames them all.
 ///
 /// Dropped before, it removes what was staged.
 pub struct Outputs {
@@ -55,14 +56,15 @@ impl Outputs {
         Self { staging: Staging::new(run) }
     }
 
-    /// Renames every output to its name, in the order of staging. Returns all files written, buffers beside documents first. Errors: a file that
-    /// cannot be renamed, or that was made by another process meanwhile where replacing was not permitted.
+    /// Renames every output to its name, in the order of staging. Returns all files written, buffers beside
+    /// documents first. Errors: a file that cannot be renamed, or that was made by another process
+    /// meanwhile where replacing was not permitted.
     pub fn commit(self) -> Result<Vec<PathBuf>, Error> {
         self.staging.commit()
     }
 
-    /// Stages the content of a file of any kind. Errors: an existing file without [`SaveOptions::force`], or one that is not regular; a path that
-    /// cannot be written.
+    /// Stages the content of a file of any kind. Errors: an existing file without [`SaveOptions::force`], or
+    /// one that is not regular; a path that cannot be written.
     pub fn stage_bytes(&mut self, path: &Path, bytes: &[u8], options: &SaveOptions) -> Result<(), Error> {
         let target = paths::resolve_output(path, options.force, |_| None)?;
         self.staging.stage(&target, options.force, |file| file.write_all(bytes))
@@ -112,8 +114,8 @@ impl Staging {
         Self { run, staged: Vec::new(), made_folders: Vec::new(), renamed: Vec::new() }
     }
 
-    /// Writes a file, which [`Staging::commit`] renames to `target`. With `replace`, an existing target is replaced and its permissions
-    /// are kept.
+    /// Writes a file, which [`Staging::commit`] renames to `target`. With `replace`, an existing target is
+    /// replaced and its permissions are kept.
     pub fn stage(
         &mut self,
         target: &Path,
@@ -176,8 +178,8 @@ impl Staging {
         Ok(())
     }
 
-    /// Renames every staged file to its target, in the order of staging. Returns all files written, published ones first. Where one cannot
-    /// be renamed, files that were replaced before it come back.
+    /// Renames every staged file to its target, in the order of staging. Returns all files written, published
+    /// ones first. Where one cannot be renamed, files that were replaced before it come back.
     pub fn commit(mut self) -> Result<Vec<PathBuf>, Error> {
         let staged = std::mem::take(&mut self.staged);
         // Nothing can fail after the only file has its name.
@@ -217,7 +219,8 @@ impl Drop for Staging {
     }
 }
 
-/// A temporary file that is a file under a second name, or its copy where the file system has no links. `None` where there is no such file.
+/// A temporary file that is a file under a second name, or its copy where the file system has no links.
+/// `None` where there is no such file.
 fn second_name(file: &Path, run: Option<RunId>) -> io::Result<Option<Temporary>> {
     if file.symlink_metadata().is_err() {
         return Ok(None);
@@ -262,7 +265,8 @@ impl RunId {
         format!("{PREFIX}{self}-")
     }
 
-    /// The run that made a temporary file, by the file's name: [`RunId::temporary_prefix`] and six random letters and digits, and nothing else.
+    /// The run that made a temporary file, by the file's name: [`RunId::temporary_prefix`] and six random
+    /// letters and digits, and nothing else.
     pub fn of_temporary_file(path: &Path) -> Option<Self> {
         let name = path.file_name()?.to_str()?;
         let run: Self = name.strip_prefix(PREFIX)?.split_once('-')?.0.parse().ok()?;
@@ -285,7 +289,8 @@ impl FromStr for RunId {
     }
 }
 
-/// A locked temporary file with the permissions of an ordinary new file. Errors do not name it, since users do not know it.
+/// A locked temporary file with the permissions of an ordinary new file. Errors do not name it, since users
+/// do not know it.
 fn new_temporary(folder: &Path, run: Option<RunId>) -> io::Result<Temporary> {
     Temporary::new(folder, &prefix_of(run), |path| File::create_new(path))
 }
@@ -294,7 +299,8 @@ fn prefix_of(run: Option<RunId>) -> String {
     run.map_or(PREFIX.into(), RunId::temporary_prefix)
 }
 
-/// Deletes the temporary files of processes that were killed, the first time that this process writes into a folder.
+/// Deletes the temporary files of processes that were killed, the first time that this process writes into a
+/// folder.
 fn remove_abandoned_files_once(folder: &Path) {
     static CLEANED_FOLDERS: LazyLock<Mutex<HashSet<PathBuf>>> = LazyLock::new(Mutex::default);
     let Ok(folder) = folder.canonicalize() else { return };
@@ -303,7 +309,8 @@ fn remove_abandoned_files_once(folder: &Path) {
     }
 }
 
-/// Whether a name is one that [`new_temporary`] gives: the prefix, a run if there is one, and six random characters.
+/// Whether a name is one that [`new_temporary`] gives: the prefix, a run if there is one, and six random
+/// characters.
 fn is_temporary(path: &Path) -> bool {
     let name = path.file_name().and_then(OsStr::to_str);
     let Some(rest) = name.and_then(|name| name.strip_prefix(PREFIX)) else { return false };

@@ -1,5 +1,5 @@
-//! STL, ASCII and binary: triangles without UVs. The normals of facets are left out: they are those of the winding, which glTF computes. Where they are not,
-//! and where facets have colours, the summary says so.
+//! STL, ASCII and binary: triangles without UVs. The normals of facets are left out: they are those of the
+//! winding, which glTF computes. Where they are not, and where facets have colours, the summary says so.
 
 use std::collections::HashMap;
 
@@ -39,11 +39,13 @@ struct Losses {
     has_color: bool,
 }
 
-/// The least cosine between a normal and that of the winding: 2.6 degrees, more than the digits of any writer explain.
+/// The least cosine between a normal and that of the winding: 2.6 degrees, more than the digits of any writer
+/// explain.
 const SAME_DIRECTION: f64 = 0.999;
 
 impl Losses {
-    /// Compares a facet's normal with its winding. Normals without a length, as many programs write them, and facets without an area say nothing.
+    /// Compares a facet's normal with its winding. Normals without a length, as many programs write them, and
+    /// facets without an area say nothing.
     fn add_normal(&mut self, normal: [f32; 3], corners: [[f32; 3]; 3]) {
         let [a, b, c] = corners.map(|corner| corner.map(f64::from));
         let [ab, ac] = [b, c].map(|other| [0, 1, 2].map(|i| other[i] - a[i]));

@@ -1,4 +1,5 @@
-//! Temporary files: locked while their process runs, and known, so that a process which a signal ends can remove them.
+//! Temporary files: locked while their process runs, and known, so that a process which a signal ends can
+//! remove them.
 
 use std::collections::HashSet;
 use std::fs::{File, TryLockError};
@@ -38,9 +39,11 @@ pub struct Discarded(
     #[expect(dead_code, reason = "held until it is dropped")] MutexGuard<'static, HashSet<PathBuf>>,
 );
 
-/// Removes the temporary files of all outputs that this process has not finished. While the result exists, no other is made.
+/// Removes the temporary files of all outputs that this process has not finished. While the result exists, no
+/// other is made.
 ///
-/// For programs that a signal ends: they keep the result until their end. Outputs that are complete have their names and stay.
+/// For programs that a signal ends: they keep the result until their end. Outputs that are complete have
+/// their names and stay.
 pub fn discard_unfinished_outputs() -> Discarded {
     let paths = paths();
     for path in paths.iter() {
@@ -55,7 +58,8 @@ fn paths() -> MutexGuard<'static, HashSet<PathBuf>> {
 }
 
 impl Temporary {
-    /// Makes a locked file in a folder. `make` makes it, and fails where the name is taken. Errors do not name the file, since users do not know it.
+    /// Makes a locked file in a folder. `make` makes it, and fails where the name is taken. Errors do not
+    /// name the file, since users do not know it.
     pub fn new(
         folder: &Path,
         prefix: &str,

@@ -282,7 +282,8 @@ fn references_to_images_outside_the_folder_are_kept() {
     assert!(read(true).to_glb().unwrap().windows(7).any(|bytes| bytes == b" secret"));
 }
 
-/// Every byte of a small file is damaged, and the file is cut at every length: errors or documents, no panics.
+/// Every byte of a small file is damaged, and the file is cut at every length: errors or documents, no
+/// panics.
 #[test]
 fn damage_never_panics() {
     let good = parse(good().to_string()).unwrap();

@@ -1,4 +1,5 @@
-//! Compressed documents: decoded data equals the original, extensions are removed, and damaged streams are errors.
+//! Compressed documents: decoded data equals the original, extensions are removed, and damaged streams are
+//! errors.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -86,8 +87,8 @@ fn meshopt_views_become_plain() {
     assert_eq!(bits(&plain), bits(&original));
 }
 
-/// A document of compressed views, `(stream, count, stride, mode, filter)` each, with a `VEC4`, normalised where not float,
-/// or scalar accessor on each.
+/// A document of compressed views, `(stream, count, stride, mode, filter)` each, with a `VEC4`, normalised
+/// where not float, or scalar accessor on each.
 fn compressed(name: &str, views: &[(Vec<u8>, usize, usize, &str, &str)]) -> Value {
     let (mut bytes, mut decoded) = (Vec::new(), 0);
     let (mut json_views, mut accessors) = (Vec::new(), Vec::new());
@@ -271,7 +272,8 @@ fn many_views_are_decoded() {
     assert_eq!(document.vectors::<4>(9_999).unwrap()[..], VECTORS);
 }
 
-/// Draco with an uncompressed fallback in other order: the fallback is what other attributes of the primitive follow.
+/// Draco with an uncompressed fallback in other order: the fallback is what other attributes of the primitive
+/// follow.
 #[test]
 fn uncompressed_fallbacks_are_used() {
     let good = std::fs::read(asset("draco.glb")).unwrap();
@@ -335,8 +337,8 @@ fn counts_of_accessors_that_a_draco_stream_does_not_have_are_errors() {
     }
 }
 
-/// The head of a stream promises two thousand million faces or vertices. The stream is an edgebreaker stream: the numbers of vertices and faces
-/// follow twelve bytes, as numbers of seven bits per byte.
+/// The head of a stream promises two thousand million faces or vertices. The stream is an edgebreaker stream:
+/// the numbers of vertices and faces follow twelve bytes, as numbers of seven bits per byte.
 #[test]
 fn counts_in_the_head_of_a_draco_stream_that_it_cannot_hold_are_errors() {
     const HEAD: usize = 12;
@@ -379,7 +381,8 @@ fn tangents_of_compressed_models_are_written_plain() {
     }
 }
 
-/// Nothing but positions, in a stream that has more: the accessors have no bytes of their own, and read as zeros before they are decoded.
+/// Nothing but positions, in a stream that has more: the accessors have no bytes of their own, and read as
+/// zeros before they are decoded.
 #[test]
 fn attributes_of_a_draco_stream_that_a_primitive_lacks_are_skipped() {
     let mut json = draco_json(&[]);
@@ -419,7 +422,8 @@ fn primitives_share_a_draco_stream() {
     assert_eq!(document.elements(2).unwrap(), document.elements(22).unwrap());
 }
 
-/// Several primitives, one as a morph target, over views of one meshopt buffer; one view has a fallback, which is used.
+/// Several primitives, one as a morph target, over views of one meshopt buffer; one view has a fallback,
+/// which is used.
 #[test]
 fn morph_targets_and_primitives_share_meshopt_views() {
     let name = "KHR_meshopt_compression";
@@ -446,7 +450,8 @@ fn morph_targets_and_primitives_share_meshopt_views() {
     assert!(!json_of(&document.to_glb().unwrap()).to_string().contains("meshopt"));
 }
 
-/// A document that is only read keeps its compression where its text is kept; written into another container, it has none, and no compressed bytes.
+/// A document that is only read keeps its compression where its text is kept; written into another container,
+/// it has none, and no compressed bytes.
 #[test]
 fn documents_without_edits_keep_their_files() {
     let folder = tempfile::tempdir().unwrap();

@@ -65,7 +65,8 @@ fn every_preset_comes_back_to_the_bit() {
     }
 }
 
-/// The arrays of a converted file are a mesh of that convention: its tangents are those that the mesh has there.
+/// The arrays of a converted file are a mesh of that convention: its tangents are those that the mesh has
+/// there.
 #[test]
 fn converted_data_describes_the_same_surface() {
     for (name, there) in Convention::PRESETS {
@@ -207,7 +208,8 @@ fn files_without_meshes_are_turned() {
     assert_eq!(json["nodes"], json!([{"translation": [-1.0, 2.0, 3.0]}, {"name": "still"}]));
 }
 
-/// Adds a scene around the model: a parent with a matrix, children with each kind of transform, a skin, an animation.
+/// Adds a scene around the model: a parent with a matrix, children with each kind of transform, a skin, an
+/// animation.
 fn add_scene(builder: &mut Builder) {
     let matrix = [0.0f32, 2.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.5, 0.0, 4.0, 5.0, 6.0, 1.0];
     let skewed = [1.0f32, 0.5, 0.0, 0.0, 0.0, 1.0, 0.25, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 2.0, 3.0, 1.0];
@@ -246,7 +248,8 @@ fn apply(matrix: Matrix, [x, y, z]: [f32; 3]) -> [f32; 3] {
     std::array::from_fn(|i| matrix[0][i] * x + matrix[1][i] * y + matrix[2][i] * z + matrix[3][i])
 }
 
-/// Where some points of every node's space, and of every joint's, are at rest and at each keyframe, as the `gltf` crate reads it.
+/// Where some points of every node's space, and of every joint's, are at rest and at each keyframe, as the
+/// `gltf` crate reads it.
 fn places(document: &Document, points: &[[f32; 3]]) -> Vec<[f32; 3]> {
     let read = gltf::Gltf::from_slice(&document.to_glb().expect("a GLB")).expect("a valid GLB");
     let blob = read.blob.clone().expect("a binary chunk");

@@ -86,7 +86,8 @@ fn damage(step: usize) {
         }
         damaged[at] = good[at];
     }
-    // A test of files that are all refused would show nothing. Half of the bytes are JSON, where most damage is an error.
+    // A test of files that are all refused would show nothing. Half of the bytes are JSON, where most damage
+    // is an error.
     let Counts { all, read, written } = counts;
     assert!(4 * read >= all && 5 * written >= all, "of {all} files {read} were read and {written} written");
 }

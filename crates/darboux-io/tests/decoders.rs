@@ -50,7 +50,8 @@ fn meshopt_decodes_as_elsewhere() {
     assert_eq!(indices(&document, 0, 0), 0x8e12_12e4_4644_ba0d);
 }
 
-/// Views of four bytes, each as far behind the last as everything before it: a few of them would fill any memory.
+/// Views of four bytes, each as far behind the last as everything before it: a few of them would fill any
+/// memory.
 #[test]
 fn gaps_between_views_do_not_add_up() {
     // Version 0 of the vertex codec, one vertex of zeros: a header, four channels without data, the tail.

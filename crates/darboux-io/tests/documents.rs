@@ -10,7 +10,8 @@ use darboux_io::gltf::{ComponentType, Document, ElementType, Elements, IndexList
 use darboux_io::{Error, Files, LoadOptions, SaveOptions};
 use serde_json::{Value, json};
 
-/// Odd but valid spelling and layout, members that nothing here knows, and a buffer with one triangle: positions, then indices.
+/// Odd but valid spelling and layout, members that nothing here knows, and a buffer with one triangle:
+/// positions, then indices.
 const ODD: &str = r#"{
   "zebra": [1.0e-7, 0.10, 1e+5, -0.0, 12345678901234567890123],
   "asset": {"version": "2.0", "generator": "a\u00e9\/b"},
@@ -92,7 +93,8 @@ fn add_tangents(document: &mut Document) {
         .unwrap();
 }
 
-/// What the `gltf` crate, an independent reader, finds in a GLB: positions, indices and tangents of the first primitive.
+/// What the `gltf` crate, an independent reader, finds in a GLB: positions, indices and tangents of the first
+/// primitive.
 #[allow(clippy::type_complexity)]
 fn independent(glb: &[u8]) -> (Vec<[f32; 3]>, Vec<u32>, Vec<[f32; 4]>) {
     let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(glb).unwrap();
@@ -191,7 +193,8 @@ fn a_glb_becomes_a_gltf_with_a_bin_and_back() {
 
 #[test]
 fn values_of_every_component_type_are_read() {
-    // 0: interleaved normalised i8 VEC3 with a stride of 4; 12: u16 VEC2; 20: sparse indices 1, 2; 24: sparse values.
+    // 0: interleaved normalised i8 VEC3 with a stride of 4; 12: u16 VEC2; 20: sparse indices 1, 2; 24: sparse
+    // values.
     let mut bytes = vec![127u8, 0x81, 0x80, 9, 0, 64, 1, 9, 0, 0, 0, 9];
     bytes.extend([1u8, 0, 2, 0, 0xff, 0xff, 0, 1, 1, 0, 2, 0]);
     bytes.extend([7f32, 8.0].iter().flat_map(|x| x.to_le_bytes()));

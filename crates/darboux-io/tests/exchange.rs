@@ -1,4 +1,5 @@
-//! Documents as PLY and OBJ: read again, they have the same faces and frames; what they cannot hold is listed.
+//! Documents as PLY and OBJ: read again, they have the same faces and frames; what they cannot hold is
+//! listed.
 #![cfg(all(feature = "obj", feature = "ply"))]
 
 use std::collections::BTreeMap;

@@ -58,7 +58,8 @@ fn hierarchy_skin_shapes_and_material_are_kept() {
 /// Position, normal and UV.
 type Key = [u32; 8];
 
-/// The tangents of the vertices of a mesh by the bits of their other attributes. Several, where UVs are mirrored.
+/// The tangents of the vertices of a mesh by the bits of their other attributes. Several, where UVs are
+/// mirrored.
 fn tangents(document: &mut Document, mesh: &str) -> HashMap<Key, Vec<[u32; 4]>> {
     add_tangents(document, &AddTangentsOptions::default(), &mut |_| {}).unwrap();
     let json = document.json();
@@ -90,7 +91,8 @@ fn tangents_have_the_bits_of_the_gltf() {
     }
 }
 
-/// A quad and a concave pentagon, two materials, normals by smoothing group, a normal map under a path of another machine; z up, in inches.
+/// A quad and a concave pentagon, two materials, normals by smoothing group, a normal map under a path of
+/// another machine; z up, in inches.
 const ASCII: &str = r#"; FBX 7.3.0 project file
 FBXHeaderExtension:  {
     FBXHeaderVersion: 1003

@@ -21,7 +21,8 @@ fn number(bytes: &[u8]) -> usize {
     u32::from_le_bytes(*bytes.first_chunk().unwrap()) as usize
 }
 
-/// Copies the records from `at` on to `end`, with 64 bits for the three numbers at the start of each, as versions from 7500 on have them.
+/// Copies the records from `at` on to `end`, with 64 bits for the three numbers at the start of each, as
+/// versions from 7500 on have them.
 fn widen(from: &[u8], mut at: usize, end: usize, to: &mut Vec<u8>) -> usize {
     while at < end {
         let [record_end, properties, length] = [0, 4, 8].map(|offset| number(&from[at + offset..]));

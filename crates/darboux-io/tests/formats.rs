@@ -1,4 +1,5 @@
-//! OBJ, PLY and STL: what Blender wrote gives the tangents of its glTF, faces of any size are cut, and other files are named for what they are.
+//! OBJ, PLY and STL: what Blender wrote gives the tangents of its glTF, faces of any size are cut, and other
+//! files are named for what they are.
 #![cfg(all(feature = "obj", feature = "ply", feature = "stl"))]
 
 use std::collections::HashMap;
@@ -25,7 +26,8 @@ fn refusal(bytes: impl Into<Vec<u8>>) -> String {
     Document::from_bytes("model", bytes.into(), None, &LoadOptions::default()).unwrap_err().to_string()
 }
 
-/// The bits of a corner's position and UV, and its normal in units of four decimals, which are all that OBJ has.
+/// The bits of a corner's position and UV, and its normal in units of four decimals, which are all that OBJ
+/// has.
 type CornerKey = ([u32; 5], [i32; 3]);
 
 /// The normal and the tangent of all corners, by their keys.
@@ -51,8 +53,8 @@ fn corners_of(mut document: Document) -> HashMap<CornerKey, ([f32; 3], [f32; 4])
     found
 }
 
-/// The corners of the sheet that both documents have: their number, how many have the same normals by bits, how many of those the same tangents, and the
-/// largest difference between tangents.
+/// The corners of the sheet that both documents have: their number, how many have the same normals by bits,
+/// how many of those the same tangents, and the largest difference between tangents.
 fn compared(a: &str, b: &str) -> (usize, usize, usize, f32) {
     let [a, b] = [a, b].map(|name| corners_of(open(&blender(name))));
     let (mut common, mut same_normals, mut same_tangents, mut largest) = (0, 0, 0, 0.0f32);
@@ -344,7 +346,8 @@ fn byte_order_marks_are_no_part_of_a_text() {
     assert!(marked.to_glb().unwrap() == read(stl).to_glb().unwrap());
 }
 
-/// An ASCII PLY of a triangle: the properties of a vertex and of a face, and their numbers after `x y z` and the indices.
+/// An ASCII PLY of a triangle: the properties of a vertex and of a face, and their numbers after `x y z` and
+/// the indices.
 fn triangle_ply(
     comments: &str,
     vertex: &[&str],

@@ -125,7 +125,8 @@ fn other_chunks_are_kept() {
     assert_eq!(before, after);
 }
 
-/// A palette becomes the colours that it stands for, also with fewer than 8 bits; without a change, the file keeps it.
+/// A palette becomes the colours that it stands for, also with fewer than 8 bits; without a change, the file
+/// keeps it.
 #[test]
 fn palettes_are_expanded() {
     let palette = [[255, 0, 128], [10, 200, 250]];

@@ -39,7 +39,8 @@ fn normal_maps(document: &Document) -> Vec<(u32, Option<String>)> {
         .collect()
 }
 
-/// A bake with one UV set per primitive: the map of a primitive must not be read through the UVs of another one.
+/// A bake with one UV set per primitive: the map of a primitive must not be read through the UVs of another
+/// one.
 #[test]
 fn primitives_of_one_material_keep_their_own_uv_sets() {
     let material = json!({"name": "stone", "normalTexture": {"index": 0, "texCoord": 1}});

@@ -1,4 +1,5 @@
-//! Small files that ask for much memory are refused before it is allocated, by a sentence that names the option.
+//! Small files that ask for much memory are refused before it is allocated, by a sentence that names the
+//! option.
 
 use darboux_io::gltf::{AddNormalsOptions, Document, add_normals};
 use darboux_io::image::PngImage;

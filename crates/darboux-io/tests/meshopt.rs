@@ -1,4 +1,5 @@
-//! The decoders of meshopt streams against meshoptimizer: every mode and version, damaged streams, and all values of the filters.
+//! The decoders of meshopt streams against meshoptimizer: every mode and version, damaged streams, and all
+//! values of the filters.
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
@@ -112,7 +113,8 @@ fn compare_attributes<const N: usize>(dice: &mut Dice<'_>) {
         assert!(view.decode(&stream) == Ok(bytes), "{view:?}, version {version}, level {level}");
         for _ in 0..20 {
             let stream = damaged(&stream, dice);
-            // Damage may also make a stream of the other version, or one whose channel modes have unused bits.
+            // Damage may also make a stream of the other version, or one whose channel modes have unused
+            // bits.
             match view.decode(&stream) {
                 Ok(ours) => assert!(theirs(&stream, count) == Some(ours), "{view:?} {stream:?}"),
                 Err(error) => assert!(
@@ -139,7 +141,8 @@ fn attributes_are_those_of_meshoptimizer() {
     }
 }
 
-/// A triangle list: some rows of a grid, with triangles in the order of a cache, or of chance, and some vertices replaced.
+/// A triangle list: some rows of a grid, with triangles in the order of a cache, or of chance, and some
+/// vertices replaced.
 fn triangles(dice: &mut Dice<'_>) -> Vec<u32> {
     let side = 2 + dice.below(12) as u32;
     let corners = |cell: u32| {
@@ -222,8 +225,8 @@ fn filtered(filter: &'static str, words: &[[i16; 4]], is_wide: bool) -> [Vec<i32
     }
 }
 
-/// Compares a filter on valid elements. On processors for which meshoptimizer has SIMD code, the results are equal where `is_exact`; elsewhere they may
-/// differ by the one unit that the specification permits.
+/// Compares a filter on valid elements. On processors for which meshoptimizer has SIMD code, the results are
+/// equal where `is_exact`; elsewhere they may differ by the one unit that the specification permits.
 fn compare_filter(filter: &'static str, words: &[[i16; 4]], is_wide: bool, is_exact: bool) {
     let [ours, theirs] = filtered(filter, words, is_wide);
     let permitted = i32::from(!is_exact || !cfg!(target_arch = "x86_64"));
@@ -260,7 +263,8 @@ fn filtered_quaternions_are_those_of_meshoptimizer() {
     for bits in 4..=16 {
         let one = ((1i32 << (bits - 1)) - 1) as i16;
         let mut word = || {
-            // The three smaller components of a unit quaternion: their squares sum up to three quarters at most.
+            // The three smaller components of a unit quaternion: their squares sum up to three quarters at
+            // most.
             let mut small = || (f32::from(signed(bits, &mut dice)) * 0.57) as i16;
             let vector = [small(), small(), small()];
             [vector[0], vector[1], vector[2], one & !3 | dice.below(4) as i16]

@@ -222,7 +222,8 @@ fn continuous() -> Vertices {
 
 #[test]
 fn corners_that_share_a_vertex_but_not_its_offset_are_counted() {
-    // Two squares that touch in one vertex: not one group, but equal tangents until the target turns one of them.
+    // Two squares that touch in one vertex: not one group, but equal tangents until the target turns one of
+    // them.
     let positions: Vec<_> =
         [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 2.0]]
             .map(|[x, y]: [f32; 2]| [x, y, 0.0])

@@ -1,4 +1,5 @@
-//! Names in a document become names of files, or are written for many elements: they neither leave the folder nor fill the memory or the disk.
+//! Names in a document become names of files, or are written for many elements: they neither leave the folder
+//! nor fill the memory or the disk.
 #![cfg(feature = "obj")]
 
 use std::collections::BTreeSet;

@@ -1,4 +1,5 @@
-//! OBJ files become documents: whole ones with their materials, odd ones with warnings, broken ones with an error.
+//! OBJ files become documents: whole ones with their materials, odd ones with warnings, broken ones with an
+//! error.
 #![cfg(feature = "obj")]
 
 use std::fs;
@@ -209,8 +210,8 @@ fn byte_order_marks_belong_to_no_statement() {
     assert!(error.contains("is a text in UTF-16, which is not read; save it in UTF-8"), "{error}");
 }
 
-/// Two quads that meet at a right angle along the edge of positions 2 and 3, each with its statement before it; `normals` follows the position of each corner
-/// of the first.
+/// Two quads that meet at a right angle along the edge of positions 2 and 3, each with its statement before
+/// it; `normals` follows the position of each corner of the first.
 fn fold(first: &str, second: &str, normals: &str) -> (Vec<[f32; 3]>, Vec<String>) {
     let positions = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\nvn 0 0 5\n";
     let [a, b, c, d] = [1, 2, 3, 4].map(|position| format!("{position}{normals}"));

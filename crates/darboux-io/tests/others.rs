@@ -1,4 +1,5 @@
-//! Files of assimp and of three.js's exporters: corners with the bits of the glTF have its tangents, bit for bit. docs/formats.md has the numbers.
+//! Files of assimp and of three.js's exporters: corners with the bits of the glTF have its tangents, bit for
+//! bit. docs/formats.md has the numbers.
 #![cfg(all(feature = "obj", feature = "ply", feature = "stl"))]
 
 use std::collections::HashMap;
@@ -39,7 +40,8 @@ fn tangents(mut document: Document) -> HashMap<Key, Vec<[u32; 4]>> {
     found
 }
 
-/// The distinct corners of the first file; of those, the ones that the second file has, and the ones with the same tangents in both.
+/// The distinct corners of the first file; of those, the ones that the second file has, and the ones with the
+/// same tangents in both.
 fn compared(gltf: &str, other: &str) -> [usize; 3] {
     let [gltf, other] = [gltf, other].map(|name| tangents(open(name)));
     let common = gltf.keys().filter(|key| other.contains_key(*key)).count();

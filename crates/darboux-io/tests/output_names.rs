@@ -1,4 +1,5 @@
-//! Whatever is written beside a document has a name that this crate can read again, and is never another writer's file.
+//! Whatever is written beside a document has a name that this crate can read again, and is never another
+//! writer's file.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,5 @@
-//! Sentences about damaged files: in the words of the format, with the JSON path, and none in the words of a library or of Rust.
+//! Sentences about damaged files: in the words of the format, with the JSON path, and none in the words of a
+//! library or of Rust.
 
 #![cfg(feature = "textures")]
 

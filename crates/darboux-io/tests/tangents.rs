@@ -551,7 +551,8 @@ fn inspect_counts_without_changing_anything() {
     assert_eq!(all.attributes, ["NORMAL", "POSITION", "TEXCOORD_0"]);
 }
 
-/// A document of small primitives, a large one, and one with a morph target. `damaged`: primitives with a normal that is not finite.
+/// A document of small primitives, a large one, and one with a morph target. `damaged`: primitives with a
+/// normal that is not finite.
 fn scene(damaged: &[usize]) -> Document {
     let mut builder = Builder::new();
     let large: Vec<u16> = BOTH.iter().copied().cycle().take(12 * 5_000).collect();

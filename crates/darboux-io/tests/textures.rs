@@ -75,7 +75,8 @@ fn grey_images_are_not_coloured() {
     assert!(!of([99, 99, 99], [4, 4]) && !of([90, 100, 110], [70, 33]));
 }
 
-/// Palettes that break the specification are refused by a sentence, for pictures and for normal maps that are converted.
+/// Palettes that break the specification are refused by a sentence, for pictures and for normal maps that are
+/// converted.
 #[test]
 fn broken_palettes_are_refused() {
     for (bytes, alphas, part) in [

@@ -1,4 +1,5 @@
-//! Data that edits leave unused is removed, data that the input did not use is kept, and references are renumbered.
+//! Data that edits leave unused is removed, data that the input did not use is kept, and references are
+//! renumbered.
 
 mod support;
 
@@ -72,7 +73,8 @@ fn replaced_accessors_go_with_their_views_and_bytes() {
     let document = split(&mut Builder::new(), json!({}));
     let (json, chunk) = glb(&document);
     assert_eq!(unused(&json), (vec![], vec![]));
-    // Eight vertices of 48 bytes and twelve indices of two; holes are whole multiples of 16, so that a few bytes may stay.
+    // Eight vertices of 48 bytes and twelve indices of two; holes are whole multiples of 16, so that a few
+    // bytes may stay.
     let needed = 8 * 48 + 24;
     assert!((needed..needed + 5 * 16).contains(&chunk.len()), "{}", chunk.len());
     assert_eq!(json["buffers"][0]["byteLength"], chunk.len());

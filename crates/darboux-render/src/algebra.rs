@@ -6,7 +6,8 @@ pub type Matrix = [[f64; 4]; 4];
 pub const IDENTITY: Matrix =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
-/// The first three columns of the matrix, without the last row. They are scaled by their largest element, so that they fit floats.
+/// The first three columns of the matrix, without the last row. They are scaled by their largest element, so
+/// that they fit floats.
 pub fn direction_columns(matrix: &Matrix) -> [[f32; 3]; 3] {
     let largest = matrix[..3].as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let scale = if largest > 0.0 && largest.is_finite() { 1.0 / largest } else { 1.0 };

@@ -11,14 +11,16 @@ const CENTERING_STEPS: usize = 4;
 
 type V3 = [f64; 3];
 
-/// The position of the camera, which looks at the model. The default sees the whole model from its front left, slightly from above.
+/// The position of the camera, which looks at the model. The default sees the whole model from its front
+/// left, slightly from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Degrees around the model: 0 looks from +z at its front, 90 from +x at its left side.
     pub yaw: f64,
     /// Degrees above the horizon, from -90 to 90.
     pub pitch: f64,
-    /// The distance at which the whole model is in view, divided by the distance of the camera. It is above 0.
+    /// The distance at which the whole model is in view, divided by the distance of the camera. It is above
+    /// 0.
     pub zoom: f64,
 }
 
@@ -53,7 +55,8 @@ impl Default for Camera {
 /// The smallest and largest coordinates of the subject.
 pub type Bounds = [V3; 2];
 
-/// The transform from the scene to eye space, `scale * rotation * (point - center)`, and from there to clip space, `projection`.
+/// The transform from the scene to eye space, `scale * rotation * (point - center)`, and from there to clip
+/// space, `projection`.
 pub struct ViewTransform {
     /// The point of the scene that is the origin of eye space.
     pub center: V3,
@@ -68,7 +71,8 @@ pub struct ViewTransform {
 }
 
 impl Camera {
-    /// The transform in which all points are in view, with equal margins at opposite edges. `aspect`: width divided by height.
+    /// The transform in which all points are in view, with equal margins at opposite edges. `aspect`: width
+    /// divided by height.
     ///
     /// `bounds`: the box around the points. `visit_points`: calls its argument with every point.
     pub fn frame(
@@ -81,8 +85,9 @@ impl Camera {
         let rotation = self.rotation();
         let up = (0.5 * FIELD_OF_VIEW).to_radians().tan();
         let slopes = [up * aspect, up].map(|slope| slope * (1.0 - MARGIN));
-        // For each axis, two planes through the eye touch the points where x + slope z and -x + slope z are largest. The sum of these
-        // distances determines how far the eye has to be away to see between slopes -slope and slope, the difference its shift.
+        // For each axis, two planes through the eye touch the points where x + slope z and -x + slope z are
+        // largest. The sum of these distances determines how far the eye has to be away to see
+        // between slopes -slope and slope, the difference its shift.
         let touch = |slopes: [f64; 2]| {
             let mut touch = [[f64::MIN; 2]; 2];
             visit_points(&mut |point| {
@@ -115,7 +120,8 @@ impl Camera {
     }
 }
 
-/// The projection in which the depths of a box are in view. `points`: the origin of eye space and the box's least and largest coordinates.
+/// The projection in which the depths of a box are in view. `points`: the origin of eye space and the box's
+/// least and largest coordinates.
 fn projection(
     [center, least, most]: [V3; 3],
     scale: f64,
@@ -163,7 +169,8 @@ pub fn flat(bounds: Bounds, aspect: f64) -> ViewTransform {
     ViewTransform { center, scale, rotation, distance: 1.0, projection }
 }
 
-/// The projection from eye space, whose origin is at `distance` from the eye, to clip space with depths from 0 to 1.
+/// The projection from eye space, whose origin is at `distance` from the eye, to clip space with depths from
+/// 0 to 1.
 fn perspective(up: f64, aspect: f64, near: f64, far: f64, distance: f64) -> [[f32; 4]; 4] {
     let a = far / (far - near);
     let columns = [

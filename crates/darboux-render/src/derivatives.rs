@@ -1,8 +1,8 @@
-//! Tangents as shaders without stored tangents derive them: from the screen-space derivatives of positions and UVs, which span the same
-//! plane as the edges of the triangle.
+//! Tangents as shaders without stored tangents derive them: from the screen-space derivatives of positions
+//! and UVs, which span the same plane as the edges of the triangle.
 //!
-//! Source: C. Schueler, "Normal Mapping without Precomputed Tangents", 2013. The tangent is the gradient of u in the plane of the
-//! interpolated normal.
+//! Source: C. Schueler, "Normal Mapping without Precomputed Tangents", 2013. The tangent is the gradient of u
+//! in the plane of the interpolated normal.
 
 use crate::algebra::{V3, cross, dot};
 

@@ -15,7 +15,8 @@ pub struct HeatScale {
     pub none: [u8; 3],
 }
 
-/// Sentinels instead of an angle. All corners of a triangle have the same, so interpolation does not change it.
+/// Sentinels instead of an angle. All corners of a triangle have the same, so interpolation does not change
+/// it.
 pub const NO_ANGLE: f32 = -1.0;
 pub const FLIP: f32 = 1000.0;
 

@@ -1,6 +1,7 @@
 //! Draws pictures of glTF models and of their tangent frames, without a window.
 //!
-//! [`Model::read`] reads a document that has its tangents. [`render`] draws one [`View`] of a model, or of two models side by side.
+//! [`Model::read`] reads a document that has its tangents. [`render`] draws one [`View`] of a model, or of
+//! two models side by side.
 //!
 //! ```no_run
 //! # use darboux_gpu::Gpu;

@@ -11,16 +11,19 @@ use crate::options::{LINE_COLORS, LINE_DASHES, Lines, Mistakes, RenderOptions, S
 use crate::part::Part;
 use crate::vertex::{Segment, SurfaceVertex};
 
-/// The most vertices of a part that have lines. Of larger parts every n-th vertex has lines, because more would hide each other.
+/// The most vertices of a part that have lines. Of larger parts every n-th vertex has lines, because more
+/// would hide each other.
 const MAX_LINE_VERTICES: usize = 50_000;
 
 /// The part of a dash's length that is drawn.
 const DRAWN_PART: f64 = 0.6;
 
-/// The most lines, which take 151 MB of the 256 MB that every adapter allows a buffer. Small files can ask for any number.
+/// The most lines, which take 151 MB of the 256 MB that every adapter allows a buffer. Small files can ask
+/// for any number.
 pub const MAX_SEGMENTS: usize = 1 << 22;
 
-/// The first `limit` lines over the parts, and whether these are all. `color`: converts an sRGB colour to the format of the target.
+/// The first `limit` lines over the parts, and whether these are all. `color`: converts an sRGB colour to the
+/// format of the target.
 pub fn segments(
     parts: &[Part],
     mistakes: Mistakes,
@@ -98,8 +101,8 @@ fn distinct_vertices(corners: &[SurfaceVertex]) -> Vec<&SurfaceVertex> {
     corners.iter().filter(|corner| seen.insert(bits(corner))).collect()
 }
 
-/// The unit tangent, bitangent and normal in the scene; zero if there is none. As in shading, the tangent is not made perpendicular to the
-/// normal.
+/// The unit tangent, bitangent and normal in the scene; zero if there is none. As in shading, the tangent is
+/// not made perpendicular to the normal.
 fn vectors(matrix: &Matrix, corner: &SurfaceVertex, w_factor: f32) -> [[f32; 3]; 3] {
     let columns = direction_columns(matrix);
     let transform = Transform::new(columns);

@@ -4,7 +4,8 @@ use darboux_io::gltf::{Material, TextureUse};
 
 use crate::textures::Kind;
 
-/// The textures of a material, in the order of surface.wgsl: base colour, normal map, roughness and metal, occlusion, emission.
+/// The textures of a material, in the order of surface.wgsl: base colour, normal map, roughness and metal,
+/// occlusion, emission.
 pub const TEXTURES: usize = 5;
 
 /// The index of the normal map among these textures.

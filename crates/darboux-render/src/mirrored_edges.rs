@@ -1,4 +1,5 @@
-//! Finds mirrored edges: edges between two triangles whose tangents have different signs, where a texture meets its mirror image.
+//! Finds mirrored edges: edges between two triangles whose tangents have different signs, where a texture
+//! meets its mirror image.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -7,7 +8,8 @@ use crate::vertex::SurfaceVertex;
 
 /// The end points of the mirrored edges of a list of triangles.
 ///
-/// Two corners are at one vertex if they have one position. If an edge has more than two triangles, each is compared with the first.
+/// Two corners are at one vertex if they have one position. If an edge has more than two triangles, each is
+/// compared with the first.
 pub fn mirrored_edges(corners: &[SurfaceVertex]) -> Vec<[[f32; 3]; 2]> {
     let mut vertex_of_position = HashMap::new();
     let vertices: Vec<u32> = corners

@@ -1,8 +1,10 @@
-//! Mistakes of code that computes tangents, made on purpose to show what they look like (docs/algorithms/mistakes.md).
+//! Mistakes of code that computes tangents, made on purpose to show what they look like
+//! (docs/algorithms/mistakes.md).
 //!
-//! Each is the computation as it is found in code, over the triangles of the model. Two mistakes need a mesh that has something to trip over, and are made
-//! as if it had: [`FrameMistake::NoGuard`] takes every 61st triangle for one without UV area, and [`FrameMistake::NormalMatrix`] takes the model for one
-//! that a node stretched to twice its size along a diagonal.
+//! Each is the computation as it is found in code, over the triangles of the model. Two mistakes need a mesh
+//! that has something to trip over, and are made as if it had: [`FrameMistake::NoGuard`] takes every 61st
+//! triangle for one without UV area, and [`FrameMistake::NormalMatrix`] takes the model for one that a node
+//! stretched to twice its size along a diagonal.
 
 use std::collections::HashMap;
 
@@ -132,7 +134,8 @@ impl Surface {
         Self { vertices, vertex_count: known.len(), triangles }
     }
 
-    /// The sums per vertex and orientation of a term per corner and triangle, made perpendicular to the normals.
+    /// The sums per vertex and orientation of a term per corner and triangle, made perpendicular to the
+    /// normals.
     fn summed(&self, corners: &[SurfaceVertex], term: impl Fn(usize, usize) -> V3) -> Vec<[f32; 4]> {
         self.finished(corners, term, in_plane)
     }
@@ -147,7 +150,8 @@ impl Surface {
         self.finished(corners, |_, triangle| self.triangles[triangle].s, leaning)
     }
 
-    /// A function of the normal and the sum of every corner. The sums are those of its vertex and orientation.
+    /// A function of the normal and the sum of every corner. The sums are those of its vertex and
+    /// orientation.
     fn finished(
         &self,
         corners: &[SurfaceVertex],
@@ -220,8 +224,9 @@ fn triangle(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> Triangle {
     }
 }
 
-/// The tangent of a model that was stretched to twice its size along the diagonal of x and y, transformed by the inverse transpose instead of the
-/// matrix: from the stretched tangent back to the one before, and back once more.
+/// The tangent of a model that was stretched to twice its size along the diagonal of x and y, transformed by
+/// the inverse transpose instead of the matrix: from the stretched tangent back to the one before, and back
+/// once more.
 fn unstretched(corner: &SurfaceVertex) -> [f32; 4] {
     const DIAGONAL: V3 = [std::f32::consts::FRAC_1_SQRT_2, std::f32::consts::FRAC_1_SQRT_2, 0.0];
     let [x, y, z, w] = corner.tangent;

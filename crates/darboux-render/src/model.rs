@@ -39,7 +39,8 @@ struct PosedMesh<'a> {
     matrices: Arc<[Matrix]>,
 }
 
-/// The most corners in additional poses, which take several GB: every pose of a mesh has its own copy of the vertices.
+/// The most corners in additional poses, which take several GB: every pose of a mesh has its own copy of the
+/// vertices.
 const MAX_POSED_CORNERS: usize = 3 << 24;
 
 impl<'a> Model<'a> {
@@ -88,7 +89,8 @@ impl<'a> Model<'a> {
         self
     }
 
-    /// The model with tangents that are derived from positions and UVs, as some shaders do, instead of its own.
+    /// The model with tangents that are derived from positions and UVs, as some shaders do, instead of its
+    /// own.
     pub fn derived(mut self) -> Self {
         self.is_derived = true;
         for part in &mut self.parts {
@@ -122,7 +124,8 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// The model with the angles to the tangents of another model of the same file, for [`View::Angle`](crate::View::Angle).
+    /// The model with the angles to the tangents of another model of the same file, for
+    /// [`View::Angle`](crate::View::Angle).
     pub fn compared_with(mut self, other: &Model<'_>) -> Self {
         let others: HashMap<_, _> = other.parts.iter().map(|part| (part.key, part)).collect();
         for part in &mut self.parts {
@@ -176,8 +179,8 @@ impl<'a> Model<'a> {
         (all.min[0] <= all.max[0]).then_some([all.min, all.max])
     }
 
-    /// Visits points whose convex hull contains the subject: all vertices, or the boxes of parts that have very many places. Points may be
-    /// not finite.
+    /// Visits points whose convex hull contains the subject: all vertices, or the boxes of parts that have
+    /// very many places. Points may be not finite.
     pub(crate) fn visit_points(&self, subject: Subject, visit: &mut dyn FnMut([f64; 3])) {
         for part in &self.parts {
             if subject == Subject::UvLayout {
@@ -282,7 +285,8 @@ fn check_influences(
     Ok(())
 }
 
-/// Reads a primitive in a pose of its mesh, without triangles whose positions are not finite. `at`: the index of the pose.
+/// Reads a primitive in a pose of its mesh, without triangles whose positions are not finite. `at`: the index
+/// of the pose.
 fn read_part(
     document: &Document,
     materials: &[Material],

@@ -7,9 +7,11 @@ use crate::heat::HeatScale;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum View {
-    /// The lit surface with its materials, in the studio of the viewer. The light comes from the upper right of the camera.
+    /// The lit surface with its materials, in the studio of the viewer. The light comes from the upper right
+    /// of the camera.
     Shaded,
-    /// The same with a pattern of bumps on materials without a normal map that are not anisotropic. It is not in the file.
+    /// The same with a pattern of bumps on materials without a normal map that are not anisotropic. It is not
+    /// in the file.
     TestBumps,
     /// The tangent in the directions of the scene. A component x has the colour 0.5 + 0.5 x.
     Tangent,
@@ -122,7 +124,8 @@ impl Lines {
     }
 }
 
-/// Where the UV layout is drawn. Its u axis points right, its v axis down. Overlapping triangles are translucent.
+/// Where the UV layout is drawn. Its u axis points right, its v axis down. Overlapping triangles are
+/// translucent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LayoutPlacement {
@@ -142,7 +145,8 @@ pub struct RenderOptions {
     pub lines: Lines,
     /// Whether mirrored edges are drawn: edges between triangles whose tangents have different signs.
     pub seams: bool,
-    /// Where the UV layout is drawn, if it is. It has the colours of the view, or of [`View::Sign`] if the view is lit.
+    /// Where the UV layout is drawn, if it is. It has the colours of the view, or of [`View::Sign`] if the
+    /// view is lit.
     pub layout: Option<LayoutPlacement>,
     /// The width and height in pixels.
     pub size: [u32; 2],

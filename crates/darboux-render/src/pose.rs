@@ -34,9 +34,11 @@ fn add_scaled<const N: usize>(vectors: &mut [[f32; N]], offsets: &[[f32; 3]], we
 /// The most influence sets per vertex, of four joints each. Exporters write one or two.
 pub const MAX_INFLUENCE_SETS: usize = 4;
 
-/// Moves vertices by a skin. Returns for each vertex whether the skin mirrors it, which reverses the winding of its triangles.
+/// Moves vertices by a skin. Returns for each vertex whether the skin mirrors it, which reverses the winding
+/// of its triangles.
 ///
-/// `joints`: the matrices of the joints. Joints that do not exist are ignored, as are influence sets past [`MAX_INFLUENCE_SETS`].
+/// `joints`: the matrices of the joints. Joints that do not exist are ignored, as are influence sets past
+/// [`MAX_INFLUENCE_SETS`].
 ///
 /// Errors: invalid data.
 pub fn skin(

@@ -19,14 +19,15 @@ pub struct Picture {
     pub size: [u32; 2],
     /// The sRGB colours of the pixels, row by row.
     pub pixels: Vec<[u8; 3]>,
-    /// What is missing in the picture, such as images that cannot be decoded. One sentence each, without the name of the file.
+    /// What is missing in the picture, such as images that cannot be decoded. One sentence each, without the
+    /// name of the file.
     pub warnings: Vec<String>,
 }
 
 /// Draws a model.
 ///
-/// `right`: another model of the same size, which covers the picture from a fraction of its width on. The left model determines the part of
-/// the scene that is in view.
+/// `right`: another model of the same size, which covers the picture from a fraction of its width on. The
+/// left model determines the part of the scene that is in view.
 ///
 /// Errors: the adapter cannot draw the size; there is nothing to draw; the adapter fails.
 pub fn render(

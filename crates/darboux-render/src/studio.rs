@@ -1,4 +1,5 @@
-//! The studio that models stand in: lamps and a directional light. studio.json describes it once, for this crate and for the viewer.
+//! The studio that models stand in: lamps and a directional light. studio.json describes it once, for this
+//! crate and for the viewer.
 
 use std::sync::LazyLock;
 
@@ -16,7 +17,8 @@ static STUDIO: LazyLock<Studio> = LazyLock::new(|| {
 pub struct Studio {
     environments: Vec<Environment>,
     pub light: Light,
-    /// The yaw in degrees of the camera that the directions are for. The studio turns with cameras at other sides of the model.
+    /// The yaw in degrees of the camera that the directions are for. The studio turns with cameras at other
+    /// sides of the model.
     pub camera_yaw: f64,
 }
 

@@ -17,8 +17,9 @@ const MAX_TEXELS: u64 = 200 << 20;
 /// What a texel takes of the memory limit: four channels of 8 bits.
 const BYTES_PER_TEXEL: u64 = 4;
 
-/// The most samples along the longer side of a pixel's footprint. Software adapters do without: they visit every texel below a pixel, which
-/// takes minutes where UVs grow to thousands, or where a triangle is seen so nearly edge-on that its interpolated UVs overflow.
+/// The most samples along the longer side of a pixel's footprint. Software adapters do without: they visit
+/// every texel below a pixel, which takes minutes where UVs grow to thousands, or where a triangle is seen so
+/// nearly edge-on that its interpolated UVs overflow.
 const MAX_ANISOTROPY: u16 = 8;
 
 /// The meaning of a texture's texels.

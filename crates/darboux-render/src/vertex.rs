@@ -10,11 +10,13 @@ pub struct SurfaceVertex {
     pub normal: [f32; 3],
     /// Zero if there is none.
     pub tangent: [f32; 4],
-    /// The UVs of the material's textures in the order of [`textures_of`](crate::material_textures::textures_of), as stored in the file.
+    /// The UVs of the material's textures in the order of
+    /// [`textures_of`](crate::material_textures::textures_of), as stored in the file.
     pub uvs: [[f32; 2]; 5],
     /// The colour that multiplies the base colour, in linear light.
     pub color: [f32; 4],
-    /// The angle to the compared tangent, [`FLIP`](crate::heat::FLIP) or [`NO_ANGLE`](crate::heat::NO_ANGLE).
+    /// The angle to the compared tangent, [`FLIP`](crate::heat::FLIP) or
+    /// [`NO_ANGLE`](crate::heat::NO_ANGLE).
     pub degrees: f32,
 }
 

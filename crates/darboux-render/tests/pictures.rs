@@ -84,7 +84,8 @@ fn mirrored_halves_are_lit_from_the_same_side() {
     let [wrong, right] = halves(&Quad { w: [1.0; 2], ..up.clone() }, View::Shaded);
     assert!(light(wrong) + 30 < light(level), "{wrong:?} {level:?}");
     assert!(is_about(left, right), "{left:?} {right:?}");
-    // A normal map that leans along u. The light is on the right, so only the half where u grows to the right leans towards it.
+    // A normal map that leans along u. The light is on the right, so only the half where u grows to the right
+    // leans towards it.
     let along = Quad { texel: [220, 128, 200], ..Quad::mirrored() };
     let [left, right] = halves(&along, View::Shaded);
     assert!(light(left) + 40 < light(right), "{left:?} {right:?}");
@@ -122,7 +123,8 @@ fn alpha_means_what_the_material_says() {
         let [gone, there] = seen(alpha, material);
         assert!(gone == common::BACKGROUND && is_like(there, right), "{material}: {gone:?} {there:?}");
     }
-    // About half of the background shines through. Coverage has four samples, which adapters round up or down.
+    // About half of the background shines through. Coverage has four samples, which adapters round up or
+    // down.
     let [none, half] = seen([0, 128], r#","alphaMode":"BLEND""#);
     assert_eq!(none, common::BACKGROUND);
     let linear = |channel: u8| (f64::from(channel) / 255.0).powf(2.2);
@@ -171,7 +173,8 @@ fn jpeg_and_webp_textures_are_drawn_and_others_are_warned_about() {
     }
 }
 
-/// A quad with a skin. Joint 1, which is node 1, has all the weight. The attributes of joints and weights are the tangents: 1, 0, 0, 1.
+/// A quad with a skin. Joint 1, which is node 1, has all the weight. The attributes of joints and weights are
+/// the tangents: 1, 0, 0, 1.
 fn skinned(joint: &'static str) -> Quad {
     Quad {
         node: r#""skin":0,"children":[1],"translation":[7,8,9]"#,
@@ -411,7 +414,8 @@ fn uvs_of_any_size_show_the_mean_of_the_image() {
     if !has_adapter_or_says_so() {
         return;
     }
-    // Columns of black and white texels. Software adapters that filter every repetition below a pixel take minutes for this picture.
+    // Columns of black and white texels. Software adapters that filter every repetition below a pixel take
+    // minutes for this picture.
     let image = image::RgbImage::from_fn(64, 64, |x, _| image::Rgb([if x % 2 == 0 { 0 } else { 255 }; 3]));
     let file = common::file_of(&image.into(), image::ImageFormat::Png);
     let striped = |u_scale| Quad {

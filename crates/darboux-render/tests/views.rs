@@ -1,4 +1,5 @@
-//! Tests pictures with lines, mirrored edges, derived tangents, mistakes and two sides, and the framing of the camera.
+//! Tests pictures with lines, mirrored edges, derived tangents, mistakes and two sides, and the framing of
+//! the camera.
 
 mod common;
 
@@ -21,8 +22,8 @@ fn is_about(pixel: [u8; 3], color: [u8; 3]) -> bool {
     pixel.iter().zip(color).all(|(a, b)| a.abs_diff(b) <= 3)
 }
 
-/// The first and last column, and the first and last row, with pixels of about this colour. Lines are narrow, so their pixels blend with
-/// the background.
+/// The first and last column, and the first and last row, with pixels of about this colour. Lines are narrow,
+/// so their pixels blend with the background.
 fn extent(pixels: &[[u8; 3]], color: [u8; 3]) -> Option<[[usize; 2]; 2]> {
     let is_like = |pixel: &[u8; 3]| pixel.iter().zip(color).all(|(a, b)| a.abs_diff(b) <= 100);
     let found = pixels.iter().enumerate().filter(|(_, pixel)| is_like(pixel));
@@ -117,7 +118,8 @@ fn derivatives_are_along_the_uvs_of_every_triangle() {
             assert!(is_about(pixel, [128, 255, 128]), "{pixel:?}");
         }
     }
-    // Shading derives frames at every pixel. Along u it is as with correct tangents, along v both halves lean to the same side.
+    // Shading derives frames at every pixel. Along u it is as with correct tangents, along v both halves lean
+    // to the same side.
     let along_u = Quad { texel: [220, 128, 200], ..Quad::mirrored() };
     let right = halves(&common::drawn(&along_u, &common::options(View::Shaded)).pixels);
     let seen = |quad| derived(&Quad { tangent: [0.0, 0.0, 1.0], ..quad }, View::Shaded);

@@ -1,5 +1,5 @@
-//! Generates the lists of choices of the bindings, below the folder of its argument: the names for TypeScript, whose positions are the codes
-//! that WebAssembly takes, and the literals for Python.
+//! Generates the lists of choices of the bindings, below the folder of its argument: the names for
+//! TypeScript, whose positions are the codes that WebAssembly takes, and the literals for Python.
 //!
 //! `cargo xtask gen` runs it with the repository's root.
 

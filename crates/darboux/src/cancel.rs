@@ -5,9 +5,10 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// A cancellation token, shared by its clones.
 ///
-/// Give one clone to a [`Context`](crate::Context) and keep another. After [`Cancel::cancel`] every call with that context returns
-/// [`Error::Cancelled`](crate::Error::Cancelled), also a call that is already running: it checks the token between its stages
-/// and inside its long loops, on every thread that it uses. A token stays cancelled; make a new one for further work.
+/// Give one clone to a [`Context`](crate::Context) and keep another. After [`Cancel::cancel`] every call with
+/// that context returns [`Error::Cancelled`](crate::Error::Cancelled), also a call that is already running:
+/// it checks the token between its stages and inside its long loops, on every thread that it uses. A token
+/// stays cancelled; make a new one for further work.
 ///
 /// ```
 /// use darboux::{Cancel, Context, Mesh, Error, TangentOptions, generate_tangents_with};

@@ -5,8 +5,8 @@ use std::mem::discriminant;
 
 /// A choice from a fixed list of values, each with a name and a line of description.
 ///
-/// The position of a value in [`Choice::ALL`] is its code in C and WebAssembly, so new values are appended. `name.parse()` gives the value of
-/// a name.
+/// The position of a value in [`Choice::ALL`] is its code in C and WebAssembly, so new values are appended.
+/// `name.parse()` gives the value of a name.
 ///
 /// ```
 /// use darboux::{Choice, Method};

@@ -8,11 +8,13 @@ use crate::tangents::memory::TangentMemory;
 
 /// Reused memory, a cancellation token and a thread limit, for one call after the other.
 ///
-/// Functions whose time grows with the mesh have a short form and a form that takes a context, `generate_tangents` and
-/// [`generate_tangents_with`](crate::generate_tangents_with) for example. A new context changes nothing but the memory: no token, all
-/// threads of the current rayon pool. Give each thread a context of its own.
+/// Functions whose time grows with the mesh have a short form and a form that takes a context,
+/// `generate_tangents` and [`generate_tangents_with`](crate::generate_tangents_with) for example. A new
+/// context changes nothing but the memory: no token, all threads of the current rayon pool. Give each thread
+/// a context of its own.
 ///
-/// Memory grows to what the largest mesh needed. Neither the memory of earlier calls nor the number of threads changes a result.
+/// Memory grows to what the largest mesh needed. Neither the memory of earlier calls nor the number of
+/// threads changes a result.
 #[derive(Debug)]
 pub struct Context {
     memory: TangentMemory,
@@ -40,14 +42,16 @@ impl Context {
         Self::default()
     }
 
-    /// This context with a clone of `cancel`: calls return [`Error::Cancelled`](crate::Error::Cancelled) once it is cancelled.
+    /// This context with a clone of `cancel`: calls return [`Error::Cancelled`](crate::Error::Cancelled) once
+    /// it is cancelled.
     #[must_use]
     pub fn with_cancel(mut self, cancel: &Cancel) -> Self {
         self.set_cancel(Some(cancel));
         self
     }
 
-    /// This context with at most `count` threads per call. 1 keeps every call on its own thread and starts no pool; 0 counts as 1.
+    /// This context with at most `count` threads per call. 1 keeps every call on its own thread and starts no
+    /// pool; 0 counts as 1.
     #[must_use]
     pub fn with_max_threads(mut self, count: usize) -> Self {
         self.set_max_threads(count);

@@ -1,4 +1,5 @@
-//! Conventions: what the numbers of a mesh and of its normal map mean, and how they change from one program to another.
+//! Conventions: what the numbers of a mesh and of its normal map mean, and how they change from one program
+//! to another.
 //!
 //! docs/conventions.md derives the rules and tabulates the presets.
 

@@ -11,8 +11,9 @@
 //! | [`tangent_to_diamond`] | 2 | tangent, given the decoded normal | 0.0071 degrees |
 //! | [`frame_to_quaternion`] | 8 | tangent and normal | 0.0047 degrees |
 //!
-//! The sign is exact in all of them: w below zero decodes to -1, any other w to +1. A vector that is zero or not finite decodes to an
-//! unspecified direction, or to zero in encodings that can represent it. `shaders/` has the same decoders for GPUs. Decoders use only
+//! The sign is exact in all of them: w below zero decodes to -1, any other w to +1. A vector that is zero or
+//! not finite decodes to an unspecified direction, or to zero in encodings that can represent it. `shaders/`
+//! has the same decoders for GPUs. Decoders use only
 //! + - * / and sqrt, so that results agree between platforms.
 
 mod diamond;

@@ -5,7 +5,8 @@ use std::fmt;
 /// The error of every function of this crate that can fail, but for the text of conventions
 /// ([`ConventionError`](crate::ConventionError)).
 ///
-/// Arrays do not fit together, or the call was cancelled. Degenerate or non-finite values are not errors: reports count them.
+/// Arrays do not fit together, or the call was cancelled. Degenerate or non-finite values are not errors:
+/// reports count them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {

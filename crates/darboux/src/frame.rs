@@ -4,8 +4,8 @@ use crate::Convention;
 
 /// Tangents of corners, one per corner: unit xyz and the sign w, bitangent = w * cross(normal, xyz).
 ///
-/// These are not vertex tangents. Corners of one vertex may disagree (at mirrored seams they do), so there is no way to use
-/// them with the old index list: [`crate::split_vertices`] gives vertices and new indices.
+/// These are not vertex tangents. Corners of one vertex may disagree (at mirrored seams they do), so there is
+/// no way to use them with the old index list: [`crate::split_vertices`] gives vertices and new indices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CornerTangents(pub(crate) Vec<[f32; 4]>);
 
@@ -25,7 +25,8 @@ impl CornerTangents {
         self.0.is_empty()
     }
 
-    /// One tangent per corner, in corner order: for unindexed vertex buffers and for comparing. Not in vertex order.
+    /// One tangent per corner, in corner order: for unindexed vertex buffers and for comparing. Not in vertex
+    /// order.
     pub fn per_corner(&self) -> &[[f32; 4]] {
         &self.0
     }
@@ -69,8 +70,8 @@ impl<'a> From<&'a CornerTangents> for CornerTangentsRef<'a> {
 
 /// Normals of corners, one unit normal per corner.
 ///
-/// These are not vertex normals. Corners of one vertex may disagree (at creases they do), so they have a type of their own:
-/// [`crate::split_normals`] gives vertices and new indices.
+/// These are not vertex normals. Corners of one vertex may disagree (at creases they do), so they have a type
+/// of their own: [`crate::split_normals`] gives vertices and new indices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CornerNormals(pub(crate) Vec<[f32; 3]>);
 
@@ -121,10 +122,11 @@ impl<'a> From<&'a CornerNormals> for CornerNormalsRef<'a> {
 /// The frame of one corner. The default is all zeros, for output arrays.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Frame {
-    /// The direction of increasing u, unit length; perpendicular to the normal but for [`Method::Face`](crate::Method::Face), whose frame
-    /// is the triangle's.
+    /// The direction of increasing u, unit length; perpendicular to the normal but for
+    /// [`Method::Face`](crate::Method::Face), whose frame is the triangle's.
     pub tangent: [f32; 3],
-    /// The direction of increasing v, unit length; as the tangent to the normal, but not always perpendicular to the tangent.
+    /// The direction of increasing v, unit length; as the tangent to the normal, but not always
+    /// perpendicular to the tangent.
     pub bitangent: [f32; 3],
     /// World units per unit of u and per unit of v.
     pub magnitude: [f32; 2],

@@ -1,7 +1,8 @@
 //! Tangent frames for normal mapping: MikkTSpace bit for bit, and the vertex splitting that its seams demand.
 //!
-//! Borrow a mesh, get one tangent per *corner* (a vertex of one face), then [`split_vertices`] to go back to an
-//! indexed mesh. Corner tangents cannot be written through the old index list by accident: they have a type of their own.
+//! Borrow a mesh, get one tangent per *corner* (a vertex of one face), then [`split_vertices`] to go back to
+//! an indexed mesh. Corner tangents cannot be written through the old index list by accident: they have a
+//! type of their own.
 //!
 //! ```
 //! use darboux::{Mesh, TangentOptions, generate_tangents, split_vertices};
@@ -19,14 +20,17 @@
 //! # Ok::<(), darboux::Error>(())
 //! ```
 //!
-//! A function whose time grows with the mesh has a short form, such as [`generate_tangents`], and a form that takes a [`Context`], such as
-//! [`generate_tangents_with`]: the context carries reused memory, a cancellation token and a thread limit. Functions named `write_*` fill
-//! the caller's array. Parameters come in one order: positions, normals, UVs, indices (or a mesh of these), options, context, output.
-//! The context is always `&mut Context`, also where a function does not reuse memory today, so that it can do so in a later version.
+//! A function whose time grows with the mesh has a short form, such as [`generate_tangents`], and a form that
+//! takes a [`Context`], such as [`generate_tangents_with`]: the context carries reused memory, a cancellation
+//! token and a thread limit. Functions named `write_*` fill
+//! the caller's array. Parameters come in one order: positions, normals, UVs, indices (or a mesh of these),
+//! options, context, output. The context is always `&mut Context`, also where a function does not reuse
+//! memory today, so that it can do so in a later version.
 //!
-//! Options, option enums, reports and errors are `#[non_exhaustive]`: they gain fields and variants in minor versions. Options are made by
-//! `new`, `default` or `From` and changed by `with_*` methods. Plain data is exhaustive, so that it can be written and taken apart:
-//! [`Frame`], [`Transform`], [`Convention`], [`Faces`], [`Indices`] and the results of functions.
+//! Options, option enums, reports and errors are `#[non_exhaustive]`: they gain fields and variants in minor
+//! versions. Options are made by `new`, `default` or `From` and changed by `with_*` methods. Plain data is
+//! exhaustive, so that it can be written and taken apart: [`Frame`], [`Transform`], [`Convention`],
+//! [`Faces`], [`Indices`] and the results of functions.
 
 #![allow(
     clippy::neg_cmp_op_on_partial_ord,

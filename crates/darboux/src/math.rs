@@ -1,7 +1,7 @@
 //! Vector functions in single precision, arccosine and cosine.
 //!
-//! Every operation is rounded to `f32` in the order written. Nothing here may be re-associated or contracted: results are specified to the
-//! bit.
+//! Every operation is rounded to `f32` in the order written. Nothing here may be re-associated or contracted:
+//! results are specified to the bit.
 
 pub(crate) type V3 = [f32; 3];
 
@@ -35,8 +35,8 @@ pub(crate) fn length(v: V3) -> f32 {
     dot(v, v).sqrt()
 }
 
-/// The bits by which tangents are told apart. All NaNs have the same, since the sign and payload of a computed NaN depend on the processor
-/// and the compiler.
+/// The bits by which tangents are told apart. All NaNs have the same, since the sign and payload of a
+/// computed NaN depend on the processor and the compiler.
 #[inline(always)]
 pub(crate) fn distinct_bits<const N: usize>(v: [f32; N]) -> [u32; N] {
     v.map(|x| if x.is_nan() { f32::NAN.to_bits() } else { x.to_bits() })
@@ -68,15 +68,17 @@ pub(crate) fn direction_in_plane(normal: V3, v: V3) -> V3 {
     normalized_unless_zero(sub(v, scale(dot(normal, v), normal)))
 }
 
-/// `v`, projected to the plane of the unit `normal` and normalised. A perpendicular of `normal` where the projection is rounding error.
+/// `v`, projected to the plane of the unit `normal` and normalised. A perpendicular of `normal` where the
+/// projection is rounding error.
 pub(crate) fn unit_in_plane(normal: V3, v: V3) -> V3 {
     let rest = sub(v, scale(dot(normal, v), normal));
     let size = length(rest);
     if size > 1e-6 * length(v) { scale(1.0 / size, rest) } else { perpendiculars(normal)[0] }
 }
 
-/// Two unit vectors that with the unit `normal` make a right-handed frame (T. Duff et al., "Building an Orthonormal Basis, Revisited",
-/// JCGT 6(1), 2017, listing 3; -0 counts as +0, so that GPUs need no copysign).
+/// Two unit vectors that with the unit `normal` make a right-handed frame (T. Duff et al., "Building an
+/// Orthonormal Basis, Revisited", JCGT 6(1), 2017, listing 3; -0 counts as +0, so that GPUs need no
+/// copysign).
 pub(crate) fn perpendiculars([x, y, z]: V3) -> [V3; 2] {
     let sign = if z < 0.0 { -1.0 } else { 1.0 };
     let a = -1.0 / (sign + z);
@@ -118,8 +120,8 @@ pub(crate) fn acos(x: f32) -> f32 {
     (if is_small { small } else { large }) as f32
 }
 
-/// (asin z - z) / z^3 as a polynomial in t = z^2 on [0, 1/4]: a minimax fit whose error of asin z is below 2e-15. A fit of one degree less, or
-/// with another weight, rounds a few floats wrong.
+/// (asin z - z) / z^3 as a polynomial in t = z^2 on [0, 1/4]: a minimax fit whose error of asin z is below
+/// 2e-15. A fit of one degree less, or with another weight, rounds a few floats wrong.
 #[inline(always)]
 fn asin_tail(t: f64) -> f64 {
     ASIN_TAIL.iter().rev().fold(0.0, |sum, coefficient| sum * t + coefficient)
@@ -138,7 +140,8 @@ const ASIN_TAIL: [f64; 10] = [
     0.031_868_290_267_532_76,
 ];
 
-/// The cosine of `degrees` as MikkTSpace takes it: the angle in `f32` radians, its cosine in double precision, rounded.
+/// The cosine of `degrees` as MikkTSpace takes it: the angle in `f32` radians, its cosine in double
+/// precision, rounded.
 pub(crate) fn cosine_of_degrees(degrees: f32) -> f32 {
     let radians = (degrees * std::f32::consts::PI) / 180.0;
     if radians.is_finite() { cosine(radians.abs()) } else { f32::NAN }
@@ -150,8 +153,9 @@ const TURNS_PER_RADIAN: [u64; 4] =
 
 /// The cosine of `radians` >= 0, rounded from a double.
 ///
-/// `radians` is an integer times a power of two. The fraction of a turn is that integer times the bits of 1 / (2 pi) that follow the power,
-/// modulo 1. Error: below 2^-104 of a turn for every float (Payne and Hanek 1983).
+/// `radians` is an integer times a power of two. The fraction of a turn is that integer times the bits of 1 /
+/// (2 pi) that follow the power, modulo 1. Error: below 2^-104 of a turn for every float (Payne and Hanek
+/// 1983).
 fn cosine(radians: f32) -> f32 {
     let exponent = (radians.to_bits() >> 23).max(1) as i32 - 150;
     let mantissa =
@@ -183,7 +187,8 @@ fn digits_from(place: i32) -> u128 {
     }
 }
 
-/// cos x and sin x / x as polynomials in x^2 on [0, (pi/4)^2], fitted at Chebyshev nodes; absolute errors below 2e-23 and 1e-24.
+/// cos x and sin x / x as polynomials in x^2 on [0, (pi/4)^2], fitted at Chebyshev nodes; absolute errors
+/// below 2e-23 and 1e-24.
 const COSINE: [f64; 9] = [
     1.0,
     -0.5,

@@ -28,7 +28,8 @@ pub(crate) fn add_scaled(sum: D3, weight: f64, v: D3) -> D3 {
     [sum[0] + weight * v[0], sum[1] + weight * v[1], sum[2] + weight * v[2]]
 }
 
-/// `v`, normalised. `None` for zero and for vectors that are not finite. Squares of `f32` values neither overflow nor underflow in `f64`.
+/// `v`, normalised. `None` for zero and for vectors that are not finite. Squares of `f32` values neither
+/// overflow nor underflow in `f64`.
 pub(crate) fn unit(v: D3) -> Option<D3> {
     let length = length(v);
     (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))

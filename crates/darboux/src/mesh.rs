@@ -1,4 +1,5 @@
-//! The borrowed mesh: strided vertex data, indices, faces. The constructors validate a mesh; all other code relies on that.
+//! The borrowed mesh: strided vertex data, indices, faces. The constructors validate a mesh; all other code
+//! relies on that.
 
 use std::ops::Range;
 
@@ -6,7 +7,8 @@ use crate::Error;
 
 /// `N` floats per vertex, borrowed from any layout: packed arrays, an interleaved vertex buffer, raw bytes.
 ///
-/// Any `&[[f32; N]]`, `&[[f32; N]; M]` or `&Vec<[f32; N]>` converts into it. Values may be anything, NaN and infinity included.
+/// Any `&[[f32; N]]`, `&[[f32; N]; M]` or `&Vec<[f32; N]>` converts into it. Values may be anything, NaN and
+/// infinity included.
 #[derive(Clone, Copy, Debug)]
 pub struct Strided<'a, const N: usize> {
     source: Source<'a>,
@@ -24,8 +26,8 @@ enum Source<'a> {
 impl<'a, const N: usize> Strided<'a, N> {
     /// Reads `N` floats from every `stride` floats of `data`, the first at `offset`.
     ///
-    /// `stride` and `offset` count floats. The length is the number of whole elements that fit. Errors: a stride below `N`;
-    /// for packed data (`stride == N`), floats left over at the end.
+    /// `stride` and `offset` count floats. The length is the number of whole elements that fit. Errors: a
+    /// stride below `N`; for packed data (`stride == N`), floats left over at the end.
     pub fn from_floats(data: &'a [f32], stride: usize, offset: usize) -> Result<Self, Error> {
         let len = count(data.len(), stride, offset, N, N)?;
         Ok(Self { source: Source::Floats(data), len, stride, offset })
@@ -164,8 +166,8 @@ pub enum Faces<'a> {
     Triangles,
     /// Four corners each.
     Quads,
-    /// The corner count of each face. Faces of other than 3 or 4 corners are allowed, but MikkTSpace does not define them:
-    /// they are counted as unsupported.
+    /// The corner count of each face. Faces of other than 3 or 4 corners are allowed, but MikkTSpace does not
+    /// define them: they are counted as unsupported.
     Mixed(&'a [u32]),
 }
 
@@ -182,16 +184,18 @@ pub struct Mesh<'a> {
     corner_count: usize,
 }
 
-/// The largest number of corners, and of vertices: ids of corners, half-edges and vertices stay within 32 bits, with room for marks.
+/// The largest number of corners, and of vertices: ids of corners, half-edges and vertices stay within 32
+/// bits, with room for marks.
 pub(crate) const MAX_CORNERS: usize = (1 << 30) - 1;
 const MAX_VERTICES: usize = MAX_CORNERS;
 
 impl<'a> Mesh<'a> {
     /// A triangle mesh.
     ///
-    /// `positions`, `normals`: V by 3; `uvs`: V by 2, any values; `indices`: 3 per triangle, or [`Indices::Unindexed`] where
-    /// every three vertices are a triangle. Normals are used as given (MikkTSpace expects unit length).
-    /// Errors: lengths that differ, an index out of range, corners that are not whole triangles, more than 2^30 - 1 corners.
+    /// `positions`, `normals`: V by 3; `uvs`: V by 2, any values; `indices`: 3 per triangle, or
+    /// [`Indices::Unindexed`] where every three vertices are a triangle. Normals are used as given
+    /// (MikkTSpace expects unit length). Errors: lengths that differ, an index out of range, corners that
+    /// are not whole triangles, more than 2^30 - 1 corners.
     pub fn triangles(
         positions: impl Into<Strided<'a, 3>>,
         normals: impl Into<Strided<'a, 3>>,
@@ -201,7 +205,8 @@ impl<'a> Mesh<'a> {
         Self::new(positions.into(), normals.into(), uvs.into(), indices.into(), Faces::Triangles)
     }
 
-    /// A mesh of quads, or of mixed faces. As [`Mesh::triangles`], with the corners per face given by `faces`.
+    /// A mesh of quads, or of mixed faces. As [`Mesh::triangles`], with the corners per face given by
+    /// `faces`.
     ///
     /// Further error: face sizes whose sum is not the number of corners.
     pub fn with_faces(
@@ -245,7 +250,8 @@ impl<'a> Mesh<'a> {
         Ok(mesh)
     }
 
-    /// Other faces over the same vertices. The caller guarantees that `indices` are in range and make whole faces.
+    /// Other faces over the same vertices. The caller guarantees that `indices` are in range and make whole
+    /// faces.
     pub(crate) fn with_other_faces<'b>(&self, indices: Indices<'b>, faces: Faces<'b>) -> Mesh<'b>
     where
         'a: 'b,

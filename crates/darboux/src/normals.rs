@@ -6,8 +6,8 @@
 //! normal of each fan = sum of its faces' unit normals, weighted by angle, area or both
 //! ```
 //!
-//! Weights by angle: G. Thürmer and C. A. Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998. Weights by angle times area keep
-//! wide faces flat beside bevels ("weighted normals").
+//! Weights by angle: G. Thürmer and C. A. Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998.
+//! Weights by angle times area keep wide faces flat beside bevels ("weighted normals").
 
 use std::collections::HashMap;
 
@@ -36,7 +36,8 @@ pub struct NormalOptions {
     pub shading: Shading,
     /// The weight of each face at a vertex, for smooth shading.
     pub weight: NormalWeight,
-    /// The crease angle in degrees: smooth shading stops at edges whose faces' normals differ by more. Default 180: no creases.
+    /// The crease angle in degrees: smooth shading stops at edges whose faces' normals differ by more.
+    /// Default 180: no creases.
     pub crease: f32,
     /// Whether smooth shading crosses seams of the index list.
     pub seams: SmoothingSeams,
@@ -155,7 +156,8 @@ pub struct NormalReport {
     pub faces: usize,
     /// Faces without an area or with values that are not finite. They are skipped.
     pub degenerate_faces: usize,
-    /// Corners whose faces' normals cancel or are missing. Their normal is that of their face, else the mean at their vertex, else (0, 0, 1).
+    /// Corners whose faces' normals cancel or are missing. Their normal is that of their face, else the mean
+    /// at their vertex, else (0, 0, 1).
     pub repaired_corners: usize,
     /// Edges at which smooth shading stops because of the crease angle.
     pub creased_edges: usize,
@@ -163,8 +165,8 @@ pub struct NormalReport {
 
 /// Computes a normal for every corner.
 ///
-/// `positions`: V by 3, any values. `indices`: one per corner. `faces`: faces of 3 or more corners; smaller ones are degenerate. Faces wind
-/// counter-clockwise, seen from the side that their normal points to.
+/// `positions`: V by 3, any values. `indices`: one per corner. `faces`: faces of 3 or more corners; smaller
+/// ones are degenerate. Faces wind counter-clockwise, seen from the side that their normal points to.
 /// Errors: an index out of range; corners that do not make whole faces; too many corners.
 pub fn generate_normals<'a>(
     positions: impl Into<Strided<'a, 3>>,
@@ -187,7 +189,8 @@ pub fn generate_normals_with<'a>(
     NormalPlan::new_with(positions, indices, faces, options, context)?.evaluate_with(positions, context)
 }
 
-/// The smoothed vertices and creases of one mesh, for computing its normals again after its vertices moved (morph targets, skinning).
+/// The smoothed vertices and creases of one mesh, for computing its normals again after its vertices moved
+/// (morph targets, skinning).
 #[derive(Clone, Debug)]
 pub struct NormalPlan {
     vertex_count: usize,
@@ -239,10 +242,12 @@ impl NormalPlan {
         })
     }
 
-    /// Computes the normals of the mesh after its vertices moved, with the smoothed vertices and creases of the plan.
+    /// Computes the normals of the mesh after its vertices moved, with the smoothed vertices and creases of
+    /// the plan.
     ///
-    /// The result equals that of [`generate_normals`] as long as equal positions stay equal, distinct ones stay distinct, and no edge crosses
-    /// the crease angle. `positions`: as many as at planning. Errors: another number of positions.
+    /// The result equals that of [`generate_normals`] as long as equal positions stay equal, distinct ones
+    /// stay distinct, and no edge crosses the crease angle. `positions`: as many as at planning. Errors:
+    /// another number of positions.
     pub fn evaluate<'a>(&self, positions: impl Into<Strided<'a, 3>>) -> Result<Normals, Error> {
         self.evaluate_with(positions, &mut Context::new())
     }
@@ -298,8 +303,9 @@ pub struct NormalSplit {
 
 /// Splits the vertices whose corners have different normals.
 ///
-/// Each distinct pair of old vertex and normal, compared as bits, becomes one vertex. `vertex_count`: the number of old vertices. `indices`:
-/// one per corner. `corners`: one normal per corner. Errors: an index out of range; another number of normals than corners.
+/// Each distinct pair of old vertex and normal, compared as bits, becomes one vertex. `vertex_count`: the
+/// number of old vertices. `indices`: one per corner. `corners`: one normal per corner. Errors: an index out
+/// of range; another number of normals than corners.
 pub fn split_normals<'a>(
     vertex_count: usize,
     indices: impl Into<Indices<'a>>,
@@ -435,7 +441,8 @@ impl Polygons {
     }
 }
 
-/// The area times the normal. Positions are taken relative to the first corner, so that far from the origin digits do not cancel.
+/// The area times the normal. Positions are taken relative to the first corner, so that far from the origin
+/// digits do not cancel.
 fn area_vector(mesh: &Mesh<'_>, corners: std::ops::Range<usize>) -> D3 {
     let first = corners.start;
     let edge = |corner: usize| sub(position(mesh, corner), position(mesh, first));
@@ -486,7 +493,8 @@ fn fans_of_corners(
 
 /// As [`fans_of_corners`], for smooth shading with creases. A fan is named by one of its corners.
 ///
-/// On an edge of more than two faces, each face is compared with the next. Edges of degenerate faces are no creases.
+/// On an edge of more than two faces, each face is compared with the next. Edges of degenerate faces are no
+/// creases.
 fn fans(
     polygons: &Polygons,
     vertex_of_corner: &[u32],

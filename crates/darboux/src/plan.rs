@@ -12,11 +12,14 @@ use crate::generate_tangents_with;
 use crate::math::distinct_bits;
 use crate::tangents::MethodPlan;
 
-/// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved (morph targets, skinning).
+/// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved
+/// (morph targets, skinning).
 ///
-/// For MikkTSpace on faces of 3 and 4 corners the plan also keeps a copy of all vertices, 32 bytes each. They are needed when the fast path
-/// does not apply to the moved mesh: welded vertices moved apart, or a tangent became zero. Among the other methods, only
-/// [`Method::AngleArea`](crate::Method::AngleArea) and [`Method::AngleEdge`](crate::Method::AngleEdge) have groups to keep; the rest compute everything again except the signs.
+/// For MikkTSpace on faces of 3 and 4 corners the plan also keeps a copy of all vertices, 32 bytes each. They
+/// are needed when the fast path does not apply to the moved mesh: welded vertices moved apart, or a tangent
+/// became zero. Among the other methods, only [`Method::AngleArea`](crate::Method::AngleArea) and
+/// [`Method::AngleEdge`](crate::Method::AngleEdge) have groups to keep; the rest compute everything again
+/// except the signs.
 #[derive(Debug)]
 pub struct Plan {
     method_plan: MethodPlan,
@@ -93,9 +96,9 @@ impl Plan {
 
     /// Computes the tangents of the moved mesh in the base's groups and subgroups; signs stay the base's.
     ///
-    /// `mesh`: the base's UVs, other positions and normals; faces and indices are taken from the base. Vertices that were welded and
-    /// moved apart keep their common frame, but each triangle counts with the positions of its own vertices.
-    /// Errors: another number of corners or vertices.
+    /// `mesh`: the base's UVs, other positions and normals; faces and indices are taken from the base.
+    /// Vertices that were welded and moved apart keep their common frame, but each triangle counts with
+    /// the positions of its own vertices. Errors: another number of corners or vertices.
     pub fn evaluate(&self, mesh: &Mesh<'_>) -> Result<CornerTangents, Error> {
         self.evaluate_with(mesh, &mut Context::new())
     }
@@ -109,10 +112,11 @@ impl Plan {
 
     /// As [`Plan::evaluate_with`], into the caller's array.
     ///
-    /// Repeated calls on one thread allocate nothing where all vertices of a mesh of triangles and quads are plain (no mirrored or
-    /// degenerate triangles, no collapsed ones); those of [`Method::AngleArea`](crate::Method::AngleArea) nothing for any mesh of
-    /// triangles with packed arrays and 32-bit indices.
-    /// `corners`: receives one tangent per corner; unspecified after cancellation. Further error: an array of another length.
+    /// Repeated calls on one thread allocate nothing where all vertices of a mesh of triangles and quads are
+    /// plain (no mirrored or degenerate triangles, no collapsed ones); those of
+    /// [`Method::AngleArea`](crate::Method::AngleArea) nothing for any mesh of triangles with packed
+    /// arrays and 32-bit indices. `corners`: receives one tangent per corner; unspecified after
+    /// cancellation. Further error: an array of another length.
     pub fn write_tangents(
         &self,
         mesh: &Mesh<'_>,
@@ -128,7 +132,8 @@ impl Plan {
         limits.check()
     }
 
-    /// Counts the corners to which a fresh run on the moved mesh would give another tangent (other bits) than [`Plan::evaluate`].
+    /// Counts the corners to which a fresh run on the moved mesh would give another tangent (other bits) than
+    /// [`Plan::evaluate`].
     pub fn count_regrouped(&self, mesh: &Mesh<'_>) -> Result<usize, Error> {
         self.count_regrouped_with(mesh, &mut Context::new())
     }

@@ -1,4 +1,5 @@
-//! Recognises how the tangents of a mesh were made: computes them in every way that programs use, and compares.
+//! Recognises how the tangents of a mesh were made: computes them in every way that programs use, and
+//! compares.
 
 mod compare;
 mod definition;
@@ -23,12 +24,15 @@ const EXPLAINED: f64 = 0.99;
 
 /// Ranks the recipes that could have made the tangents of a mesh, the best one first.
 ///
-/// The order is by the sum of identical and close corners, then by the largest angle; then simpler recipes come first. Every method is listed;
-/// a writing to vertices only where it changes the tangents of corners, and quads only where no other recipe is close at 99 % of the corners.
-/// Meshes of 250,000 triangles and more are sampled first; MikkTSpace's default mode is compared on all corners, other recipes only where the
-/// sample does not tell the best one from the next. All else is compared on the corners of the sample, as [`RecipeMatch::corners`] says.
-/// For several UV sets, call it once per set and compare the best matches. `tangents`: one per corner, unit xyz and sign as MikkTSpace has it for
-/// the UVs as given ([`Convention::generated`](crate::Convention::generated)). Errors: another number of tangents than corners.
+/// The order is by the sum of identical and close corners, then by the largest angle; then simpler recipes
+/// come first. Every method is listed; a writing to vertices only where it changes the tangents of corners,
+/// and quads only where no other recipe is close at 99 % of the corners. Meshes of 250,000 triangles and more
+/// are sampled first; MikkTSpace's default mode is compared on all corners, other recipes only where the
+/// sample does not tell the best one from the next. All else is compared on the corners of the sample, as
+/// [`RecipeMatch::corners`] says. For several UV sets, call it once per set and compare the best matches.
+/// `tangents`: one per corner, unit xyz and sign as MikkTSpace has it for the UVs as given
+/// ([`Convention::generated`](crate::Convention::generated)). Errors: another number of tangents than
+/// corners.
 ///
 /// ```
 /// use darboux::{Mesh, Method, RecipeWriting, TangentOptions, generate_tangents, recognise_recipe};
@@ -66,7 +70,8 @@ pub fn recognise_recipe_with(
     let mut sampled = Trial::new(part, &sample.tangents, Some(&sample.measured), limits);
     sampled.add_all(&recipes, memory)?;
     whole.add(&recipes[0], memory)?;
-    // The best recipes of the sample are computed for the whole mesh where they are close to each other, until the rest is clearly worse.
+    // The best recipes of the sample are computed for the whole mesh where they are close to each other,
+    // until the rest is clearly worse.
     while let Some(next) = whole.next_of(&sampled.matches) {
         // Of a large mesh, the buffers of one method are freed before those of the next are allocated.
         *memory = TangentMemory::default();
@@ -78,8 +83,8 @@ pub fn recognise_recipe_with(
     Ok(whole.sorted())
 }
 
-/// The tangents of all corners that a recipe gives, before they are rounded or written to vertices; MikkTSpace's on the triangles where the recipe
-/// wants quads and there are none.
+/// The tangents of all corners that a recipe gives, before they are rounded or written to vertices;
+/// MikkTSpace's on the triangles where the recipe wants quads and there are none.
 pub fn recipe_tangents(
     mesh: &Mesh<'_>,
     recipe: &Recipe,
@@ -98,7 +103,8 @@ pub fn recipe_tangents(
 /// Recipes are close to each other if the score of one in the sample is at least this part of the other's.
 const SAMPLE_MARGIN: f64 = 0.95;
 
-/// The share of close corners of a sample below which a recipe is not computed for the whole mesh: it did not make the tangents.
+/// The share of close corners of a sample below which a recipe is not computed for the whole mesh: it did not
+/// make the tangents.
 const LIKELY: f64 = 0.5;
 
 /// The comparison of recipes with the tangents of one mesh.
@@ -146,7 +152,8 @@ impl<'a> Trial<'a> {
         quads.filter(|_| !is_explained).map_or(Ok(()), |quads| self.add(&quads, memory))
     }
 
-    /// Computes a recipe, and what becomes of its tangents when they are written to vertices. Quads are left out where there are none.
+    /// Computes a recipe, and what becomes of its tangents when they are written to vertices. Quads are left
+    /// out where there are none.
     fn add(&mut self, recipe: &Recipe, memory: &mut TangentMemory) -> Result<(), Error> {
         let reference = MikkTSpaceOptions::new().with_mode(Mode::Reference).into();
         if self.is_unrepaired && recipe.method == reference && !recipe.flips_v {
@@ -208,8 +215,8 @@ impl<'a> Trial<'a> {
         self.matches.iter().any(|found| of(&found.recipe) == of(recipe))
     }
 
-    /// The best recipe of a sample that is not in the matches and may be better than they are; none if there is none, and if it is so much
-    /// better than all others that the sample decides.
+    /// The best recipe of a sample that is not in the matches and may be better than they are; none if there
+    /// is none, and if it is so much better than all others that the sample decides.
     fn next_of(&self, sampled: &[RecipeMatch]) -> Option<Recipe> {
         let known = self.matches.iter().map(score).fold(0.0, f64::max);
         let rest = sampled.iter().filter(|found| !self.has(&found.recipe));
@@ -221,7 +228,8 @@ impl<'a> Trial<'a> {
     }
 
     fn sorted(mut self) -> Vec<RecipeMatch> {
-        // Among recipes that were computed on the same corners, shares are in the order of counts. The sort is stable.
+        // Among recipes that were computed on the same corners, shares are in the order of counts. The sort
+        // is stable.
         let share = |found: &RecipeMatch| found.identical as f64 / found.corners.max(1) as f64;
         self.matches.sort_by(|a, b| {
             let by_score = score(b).total_cmp(&score(a));
@@ -235,7 +243,8 @@ fn close_share(found: &RecipeMatch) -> f64 {
     found.close as f64 / found.corners.max(1) as f64
 }
 
-/// The share of identical corners plus that of close ones: a few identical corners are chance, and many are worth more than many close ones.
+/// The share of identical corners plus that of close ones: a few identical corners are chance, and many are
+/// worth more than many close ones.
 fn score(found: &RecipeMatch) -> f64 {
     (found.identical + found.close) as f64 / found.corners.max(1) as f64
 }
@@ -262,7 +271,8 @@ fn compute(
     Ok(report)
 }
 
-/// Computes MikkTSpace's tangents on quads; none where there are none. `out`: the tangents of the corners of the triangles.
+/// Computes MikkTSpace's tangents on quads; none where there are none. `out`: the tangents of the corners of
+/// the triangles.
 fn compute_on_quads(
     mesh: &Mesh<'_>,
     limits: RunLimits<'_>,
@@ -315,8 +325,8 @@ impl Writers {
     }
 }
 
-/// The coarsest rounding that all tangents have. Floats where all components are 0, 1 or -1, which every rounding keeps: they tell nothing,
-/// and floats are compared most strictly.
+/// The coarsest rounding that all tangents have. Floats where all components are 0, 1 or -1, which every
+/// rounding keeps: they tell nothing, and floats are compared most strictly.
 fn rounding_of(tangents: &[[f32; 4]]) -> RecipeRounding {
     if tangents.as_flattened().iter().all(|x| [0.0, 1.0].contains(&x.abs())) {
         return RecipeRounding::Floats;

@@ -1,7 +1,8 @@
-//! Splits vertices whose corners have different tangents: from corner tangents to an indexed mesh with the fewest vertices.
+//! Splits vertices whose corners have different tangents: from corner tangents to an indexed mesh with the
+//! fewest vertices.
 //!
-//! The vertices with one source form a linked list. A fan whose corners all differ has a long list, so vertices beyond the first few go to a
-//! hash map.
+//! The vertices with one source form a linked list. A fan whose corners all differ has a long list, so
+//! vertices beyond the first few go to a hash map.
 
 use std::collections::HashMap;
 
@@ -21,12 +22,13 @@ pub struct VertexSplit {
     pub tangent_of_vertex: Vec<[f32; 4]>,
     /// The new index list, one per corner, in the old corner order.
     pub indices: Vec<u32>,
-    /// The old vertex that each new vertex copies; `source_of_vertex[v] == v` for every old vertex. All other attributes and morph
-    /// targets follow from it: `new[v] = old[source_of_vertex[v]]`.
+    /// The old vertex that each new vertex copies; `source_of_vertex[v] == v` for every old vertex. All
+    /// other attributes and morph targets follow from it: `new[v] = old[source_of_vertex[v]]`.
     pub source_of_vertex: Vec<u32>,
 }
 
-/// The vertices of a buffer after several meshes that share it were split. The old vertices come first and keep their numbers.
+/// The vertices of a buffer after several meshes that share it were split. The old vertices come first and
+/// keep their numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SplitBuffer {
     /// As [`VertexSplit::tangent_of_vertex`].
@@ -37,9 +39,10 @@ pub struct SplitBuffer {
 
 /// Splits the vertices whose corners have different tangents.
 ///
-/// Each distinct pair of old vertex and tangent (four floats, compared as bits; NaN equals NaN) becomes one vertex. Old vertices keep their
-/// numbers; new ones are appended in the order of their first corners. The index list keeps its length and order. `corners`: one tangent per corner.
-/// Errors: another number of tangents than corners.
+/// Each distinct pair of old vertex and tangent (four floats, compared as bits; NaN equals NaN) becomes one
+/// vertex. Old vertices keep their numbers; new ones are appended in the order of their first corners. The
+/// index list keeps its length and order. `corners`: one tangent per corner. Errors: another number of
+/// tangents than corners.
 pub fn split_vertices<'a>(
     mesh: &Mesh<'_>,
     corners: impl Into<CornerTangentsRef<'a>>,
@@ -61,8 +64,8 @@ pub fn split_vertices_with<'a>(
 
 /// Splits several meshes that share one vertex buffer, so that they share the new one as well.
 ///
-/// Call [`Splitter::add`] for each mesh, then [`Splitter::finish`]. The time of `add` depends on the mesh's corners, not on the size of the
-/// vertex buffer.
+/// Call [`Splitter::add`] for each mesh, then [`Splitter::finish`]. The time of `add` depends on the mesh's
+/// corners, not on the size of the vertex buffer.
 #[derive(Debug)]
 pub struct Splitter {
     tangent_of_vertex: Vec<[f32; 4]>,
@@ -92,8 +95,8 @@ impl Splitter {
         Self::new_with(vertex_count, &mut Context::new())
     }
 
-    /// As [`Splitter::new`], with the token of a context. The splitter keeps a clone of the token, which cancels [`Splitter::add`] and
-    /// [`Splitter::add_or_keep`].
+    /// As [`Splitter::new`], with the token of a context. The splitter keeps a clone of the token, which
+    /// cancels [`Splitter::add`] and [`Splitter::add_or_keep`].
     pub fn new_with(vertex_count: usize, context: &mut Context) -> Self {
         Self {
             cancel: context.limits().cancel.cloned(),
@@ -107,7 +110,8 @@ impl Splitter {
 
     /// Adds a mesh. Returns its new index list: one vertex per corner.
     ///
-    /// `corners`: one tangent per corner. Errors: another number of tangents than corners; a mesh with another number of vertices.
+    /// `corners`: one tangent per corner. Errors: another number of tangents than corners; a mesh with
+    /// another number of vertices.
     pub fn add<'a>(
         &mut self,
         mesh: &Mesh<'_>,
@@ -171,7 +175,8 @@ impl Splitter {
         if self.cancel.as_ref().is_some_and(Cancel::is_cancelled) { Err(Error::Cancelled) } else { Ok(()) }
     }
 
-    /// The vertex with source `old` and this tangent: the old vertex, if it has the tangent or none yet; else an appended one.
+    /// The vertex with source `old` and this tangent: the old vertex, if it has the tangent or none yet; else
+    /// an appended one.
     fn vertex(&mut self, old: u32, tangent: [f32; 4]) -> u32 {
         if self.takes(old, tangent) { old } else { self.appended(old, tangent) }
     }
@@ -218,7 +223,8 @@ impl Splitter {
         self.source_of_vertex.len() as u32 - 1
     }
 
-    /// As [`Splitter::finish`], with the tangents converted from one convention to another. Tangents of unused vertices stay (1, 0, 0, 1).
+    /// As [`Splitter::finish`], with the tangents converted from one convention to another. Tangents of
+    /// unused vertices stay (1, 0, 0, 1).
     pub fn finish_in(mut self, from: Convention, to: Convention) -> SplitBuffer {
         let conversion = from.to(to);
         for (tangent, &next) in self.tangent_of_vertex.iter_mut().zip(&self.next_of_vertex) {
@@ -268,7 +274,8 @@ mod tests {
     fn vertices_are_those_of_the_naive_search() {
         let vertices = [[0.0; 3]; 4];
         let mesh = |old| Mesh::triangles(&vertices, &vertices, &[[0.0; 2]; 4], Indices::U32(old)).unwrap();
-        // Zeros of different signs are different tangents, NaNs are not. One vertex has more tangents than the linear search covers.
+        // Zeros of different signs are different tangents, NaNs are not. One vertex has more tangents than
+        // the linear search covers.
         let palette = |i: u32| match i % 50 {
             0 => [0.0; 4],
             1 => [-0.0, 0.0, 0.0, 0.0],

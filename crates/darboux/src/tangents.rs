@@ -47,10 +47,10 @@ pub fn generate_tangents_with(
 
 /// As [`generate_tangents_with`], into the caller's array.
 ///
-/// Repeated calls of MikkTSpace on one thread allocate only what vertices of the general path need (UV-degenerate, split or mirrored
-/// fans; degenerate triangles).
-/// `corners`: receives one tangent per corner, in corner order, which is not vertex order; unspecified after cancellation.
-/// Errors: an array of another length; the context's token was cancelled.
+/// Repeated calls of MikkTSpace on one thread allocate only what vertices of the general path need
+/// (UV-degenerate, split or mirrored fans; degenerate triangles).
+/// `corners`: receives one tangent per corner, in corner order, which is not vertex order; unspecified after
+/// cancellation. Errors: an array of another length; the context's token was cancelled.
 pub fn write_tangents(
     mesh: &Mesh<'_>,
     options: &TangentOptions,

@@ -1,8 +1,9 @@
 //! Transforms of frames by node matrices, also mirrored and non-uniform ones, and by skins.
 //!
-//! A tangent lies on the surface, so it transforms by the matrix M. A normal is perpendicular to the surface, so it transforms by the inverse
-//! transpose of M, which is the cofactor matrix divided by the determinant. Normals are normalised, so only the sign of the determinant
-//! matters. A mirroring M negates cross(normal, tangent) but not the bitangent of the surface, so w changes its sign.
+//! A tangent lies on the surface, so it transforms by the matrix M. A normal is perpendicular to the surface,
+//! so it transforms by the inverse transpose of M, which is the cofactor matrix divided by the determinant.
+//! Normals are normalised, so only the sign of the determinant matters. A mirroring M negates cross(normal,
+//! tangent) but not the bitangent of the surface, so w changes its sign.
 
 use crate::math::{V3, cross, dot, length, scale, unit_in_plane};
 
@@ -15,8 +16,8 @@ pub struct Transform {
 }
 
 impl Transform {
-    /// `columns`: the images of the x, y and z directions, which are the first three numbers of the first three columns of a 4x4 matrix. Any
-    /// scale. Translation does not affect frames.
+    /// `columns`: the images of the x, y and z directions, which are the first three numbers of the first
+    /// three columns of a 4x4 matrix. Any scale. Translation does not affect frames.
     pub fn new(columns: [[f32; 3]; 3]) -> Self {
         let columns = rescaled(columns);
         let [x, y, z] = columns;
@@ -27,9 +28,10 @@ impl Transform {
 
     /// The transform of a vertex under linear blend skinning: the weighted sum of the bones' matrices.
     ///
-    /// `bones`: the columns of each bone's matrix, as in [`Transform::new`], and its weight. The variation of weights over the surface is
-    /// ignored, as is usual, so normals of strongly bent skins are approximate (B. Merry et al., "Normal Transformations for Articulated
-    /// Models", SIGGRAPH Sketches 2006).
+    /// `bones`: the columns of each bone's matrix, as in [`Transform::new`], and its weight. The variation of
+    /// weights over the surface is ignored, as is usual, so normals of strongly bent skins are
+    /// approximate (B. Merry et al., "Normal Transformations for Articulated Models", SIGGRAPH Sketches
+    /// 2006).
     pub fn blended(bones: impl IntoIterator<Item = ([[f32; 3]; 3], f32)>) -> Self {
         let mut sum = [[0.0; 3]; 3];
         for (columns, weight) in bones {
@@ -45,17 +47,20 @@ impl Transform {
         self.orientation
     }
 
-    /// Transforms a normal. The result is normalised. A normal that the transform maps to zero is returned unchanged.
+    /// Transforms a normal. The result is normalised. A normal that the transform maps to zero is returned
+    /// unchanged.
     pub fn normal(&self, normal: [f32; 3]) -> [f32; 3] {
         let turned = scale(self.orientation, product(self.cofactors, normal));
         let size = length(turned);
         if size > 0.0 && size.is_finite() { scale(1.0 / size, turned) } else { normal }
     }
 
-    /// Transforms a normal and a tangent. Returns the unit normal, and the unit tangent perpendicular to it with its sign.
+    /// Transforms a normal and a tangent. Returns the unit normal, and the unit tangent perpendicular to it
+    /// with its sign.
     ///
-    /// `tangent`: unit xyz and sign w. The component of the tangent along the new normal is removed; it is zero if tangent and normal were
-    /// perpendicular. A tangent that becomes zero is replaced by a perpendicular of the normal.
+    /// `tangent`: unit xyz and sign w. The component of the tangent along the new normal is removed; it is
+    /// zero if tangent and normal were perpendicular. A tangent that becomes zero is replaced by a
+    /// perpendicular of the normal.
     pub fn frame(&self, normal: [f32; 3], [x, y, z, w]: [f32; 4]) -> ([f32; 3], [f32; 4]) {
         let normal = self.normal(normal);
         let [x, y, z] = unit_in_plane(normal, product(self.columns, [x, y, z]));

@@ -1,5 +1,6 @@
-//! Gives a mesh of Bevy the tangents of Darboux, with vertices split where mirrored UVs need it. `Mesh::generate_tangents` writes through the index
-//! list, so that such vertices keep only one of their tangents.
+//! Gives a mesh of Bevy the tangents of Darboux, with vertices split where mirrored UVs need it.
+//! `Mesh::generate_tangents` writes through the index list, so that such vertices keep only one of their
+//! tangents.
 //!
 //! `cargo run --manifest-path examples/bevy/Cargo.toml`
 
@@ -9,7 +10,8 @@ use bevy_asset::RenderAssetUsages;
 use bevy_mesh::{Indices, Mesh, PrimitiveTopology, VertexAttributeValues};
 use darboux::{Context, Convention, Splitter, TangentOptions, generate_tangents};
 
-/// Adds the attribute `ATTRIBUTE_TANGENT`. Errors: not a list of triangles; positions, normals or UVs are missing or not floats.
+/// Adds the attribute `ATTRIBUTE_TANGENT`. Errors: not a list of triangles; positions, normals or UVs are
+/// missing or not floats.
 fn add_tangents(mesh: &mut Mesh) -> Result<(), Box<dyn Error>> {
     if mesh.primitive_topology() != PrimitiveTopology::TriangleList {
         return Err("the mesh is not a list of triangles".into());

@@ -1,4 +1,5 @@
-//! Random choices, from a seed in tests and from the fuzzer's bytes in fuzzing. A package of its own, so that every crate's tests can use it.
+//! Random choices, from a seed in tests and from the fuzzer's bytes in fuzzing. A package of its own, so that
+//! every crate's tests can use it.
 
 /// A source of random choices. The same source always makes the same choices.
 #[derive(Clone, Debug)]

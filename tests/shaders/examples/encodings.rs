@@ -1,4 +1,5 @@
-//! Draws docs/encodings.png: a plate for each encoding, drawn by the CPU in the upper row and by a GPU in the lower row.
+//! Draws docs/encodings.png: a plate for each encoding, drawn by the CPU in the upper row and by a GPU in the
+//! lower row.
 
 use std::fs::File;
 use std::io::BufWriter;

@@ -20,7 +20,8 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
 }
 
-/// The devices of all adapters. Without adapters, prints once that tests are skipped, or fails in continuous integration.
+/// The devices of all adapters. Without adapters, prints once that tests are skipped, or fails in continuous
+/// integration.
 pub fn gpus() -> &'static [Gpu] {
     static GPUS: OnceLock<Vec<Gpu>> = OnceLock::new();
     GPUS.get_or_init(|| {

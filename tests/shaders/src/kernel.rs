@@ -1,6 +1,7 @@
 //! Runs a function of the library on many samples at once, in a compute or a fragment shader.
 //!
-//! The call of the function is one line, which is valid in all three languages because the functions have the same names in all of them.
+//! The call of the function is one line, which is valid in all three languages because the functions have the
+//! same names in all of them.
 
 use wgpu::{BufferUsages, ComputePipelineDescriptor};
 
@@ -16,8 +17,8 @@ const QUADS: usize = 128;
 pub struct Case<'a> {
     /// The name in messages.
     pub name: &'a str,
-    /// A statement that loads arguments with `given1(offset)`, `given_int2(offset)`, ... and stores results with `got3(offset, value)`, ...; see
-    /// the preludes.
+    /// A statement that loads arguments with `given1(offset)`, `given_int2(offset)`, ... and stores results
+    /// with `got3(offset, value)`, ...; see the preludes.
     pub body: &'a str,
     /// The words of each sample: bits of floats, or integers. All samples have the same length.
     pub samples: Vec<Vec<u32>>,
@@ -33,8 +34,9 @@ pub fn check(case: &Case) {
     check_in(Stage::Compute, case);
 }
 
-/// As [`check`], in fragment shaders. A quad of four pixels computes each sample, and all four must be correct. Values that the body loads
-/// with `spread2(offset)` or `spread3(offset)` change linearly from pixel to pixel.
+/// As [`check`], in fragment shaders. A quad of four pixels computes each sample, and all four must be
+/// correct. Values that the body loads with `spread2(offset)` or `spread3(offset)` change linearly from pixel
+/// to pixel.
 pub fn check_in_quads(mut case: Case) {
     case.samples = case.samples.into_iter().flat_map(|sample| std::iter::repeat_n(sample, 4)).collect();
     check_in(Stage::Fragment, &case);
@@ -66,7 +68,8 @@ fn compare(case: &Case, expected: &[(Vec<f64>, f64)], answers: &[f32], title: &s
     println!("{title}: {count} samples, errors up to {largest:.2e}, {of_bound:.2} of the bound");
 }
 
-/// The results of one language on one adapter, `width` floats per sample; none if the compiler of the language is not installed.
+/// The results of one language on one adapter, `width` floats per sample; none if the compiler of the
+/// language is not installed.
 fn run(gpu: &Gpu, language: Language, stage: Stage, case: &Case, width: usize) -> Option<Vec<f32>> {
     let module = gpu.module(language, stage, &source_text(language, stage, case, width))?;
     let threads =
@@ -124,8 +127,9 @@ fn draw(
     let mut pass = gpu.begin_pass(encoder, &target);
     pass.set_pipeline(&pipeline);
     pass.set_bind_group(0, &gpu.bind_group(&pipeline.get_bind_group_layout(0), &buffers), &[]);
-    // The target is a quarter of the viewport, so that one triangle covers it. At an edge between two triangles, both would compute a quad,
-    // and the derivatives of pixels outside a triangle are unspecified.
+    // The target is a quarter of the viewport, so that one triangle covers it. At an edge between two
+    // triangles, both would compute a quad, and the derivatives of pixels outside a triangle are
+    // unspecified.
     pass.set_viewport(0.0, 0.0, (2 * width) as f32, (2 * height) as f32, 0.0, 1.0);
     pass.draw(0..3, 0..1);
 }

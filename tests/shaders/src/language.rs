@@ -92,7 +92,8 @@ impl Language {
     }
 }
 
-/// Whether `glslangValidator` is installed. If it is not, prints once that tests are skipped, or fails in continuous integration.
+/// Whether `glslangValidator` is installed. If it is not, prints once that tests are skipped, or fails in
+/// continuous integration.
 pub fn glslang_is_there() -> bool {
     static IS_THERE: OnceLock<bool> = OnceLock::new();
     *IS_THERE.get_or_init(|| {
@@ -106,7 +107,8 @@ pub fn glslang_is_there() -> bool {
     })
 }
 
-/// Compiles a shader with glslangValidator, to SPIR-V with the option -V. Errors: the messages of the compiler.
+/// Compiles a shader with glslangValidator, to SPIR-V with the option -V. Errors: the messages of the
+/// compiler.
 pub fn glslang(stage: Stage, options: &[&str], text: &str) -> Result<Vec<u8>, String> {
     let compile = || -> std::io::Result<(process::Output, Vec<u8>)> {
         let folder = tempfile::tempdir()?;

@@ -1,5 +1,5 @@
-//! Compiles the functions of `shaders/` in WGSL, GLSL and HLSL, and runs them on the Vulkan adapters of this machine. The tests compare
-//! the results with the core or with double precision.
+//! Compiles the functions of `shaders/` in WGSL, GLSL and HLSL, and runs them on the Vulkan adapters of this
+//! machine. The tests compare the results with the core or with double precision.
 
 mod adapters;
 mod kernel;

@@ -4,8 +4,8 @@ use darboux_dice::Dice;
 
 use crate::vector::{D3, cross, doubles, length, singles, unit};
 
-/// One ulp of 1, the unit of all bounds. WGSL and Vulkan allow errors of 1 ulp for sums and products, 2.5 for quotients and 4.5 for square
-/// roots. Fused multiplications and additions have smaller errors.
+/// One ulp of 1, the unit of all bounds. WGSL and Vulkan allow errors of 1 ulp for sums and products, 2.5 for
+/// quotients and 4.5 for square roots. Fused multiplications and additions have smaller errors.
 pub const ULP: f64 = f32::EPSILON as f64;
 
 /// A deterministic sequence of random numbers.

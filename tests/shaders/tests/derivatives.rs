@@ -1,4 +1,5 @@
-//! Compares frames from screen-space derivatives with the exact frames of surfaces that are linear on the screen.
+//! Compares frames from screen-space derivatives with the exact frames of surfaces that are linear on the
+//! screen.
 
 use darboux::encode::tangent_from_diamond;
 use darboux_shader_tests::samples::{Random, ULP, bits, floats, many};
@@ -9,7 +10,8 @@ const COUNT: usize = 1 << 13;
 const TANGENT: &str = "got4(0u, tangent_from_derivatives(given3(0u), spread3(3u), spread2(9u)));";
 const FRAME: &str = "got_frame(0u, cotangent_frame_from_derivatives(given3(0u), spread3(3u), spread2(9u)));";
 
-/// A normal, the steps of position and UV per pixel to the right and down, and bounds of the products of these steps.
+/// A normal, the steps of position and UV per pixel to the right and down, and bounds of the products of
+/// these steps.
 struct Screen {
     normal: D3,
     position: [D3; 2],
@@ -46,7 +48,8 @@ impl Screen {
     }
 }
 
-/// Random steps of any size, skew and handedness on the screen and in UVs, on a surface that is not perpendicular to its normal.
+/// Random steps of any size, skew and handedness on the screen and in UVs, on a surface that is not
+/// perpendicular to its normal.
 fn sample(random: &mut Random) -> Vec<f32> {
     loop {
         let factor = 10f32.powf(3.0 * random.number());
@@ -62,7 +65,8 @@ fn sample(random: &mut Random) -> Vec<f32> {
     }
 }
 
-/// Bound: derivatives have an error of 2 ulp of the larger step, so the difference of two products has 16 ulp of the largest product.
+/// Bound: derivatives have an error of 2 ulp of the larger step, so the difference of two products has 16 ulp
+/// of the largest product.
 #[test]
 fn tangents_of_triangles() {
     check_in_quads(Case {

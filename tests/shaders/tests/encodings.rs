@@ -64,7 +64,8 @@ fn snorm() {
     });
 }
 
-/// Bound: exact integers, 3 ulp for the sum of squares, halved by the square root, plus 4.5, plus 2.5 and 1 to normalise, plus 2.5 on the CPU.
+/// Bound: exact integers, 3 ulp for the sum of squares, halved by the square root, plus 4.5, plus 2.5 and 1
+/// to normalise, plus 2.5 on the CPU.
 #[test]
 fn octahedral() {
     let grid = |largest: i32| {
@@ -85,8 +86,8 @@ fn octahedral() {
     });
 }
 
-/// Bound: the components of the perpendicular vectors have errors up to 6.5 ulp, their sum 8.5. Its length is at least 1 / sqrt(2), so
-/// normalising gives 2 sqrt(3) sqrt(2) 8.5 + 9.
+/// Bound: the components of the perpendicular vectors have errors up to 6.5 ulp, their sum 8.5. Its length is
+/// at least 1 / sqrt(2), so normalising gives 2 sqrt(3) sqrt(2) 8.5 + 9.
 #[test]
 fn diamond() {
     let mut random = Random::new(2);
@@ -105,8 +106,8 @@ fn diamond() {
     });
 }
 
-/// Bound: 4 ulp for the sum of squares and 2.5 for the quotient; the sums that it multiplies are at most half of that sum, with an error of
-/// 2 ulp; 2 for the last product and sum; half of the total for the CPU.
+/// Bound: 4 ulp for the sum of squares and 2.5 for the quotient; the sums that it multiplies are at most half
+/// of that sum, with an error of 2 ulp; 2 for the last product and sum; half of the total for the CPU.
 #[test]
 fn quaternion() {
     let mut random = Random::new(3);

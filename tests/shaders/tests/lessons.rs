@@ -1,7 +1,8 @@
 //! Runs the shaders of `docs/learn` on every adapter.
 //!
-//! A page's blocks in one language are one shader. Functions are checked by a hidden block of the page that defines `largest_error`, which
-//! calls them and returns the error. The pair of shaders of lesson 8 draws a picture, and the kernel of lesson 10 runs on a mesh.
+//! A page's blocks in one language are one shader. Functions are checked by a hidden block of the page that
+//! defines `largest_error`, which calls them and returns the error. The pair of shaders of lesson 8 draws a
+//! picture, and the kernel of lesson 10 runs on a mesh.
 
 #[path = "../../../xtask/src/doc_blocks/blocks.rs"]
 #[allow(dead_code, reason = "the parser of cargo xtask docs, of which this needs a part")]
@@ -40,7 +41,8 @@ fn glsl(gpu: &Gpu, stage: ShaderStage, text: &str) -> ShaderModule {
     module(gpu, ShaderSource::Glsl { shader: text.into(), stage, defines: &[] })
 }
 
-/// Runs the only entry point of a compute shader with storage buffers, the last of which is written, and returns that buffer.
+/// Runs the only entry point of a compute shader with storage buffers, the last of which is written, and
+/// returns that buffer.
 fn computed(gpu: &Gpu, module: &ShaderModule, buffers: &[Vec<f32>], groups: u32) -> Vec<f32> {
     let words = |floats: &Vec<f32>| floats.iter().map(|float| float.to_bits()).collect::<Vec<u32>>();
     let last = buffers.last().expect("a buffer for the result");
@@ -107,7 +109,8 @@ fn functions_give_what_the_lessons_say() {
 /// What a vertex of the pair holds: position, normal, tangent with w, UV.
 type Vertex = [f32; 12];
 
-/// One texel, the matrix of the node by columns, the direction to the light, and the light that the pixel must show.
+/// One texel, the matrix of the node by columns, the direction to the light, and the light that the pixel
+/// must show.
 struct Scene {
     texel: [u8; 4],
     sign: f32,

@@ -99,7 +99,8 @@ fn turned(to: D3, v: D3) -> D3 {
     [0, 1, 2].map(|k| cosine * v[k] + sine * across[k] + along * axis[k])
 }
 
-/// Bound: the dot product is at most 2 with an error of 6 ulp, the quotient 3, the last product of at most 4 and the difference 12.
+/// Bound: the dot product is at most 2 with an error of 6 ulp, the quotient 3, the last product of at most 4
+/// and the difference 12.
 #[test]
 fn reoriented_detail() {
     check(&Case {

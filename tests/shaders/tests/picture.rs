@@ -3,7 +3,8 @@
 use darboux_shader_tests::gpus;
 use darboux_shader_tests::picture::{Encoding, draw_on_cpu, draw_on_gpu};
 
-/// At most one channel in fifty differs, by one step, because interpolation and arithmetic differ only in their last bits.
+/// At most one channel in fifty differs, by one step, because interpolation and arithmetic differ only in
+/// their last bits.
 #[test]
 fn plates_are_the_same_on_cpu_and_gpu() {
     for gpu in gpus() {

@@ -1,4 +1,5 @@
-//! Compares anisotropy, triplanar mapping, parallax mapping and displacement with geometry in double precision.
+//! Compares anisotropy, triplanar mapping, parallax mapping and displacement with geometry in double
+//! precision.
 
 use darboux_shader_tests::samples::{Random, ULP, bits, columns, floats, many};
 use darboux_shader_tests::vector::{D3, cross, dot, doubles, length, product, scale, unit};
@@ -13,8 +14,8 @@ fn orthonormal(random: &mut Random) -> Vec<f32> {
     [&[x, y, z][..], &bitangent.map(|x| x as f32), &normal].concat()
 }
 
-/// The direction at the sum of two angles. Bound: 2 ulp for the rounded sines and cosines of the samples, 10 for sums and vectors, 10 for
-/// normalising, 4 for the bitangent, and the error of the normal.
+/// The direction at the sum of two angles. Bound: 2 ulp for the rounded sines and cosines of the samples, 10
+/// for sums and vectors, 10 for normalising, 4 for the bitangent, and the error of the normal.
 #[test]
 fn anisotropy() {
     let sample = |random: &mut Random| {
@@ -62,7 +63,8 @@ fn projections_are_upright_on_every_side_and_none_is_mirrored() {
     }
 }
 
-/// Bound: a power x^s has errors of 5 |s log2 x| x^s from its logarithm and 3 x^s, or 4 s x^s near 1; then a sum and a quotient.
+/// Bound: a power x^s has errors of 5 |s log2 x| x^s from its logarithm and 3 x^s, or 4 s x^s near 1; then a
+/// sum and a quotient.
 #[test]
 fn triplanar_weights() {
     check(&Case {
@@ -183,7 +185,8 @@ fn parallax_hits_a_slope() {
         samples: many(COUNT, 7, sample),
         expected: &|sample| {
             let [t, gap, next, next_gap, at] = doubles(floats(sample, 0));
-            // The gaps are rounded by up to 5 ulp. If the step is too short to distinguish its ends, either end is correct.
+            // The gaps are rounded by up to 5 ulp. If the step is too short to distinguish its ends, either
+            // end is correct.
             let rounding = (next - t) * 5.0 / (gap - next_gap);
             (vec![at], if gap - next_gap > 1e-4 { (8.0 + 2.0 * rounding) * ULP } else { next - t + ULP })
         },

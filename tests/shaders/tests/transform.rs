@@ -31,8 +31,9 @@ fn singles(sample: &[u32], start: usize) -> [[f32; 3]; 3] {
     [0, 3, 6].map(|k| floats(sample, start + k))
 }
 
-/// The frame at `start`, transformed by the core, with a bound. The elements of the matrix, at most 1, have an error of `of_matrix`; a
-/// cofactor has four times that plus 4 ulp, an image 3 of either; a normalised vector has twice its error divided by its length.
+/// The frame at `start`, transformed by the core, with a bound. The elements of the matrix, at most 1, have
+/// an error of `of_matrix`; a cofactor has four times that plus 4 ulp, an image 3 of either; a normalised
+/// vector has twice its error divided by its length.
 fn answer(
     transform: &Transform,
     columns: [D3; 3],

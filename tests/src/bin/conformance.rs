@@ -1,7 +1,8 @@
 //! Computes the cases of the conformance suite: `conformance CASES RESULTS [reference|repaired|corrected]`.
 //!
-//! Without a third argument the results are mikktspace.c's, with all nine values per corner and what the modes of Darboux give that
-//! repair its defects: the input of `conformance/regenerate.py`. With a mode they are Darboux's, timed, for the judge.
+//! Without a third argument the results are mikktspace.c's, with all nine values per corner and what the
+//! modes of Darboux give that repair its defects: the input of `conformance/regenerate.py`. With a mode they
+//! are Darboux's, timed, for the judge.
 
 use std::path::Path;
 use std::time::Instant;

@@ -1,4 +1,5 @@
-//! Prints the core's results for every case of the conformance suite as lines of JSON, with floats as bits, for tests of the bindings to other languages.
+//! Prints the core's results for every case of the conformance suite as lines of JSON, with floats as bits,
+//! for tests of the bindings to other languages.
 
 use darboux::{
     Choice, Mesh, Method, MikkTSpaceOptions, Mode, Plan, TangentOptions, Tangents, generate_frames,

@@ -1,4 +1,5 @@
-//! Judges generated normal maps: prints how often the verdicts are right, or writes the page about it. `--help` lists the options.
+//! Judges generated normal maps: prints how often the verdicts are right, or writes the page about it.
+//! `--help` lists the options.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -104,7 +105,8 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     Ok(())
 }
 
-/// Judges the cases of these numbers with green up and down; every tenth one of the regular set also as maps that are no gradient.
+/// Judges the cases of these numbers with green up and down; every tenth one of the regular set also as maps
+/// that are no gradient.
 fn judged(
     arguments: &Arguments,
     name: &str,

@@ -1,7 +1,9 @@
-//! Times the core on grids of two to a million triangles, for comparison with the bindings to other languages.
+//! Times the core on grids of two to a million triangles, for comparison with the bindings to other
+//! languages.
 //!
-//! Writes each grid's arrays into a folder of its number of triangles below the folder that is its argument, and prints the least time
-//! of each call in milliseconds as JSON. `RAYON_NUM_THREADS` sets the number of threads.
+//! Writes each grid's arrays into a folder of its number of triangles below the folder that is its argument,
+//! and prints the least time of each call in milliseconds as JSON. `RAYON_NUM_THREADS` sets the number of
+//! threads.
 
 use std::fs;
 use std::hint::black_box;

@@ -14,7 +14,8 @@ pub enum Storage {
     ChannelBlocks,
     /// Blocks of 4 x 4 texels on a line of four colours (as BC1).
     ColorBlocks,
-    /// Cosine transform of 8 x 8 blocks, as JPEG of this quality (1 to 100); with halved or whole colour resolution.
+    /// Cosine transform of 8 x 8 blocks, as JPEG of this quality (1 to 100); with halved or whole colour
+    /// resolution.
     Jpeg {
         /// The quality.
         quality: u32,
@@ -74,7 +75,8 @@ fn channel_block(block: &mut [Texel; 16]) {
     }
 }
 
-/// The line from the lowest to the highest texel along the axis of the greatest range; the ends have 5, 6 and 5 bits.
+/// The line from the lowest to the highest texel along the axis of the greatest range; the ends have 5, 6 and
+/// 5 bits.
 fn color_block(block: &mut [Texel; 16]) {
     let mean = [0, 1, 2].map(|i| block.iter().map(|texel| texel[i]).sum::<f32>() / 16.0);
     let mut axis = [1.0f32, 0.3, 0.1];

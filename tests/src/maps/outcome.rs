@@ -1,4 +1,5 @@
-//! [`Outcome`]: the verdict on one generated map, as a line of a results file; and the loop that judges many maps.
+//! [`Outcome`]: the verdict on one generated map, as a line of a results file; and the loop that judges many
+//! maps.
 
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Error, ErrorKind, Write};
@@ -64,7 +65,8 @@ impl MapSet {
         case
     }
 
-    /// Judges cases as maps of several kinds on `threads` threads. `done` gets all outcomes of a case at once, in any order of cases.
+    /// Judges cases as maps of several kinds on `threads` threads. `done` gets all outcomes of a case at
+    /// once, in any order of cases.
     pub fn judge(&self, cases: &[(u64, Vec<Truth>)], threads: usize, done: &(dyn Fn(Vec<Outcome>) + Sync)) {
         let next = AtomicUsize::new(0);
         let work = || {
@@ -86,8 +88,9 @@ impl MapSet {
         outcomes
     }
 
-    /// As [`Self::judge_all`], but outcomes that `file` holds are read from it, and new ones are appended to it, so that a run that was stopped
-    /// goes on where it was. Errors: `file` cannot be read or written, or was made for another set.
+    /// As [`Self::judge_all`], but outcomes that `file` holds are read from it, and new ones are appended to
+    /// it, so that a run that was stopped goes on where it was. Errors: `file` cannot be read or written,
+    /// or was made for another set.
     pub fn judge_into(
         &self,
         file: &Path,
@@ -133,7 +136,8 @@ impl MapSet {
         format!("sides up to {}, slopes times {}", self.largest_side, self.slope)
     }
 
-    /// The outcomes in a file, and the file for further ones. A last line that was not written whole is dropped.
+    /// The outcomes in a file, and the file for further ones. A last line that was not written whole is
+    /// dropped.
     fn open(&self, path: &Path) -> Result<(Vec<Outcome>, File), Error> {
         let mut lines = match File::open(path) {
             Ok(file) => BufReader::new(file).lines().collect::<Result<Vec<_>, _>>()?,
@@ -178,7 +182,8 @@ impl Outcome {
         }
     }
 
-    /// Whether the sign of the z score is that of green. None for maps without a green direction, and where the confidence is not that of a sign.
+    /// Whether the sign of the z score is that of green. None for maps without a green direction, and where
+    /// the confidence is not that of a sign.
     pub fn has_right_sign(&self) -> Option<bool> {
         let green = self.truth.green()?;
         let is_sign = !matches!(self.verdict, MapVerdict::NoGradient | MapVerdict::Flat);

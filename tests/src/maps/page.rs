@@ -24,7 +24,8 @@ impl Judged {
     }
 }
 
-/// The page. `regular`: maps with slopes as maps have them. `gentle`: nearly flat ones, so that some signs are wrong.
+/// The page. `regular`: maps with slopes as maps have them. `gentle`: nearly flat ones, so that some signs
+/// are wrong.
 pub fn page(regular: &Judged, gentle: &Judged) -> String {
     let numbers = |judged: &Judged| judged.gradients().count() / 2;
     let shares: Vec<String> =

@@ -37,7 +37,8 @@ impl Surface {
         Self::Terrain,
     ];
 
-    /// The height at a position. `gain` in (0, 1) is the amplitude of every octave relative to the one before it, where there are octaves.
+    /// The height at a position. `gain` in (0, 1) is the amplitude of every octave relative to the one before
+    /// it, where there are octaves.
     pub fn height(self, seed: u32, gain: f32, at: [f32; 2]) -> f32 {
         match self {
             Self::Noise => octaves(seed, gain, at, 6),

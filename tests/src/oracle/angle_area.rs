@@ -1,4 +1,5 @@
-//! The methods angle-area and angle-edge in f64: sums over MikkTSpace's groups; for angle-area, one fitting step.
+//! The methods angle-area and angle-edge in f64: sums over MikkTSpace's groups; for angle-area, one fitting
+//! step.
 
 use darboux::{Frame, Mesh};
 
@@ -68,8 +69,8 @@ fn average(group: &Group, triangles: &[Triangle], corners: &[Corner], factor: Fa
     Space { s: normalize(s), t: normalize(t), magnitude, keeps_orientation: false }
 }
 
-/// Takes a quarter of a Jacobi step towards the tangent field that minimises the squared difference between the interpolated tangent and
-/// the direction of dP/du over the surface.
+/// Takes a quarter of a Jacobi step towards the tangent field that minimises the squared difference between
+/// the interpolated tangent and the direction of dP/du over the surface.
 fn fit(number: usize, normal: Vec3, spaces: &[Space], triangles: &[Triangle], corners: &[Corner]) -> Space {
     let space = spaces[number];
     let (mut residual, mut weight) = ([0.0; 3], 0.0);

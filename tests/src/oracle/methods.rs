@@ -1,4 +1,5 @@
-//! The summing methods, the face method and the normal method in f64: for every corner a loop over all triangles.
+//! The summing methods, the face method and the normal method in f64: for every corner a loop over all
+//! triangles.
 
 use darboux::{Frame, Mesh};
 
@@ -36,7 +37,8 @@ pub fn area(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     sums(mesh, true, Weight::Area)
 }
 
-/// Like [`Method::Face`](darboux::Method::Face) without repairs. A quad has the mean of its halves, weighted by signed UV area.
+/// Like [`Method::Face`](darboux::Method::Face) without repairs. A quad has the mean of its halves, weighted
+/// by signed UV area.
 pub fn face(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     let scene = Scene::new(mesh);
     let of_corner = |number: usize| {
@@ -59,8 +61,8 @@ pub fn face(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     (0..scene.corners.len()).map(of_corner).collect()
 }
 
-/// Like [`Method::FromNormal`](darboux::Method::FromNormal): (1, 0, 0), turned by the shortest rotation from the pole (0, 0, ±1) on the
-/// normal's side to the normal. That is Duff's basis.
+/// Like [`Method::FromNormal`](darboux::Method::FromNormal): (1, 0, 0), turned by the shortest rotation from
+/// the pole (0, 0, ±1) on the normal's side to the normal. That is Duff's basis.
 pub fn from_normal(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     let of_corner = |number: usize| {
         let normal = normalize(mesh.normals().get(mesh.vertex_of_corner(number)).map(f64::from));
@@ -107,7 +109,8 @@ impl Scene {
         self.triangles.iter().filter(move |triangle| self.contributes(triangle)).filter(touches)
     }
 
-    /// The orientation of a corner's face. A face without one takes the orientation that is present at more of its corners.
+    /// The orientation of a corner's face. A face without one takes the orientation that is present at more
+    /// of its corners.
     fn keeps_orientation(&self, corner: usize) -> bool {
         let face = self.face_of_corner[corner];
         let own = self.triangles.iter().find(|triangle| triangle.face == face && self.contributes(triangle));

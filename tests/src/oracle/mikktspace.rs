@@ -12,8 +12,8 @@ use super::vectors::{Vec3, add, dot, flatten, normalize, scale, sub};
 
 /// Computes the frame of every corner like [`darboux::generate_frames`] without repairs.
 ///
-/// `threshold`: degrees. Corners of faces other than triangles and quads, and corners that no group reaches, get tangent (1, 0, 0),
-/// bitangent (0, 1, 0), magnitudes 1 and sign -1.
+/// `threshold`: degrees. Corners of faces other than triangles and quads, and corners that no group reaches,
+/// get tangent (1, 0, 0), bitangent (0, 1, 0), magnitudes 1 and sign -1.
 pub fn mikktspace(mesh: &Mesh<'_>, threshold: f32) -> Vec<Frame> {
     let corners = weld(mesh);
     let (degenerate, mut triangles): (Vec<_>, Vec<_>) =
@@ -28,8 +28,8 @@ pub fn mikktspace(mesh: &Mesh<'_>, threshold: f32) -> Vec<Frame> {
     spaces.into_iter().map(|space| space.unwrap_or(Space::UNREACHED).to_frame()).collect()
 }
 
-/// Gives each member of a group the mean over the members within the threshold of it. A corner that both halves of a quad share gets
-/// the average of both results.
+/// Gives each member of a group the mean over the members within the threshold of it. A corner that both
+/// halves of a quad share gets the average of both results.
 fn write_group(
     group: &Group,
     least_cosine: f64,
@@ -55,7 +55,8 @@ fn write_group(
     }
 }
 
-/// The mean over triangles, weighted by their angles at the vertex. Directions and angles are projected onto the plane of the normal.
+/// The mean over triangles, weighted by their angles at the vertex. Directions and angles are projected onto
+/// the plane of the normal.
 fn weighted_mean<'a>(
     members: impl Iterator<Item = &'a Triangle>,
     vertex: usize,
@@ -79,8 +80,8 @@ fn weighted_mean<'a>(
     Space { s: normalize(s), t: normalize(t), magnitude, keeps_orientation: false }
 }
 
-/// Copies spaces to the corners of degenerate triangles. The source is the corner of equal position in the good half of the same quad, or
-/// else the first good corner of the same vertex.
+/// Copies spaces to the corners of degenerate triangles. The source is the corner of equal position in the
+/// good half of the same quad, or else the first good corner of the same vertex.
 fn copy_to_degenerates(
     degenerate: &[Triangle],
     good: &[Triangle],

@@ -12,8 +12,8 @@ struct Corner {
     around: [usize; 2],
 }
 
-/// Like [`generate_normals`](darboux::generate_normals) without repairs: zero where the sum is zero. Only positions, indices and faces of
-/// the mesh are read.
+/// Like [`generate_normals`](darboux::generate_normals) without repairs: zero where the sum is zero. Only
+/// positions, indices and faces of the mesh are read.
 pub fn normals(mesh: &Mesh<'_>, face_sizes: &[u32], options: &NormalOptions) -> Vec<[f32; 3]> {
     let corners = corners(mesh, face_sizes, options.seams);
     let area_vectors: Vec<Vec3> = (0..face_sizes.len()).map(|face| area_vector(face, &corners)).collect();

@@ -1,4 +1,5 @@
-//! The first stages of MikkTSpace as loops over all corners or triangles: welding, triangulation, neighbours and groups.
+//! The first stages of MikkTSpace as loops over all corners or triangles: welding, triangulation, neighbours
+//! and groups.
 
 use std::array::from_fn;
 
@@ -20,7 +21,8 @@ pub struct Triangle {
     pub face: usize,
     pub corners: [usize; 3],
     pub space: Space,
-    /// The UV triangle has no area. Such a triangle joins groups of either orientation and adds nothing to sums.
+    /// The UV triangle has no area. Such a triangle joins groups of either orientation and adds nothing to
+    /// sums.
     pub is_uv_degenerate: bool,
     /// The triangle across each edge; edge i begins at corner i.
     pub neighbours: [Option<usize>; 3],
@@ -34,7 +36,8 @@ pub struct Group {
     pub members: Vec<usize>,
 }
 
-/// A tangent space: unit tangent `s`, unit bitangent `t`, the lengths of both before normalisation, and the orientation of the UVs.
+/// A tangent space: unit tangent `s`, unit bitangent `t`, the lengths of both before normalisation, and the
+/// orientation of the UVs.
 #[derive(Clone, Copy)]
 pub struct Space {
     pub s: Vec3,
@@ -43,7 +46,8 @@ pub struct Space {
     pub keeps_orientation: bool,
 }
 
-/// Lists the corners of a mesh. Corners of equal position, normal and UV weld to one vertex, which is the first of them.
+/// Lists the corners of a mesh. Corners of equal position, normal and UV weld to one vertex, which is the
+/// first of them.
 pub fn weld(mesh: &Mesh<'_>) -> Vec<Corner> {
     let mut corners: Vec<Corner> = Vec::new();
     for number in 0..mesh.corner_count() {
@@ -58,7 +62,8 @@ pub fn weld(mesh: &Mesh<'_>) -> Vec<Corner> {
     corners
 }
 
-/// Lists the triangles. A quad is cut along its shorter diagonal in UV space, on a tie in space, and on a second tie from corner 0 to 2.
+/// Lists the triangles. A quad is cut along its shorter diagonal in UV space, on a tie in space, and on a
+/// second tie from corner 0 to 2.
 pub fn triangulate(mesh: &Mesh<'_>, corners: &[Corner]) -> Vec<Triangle> {
     let mut triangles = Vec::new();
     let mut first = 0;
@@ -137,7 +142,8 @@ pub fn force_quads_to_agree(triangles: &mut [Triangle], corners: &[Corner]) {
     }
 }
 
-/// Gives every edge without a neighbour the first later triangle that has the same edge in the opposite direction and without a neighbour.
+/// Gives every edge without a neighbour the first later triangle that has the same edge in the opposite
+/// direction and without a neighbour.
 pub fn find_neighbours(triangles: &mut [Triangle], corners: &[Corner]) {
     let edge = |triangle: &Triangle, i: usize| {
         let vertices = triangle.vertices(corners);
@@ -158,8 +164,8 @@ pub fn find_neighbours(triangles: &mut [Triangle], corners: &[Corner]) {
     }
 }
 
-/// Groups the triangles around each vertex that edges at the vertex connect and that have one orientation. Groups are in the order of
-/// their first triangles.
+/// Groups the triangles around each vertex that edges at the vertex connect and that have one orientation.
+/// Groups are in the order of their first triangles.
 pub fn build_groups(triangles: &mut [Triangle], corners: &[Corner]) -> Vec<Group> {
     let mut groups = Vec::new();
     for (seed, i) in (0..triangles.len()).flat_map(|seed| [(seed, 0), (seed, 1), (seed, 2)]) {
@@ -173,8 +179,8 @@ pub fn build_groups(triangles: &mut [Triangle], corners: &[Corner]) -> Vec<Group
     groups
 }
 
-/// Assigns `group` to every triangle that a flood fill around `vertex` reaches from `seed`. A UV-degenerate triangle without a group
-/// takes the group's orientation.
+/// Assigns `group` to every triangle that a flood fill around `vertex` reaches from `seed`. A UV-degenerate
+/// triangle without a group takes the group's orientation.
 fn flood(
     seed: usize,
     vertex: usize,

@@ -1,7 +1,8 @@
 //! Reading and writing of glTF for the viewer's page, with the same code as the command.
 //!
-//! JavaScript writes a file name and a file into memory that this side owns, calls `check`, `repair` or `make_normals`, and reads a text and a file.
-//! The files that the model refers to are asked for meanwhile ([`page_files`]):
+//! JavaScript writes a file name and a file into memory that this side owns, calls `check`, `repair` or
+//! `make_normals`, and reads a text and a file. The files that the model refers to are asked for meanwhile
+//! ([`page_files`]):
 //!
 //! ```text
 //! p = name(n); q = file(m); memory[p ..] = ...; memory[q ..] = ...
@@ -49,7 +50,8 @@ struct Checked<'a> {
 const MISSING_READER: &str =
     "export the model as .glb, or convert it with the command: darboux tangents model.fbx -o model.glb";
 
-/// Seeds the hash keys with 64 random bits, in two halves. The page calls this first, because WebAssembly itself has no randomness.
+/// Seeds the hash keys with 64 random bits, in two halves. The page calls this first, because WebAssembly
+/// itself has no randomness.
 #[cfg(target_family = "wasm")]
 #[unsafe(no_mangle)]
 pub extern "C" fn seed_random(low: u32, high: u32) {
@@ -92,9 +94,9 @@ pub extern "C" fn text_len() -> usize {
     BUFFERS.with_borrow(|buffers| buffers.text.len())
 }
 
-/// Embeds the files that the model refers to, decodes compressed data, and checks the data that tangents depend on. A model of another format becomes
-/// glTF. Returns 1 where the text is JSON about its primitives and that change, and the resulting file is the one to show, and 0 where the text is an
-/// error.
+/// Embeds the files that the model refers to, decodes compressed data, and checks the data that tangents
+/// depend on. A model of another format becomes glTF. Returns 1 where the text is JSON about its primitives
+/// and that change, and the resulting file is the one to show, and 0 where the text is an error.
 #[unsafe(no_mangle)]
 pub extern "C" fn check() -> u32 {
     run(|document| {
@@ -106,8 +108,8 @@ pub extern "C" fn check() -> u32 {
     })
 }
 
-/// Writes new tangents to every eligible primitive. Returns 1 where the text is a summary in JSON and the resulting file is a GLB, and 0
-/// where the text is an error.
+/// Writes new tangents to every eligible primitive. Returns 1 where the text is a summary in JSON and the
+/// resulting file is a GLB, and 0 where the text is an error.
 #[unsafe(no_mangle)]
 pub extern "C" fn repair() -> u32 {
     run(|document| {
@@ -117,8 +119,8 @@ pub extern "C" fn repair() -> u32 {
     })
 }
 
-/// Makes smooth normals where a primitive has none. Returns 1 where the text is a summary in JSON and the resulting file is a GLB, and 0 where the
-/// text is an error.
+/// Makes smooth normals where a primitive has none. Returns 1 where the text is a summary in JSON and the
+/// resulting file is a GLB, and 0 where the text is an error.
 #[unsafe(no_mangle)]
 pub extern "C" fn make_normals() -> u32 {
     run(|document| {

@@ -25,7 +25,8 @@ pub struct Block {
 const NOT_RUN: &str = "<!-- not run:";
 const HIDDEN: &str = "<!-- hidden ";
 
-/// Reads a page. Errors: a fence without a language or without an end, a marker without a reason or without a block.
+/// Reads a page. Errors: a fence without a language or without an end, a marker without a reason or without a
+/// block.
 pub fn parse(name: &str, text: &str) -> Result<Page, String> {
     let mut page = Page { name: name.to_owned(), ..Page::default() };
     let mut lines = (1..).zip(text.lines());
@@ -82,7 +83,8 @@ pub fn at_their_lines(blocks: &[&Block]) -> String {
     text
 }
 
-/// Shell commands in which a line whose comment names an exit status, as in `darboux check broken.glb  # exit status 1: errors`, must end with it.
+/// Shell commands in which a line whose comment names an exit status, as in `darboux check broken.glb  # exit
+/// status 1: errors`, must end with it.
 pub fn with_exit_statuses(script: &str) -> String {
     let line = |line: &str| match documented_status(line) {
         Some((command, status)) => format!("status=0; {command} || status=$?; test $status = {status}\n"),

@@ -22,7 +22,8 @@ const SAMPLES: &[(&str, &str)] = &[
     ("map.png", "assets/TwoSidedPlane/TwoSidedPlane_Normal.png"),
 ];
 
-/// The command. `darboux compare` exits with 3 where files differ, which does not make a page fail. `darboux view` does not end.
+/// The command. `darboux compare` exits with 3 where files differ, which does not make a page fail. `darboux
+/// view` does not end.
 const DARBOUX: &str = r#"#!/bin/sh
 if [ "$1" = view ]; then echo "darboux view does not end: mark this block as not run" >&2; exit 1; fi
 '@PROGRAM@' "$@"
@@ -31,8 +32,8 @@ if [ $status = 3 ]; then exit 0; fi
 exit $status
 "#;
 
-/// `cargo run` starts the command that is built already, with the features that the line asks for. `cargo xtask dist-c` runs; other tasks
-/// take too long. All other commands run the real cargo.
+/// `cargo run` starts the command that is built already, with the features that the line asks for. `cargo
+/// xtask dist-c` runs; other tasks take too long. All other commands run the real cargo.
 const CARGO: &str = r#"#!/bin/sh
 case "$1 $2" in
 "xtask dist-c") exec '@XTASK@' dist-c ;;
@@ -135,8 +136,8 @@ impl Sandbox {
         quietly(&mut bash)
     }
 
-    /// Compiles C or C++ blocks against the headers and runs them. Blocks without `main` become its body; hidden ones with `#include` and
-    /// blocks with `main` stay outside of it.
+    /// Compiles C or C++ blocks against the headers and runs them. Blocks without `main` become its body;
+    /// hidden ones with `#include` and blocks with `main` stay outside of it.
     pub fn c_program(&self, page: &Page, blocks: &[&Block], language: &str, folder: &Path) -> Outcome {
         if blocks.is_empty() {
             return Ok(());

@@ -67,7 +67,8 @@ impl Names {
         })
     }
 
-    /// The functions and classes of a language that users call. Of Rust, C++ and the command the table is a choice.
+    /// The functions and classes of a language that users call. Of Rust, C++ and the command the table is a
+    /// choice.
     pub fn functions(&self, language: usize) -> Vec<String> {
         match language {
             1 => self.c_functions(),

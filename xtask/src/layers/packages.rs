@@ -6,7 +6,8 @@ use serde_json::Value;
 
 use crate::run::{Outcome, output_of, program, root};
 
-/// Each package of this repository, and the packages of this repository that it may import, tests and build scripts included.
+/// Each package of this repository, and the packages of this repository that it may import, tests and build
+/// scripts included.
 const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux", &["darboux-dice"]),
     ("darboux-io", &["darboux", "darboux-dice"]),
@@ -55,7 +56,8 @@ pub fn all() -> Result<Vec<Value>, String> {
     Ok(packages)
 }
 
-/// Errors: a package imports one that it may not, the core requires a third-party crate, or a package has no row in the table.
+/// Errors: a package imports one that it may not, the core requires a third-party crate, or a package has no
+/// row in the table.
 pub fn check(packages: &[Value]) -> Outcome {
     let violations: Vec<String> = packages.iter().flat_map(violations).collect();
     if violations.is_empty() {

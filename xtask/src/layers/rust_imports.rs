@@ -1,4 +1,5 @@
-//! Import graphs of Rust: a file imports from the file that defines an item which it names. `mod child;` is not an import.
+//! Import graphs of Rust: a file imports from the file that defines an item which it names. `mod child;` is
+//! not an import.
 
 use super::cycles::Graph;
 use crate::rust_code::Crate;

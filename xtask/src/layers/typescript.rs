@@ -1,4 +1,5 @@
-//! Import graphs of TypeScript: a file imports the files that its `import` and `export ... from` statements name.
+//! Import graphs of TypeScript: a file imports the files that its `import` and `export ... from` statements
+//! name.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -1,4 +1,5 @@
-//! `cargo xtask release`: an archive with the command and the viewer for the machine that this runs on, for people without compilers.
+//! `cargo xtask release`: an archive with the command and the viewer for the machine that this runs on, for
+//! people without compilers.
 
 use std::env::consts::{ARCH, EXE_SUFFIX, OS};
 use std::fs;
@@ -25,7 +26,8 @@ const FOLDERS: &[(&str, &str)] = &[
     ("crates/darboux-cli/generated/completions", "completions"),
 ];
 
-/// Makes the archive, unpacks it into an empty folder, runs the command from there, and prints the archive's path as the last line.
+/// Makes the archive, unpacks it into an empty folder, runs the command from there, and prints the archive's
+/// path as the last line.
 pub fn make() -> Outcome {
     let name = format!("darboux-{VERSION}-{OS}-{ARCH}");
     let work = empty_folder("archive")?;
@@ -39,7 +41,8 @@ pub fn make() -> Outcome {
     Ok(())
 }
 
-/// Builds the command with all features and the viewer's page, and puts both into a folder as `darboux view` expects them.
+/// Builds the command with all features and the viewer's page, and puts both into a folder as `darboux view`
+/// expects them.
 fn fill(folder: &Path) -> Outcome {
     let page = dist_viewer::make_page(Build::Release)?;
     step("compile the command with all features", || {

@@ -9,7 +9,8 @@ use super::work::{RUST_VERSION, VERSION, empty_folder, print_size};
 use crate::doc_blocks;
 use crate::run::{Outcome, program, root, run, target_folder};
 
-/// Checks the published crates, without and with their optional features, with the oldest supported compiler, which rustup installs.
+/// Checks the published crates, without and with their optional features, with the oldest supported compiler,
+/// which rustup installs.
 pub fn check_rust_version() -> Outcome {
     run(&mut program(&format!(
         "rustup toolchain install {RUST_VERSION} --profile minimal --no-self-update"
@@ -25,7 +26,8 @@ pub fn check_rust_version() -> Outcome {
     })
 }
 
-/// Packages all crates, which has cargo build each from its package, then runs the README's example and the command.
+/// Packages all crates, which has cargo build each from its package, then runs the README's example and the
+/// command.
 pub fn check() -> Outcome {
     let packages = published()?;
     let mut cargo = program("cargo package --allow-dirty");

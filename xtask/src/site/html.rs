@@ -159,7 +159,8 @@ impl Page {
         format!("{file}{}", heading.map(|heading| format!("#{heading}")).unwrap_or_default())
     }
 
-    /// An image. The text of a figure can be selected, so a figure is an object; it has the colours of the page, light or dark.
+    /// An image. The text of a figure can be selected, so a figure is an object; it has the colours of the
+    /// page, light or dark.
     fn picture(&mut self, path: &Path, link: &str, alt: &str) -> String {
         let source = self.rewritten(path, link);
         let alt = alt.replace('&', "&amp;").replace('"', "&quot;").replace('<', "&lt;");
@@ -172,8 +173,8 @@ impl Page {
     }
 }
 
-/// A block of HTML as the site has it: comments vanish, `<!-- interactive: NAME -->` becomes the place of an interactive figure, and
-/// `<!-- viewer: STATE | CAPTION -->` the viewer with its sample in that state.
+/// A block of HTML as the site has it: comments vanish, `<!-- interactive: NAME -->` becomes the place of an
+/// interactive figure, and `<!-- viewer: STATE | CAPTION -->` the viewer with its sample in that state.
 fn html_block(page: &Path, text: &str) -> Option<String> {
     let comment = text.trim().strip_prefix("<!--").and_then(|rest| rest.strip_suffix("-->"));
     let Some(comment) = comment.map(str::trim) else { return Some(text.to_owned()) };

@@ -12,7 +12,8 @@ pub type Make = fn(&mut Random) -> Result<Case, String>;
 pub struct Case {
     /// What the case tries: a row of the summary.
     pub name: String,
-    /// Paths relative to the folder in which the command runs. The folder's parent belongs to the case as well.
+    /// Paths relative to the folder in which the command runs. The folder's parent belongs to the case as
+    /// well.
     pub files: Vec<(PathBuf, Content)>,
     pub arguments: Vec<OsString>,
     pub stdin: Vec<u8>,

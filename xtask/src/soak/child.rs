@@ -19,9 +19,11 @@ use signal_hook::low_level::emulate_default_handler;
 pub struct Limits {
     /// Time of the processor, over all threads.
     pub processor: Duration,
-    /// The longest time without progress: a run that hangs neither uses the processor nor waits for it. A busy machine does not lengthen it.
+    /// The longest time without progress: a run that hangs neither uses the processor nor waits for it. A
+    /// busy machine does not lengthen it.
     pub idle: Duration,
-    /// The longest time of all, for a hang in which a thread goes on with little, such as the display of progress.
+    /// The longest time of all, for a hang in which a thread goes on with little, such as the display of
+    /// progress.
     pub wall: Duration,
     /// Resident bytes.
     pub memory: u64,
@@ -49,7 +51,8 @@ pub struct ResourceUse {
 /// The processes that run now. Each is a leader of nothing: the command starts no further ones.
 static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
 
-/// A process that is killed when this value is dropped, or when the soak itself is ended by Ctrl-C, SIGTERM or SIGHUP.
+/// A process that is killed when this value is dropped, or when the soak itself is ended by Ctrl-C, SIGTERM
+/// or SIGHUP.
 pub struct OwnedChild(Child);
 
 impl OwnedChild {
@@ -85,7 +88,8 @@ impl Drop for OwnedChild {
     }
 }
 
-/// From now on Ctrl-C, SIGTERM and SIGHUP kill what runs and remove `folder` before they end the soak. Errors: the system refuses.
+/// From now on Ctrl-C, SIGTERM and SIGHUP kill what runs and remove `folder` before they end the soak.
+/// Errors: the system refuses.
 pub fn end_with_signals(folder: PathBuf) -> io::Result<()> {
     let mut signals = Signals::new([SIGHUP, SIGINT, SIGTERM])?;
     thread::spawn(move || {
@@ -105,8 +109,8 @@ pub fn end_with_signals(folder: PathBuf) -> io::Result<()> {
 /// The longest time between two measurements.
 const PAUSE: Duration = Duration::from_millis(4);
 
-/// Runs a program to its end. Its standard streams are files in `folder`. `signal` is sent after its time. Errors: the program cannot be
-/// started.
+/// Runs a program to its end. Its standard streams are files in `folder`. `signal` is sent after its time.
+/// Errors: the program cannot be started.
 pub fn run(
     command: &mut Command,
     folder: &Path,
@@ -190,7 +194,8 @@ pub fn measure(id: u32, used: &mut ResourceUse) {
     }
 }
 
-/// The time for which the threads of a running process have used the processor or waited for it. Zero on systems without /proc.
+/// The time for which the threads of a running process have used the processor or waited for it. Zero on
+/// systems without /proc.
 pub fn time_in_the_scheduler(id: u32) -> Duration {
     let Ok(threads) = fs::read_dir(format!("/proc/{id}/task")) else { return Duration::ZERO };
     let time_of = |thread: fs::DirEntry| {
@@ -201,7 +206,8 @@ pub fn time_in_the_scheduler(id: u32) -> Duration {
     threads.flatten().filter_map(time_of).sum()
 }
 
-/// The time of user and system in a line of /proc/ID/stat, whose unit is a hundredth of a second on every Linux.
+/// The time of user and system in a line of /proc/ID/stat, whose unit is a hundredth of a second on every
+/// Linux.
 fn processor_time(line: &str) -> Duration {
     // The name of the program, in parentheses, may contain spaces.
     let fields = line.rsplit(')').next().unwrap_or_default().split_whitespace();

@@ -1,4 +1,5 @@
-//! Random command lines, made from the command's own description of its options: a new subcommand or option is in the soak at once.
+//! Random command lines, made from the command's own description of its options: a new subcommand or option
+//! is in the soak at once.
 
 use serde_json::Value;
 

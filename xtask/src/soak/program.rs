@@ -14,8 +14,8 @@ pub struct Program {
 }
 
 impl Program {
-    /// The program at `path`, or a release build of this repository, and which of some subcommands it has. Errors: it cannot be built or
-    /// started.
+    /// The program at `path`, or a release build of this repository, and which of some subcommands it has.
+    /// Errors: it cannot be built or started.
     pub fn find<'a>(path: Option<&Path>, subcommands: impl Iterator<Item = &'a str>) -> Result<Self, String> {
         let path = match path {
             Some(path) => path.canonicalize().map_err(|error| format!("{}: {error}", path.display()))?,

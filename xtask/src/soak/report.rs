@@ -60,7 +60,8 @@ impl Report {
         self.start.elapsed() >= self.duration
     }
 
-    /// Counts a case, and keeps it if something was found. `reproduce` is the line that runs it again. Errors: it cannot be kept.
+    /// Counts a case, and keeps it if something was found. `reproduce` is the line that runs it again.
+    /// Errors: it cannot be kept.
     pub fn add(
         &mut self,
         case: &Case,

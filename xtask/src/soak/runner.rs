@@ -98,7 +98,8 @@ impl CaseFolders<'_> {
         Ok(ended.used.wall)
     }
 
-    /// Runs the command line to its end, then in a new folder with a signal at a random moment, then again in what this left.
+    /// Runs the command line to its end, then in a new folder with a signal at a random moment, then again in
+    /// what this left.
     fn run_killed(&self, signal: Signal, random: &mut Random, outcome: &mut Outcome) -> io::Result<()> {
         let time = self.run_once(outcome)?.mul_f32(1.1 * random.fraction());
         tree::make(self.files, self.case)?;

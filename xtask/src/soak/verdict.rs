@@ -28,7 +28,8 @@ const READ_INPUT: u64 = 64;
 const PROGRAM: u64 = 64 << 20;
 const ADAPTER: u64 = 512 << 20;
 
-/// The most characters of a line of messages: a sentence is cut after 1,000, and its labels and ends come in addition.
+/// The most characters of a line of messages: a sentence is cut after 1,000, and its labels and ends come in
+/// addition.
 const LONGEST_LINE: usize = 1100;
 
 /// The exit code of a Rust program that panicked.
@@ -162,7 +163,8 @@ fn sentences(case: &Case, ended: &EndedRun, text: &str, broken: &mut Vec<BrokenP
     }
 }
 
-/// Whether a check was done: it printed the count of its findings, which may be errors, or of the edits that it plans.
+/// Whether a check was done: it printed the count of its findings, which may be errors, or of the edits that
+/// it plans.
 fn has_findings(case: &Case, ended: &EndedRun) -> bool {
     let is_count = |line: &str| {
         (line.contains(" finding") || line.contains(" planned in ") || line.ends_with(" worth knowing"))

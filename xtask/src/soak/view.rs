@@ -26,7 +26,8 @@ const START_TIME: Duration = Duration::from_secs(20);
 /// The longest wait for an answer, on any machine.
 const LONGEST_WAIT: Duration = Duration::from_secs(600);
 
-/// Starts the server, opens hostile connections, and asks for the page and the model. Errors: the system refuses.
+/// Starts the server, opens hostile connections, and asks for the page and the model. Errors: the system
+/// refuses.
 pub fn run(
     command: &mut Command,
     streams: &Path,

@@ -14,7 +14,8 @@ pub(crate) struct Corners {
     /// The corner count of each face; 0 for faces with other than 3 or 4 corners.
     size_of_face: Vec<u8>,
     kind: Kind,
-    /// The number of extra corners at the start of the mesh: 1 where face 0 has other than 3 or 4 corners, else 0.
+    /// The number of extra corners at the start of the mesh: 1 where face 0 has other than 3 or 4 corners,
+    /// else 0.
     skipped: usize,
 }
 
@@ -60,7 +61,8 @@ impl Corners {
 
     /// Passes the result of every corner to `write`, with the face and the corner's number in the face.
     ///
-    /// `read(first, block)` fills `block` with the results of consecutive corners of the mesh, the first of them `first`. `None` where `read` returns `None`.
+    /// `read(first, block)` fills `block` with the results of consecutive corners of the mesh, the first of
+    /// them `first`. `None` where `read` returns `None`.
     pub fn hand_out<T: Copy + Default>(
         &self,
         read: impl Fn(usize, &mut [T]) -> Option<()>,
@@ -114,15 +116,18 @@ impl Kind {
     }
 }
 
-/// The number of corners per block: blocks are read before they are merged, and computed before they are written.
+/// The number of corners per block: blocks are read before they are merged, and computed before they are
+/// written.
 const BLOCK: usize = 64;
 
-/// Merges most corners with equal bits into one vertex. The core needs more time for separate vertices than the merging takes.
+/// Merges most corners with equal bits into one vertex. The core needs more time for separate vertices than
+/// the merging takes.
 struct Reader {
     vertices: Vec<[f32; 8]>,
     vertex_of_corner: Vec<u32>,
-    /// A cache of the last two vertices per hash slot, the last one first. An entry is the upper half of the hash and the vertex, so that a
-    /// vertex is compared only where the upper halves match. A corner whose vertex was evicted becomes a new vertex.
+    /// A cache of the last two vertices per hash slot, the last one first. An entry is the upper half of the
+    /// hash and the vertex, so that a vertex is compared only where the upper halves match. A corner
+    /// whose vertex was evicted becomes a new vertex.
     pairs: Vec<[u64; 2]>,
 }
 
@@ -131,7 +136,8 @@ impl Reader {
     fn new(count: usize) -> Option<Self> {
         let pair_count = (count / 8).next_power_of_two().clamp(1 << 3, 1 << 14);
         let (mut vertices, mut vertex_of_corner, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
-        // Reserved for the worst case, in which every corner is a vertex of its own. Unused pages cost nothing.
+        // Reserved for the worst case, in which every corner is a vertex of its own. Unused pages cost
+        // nothing.
         vertices.try_reserve_exact(count).ok()?;
         vertex_of_corner.try_reserve_exact(count).ok()?;
         pairs.try_reserve_exact(pair_count).ok()?;
@@ -139,7 +145,8 @@ impl Reader {
         Some(Self { vertices, vertex_of_corner, pairs })
     }
 
-    /// Reads all corners in blocks: loading bytes in wide parts stalls directly after a callback has stored them in narrow parts.
+    /// Reads all corners in blocks: loading bytes in wide parts stalls directly after a callback has stored
+    /// them in narrow parts.
     fn read(&mut self, caller: &Caller, size_of_face: &[u8]) {
         let mut block = [[0.0; 8]; BLOCK + 3];
         let mut filled = 0;

@@ -1,7 +1,9 @@
-//! The functions of `include/mikktspace.h`: the results of mikktspace.c bit for bit, through the same callbacks.
+//! The functions of `include/mikktspace.h`: the results of mikktspace.c bit for bit, through the same
+//! callbacks.
 //!
-//! A call reads the mesh, computes, and writes. Only reading and writing call back; they cannot panic, and a C++ exception that passes
-//! through them frees the arrays. Only the computation can panic; the panic is caught and becomes a result of 0.
+//! A call reads the mesh, computes, and writes. Only reading and writing call back; they cannot panic, and a
+//! C++ exception that passes through them frees the arrays. Only the computation can panic; the panic is
+//! caught and becomes a result of 0.
 
 #![allow(unsafe_code, reason = "C passes pointers")]
 #![allow(non_snake_case, reason = "functions are called as C calls them")]

@@ -1,4 +1,5 @@
-//! Differential tests: the functions of `darboux.h` return the core's results, bit for bit, for every memory layout.
+//! Differential tests: the functions of `darboux.h` return the core's results, bit for bit, for every memory
+//! layout.
 
 use std::ffi::CStr;
 use std::ptr::{null, null_mut};
@@ -142,7 +143,8 @@ fn tangents_in_all_methods_and_modes() {
     }
 }
 
-/// A vertex buffer of position, normal, UV and tangent: vertices are `stride` bytes apart, and `shift` bytes off alignment.
+/// A vertex buffer of position, normal, UV and tangent: vertices are `stride` bytes apart, and `shift` bytes
+/// off alignment.
 struct Interleaved {
     bytes: Vec<u8>,
     start: usize,
@@ -287,7 +289,8 @@ fn splits() {
         let expected = split_vertices(&mesh.view(), &corners).expect("its tangents");
         let (view, data, count) = (packed(&mesh), corners.per_corner().as_ptr().cast(), corners.len());
         let mut split = null_mut();
-        // SAFETY: all pointers refer to arrays of the given lengths; the result's arrays have the lengths that it gives, until it is freed.
+        // SAFETY: all pointers refer to arrays of the given lengths; the result's arrays have the lengths
+        // that it gives, until it is freed.
         unsafe {
             ok(darboux_split_vertices(&view, data, count, 0, null(), &mut split));
             let (found, vertices) = (&*split, (*split).vertex_count);
@@ -303,7 +306,8 @@ fn splits() {
     }
 }
 
-/// One call with the corners of all submeshes of a vertex buffer splits them as the core's `Splitter` does, submesh by submesh.
+/// One call with the corners of all submeshes of a vertex buffer splits them as the core's `Splitter` does,
+/// submesh by submesh.
 #[test]
 fn submeshes_split_together() {
     let mut count = 0;
@@ -321,7 +325,8 @@ fn submeshes_split_together() {
         }
         let sources = splitter.finish().source_of_vertex;
         let (view, mut split) = (packed(&mesh), null_mut());
-        // SAFETY: all pointers refer to arrays of the given lengths; the result's arrays have the lengths that it gives, until it is freed.
+        // SAFETY: all pointers refer to arrays of the given lengths; the result's arrays have the lengths
+        // that it gives, until it is freed.
         unsafe {
             ok(darboux_split_vertices(
                 &view,
@@ -375,7 +380,8 @@ fn normals_and_their_splits() {
         let mut split = null_mut();
         let split_expected =
             split_normals(view.vertex_count(), view.indices(), &expected.corners).expect("its normals");
-        // SAFETY: all pointers refer to arrays of the given lengths; the result's arrays have the lengths that it gives, until it is freed.
+        // SAFETY: all pointers refer to arrays of the given lengths; the result's arrays have the lengths
+        // that it gives, until it is freed.
         unsafe {
             ok(darboux_generate_normals(
                 &bare,

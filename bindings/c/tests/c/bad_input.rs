@@ -13,7 +13,8 @@ fn message() -> String {
     unsafe { CStr::from_ptr(darboux_last_error()) }.to_string_lossy().into_owned()
 }
 
-/// Passes an invalid mesh to every function that takes a mesh. All must return the same status and write nothing.
+/// Passes an invalid mesh to every function that takes a mesh. All must return the same status and write
+/// nothing.
 #[track_caller]
 fn refused(mesh: &darboux_mesh, status: darboux_status, part: &str) {
     const FILL: u32 = 0x7fc0_1234;
@@ -125,7 +126,8 @@ fn handles_and_results_may_be_null() {
     }
 }
 
-/// Structs of other versions: smaller ones are rejected; larger ones are accepted where their additional bytes are zero.
+/// Structs of other versions: smaller ones are rejected; larger ones are accepted where their additional
+/// bytes are zero.
 #[test]
 fn struct_sizes() {
     #[repr(C)]
@@ -163,7 +165,8 @@ fn struct_sizes() {
     assert_eq!(report.known.size, size_of::<LaterVersion<darboux_report>>());
 }
 
-/// A random mesh struct over one buffer. `None` where an array would exceed the buffer, which the library cannot detect.
+/// A random mesh struct over one buffer. `None` where an array would exceed the buffer, which the library
+/// cannot detect.
 fn random_mesh(dice: &mut Dice<'_>, buffer: &[u32]) -> Option<darboux_mesh> {
     let counts = [0, 1, 3, 4, 5, 12, usize::MAX, usize::MAX / 2, usize::MAX / 3, 1 << 62, (1 << 31) + 1];
     let strides = [0, 1, 7, 8, 11, 12, 13, 16, 48, usize::MAX, usize::MAX / 2, usize::MAX - 11, 1 << 61];

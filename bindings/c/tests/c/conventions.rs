@@ -1,4 +1,5 @@
-//! Differential tests: conversions of conventions, node matrices and skins through C equal the core's results.
+//! Differential tests: conversions of conventions, node matrices and skins through C equal the core's
+//! results.
 
 use std::ptr::{null, null_mut};
 
@@ -8,7 +9,8 @@ use darboux_tests::Dice;
 
 use crate::agreement::{bits, ok, zeroed};
 
-/// The preset of each program, and the preset with every choice but the axes inverted, so that every value of every choice occurs.
+/// The preset of each program, and the preset with every choice but the axes inverted, so that every value of
+/// every choice occurs.
 fn conventions() -> Vec<(Convention, darboux_convention)> {
     let mut all = Vec::new();
     for (program, (_, preset)) in (0..).zip(Convention::PRESETS) {

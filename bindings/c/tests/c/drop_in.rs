@@ -1,4 +1,5 @@
-//! Compares libdarboux_mikktspace with mikktspace.c: one program, built with each of them, must produce the same output.
+//! Compares libdarboux_mikktspace with mikktspace.c: one program, built with each of them, must produce the
+//! same output.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -176,7 +177,8 @@ fn larger_meshes_are_the_same() {
     assert_same(&inputs.collect::<Vec<_>>());
 }
 
-/// Faces of any number of corners, zero and negative numbers included, at the start, in the middle and at the end.
+/// Faces of any number of corners, zero and negative numbers included, at the start, in the middle and at the
+/// end.
 #[test]
 fn odd_faces_are_the_same() {
     if !has("gcc") {
@@ -203,7 +205,8 @@ fn odd_faces_are_the_same() {
     assert_same(&inputs);
 }
 
-/// Runs `callbacks.cpp`: the order, number and thread of callbacks, return values, exceptions, and concurrent calls.
+/// Runs `callbacks.cpp`: the order, number and thread of callbacks, return values, exceptions, and concurrent
+/// calls.
 #[test]
 fn callbacks_keep_their_promises() {
     if !has("g++") {

@@ -1,5 +1,5 @@
-//! ABI tests: every size, offset and constant of `darboux.h`, as a C compiler computes it, equals the value in Rust and the committed
-//! value in `abi.txt`.
+//! ABI tests: every size, offset and constant of `darboux.h`, as a C compiler computes it, equals the value
+//! in Rust and the committed value in `abi.txt`.
 
 use std::collections::HashSet;
 use std::fs;

@@ -1,4 +1,5 @@
-//! Tests of the C and C++ interfaces: programs that are compiled and linked as users do it, and comparisons with the core.
+//! Tests of the C and C++ interfaces: programs that are compiled and linked as users do it, and comparisons
+//! with the core.
 
 #![allow(unsafe_code, reason = "C functions are called")]
 

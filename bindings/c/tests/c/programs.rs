@@ -1,4 +1,5 @@
-//! Builds and runs the examples and test programs with CMake, pkg-config and plain compilers, with static and shared libraries.
+//! Builds and runs the examples and test programs with CMake, pkg-config and plain compilers, with static and
+//! shared libraries.
 
 use std::fs;
 use std::path::PathBuf;

@@ -1,4 +1,5 @@
-//! Measurements for docs/notes/c.md: `cargo test --release --package darboux-c -- --ignored --nocapture --test-threads=1 speed`.
+//! Measurements for docs/notes/c.md: `cargo test --release --package darboux-c -- --ignored --nocapture
+//! --test-threads=1 speed`.
 
 use std::hint::black_box;
 use std::io::Write;
@@ -17,11 +18,13 @@ fn print(line: &str) {
     writeln!(std::io::stdout(), "{line}").expect("standard output");
 }
 
-/// Environments of the measured program: the allocator keeps freed memory, so that no call pays for new pages; and the default.
+/// Environments of the measured program: the allocator keeps freed memory, so that no call pays for new
+/// pages; and the default.
 const ALLOCATORS: [(&str, &str); 2] =
     [("kept", "glibc.malloc.mmap_max=0:glibc.malloc.trim_threshold=17179869184"), ("fresh", "")];
 
-/// Times the drop-in and mikktspace.c alternately, with the same callbacks. The hashes of their results must be equal.
+/// Times the drop-in and mikktspace.c alternately, with the same callbacks. The hashes of their results must
+/// be equal.
 #[test]
 #[ignore = "a measurement"]
 fn speed_through_callbacks() {

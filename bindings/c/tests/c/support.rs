@@ -37,7 +37,8 @@ pub fn reference_sources() -> PathBuf {
     Path::new(package["manifest_path"].as_str().expect("a path")).with_file_name("c_code")
 }
 
-/// True when a program is installed; otherwise prints that the test is skipped. Panics instead where `CI` is set, so that CI skips nothing.
+/// True when a program is installed; otherwise prints that the test is skipped. Panics instead where `CI` is
+/// set, so that CI skips nothing.
 #[track_caller]
 pub fn has(program: &str) -> bool {
     let found = Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
@@ -79,7 +80,8 @@ pub enum Link {
 
 /// Compiles and links a program with all warnings as errors.
 ///
-/// `standard`: such as "c99" or "c++17"; `files`: sources; `libraries`: "darboux", "darboux_mikktspace", or none of ours.
+/// `standard`: such as "c99" or "c++17"; `files`: sources; `libraries`: "darboux", "darboux_mikktspace", or
+/// none of ours.
 #[track_caller]
 pub fn build(name: &str, standard: &str, files: &[PathBuf], libraries: &[&str], link: Link) -> PathBuf {
     let program = folder().join(name);

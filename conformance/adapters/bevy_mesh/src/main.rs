@@ -23,7 +23,9 @@ fn compute(case: &Case) -> Result<Found, String> {
     if mesh.generate_tangents().is_err() {
         return Ok(failed());
     }
-    let Some(VertexAttributeValues::Float32x4(tangents)) = mesh.attribute(Mesh::ATTRIBUTE_TANGENT) else { return Ok(failed()) };
+    let Some(VertexAttributeValues::Float32x4(tangents)) = mesh.attribute(Mesh::ATTRIBUTE_TANGENT) else {
+        return Ok(failed());
+    };
     // Bevy negates the sign, as for glTF.
     let tangents = tangents.iter().map(|&[x, y, z, w]| [x, y, z, -w]).collect();
     Ok(Found::PerVertex(tangents, case.indices.clone()))

@@ -68,7 +68,8 @@ fn meshopt(case: &Case, options: meshopt::TangentOptions) -> Result<Found, Strin
         return Err("triangles only".into());
     }
     only_180(case)?;
-    let found = meshopt::generate_tangents(Some(&case.indices), &case.positions, &case.normals, &case.uvs, options);
+    let found =
+        meshopt::generate_tangents(Some(&case.indices), &case.positions, &case.normals, &case.uvs, options);
     Ok(Found::PerCorner(found))
 }
 

@@ -1,4 +1,5 @@
-//! Builds the hierarchy from the top: every set of triangles is split where the surface area heuristic says so.
+//! Builds the hierarchy from the top: every set of triangles is split where the surface area heuristic says
+//! so.
 //!
 //! ```text
 //! node(triangles):   split the largest part in two until there are four; every part is a child
@@ -6,8 +7,8 @@
 //! cost of a split:   area of the left box * leaves on the left + the same of the right
 //! ```
 //!
-//! The sets of each of the upper levels are split by all threads. The parts below are jobs for all threads; their number depends on the triangles
-//! alone, and their lists are joined in order.
+//! The sets of each of the upper levels are split by all threads. The parts below are jobs for all threads;
+//! their number depends on the triangles alone, and their lists are joined in order.
 
 use darboux::internal::jobs;
 use darboux::{Context, Error};
@@ -18,7 +19,8 @@ use super::node::{Child, Node};
 /// The most levels of nodes.
 pub const MAX_DEPTH: usize = 64;
 
-/// From this level on sets are halved, so that no arrangement of triangles needs more than [`MAX_DEPTH`] levels.
+/// From this level on sets are halved, so that no arrangement of triangles needs more than [`MAX_DEPTH`]
+/// levels.
 const HALVING_DEPTH: usize = 32;
 
 /// Bins per split.
@@ -74,7 +76,8 @@ impl Box3 {
         triangles.iter().fold(Self::EMPTY, |all, one| all.union(one.bounds))
     }
 
-    /// The box around this one and a point. Comparisons instead of `f32::min`: without its rule for NaN they are one instruction.
+    /// The box around this one and a point. Comparisons instead of `f32::min`: without its rule for NaN they
+    /// are one instruction.
     #[inline(always)]
     fn with(self, point: [f32; 4]) -> Self {
         self.union(Self { least: point, greatest: point })
@@ -241,7 +244,8 @@ fn build_node(
     Child::Node(node as u32)
 }
 
-/// Splits triangles into one to four parts: always the part with the largest box, or from [`HALVING_DEPTH`] on that with the most triangles.
+/// Splits triangles into one to four parts: always the part with the largest box, or from [`HALVING_DEPTH`]
+/// on that with the most triangles.
 fn parts(triangles: &mut [Bounded], bounds: Box3, depth: usize) -> Vec<(&mut [Bounded], Box3)> {
     let is_halved = depth >= HALVING_DEPTH;
     let mut parts = Vec::with_capacity(4);
@@ -309,7 +313,8 @@ fn leaf_count(triangles: usize) -> f32 {
     triangles.div_ceil(SIZE) as f32
 }
 
-/// Sorts at most [`SORTED`] triangles along the best axis; returns the multiple of [`SIZE`] at which the split costs least.
+/// Sorts at most [`SORTED`] triangles along the best axis; returns the multiple of [`SIZE`] at which the
+/// split costs least.
 fn sort_and_sweep(triangles: &mut [Bounded]) -> usize {
     let count = triangles.len();
     let mut given = [triangles[0]; SORTED];
@@ -339,7 +344,8 @@ fn sort_and_sweep(triangles: &mut [Bounded]) -> usize {
     middle
 }
 
-/// Moves the triangles of the lower bins to the front; returns their number and the boxes of both sides. `None` where all centres are equal.
+/// Moves the triangles of the lower bins to the front; returns their number and the boxes of both sides.
+/// `None` where all centres are equal.
 fn partition_by_bins(triangles: &mut [Bounded]) -> Option<(usize, [Box3; 2])> {
     let centers = triangles.iter().fold(Box3::EMPTY, |all, one| all.with(one.center()));
     let extent = centers.extent();
@@ -365,7 +371,8 @@ fn partition_by_bins(triangles: &mut [Bounded]) -> Option<(usize, [Box3; 2])> {
     Some((partition(triangles, |triangle| bin_of(triangle) <= last), boxes))
 }
 
-/// The last bin of the left side of the cheapest split. Both sides have triangles: the first and the last bin are never empty.
+/// The last bin of the left side of the cheapest split. Both sides have triangles: the first and the last bin
+/// are never empty.
 fn cheapest_bin(bins: &[(Box3, usize); BINS]) -> usize {
     let mut right_costs = [0f32; BINS];
     let (mut bounds, mut count) = (Box3::EMPTY, 0);

@@ -34,9 +34,10 @@ impl Leaf {
 
     /// The nearest hit that is nearer than `best`, or as near with a smaller number.
     ///
-    /// The test of S. Woop et al., "Watertight Ray/Triangle Intersection": the corners are sheared so that the ray is the last axis. The edge
-    /// functions of an edge that two triangles share differ in their sign alone, so that no ray passes between the triangles. Triangles that
-    /// `accepts` refuses are transparent.
+    /// The test of S. Woop et al., "Watertight Ray/Triangle Intersection": the corners are sheared so that
+    /// the ray is the last axis. The edge functions of an edge that two triangles share differ in their
+    /// sign alone, so that no ray passes between the triangles. Triangles that `accepts` refuses are
+    /// transparent.
     #[inline(always)]
     pub fn nearest(
         &self,

@@ -12,14 +12,15 @@ pub enum Child {
 /// The bit of leaves in stored children.
 const LEAF: u32 = 1 << 31;
 
-/// The far end of a box is moved by this factor, which exceeds the rounding errors of its distance (T. Ize, "Robust BVH Ray Traversal", JCGT
-/// 2(2), 2013, section 3): no ray misses a box that contains its hit.
+/// The far end of a box is moved by this factor, which exceeds the rounding errors of its distance (T. Ize,
+/// "Robust BVH Ray Traversal", JCGT 2(2), 2013, section 3): no ray misses a box that contains its hit.
 pub const FAR_FACTOR: f32 = 1.000_000_4;
 
 /// The boxes of up to four children, by axis and child.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    /// The least and the greatest coordinate: `bounds[side][axis][child]`. Absent children have boxes that no ray hits.
+    /// The least and the greatest coordinate: `bounds[side][axis][child]`. Absent children have boxes that
+    /// no ray hits.
     bounds: [[[f32; 4]; 3]; 2],
     children: [u32; 4],
 }

@@ -39,14 +39,16 @@ pub struct PreparedRay {
     pub inverse: [f32; 3],
     /// Whether the direction is negative, per axis.
     pub is_negative: [bool; 3],
-    /// The axes in the order of the sheared space, whose last axis is the largest component of the direction (Woop et al., section 3).
+    /// The axes in the order of the sheared space, whose last axis is the largest component of the direction
+    /// (Woop et al., section 3).
     pub axes: [usize; 3],
     /// The shear along the first two axes, and the scale along the last.
     pub shear: [f32; 3],
 }
 
-/// The share of the largest distance of a corner by which boxes are widened. The sheared corners of [`Leaf`](super::leaf::Leaf) have rounding
-/// errors of at most 4 * 2^-24 of it, so that no box is missed whose triangle is hit (Woop et al., section 4).
+/// The share of the largest distance of a corner by which boxes are widened. The sheared corners of
+/// [`Leaf`](super::leaf::Leaf) have rounding errors of at most 4 * 2^-24 of it, so that no box is missed
+/// whose triangle is hit (Woop et al., section 4).
 const MARGIN: f32 = 5e-7;
 
 impl PreparedRay {

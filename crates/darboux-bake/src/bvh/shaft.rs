@@ -1,8 +1,10 @@
-//! Shafts: intervals around the rays of neighbouring texels, which find where in the tree all of them may begin.
+//! Shafts: intervals around the rays of neighbouring texels, which find where in the tree all of them may
+//! begin.
 //!
-//! S. Boulos, I. Wald, P. Shirley, "Geometric and Arithmetic Culling Methods for Entire Ray Packets", University of Utah, UUCS-06-10, 2006.
-//! Every bound is computed by the operations of a single ray at the ends of the intervals. Rounding is monotone, so a shaft enters every box that one of
-//! its rays enters, and hits are the same bit for bit.
+//! S. Boulos, I. Wald, P. Shirley, "Geometric and Arithmetic Culling Methods for Entire Ray Packets",
+//! University of Utah, UUCS-06-10, 2006. Every bound is computed by the operations of a single ray at the
+//! ends of the intervals. Rounding is monotone, so a shaft enters every box that one of its rays enters, and
+//! hits are the same bit for bit.
 
 use super::node::{Child, FAR_FACTOR, Node};
 use super::ray::PreparedRay;
@@ -59,7 +61,8 @@ impl Shaft {
         for axis in (0..3).filter(|&axis| self.has_one_sign[axis]) {
             let is_negative = self.is_negative[axis];
             let [entry, exit] = node.sides(axis, is_negative);
-            // The rays that enter first and leave last begin where the difference, along their direction, is least and greatest.
+            // The rays that enter first and leave last begin where the difference, along their direction, is
+            // least and greatest.
             let [ahead, behind] = if is_negative { [0, 1] } else { [1, 0] };
             for child in 0..4 {
                 let from = entry[child] - self.near_origins[ahead][axis];
@@ -93,7 +96,8 @@ fn greatest([a, b]: [f32; 2]) -> f32 {
     if a.is_nan() || b.is_nan() { f32::NAN } else { a.max(b) }
 }
 
-/// The parts of a tree that the rays of a shaft may hit: a few nodes, whose children are nodes and leaves from anywhere below.
+/// The parts of a tree that the rays of a shaft may hit: a few nodes, whose children are nodes and leaves
+/// from anywhere below.
 #[derive(Clone, Debug)]
 pub struct Cut {
     nodes: [Node; MOST / 4],
@@ -113,7 +117,8 @@ impl Cut {
 }
 
 impl Bvh {
-    /// The cut of a shaft: nodes are replaced by those of their children that the shaft enters, the upper ones first, while there is room.
+    /// The cut of a shaft: nodes are replaced by those of their children that the shaft enters, the upper
+    /// ones first, while there is room.
     pub fn cut(&self, shaft: &Shaft) -> Cut {
         let mut waiting = [([[0f32; 3]; 2], Child::Node(0)); MOST];
         let mut count = usize::from(!self.nodes.is_empty());

@@ -18,7 +18,8 @@ fn unit(v: [f32; 3]) -> [f32; 3] {
     v.map(|x| x / length)
 }
 
-/// The slow twin: the distance at which a ray meets a triangle (T. Möller, B. Trumbore, 1997), and the least barycentric coordinate there.
+/// The slow twin: the distance at which a ray meets a triangle (T. Möller, B. Trumbore, 1997), and the least
+/// barycentric coordinate there.
 fn meet([a, b, c]: Triangle, ray: &Ray) -> Option<(f64, f64)> {
     let wide = |v: [f32; 3]| v.map(f64::from);
     let sub = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
@@ -68,7 +69,8 @@ fn hits_are_those_of_a_test_of_all_triangles() {
             let met = |triangle: &Triangle| meet(*triangle, &ray);
             let found = bvh.nearest(&ray, Sides::Both, &mut stack);
             assert_eq!(bvh.is_blocked(&ray, &mut stack), found.is_some());
-            // Within 1e-4 of an edge or of the ends of the ray rounding may decide; the coordinates are below 4 and floats have 7 digits.
+            // Within 1e-4 of an edge or of the ends of the ray rounding may decide; the coordinates are below
+            // 4 and floats have 7 digits.
             let all: Vec<(f64, f64)> = triangles.iter().filter_map(met).collect();
             let is_within = |t: f64, by: f64| t > by && t < f64::from(ray.length) - by;
             let expected = all.iter().filter(|(t, least)| *least > 1e-4 && is_within(*t, 1e-4));

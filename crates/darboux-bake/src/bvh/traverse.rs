@@ -6,7 +6,8 @@ use super::ray::{Hit, PreparedRay, Ray, Sides};
 use super::shaft::{Cut, MOST};
 use super::tree::Bvh;
 
-/// A node leaves at most three children on the stack besides the one that is visited next, and a cut begins with up to [`MOST`].
+/// A node leaves at most three children on the stack besides the one that is visited next, and a cut begins
+/// with up to [`MOST`].
 const STACK: usize = 3 * MAX_DEPTH + MOST;
 
 /// The children that wait, each with the distance of its box. Rays reuse it one after the other.

@@ -25,8 +25,8 @@ pub struct Bvh {
 impl Bvh {
     /// Builds the hierarchy over `count` triangles. The result does not depend on the number of threads.
     ///
-    /// `triangle`: the corners of a triangle, counter-clockwise as seen from its front. Triangles with corners that are not finite are left
-    /// out. Errors: the context's token was cancelled.
+    /// `triangle`: the corners of a triangle, counter-clockwise as seen from its front. Triangles with
+    /// corners that are not finite are left out. Errors: the context's token was cancelled.
     pub fn build(
         count: u32,
         triangle: &(impl Fn(u32) -> [[f32; 3]; 3] + Sync),

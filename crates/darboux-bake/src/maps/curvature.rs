@@ -1,14 +1,17 @@
-//! Curvature: the mean curvature of the high surface within a radius, times the radius. A sphere of the same radius has 1, a bowl -1.
+//! Curvature: the mean curvature of the high surface within a radius, times the radius. A sphere of the same
+//! radius has 1, a bowl -1.
 //!
-//! In [`COUNT`] planes through the normal n at a point p, a walk around a square finds the next point q of the surface, with the normal m:
+//! In [`COUNT`] planes through the normal n at a point p, a walk around a square finds the next point q of
+//! the surface, with the normal m:
 //!
 //! ```text
 //! up by the radius, outwards by the radius, down by twice the radius, back below p, up to p
 //! curvature in the plane = (m - n) . (q - p) / |q - p|^2
 //! ```
 //!
-//! This quotient is exact on spheres for every radius, and its mean over evenly spaced planes is the mean curvature where the radius is small. The
-//! walk finds the second side also at edges and in corners, where a ray from above would miss it.
+//! This quotient is exact on spheres for every radius, and its mean over evenly spaced planes is the mean
+//! curvature where the radius is small. The walk finds the second side also at edges and in corners, where a
+//! ray from above would miss it.
 
 use super::hemisphere::lifted;
 use crate::CurvatureRadius;
@@ -86,7 +89,8 @@ impl Walk<'_> {
         hit.map_or(0.0, |hit| self.between(&hit))
     }
 
-    /// The curvature between the point and a hit. A hit nearer than a hundredth of the radius is the point itself.
+    /// The curvature between the point and a hit. A hit nearer than a hundredth of the radius is the point
+    /// itself.
     fn between(&self, hit: &WalkHit) -> f64 {
         let apart = sub(hit.position, self.found.position);
         let square = dot(apart, apart);

@@ -1,14 +1,17 @@
-//! What lies around a point of the high surface: the share of the hemisphere that is open, and the mean of its open directions.
+//! What lies around a point of the high surface: the share of the hemisphere that is open, and the mean of
+//! its open directions.
 
 use crate::bvh::{Ray, Stack};
 use crate::found::Found;
 use crate::vector::{Vector, add_scaled, narrow, perpendiculars, unit};
 use crate::{OcclusionFalloff, OcclusionWeights};
 
-/// The origin of rays lies above the surface by this share of the coordinates' size, so that rounding does not put it below.
+/// The origin of rays lies above the surface by this share of the coordinates' size, so that rounding does
+/// not put it below.
 const LIFT: f64 = 1e-5;
 
-/// It lies at least this share of the largest coordinate above it: on triangles that are much larger than the model, hits are rounded by as much.
+/// It lies at least this share of the largest coordinate above it: on triangles that are much larger than the
+/// model, hits are rounded by as much.
 const LIFT_OF_BOX: f64 = 1e-6;
 
 /// What lies around a point.
@@ -75,7 +78,8 @@ pub fn lifted(found: &Found<'_>, outwards: Vector) -> [f32; 3] {
     narrow(add_scaled(found.position, lift, outwards))
 }
 
-/// Directions over a hemisphere: the Hammersley set, turned by a random angle, so that errors are noise and not bands.
+/// Directions over a hemisphere: the Hammersley set, turned by a random angle, so that errors are noise and
+/// not bands.
 pub struct Directions {
     axes: [Vector; 3],
     count: u32,
@@ -90,7 +94,8 @@ impl Directions {
         Self { axes: [x, y, normal], count, weights, turn: turn_of(seed) }
     }
 
-    /// The directions. Weights by the cosine: a disc projected up (P. Shirley, K. Chiu, 1997); uniform ones: a cylinder projected inwards (Archimedes).
+    /// The directions. Weights by the cosine: a disc projected up (P. Shirley, K. Chiu, 1997); uniform ones:
+    /// a cylinder projected inwards (Archimedes).
     pub fn all(&self) -> impl Iterator<Item = Vector> {
         let [x, y, normal] = self.axes;
         (0..self.count).map(move |index| {
@@ -109,8 +114,8 @@ impl Directions {
     }
 }
 
-/// The sine and the cosine of an angle by their Taylor series: the same bits on every platform, which libraries of the system do not promise.
-/// Error: below 1e-9 for the angles here, from 0 to 4 pi.
+/// The sine and the cosine of an angle by their Taylor series: the same bits on every platform, which
+/// libraries of the system do not promise. Error: below 1e-9 for the angles here, from 0 to 4 pi.
 pub fn sine_and_cosine(angle: f64) -> (f64, f64) {
     let turns = angle / std::f64::consts::TAU;
     let x = (turns - turns.round()) * std::f64::consts::TAU;

@@ -1,7 +1,9 @@
-//! What the materials of the high surface show, as glTF 2.0 defines it (3.9.2, 3.9.3), over the footprint of the sample.
+//! What the materials of the high surface show, as glTF 2.0 defines it (3.9.2, 3.9.3), over the footprint of
+//! the sample.
 //!
-//! The sides of the sample's area on the low surface are moved along the ray into the plane of the high triangle. There they change the
-//! weights of its corners, and with them the UVs: the footprint in the texture.
+//! The sides of the sample's area on the low surface are moved along the ray into the plane of the high
+//! triangle. There they change the weights of its corners, and with them the UVs: the footprint in the
+//! texture.
 
 use super::vertex_color;
 use crate::MaterialProperty;
@@ -10,7 +12,8 @@ use crate::found::Found;
 use crate::material::TrianglePlace;
 use crate::vector::{Vector, add_scaled, cross, dot, length, sub, unit, wide};
 
-/// The least cosine between the ray and the normal of the plane with which sides are moved: at grazing angles footprints would have no end.
+/// The least cosine between the ray and the normal of the plane with which sides are moved: at grazing angles
+/// footprints would have no end.
 const LEAST_COSINE: f64 = 0.1;
 
 /// Red, green and blue, times those of the vertices.

@@ -6,8 +6,8 @@ use crate::bvh::{Ray, Stack};
 use crate::found::Found;
 use crate::vector::{narrow, scale, unit};
 
-/// The mean distance. Rays that meet nothing count as the greatest distance; they do not count where it is infinite, and 0 remains if there are no
-/// others.
+/// The mean distance. Rays that meet nothing count as the greatest distance; they do not count where it is
+/// infinite, and 0 remains if there are no others.
 pub fn mean(found: &Found<'_>, stack: &mut Stack) -> f64 {
     let options = found.options;
     let inwards = scale(-1.0, found.high.normal);

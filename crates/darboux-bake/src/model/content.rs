@@ -1,4 +1,5 @@
-//! What the primitives of high models show beside their shape: colours of vertices, materials, and the names of what they belong to.
+//! What the primitives of high models show beside their shape: colours of vertices, materials, and the names
+//! of what they belong to.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -31,19 +32,22 @@ type PlacedTexture<'a> = (usize, Cow<'a, [[f32; 2]]>);
 #[derive(Debug, Default)]
 pub struct ColorTextures {
     list: Vec<ColorTexture>,
-    /// By the image and whether it is in sRGB, with the modes in which it is wrapped; none where it cannot be used.
+    /// By the image and whether it is in sRGB, with the modes in which it is wrapped; none where it cannot
+    /// be used.
     known: HashMap<(Option<usize>, bool, String), Option<usize>>,
     pub warnings: Vec<String>,
 }
 
-/// Whether the texture of a material holds colours in sRGB, judged by its name in the material, as `baseColorTexture` does.
+/// Whether the texture of a material holds colours in sRGB, judged by its name in the material, as
+/// `baseColorTexture` does.
 pub fn is_color_texture(member: &str) -> bool {
     let name = member.rsplit('.').next().unwrap_or(member).to_lowercase();
     ["color", "emissive", "diffuse"].iter().any(|part| name.contains(part))
 }
 
 impl<'a> PartContent<'a> {
-    /// Reads what maps need of a primitive. `texture`: the name of the texture of [`MapKind::Texture`] in the material. Errors: invalid data.
+    /// Reads what maps need of a primitive. `texture`: the name of the texture of [`MapKind::Texture`] in the
+    /// material. Errors: invalid data.
     pub fn read(
         document: &'a Document,
         corners: &'a PrimitiveCorners<'a>,
@@ -124,7 +128,8 @@ impl<'a> Stored<'a> {
         std::array::from_fn(|i| number(i).as_f64().map_or(default[i], |x| x as f32))
     }
 
-    /// The texture at a place in the material's JSON, and where the primitive reads it; none if it has none or it cannot be used.
+    /// The texture at a place in the material's JSON, and where the primitive reads it; none if it has none
+    /// or it cannot be used.
     fn texture(
         &self,
         member: &str,

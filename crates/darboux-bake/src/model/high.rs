@@ -18,8 +18,9 @@ pub struct HighModelOptions {
     pub normal_maps: bool,
     /// The maps whose colours and textures are read. Default: none.
     pub maps: MapSet,
-    /// The texture of [`MapKind::Texture`](crate::MapKind::Texture): its place in the JSON of the material, such as `occlusionTexture` or
-    /// `extensions.KHR_materials_clearcoat.clearcoatTexture`. Default: none.
+    /// The texture of [`MapKind::Texture`](crate::MapKind::Texture): its place in the JSON of the material,
+    /// such as `occlusionTexture` or `extensions.KHR_materials_clearcoat.clearcoatTexture`. Default:
+    /// none.
     pub texture: Option<String>,
 }
 
@@ -49,7 +50,8 @@ impl HighModelOptions {
     }
 }
 
-/// The triangles of a document's scene at all their places, without animation and in the pose in which skinned meshes are stored.
+/// The triangles of a document's scene at all their places, without animation and in the pose in which
+/// skinned meshes are stored.
 #[derive(Debug)]
 pub struct HighModel<'a> {
     file: String,
@@ -113,7 +115,8 @@ impl<'a> HighModel<'a> {
         Ok(Self { file, parts, textures, color_textures, material_names, mesh_names, part_names })
     }
 
-    /// Reads several models. `corners`: [`Document::corners`] of each document. Errors: as of [`HighModel::read`].
+    /// Reads several models. `corners`: [`Document::corners`] of each document. Errors: as of
+    /// [`HighModel::read`].
     pub fn read_all(
         documents: &'a [Document],
         corners: &'a [Vec<PrimitiveCorners<'a>>],
@@ -126,7 +129,8 @@ impl<'a> HighModel<'a> {
             .collect()
     }
 
-    /// The surfaces of several models, one model after the other, with the numbers of [`HighModel::names_of_all`]. Errors: an index out of range.
+    /// The surfaces of several models, one model after the other, with the numbers of
+    /// [`HighModel::names_of_all`]. Errors: an index out of range.
     pub fn surfaces_of_all(models: &[Self]) -> Result<Vec<HighSurface<'_>>, Error> {
         let mut surfaces = Vec::new();
         let mut first = SurfaceLabels::default();
@@ -146,7 +150,8 @@ impl<'a> HighModel<'a> {
         Ok(surfaces)
     }
 
-    /// The names that the numbers of materials, meshes or parts stand for, of several models; empty where there is none.
+    /// The names that the numbers of materials, meshes or parts stand for, of several models; empty where
+    /// there is none.
     pub fn names_of_all(models: &[Self], source: IdSource) -> Vec<&str> {
         models.iter().flat_map(|model| model.names_of(source)).map(|name| &**name).collect()
     }

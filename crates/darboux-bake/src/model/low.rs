@@ -20,7 +20,8 @@ use crate::vector::{box_diagonal, box_extents};
 pub struct LowModelOptions {
     /// The n of `TEXCOORD_n`. Default: for each primitive the set that the normal map of its material uses.
     pub uv_set: Option<usize>,
-    /// How tangents are computed. Default: the file's tangents, and MikkTSpace's where it has none for the UV set.
+    /// How tangents are computed. Default: the file's tangents, and MikkTSpace's where it has none for the
+    /// UV set.
     pub tangents: Option<TangentOptions>,
     /// The index of the only material whose primitives are baked. Default: all primitives.
     pub material: Option<usize>,
@@ -46,7 +47,8 @@ impl LowModelOptions {
     }
 }
 
-/// The triangles of a document's scene at the first of their places, without animation and in the pose in which skinned meshes are stored.
+/// The triangles of a document's scene at the first of their places, without animation and in the pose in
+/// which skinned meshes are stored.
 #[derive(Debug)]
 pub struct LowModel<'a> {
     parts: Vec<LowPart<'a>>,
@@ -76,8 +78,9 @@ struct LowPart<'a> {
 }
 
 impl<'a> LowModel<'a> {
-    /// Reads the model. `corners`: [`Document::corners`] of the same document. Errors: invalid data; a primitive without normals;
-    /// no triangles with the chosen material; UVs of the chosen set at none of them.
+    /// Reads the model. `corners`: [`Document::corners`] of the same document. Errors: invalid data; a
+    /// primitive without normals; no triangles with the chosen material; UVs of the chosen set at none of
+    /// them.
     pub fn read(
         document: &'a Document,
         corners: &'a [PrimitiveCorners<'a>],
@@ -174,7 +177,8 @@ impl<'a> LowModel<'a> {
         box_diagonal(self.positions())
     }
 
-    /// The length of the box around the model over its width, the second largest of its extents; infinite for a line, 1 for a point.
+    /// The length of the box around the model over its width, the second largest of its extents; infinite for
+    /// a line, 1 for a point.
     pub fn elongation(&self) -> f64 {
         let mut extents = box_extents(self.positions());
         extents.sort_by(f64::total_cmp);

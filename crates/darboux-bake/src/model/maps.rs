@@ -74,8 +74,8 @@ impl Textures {
         }
     }
 
-    /// The map on a primitive, with the tangents that a renderer uses: the file's, or else MikkTSpace's. None: the primitive lacks normals or
-    /// the map's UVs. Errors: invalid data.
+    /// The map on a primitive, with the tangents that a renderer uses: the file's, or else MikkTSpace's.
+    /// None: the primitive lacks normals or the map's UVs. Errors: invalid data.
     pub fn on_part<'a>(
         &mut self,
         document: &'a Document,
@@ -105,7 +105,8 @@ impl Textures {
     }
 }
 
-/// The size and the vectors of a normal map: 8 or 16 bits of a PNG, 8 bits of other formats. The error is a clause.
+/// The size and the vectors of a normal map: 8 or 16 bits of a PNG, 8 bits of other formats. The error is a
+/// clause.
 fn decode(document: &Document, used: &TextureUse) -> Result<([u32; 2], Vec<[f32; 3]>), String> {
     let image = used.image.ok_or("its texture has no image; export it again with one")?;
     let bytes = document.image_bytes(image).map_err(|error| error.to_string())?;

@@ -39,9 +39,11 @@ impl UnpairedParts {
     }
 }
 
-/// Puts surfaces into groups by the names of their parts, which [`match_names`] pairs, and removes high surfaces that belong to no low part.
+/// Puts surfaces into groups by the names of their parts, which [`match_names`] pairs, and removes high
+/// surfaces that belong to no low part.
 ///
-/// `low`: the model and its surfaces; `high`: all models and their surfaces, as of [`HighModel::surfaces_of_all`].
+/// `low`: the model and its surfaces; `high`: all models and their surfaces, as of
+/// [`HighModel::surfaces_of_all`].
 pub fn group_by_name(
     low: (&LowModel<'_>, &mut [LowSurface<'_>]),
     high: (&[HighModel<'_>], &mut Vec<HighSurface<'_>>),

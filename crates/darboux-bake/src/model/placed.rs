@@ -36,7 +36,8 @@ pub fn places(document: &Document) -> Result<Vec<Vec<Place>>, Error> {
     Ok(places)
 }
 
-/// The values of an attribute at every vertex of a primitive; none if it does not have it. Errors: invalid data.
+/// The values of an attribute at every vertex of a primitive; none if it does not have it. Errors: invalid
+/// data.
 pub fn vertices<'a, const N: usize>(
     document: &'a Document,
     name: &PrimitiveName,
@@ -59,7 +60,8 @@ pub struct PlacedPrimitive<'a> {
 }
 
 impl<'a> PlacedPrimitive<'a> {
-    /// Reads a primitive; none where it has no positions. A mirroring matrix reverses the triangles. Errors: invalid data.
+    /// Reads a primitive; none where it has no positions. A mirroring matrix reverses the triangles. Errors:
+    /// invalid data.
     pub fn read(
         document: &'a Document,
         corners: &'a PrimitiveCorners<'a>,

@@ -19,12 +19,12 @@ use crate::{BakeOptions, Bitangent, LowSurface, NormalTexture};
 /// The largest side of the picture of errors; of larger maps one texel in each cell is compared.
 const MAX_HEAT_SIDE: usize = 2048;
 
-/// The most points that are expected. Where charts cover the image more often than twice at its largest side, as those of repeated textures do, one
-/// texel in larger cells is compared.
+/// The most points that are expected. Where charts cover the image more often than twice at its largest side,
+/// as those of repeated textures do, one texel in larger cells is compared.
 const MAX_POINTS: f64 = (2 * MAX_HEAT_SIDE * MAX_HEAT_SIDE) as f64;
 
-/// The most triangles that are compared at a texel: the first ones, in the order of surfaces and triangles. Trim sheets and tiled parts may lie over each
-/// other by the thousand.
+/// The most triangles that are compared at a texel: the first ones, in the order of surfaces and triangles.
+/// Trim sheets and tiled parts may lie over each other by the thousand.
 const MAX_TRIANGLES_PER_TEXEL: u8 = 64;
 
 /// What all bands share.
@@ -40,8 +40,8 @@ pub struct Points<'a> {
     pub cell_side: usize,
 }
 
-/// The least side of cells, in texels, with which the picture of errors has no more than [`MAX_HEAT_SIDE`] rows and columns, and about
-/// [`MAX_POINTS`] points at most are compared.
+/// The least side of cells, in texels, with which the picture of errors has no more than [`MAX_HEAT_SIDE`]
+/// rows and columns, and about [`MAX_POINTS`] points at most are compared.
 pub fn cell_side(layout: &Layout, low: &[LowSurface<'_>]) -> usize {
     let by_picture = layout.size[0].max(layout.size[1]).div_ceil(MAX_HEAT_SIDE);
     let by_points = (layout.charted_area(low) / MAX_POINTS).sqrt().ceil();
@@ -62,7 +62,8 @@ pub struct PointErrors {
     pub mistakes: [f32; Mistake::ALL.len()],
 }
 
-/// The most bytes that an error takes: lists grow by doubling, and one statistic at a time has a list of its own.
+/// The most bytes that an error takes: lists grow by doubling, and one statistic at a time has a list of its
+/// own.
 pub const BYTES_PER_POINT: u64 = 2 * size_of::<PointErrors>() as u64 + 8;
 
 /// The points of a row of blocks.

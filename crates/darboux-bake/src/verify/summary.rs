@@ -27,7 +27,8 @@ pub struct Verification {
     pub points_without_frame: u64,
     /// The width and height of `heat`.
     pub heat_size: [u32; 2],
-    /// The largest error around each texel, row after row; NaN where no point lies. Texels are merged where one of several is compared.
+    /// The largest error around each texel, row after row; NaN where no point lies. Texels are merged where
+    /// one of several is compared.
     #[serde(skip)]
     pub heat: Vec<f32>,
 }

@@ -80,7 +80,8 @@ impl Pair {
         Shape::grid(cells, self.is_mirrored, |u, v| (self.base)(u, v))
     }
 
-    /// The base with the detail, finely. It is a little longer than the low mesh, so that the rays at the ends of that hit.
+    /// The base with the detail, finely. It is a little longer than the low mesh, so that the rays at the
+    /// ends of that hit.
     pub fn high(&self, cells: usize) -> Shape {
         Shape::grid(cells, false, |u, v| self.point(u, 1.02 * v - 0.01))
     }
@@ -122,8 +123,9 @@ pub fn degrees(a: Vector, b: Vector) -> f64 {
 }
 
 impl Shape {
-    /// A surface over the unit square, in `cells` by `cells` cells, counter-clockwise as seen from the side of its normals. The UVs are
-    /// inset, so that the chart has a border; with `mirrored` both halves share the left half of the image.
+    /// A surface over the unit square, in `cells` by `cells` cells, counter-clockwise as seen from the side
+    /// of its normals. The UVs are inset, so that the chart has a border; with `mirrored` both halves
+    /// share the left half of the image.
     pub fn grid(cells: usize, mirrored: bool, at: impl Fn(f64, f64) -> Vector) -> Self {
         let mut shape = Self::default();
         let side = cells + 1;
@@ -158,8 +160,8 @@ impl Shape {
     }
 }
 
-/// Whether a column of cells lies in the half of a mirrored shape whose diagonals are mirrored, too: otherwise the halves are different meshes,
-/// and one map cannot be right for both.
+/// Whether a column of cells lies in the half of a mirrored shape whose diagonals are mirrored, too:
+/// otherwise the halves are different meshes, and one map cannot be right for both.
 pub fn is_in_second_half(column: usize, cells: usize) -> bool {
     2 * column >= cells
 }

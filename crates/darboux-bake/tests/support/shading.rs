@@ -1,7 +1,7 @@
 //! Shades the low mesh of a pair at random points as a renderer does, and knows the true normals there.
 //!
-//! The truth at a point of the low mesh is the normal where the line along its interpolated normal meets the analytic surface, found by
-//! Newton's method: neither the high mesh nor a ray is part of it.
+//! The truth at a point of the low mesh is the normal where the line along its interpolated normal meets the
+//! analytic surface, found by Newton's method: neither the high mesh nor a ray is part of it.
 
 use darboux::{Channel, Convention, TexelLayout};
 use darboux_dice::Dice;

@@ -1,4 +1,5 @@
-//! The maps of a list, whose truth is known, and how often the verdicts on them, and on blocks cut from them, are right.
+//! The maps of a list, whose truth is known, and how often the verdicts on them, and on blocks cut from them,
+//! are right.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -27,7 +28,8 @@ struct Listed {
     is_held_out: bool,
     /// 1 for green up, -1 for green down, 0 for maps that are no gradient; none where it is not known.
     truth: Option<i8>,
-    /// Whether most parts show the other convention, as where a detail map was laid over the relief: then blocks have another truth than the map.
+    /// Whether most parts show the other convention, as where a detail map was laid over the relief: then
+    /// blocks have another truth than the map.
     has_other_parts: bool,
     source: String,
     path: String,
@@ -43,7 +45,8 @@ struct Outcome {
     judgement: MapJudgement,
 }
 
-/// The page about the maps of a list, which lie below `folder`, each repository in a folder of its own. Errors: the list cannot be read.
+/// The page about the maps of a list, which lie below `folder`, each repository in a folder of its own.
+/// Errors: the list cannot be read.
 pub fn page(list: &Path, folder: &Path) -> Result<String, String> {
     let text = fs::read_to_string(list).map_err(|error| format!("{}: {error}", list.display()))?;
     let fields = |line: &str| line.split('\t').map(str::to_owned).collect::<Vec<String>>();

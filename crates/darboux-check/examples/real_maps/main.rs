@@ -1,8 +1,9 @@
-//! Writes the verdicts on the normal maps below folders, as they are, with green inverted, and with red and green exchanged:
-//! `real_maps FOLDER ... [--list FILE] [--page FILE]`.
+//! Writes the verdicts on the normal maps below folders, as they are, with green inverted, and with red and
+//! green exchanged: `real_maps FOLDER ... [--list FILE] [--page FILE]`.
 //!
-//! Normal maps are the images that materials of glTF files use as such, and image files with "normal" in their names. Each content is
-//! judged once. With `--list FILE`, instead, the maps of a list below one folder, whose truth is known: how often the verdicts are right.
+//! Normal maps are the images that materials of glTF files use as such, and image files with "normal" in
+//! their names. Each content is judged once. With `--list FILE`, instead, the maps of a list below one
+//! folder, whose truth is known: how often the verdicts are right.
 
 mod corpus;
 

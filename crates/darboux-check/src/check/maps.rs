@@ -82,14 +82,16 @@ pub fn map_defects_on_surfaces(file: &[u8], surfaces: &MapSurfaces, options: &Ch
     map_defects(file, options, Some(&|image| surfaces.votes(image)))
 }
 
-/// As [`map_defects_on_surfaces`], without what is not identified by the map and the faces alone: for a map of which repairs revealed more.
+/// As [`map_defects_on_surfaces`], without what is not identified by the map and the faces alone: for a map
+/// of which repairs revealed more.
 pub fn identified_defects(file: &[u8], surfaces: &MapSurfaces, options: &CheckOptions) -> MapDefects {
     let mut checked = map_defects_on_surfaces(file, surfaces, options);
     hypotheses::leave_unidentified(&mut checked.defects, &checked.witness, &mut [], None, 0);
     checked
 }
 
-/// A model that normal maps are to be put on, and what is wrong with it: the result of [`check_model_of_maps`].
+/// A model that normal maps are to be put on, and what is wrong with it: the result of
+/// [`check_model_of_maps`].
 #[derive(Debug)]
 pub struct ModelOfMaps {
     surfaces: Vec<Surface>,
@@ -103,7 +105,8 @@ impl ModelOfMaps {
         &self.findings
     }
 
-    /// Marks defects of a map and of this model's surfaces that cancel each other, and returns the codes of those of the map.
+    /// Marks defects of a map and of this model's surfaces that cancel each other, and returns the codes of
+    /// those of the map.
     fn mark_cancelling(&self, on_map: &mut [Defect], on_model: &mut [Defect]) -> &'static [Code] {
         BySurface::new(on_model).visit(&self.keys(), |surfaces| cancelling::mark(on_map, surfaces, None))
     }
@@ -121,8 +124,8 @@ impl ModelOfMaps {
     }
 }
 
-/// Checks the tangents, normals and UVs of a model that normal maps are to be put on, whatever maps it has itself. Errors: invalid data of the
-/// document.
+/// Checks the tangents, normals and UVs of a model that normal maps are to be put on, whatever maps it has
+/// itself. Errors: invalid data of the document.
 pub fn check_model_of_maps(document: &Document) -> Result<ModelOfMaps, Error> {
     let (mut surfaces, mut defects) = (Vec::new(), Vec::new());
     let area = ModelArea::of(document)?;
@@ -135,10 +138,11 @@ pub fn check_model_of_maps(document: &Document) -> Result<ModelOfMaps, Error> {
     Ok(ModelOfMaps { surfaces, findings: words::findings(defects.clone()), defects })
 }
 
-/// Checks the file of an image as the normal map of a model, whose faces tell inverted red from inverted green where the map was baked for them.
+/// Checks the file of an image as the normal map of a model, whose faces tell inverted red from inverted
+/// green where the map was baked for them.
 ///
-/// The findings on the map come first, then those on the model. A finding about green says where the signs of the model's tangents are flipped,
-/// too, so that both mistakes cancel.
+/// The findings on the map come first, then those on the model. A finding about green says where the signs of
+/// the model's tangents are flipped, too, so that both mistakes cancel.
 pub fn check_map_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptions) -> CheckedMap {
     let mut checked = map_defects_on_model(file, model, options);
     let mut on_model = model.defects.clone();
@@ -160,8 +164,8 @@ pub fn map_defects_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOpt
     checked
 }
 
-/// The defects of materials and of the images of their normal maps, each image once. `on_surfaces`: the other defects, in which those are marked that a
-/// mistake in a map cancels.
+/// The defects of materials and of the images of their normal maps, each image once. `on_surfaces`: the other
+/// defects, in which those are marked that a mistake in a map cancels.
 pub fn defects_of_materials(
     document: &Document,
     options: &CheckOptions,
@@ -220,7 +224,8 @@ pub fn defects_of_materials(
     Ok(defects)
 }
 
-/// The primitive of a defect that says that no triangle of it has an area in UV space, so that it shows one texel per triangle and no bumps.
+/// The primitive of a defect that says that no triangle of it has an area in UV space, so that it shows one
+/// texel per triangle and no bumps.
 fn primitive_without_uv_area(defect: &Defect) -> Option<Key> {
     match &defect.fault {
         Fault::UvDegenerate { triangles, .. } if triangles.len() == triangles.of => {
@@ -230,7 +235,8 @@ fn primitive_without_uv_area(defect: &Defect) -> Option<Key> {
     }
 }
 
-/// An image of which the faces show that channels are inverted, and which: for the other maps of the model, which are mostly made by one program.
+/// An image of which the faces show that channels are inverted, and which: for the other maps of the model,
+/// which are mostly made by one program.
 fn shown_by_faces((image, found, witness): &(usize, Vec<Defect>, MapWitness)) -> Option<(usize, Inverted)> {
     let inverted = inverted(found);
     (witness.faces != 0.0 && inverted != Inverted::None).then_some((*image, inverted))
@@ -241,8 +247,8 @@ fn image_inverted_by(material: &Material) -> Option<usize> {
     material.normal_texture.as_ref().filter(|_| material.normal_scale < 0.0)?.image
 }
 
-/// The normal maps that a material shows mirrored or turned by a right angle or more, so that what red and green mean depends on whether the renderer's tangents follow the UVs
-/// before the transform or after it.
+/// The normal maps that a material shows mirrored or turned by a right angle or more, so that what red and
+/// green mean depends on whether the renderer's tangents follow the UVs before the transform or after it.
 fn images_turned_by(material: &Material) -> impl Iterator<Item = usize> {
     let turned = material.normal_maps().filter(|texture| turns_channels(axes(texture)));
     turned.filter_map(|texture| texture.image)
@@ -293,7 +299,8 @@ impl<'a> BySurface<'a> {
     }
 }
 
-/// The defects of an image of a document as a normal map, and what it tells of its channels. Errors: invalid data of the primitives that use it.
+/// The defects of an image of a document as a normal map, and what it tells of its channels. Errors: invalid
+/// data of the primitives that use it.
 fn defects_of_image(
     document: &Document,
     users: &MapUsers<'_>,

@@ -54,11 +54,12 @@ pub fn for_each_surface(
     Ok(())
 }
 
-/// In percent of the model's area: what defects of one kind spoil together at least to be errors. Half a percent of a model that fills a screen of 1920 x 1080 is
-/// a square of a hundred pixels.
+/// In percent of the model's area: what defects of one kind spoil together at least to be errors. Half a
+/// percent of a model that fills a screen of 1920 x 1080 is a square of a hundred pixels.
 const MIN_SPOILED: f64 = 0.5;
 
-/// Lowers the severity of defects that spoil too small a part of the model, all of one code together: what is cut into many primitives looks as it would in one.
+/// Lowers the severity of defects that spoil too small a part of the model, all of one code together: what is
+/// cut into many primitives looks as it would in one.
 pub fn weigh(defects: &mut [Defect]) {
     let mut of_code: BTreeMap<Code, f64> = BTreeMap::new();
     for (code, percent) in defects.iter().filter_map(|defect| Some((defect.code(), defect.spoiled?))) {

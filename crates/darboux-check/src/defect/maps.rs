@@ -49,9 +49,11 @@ pub struct DirectionEvidence {
 pub struct ReliefEvidence {
     /// The mean correlation, weighted by the energy of slopes.
     pub correlation: f64,
-    /// How much better a height field explains the slopes in that convention, in deviations of the same number for shifted channels.
+    /// How much better a height field explains the slopes in that convention, in deviations of the same
+    /// number for shifted channels.
     pub shift_score: f64,
-    /// The shares of the slopes' energy that no height field explains, in OpenGL's and in DirectX's convention.
+    /// The shares of the slopes' energy that no height field explains, in OpenGL's and in DirectX's
+    /// convention.
     pub residuals: [f64; 2],
 }
 
@@ -124,7 +126,8 @@ pub enum MapFault {
         commonest: [u8; 2],
         texels: Texels,
     },
-    /// As `Srgb`, by the lengths of the vectors: in percent, those of other lengths as they are and once the mistake is undone.
+    /// As `Srgb`, by the lengths of the vectors: in percent, those of other lengths as they are and once the
+    /// mistake is undone.
     SrgbByLength {
         mistake: SrgbMistake,
         not_unit: Texels,

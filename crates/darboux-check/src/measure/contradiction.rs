@@ -1,7 +1,8 @@
-//! Maps with one part in OpenGL's convention and another one in DirectX's, as where tiles or islands from several sources were put together.
+//! Maps with one part in OpenGL's convention and another one in DirectX's, as where tiles or islands from
+//! several sources were put together.
 //!
-//! The map is cut into blocks, and each is judged alone. Blocks of fewer texels than these have too few tiles: on published maps, some of 64 x 64
-//! are decided wrongly, and none of 128 x 128.
+//! The map is cut into blocks, and each is judged alone. Blocks of fewer texels than these have too few
+//! tiles: on published maps, some of 64 x 64 are decided wrongly, and none of 128 x 128.
 
 use darboux::{BitangentDirection, MapVerdict, TexelLayout, judge_normal_map};
 use darboux_io::image::RgbaImage;
@@ -15,10 +16,12 @@ const BLOCKS: usize = 8;
 /// The smallest confidence of a block that counts.
 const CLEAR: f32 = 0.99;
 
-/// The smallest root of the mean squared deviation of red and green, in units of vectors, of a block that counts: two codes of 8 bits.
+/// The smallest root of the mean squared deviation of red and green, in units of vectors, of a block that
+/// counts: two codes of 8 bits.
 const MIN_DEVIATION: f64 = 2.0 / 127.5;
 
-/// The smallest part of the energy of all clear blocks that contradicts the rest. Faint detail beside a strong relief is no other part.
+/// The smallest part of the energy of all clear blocks that contradicts the rest. Faint detail beside a
+/// strong relief is no other part.
 const MIN_SHARE: f64 = 0.02;
 
 /// Blocks of one convention.

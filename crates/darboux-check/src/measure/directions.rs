@@ -1,4 +1,5 @@
-//! Which way red and green of a normal map point, by its derivatives and by the faces of the model that it was baked for.
+//! Which way red and green of a normal map point, by its derivatives and by the faces of the model that it
+//! was baked for.
 
 use darboux::{BitangentDirection, MapJudgement, MapVerdict, TangentDirection};
 
@@ -8,7 +9,8 @@ use crate::measure::facets::Arrangement;
 use crate::measure::map::{Map, MapDirections, TwoChannels};
 use crate::measure::map_kind::{Kind, kind};
 
-/// The judgement on a map whose channels have directions, unless red and green are exchanged, or parts of the map contradict each other.
+/// The judgement on a map whose channels have directions, unless red and green are exchanged, or parts of the
+/// map contradict each other.
 pub fn directed(map: &Map) -> Option<&MapJudgement> {
     let judgement = with_directed_channels(map).filter(|_| map.contradiction.is_none())?;
     (!facets_show_exchange(judgement, map)).then_some(judgement)
@@ -28,8 +30,8 @@ pub fn arrangement(judgement: &MapJudgement) -> Option<Arrangement> {
     }
 }
 
-/// The derivatives tell whether one channel is inverted or none (or both); the facets of the mesh tell which, if they can, or else the user. Otherwise
-/// red is taken to be right.
+/// The derivatives tell whether one channel is inverted or none (or both); the facets of the mesh tell which,
+/// if they can, or else the user. Otherwise red is taken to be right.
 pub fn directions(judgement: &MapJudgement, map: &Map) -> Option<MapDirections> {
     let arrangement = arrangement(judgement)?;
     let is_left = match map.decide(arrangement) {
@@ -71,11 +73,13 @@ pub fn candidates(judgement: &MapJudgement) -> [Arrangement; 2] {
     }
 }
 
-/// The largest log energy ratio of a map whose channels may be exchanged: that of a gradient is not negative, and exchanging them negates it.
+/// The largest log energy ratio of a map whose channels may be exchanged: that of a gradient is not negative,
+/// and exchanging them negates it.
 const MAX_RATIO_OF_EXCHANGED: f32 = 0.02;
 
-/// Whether the texels follow the facets of the mesh with red and green exchanged, and not otherwise, and their derivatives permit it. A map that
-/// was mirrored shows other texels than the baked ones on every facet, and these may lean in any way.
+/// Whether the texels follow the facets of the mesh with red and green exchanged, and not otherwise, and
+/// their derivatives permit it. A map that was mirrored shows other texels than the baked ones on every
+/// facet, and these may lean in any way.
 pub fn facets_show_exchange(judgement: &MapJudgement, map: &Map) -> bool {
     if judgement.log_energy_ratio > MAX_RATIO_OF_EXCHANGED {
         return false;
@@ -96,8 +100,9 @@ fn log_odds(z_score: f64) -> f64 {
     (z_score * z_score / 2.0).min(MAX_LOG_ODDS).copysign(z_score)
 }
 
-/// The probability of an odd number of inverted channels after the faces were heard, too. With one channel inverted more or less than the arrangement that they
-/// decide says, red or green would contradict them, and the other arrangement would agree better.
+/// The probability of an odd number of inverted channels after the faces were heard, too. With one channel
+/// inverted more or less than the arrangement that they decide says, red or green would contradict them, and
+/// the other arrangement would agree better.
 fn with_faces(odd: f64, shown: Arrangement, map: &Map) -> f64 {
     let other = match shown {
         Arrangement::Same => Arrangement::GreenInverted,
@@ -108,7 +113,8 @@ fn with_faces(odd: f64, shown: Arrangement, map: &Map) -> f64 {
     if odd > 0.5 { odd * factor / (odd * factor + 1.0 - odd) } else { odd / (odd + (1.0 - odd) * factor) }
 }
 
-/// What the texels, as they are or once another mistake is undone, and the faces tell of the directions of the channels.
+/// What the texels, as they are or once another mistake is undone, and the faces tell of the directions of
+/// the channels.
 pub fn witness(map: &Map) -> MapWitness {
     let of_two_channels = map.two_channels.map(|channels| match channels {
         TwoChannels::RedGreen(judgement) | TwoChannels::AlphaGreen(judgement) => judgement,

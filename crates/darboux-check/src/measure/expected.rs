@@ -22,9 +22,10 @@ pub fn are_those_of_the_file(surface: &Surface, expected: &[[f32; 4]]) -> bool {
     surface.vertex_of_corner.iter().zip(expected).all(is_same)
 }
 
-/// Per vertex whether MikkTSpace gives its tangent, up to rounding, to one of its corners that lie in faces without an area in space or in
-/// UV space. There MikkTSpace takes the tangent of another vertex at the same place or the x axis, which may lean or have another sign than its
-/// neighbours. Computing it again does not help, and the UVs have a finding of their own.
+/// Per vertex whether MikkTSpace gives its tangent, up to rounding, to one of its corners that lie in faces
+/// without an area in space or in UV space. There MikkTSpace takes the tangent of another vertex at the same
+/// place or the x axis, which may lean or have another sign than its neighbours. Computing it again does not
+/// help, and the UVs have a finding of their own.
 pub fn vertices_with_own_tangents(surface: &Surface, expected: &[[f32; 4]]) -> Vec<bool> {
     let mut is_own = vec![false; surface.positions.len()];
     let Some(tangents) = &surface.tangents else { return is_own };
@@ -43,8 +44,8 @@ pub fn vertices_with_own_tangents(surface: &Surface, expected: &[[f32; 4]]) -> V
     is_own
 }
 
-/// Whether a triangle has an area in the UV set. Without one it shows no bumps, and its tangents and their sign are those of any neighbour; with
-/// NaN or infinity they are arbitrary.
+/// Whether a triangle has an area in the UV set. Without one it shows no bumps, and its tangents and their
+/// sign are those of any neighbour; with NaN or infinity they are arbitrary.
 pub fn is_measured(surface: &Surface, uvs: &[[f32; 2]], triangle: [usize; 3]) -> bool {
     let area = uv_area(uvs, triangle);
     let is_placed = |vertex: usize| surface.positions[vertex].iter().all(|x| x.is_finite());

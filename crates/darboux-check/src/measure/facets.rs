@@ -1,15 +1,21 @@
-//! Compares a normal map with the facets of the mesh that it was baked for. This tells inverted red from inverted green, and bumps from dents.
+//! Compares a normal map with the facets of the mesh that it was baked for. This tells inverted red from
+//! inverted green, and bumps from dents.
 //!
-//! A baker writes the difference between the smoothed normals of the mesh and the normals of the detailed model. Where the detailed model
-//! has flat parts, or hard edges with bevels, that difference points to the normal of the mesh's face. So the x and y of the texels correlate with
-//! those of the face normals in tangent space, and never with their negation. A map that tiles, or that was made for another mesh, shows no correlation.
+//! A baker writes the difference between the smoothed normals of the mesh and the normals of the detailed
+//! model. Where the detailed model has flat parts, or hard edges with bevels, that difference points to the
+//! normal of the mesh's face. So the x and y of the texels correlate with those of the face normals in
+//! tangent space, and never with their negation. A map that tiles, or that was made for another mesh, shows
+//! no correlation.
 //!
-//! Every triangle votes with the correlation over a few of its texels. The z score is the sum of the votes over the root of the sum of their squares.
-//! That is right for independent votes only. Faces that share their UVs, texels that repeat, and neighbours vote alike, and bumps that all have one shape
-//! agree a little with convex faces wherever they lie. So a map of any other mesh may get a large score. Therefore a decision is tested again: from the
-//! votes, those of the same triangles on the map at other offsets are subtracted, and the differences are summed in blocks of the map, which count once
-//! each, however many triangles show them (the standard error of clustered data). That shows that the map belongs to the mesh, and not that it was baked from
-//! it: studs or domes on the faces lean against all of them. So a decision also needs a map that [flattens](crate::measure::flattening) the faces.
+//! Every triangle votes with the correlation over a few of its texels. The z score is the sum of the votes
+//! over the root of the sum of their squares. That is right for independent votes only. Faces that share
+//! their UVs, texels that repeat, and neighbours vote alike, and bumps that all have one shape agree a little
+//! with convex faces wherever they lie. So a map of any other mesh may get a large score. Therefore a
+//! decision is tested again: from the votes, those of the same triangles on the map at other offsets are
+//! subtracted, and the differences are summed in blocks of the map, which count once each, however many
+//! triangles show them (the standard error of clustered data). That shows that the map belongs to the mesh,
+//! and not that it was baked from it: studs or domes on the faces lean against all of them. So a decision
+//! also needs a map that [flattens](crate::measure::flattening) the faces.
 
 use darboux::TexelLayout;
 use darboux_io::gltf::{TextureUse, Wrap};
@@ -20,7 +26,8 @@ use crate::measure::other_axes::OtherAxes;
 use crate::measure::reversal::Sides;
 use crate::surface::{Surface, cross, dot, length, sub};
 
-/// The smallest z score of a decision. Neighbouring triangles are not independent, so it is larger than that of a normal distribution.
+/// The smallest z score of a decision. Neighbouring triangles are not independent, so it is larger than that
+/// of a normal distribution.
 const DECIDED: f64 = 6.0;
 
 /// More triangles of a surface are not asked.
@@ -32,8 +39,8 @@ const SAMPLES: usize = 4;
 /// The smallest root of the mean squared tilt that votes, of face normals and of texels: two codes of 8 bits.
 const SMALLEST: f64 = 4.0 / 255.0;
 
-/// How the channels of a map are arranged, as far as its derivatives tell: the facets decide between two arrangements, one of which has the
-/// negated x and y of the other.
+/// How the channels of a map are arranged, as far as its derivatives tell: the facets decide between two
+/// arrangements, one of which has the negated x and y of the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arrangement {
     /// Green up; or red and green inverted.
@@ -62,15 +69,18 @@ pub struct FacetVotes {
 struct Tested {
     /// The z scores of the blocks.
     registered: [f64; ARRANGEMENTS],
-    /// 1 where the texels flatten the faces, -1 where they do so once red and green are both inverted, 0 where neither is shown.
+    /// 1 where the texels flatten the faces, -1 where they do so once red and green are both inverted, 0
+    /// where neither is shown.
     flattening: [f64; ARRANGEMENTS],
 }
 
-/// A surface on which an image is the normal map, and how its material uses the map; none for the UVs that its tangents follow, repeated.
+/// A surface on which an image is the normal map, and how its material uses the map; none for the UVs that
+/// its tangents follow, repeated.
 pub type MapUse<'a> = (&'a Surface, Option<&'a TextureUse>);
 
 impl FacetVotes {
-    /// The votes of all surfaces that use a map. A surface that is wound against its normals, or whose normals are in other axes, has none.
+    /// The votes of all surfaces that use a map. A surface that is wound against its normals, or whose
+    /// normals are in other axes, has none.
     pub fn of(uses: &[MapUse<'_>], image: &RgbaImage) -> Self {
         let mut sums = Sums::default();
         for facets in uses.iter().filter_map(|map_use| Facets::new(*map_use)) {
@@ -84,7 +94,8 @@ impl FacetVotes {
         Self { sums, tested: is_decided.then(tested) }
     }
 
-    /// True where the first of the two possibilities of an arrangement is decided, false for the second one; none without a decision.
+    /// True where the first of the two possibilities of an arrangement is decided, false for the second one;
+    /// none without a decision.
     pub fn decide(&self, arrangement: Arrangement) -> Option<bool> {
         let z_score = self.z_score(arrangement);
         let is_baked =
@@ -130,8 +141,8 @@ const OFFSET_TRIANGLES: usize = 10_000;
 /// Blocks along each side of the map.
 const BLOCKS: usize = 16;
 
-/// The z scores of the blocks: how much better the triangles agree with the map at its place than at other offsets; 0 where the sum of all votes at
-/// one of these is nearly as large.
+/// The z scores of the blocks: how much better the triangles agree with the map at its place than at other
+/// offsets; 0 where the sum of all votes at one of these is nearly as large.
 fn registered(uses: &[MapUse<'_>], image: &RgbaImage) -> [f64; ARRANGEMENTS] {
     let size = [image.width, image.height].map(|side| side as usize);
     // The additive sequence of the plastic number spreads points evenly over a square (Roberts 2018).
@@ -165,8 +176,9 @@ fn registered(uses: &[MapUse<'_>], image: &RgbaImage) -> [f64; ARRANGEMENTS] {
     })
 }
 
-/// How many times the votes on a map at its place are at least those at any other offset. Maps that were baked for regular grids, whose facets agree at
-/// other offsets, too, have 1.24 and more; a map that a mesh with repeated parts decided by chance had 0.97.
+/// How many times the votes on a map at its place are at least those at any other offset. Maps that were
+/// baked for regular grids, whose facets agree at other offsets, too, have 1.24 and more; a map that a mesh
+/// with repeated parts decided by chance had 0.97.
 const STANDS_OUT: f64 = 1.2;
 
 /// Whether the first of some values is larger than all others, whatever their signs.
@@ -207,7 +219,8 @@ pub struct Facets<'a> {
 }
 
 impl<'a> Facets<'a> {
-    /// None where the surface has no votes: reversed normals lean the other way in both directions, as those of a map with red and green inverted.
+    /// None where the surface has no votes: reversed normals lean the other way in both directions, as those
+    /// of a map with red and green inverted.
     pub fn new((surface, texture): MapUse<'a>) -> Option<Self> {
         if Sides::of(surface).are_mostly_against() || OtherAxes::of(surface).is_some() {
             return None;
@@ -242,7 +255,8 @@ pub struct Corner {
     pub uv: [f32; 2],
 }
 
-/// A triangle, the normal of its plane on the side of the corners' normals, and the directions of u and of v upwards in it.
+/// A triangle, the normal of its plane on the side of the corners' normals, and the directions of u and of v
+/// upwards in it.
 pub struct Facet {
     pub corners: [Corner; 3],
     pub normal: [f32; 3],
@@ -250,7 +264,8 @@ pub struct Facet {
     along_v: [f32; 3],
 }
 
-/// A point of a triangle: x and y of the face normal in the tangent space of the smoothed one, and the place of its texel.
+/// A point of a triangle: x and y of the face normal in the tangent space of the smoothed one, and the place
+/// of its texel.
 struct Sample {
     tilt: [f64; 2],
     texel: [usize; 2],

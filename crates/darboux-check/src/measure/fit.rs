@@ -1,6 +1,7 @@
 //! Compares the tangents of a surface with those that MikkTSpace gives, and says in one word how they differ.
 //!
-//! The rules about tangents that follow other directions or signs exclude each other, so one measurement decides among them.
+//! The rules about tangents that follow other directions or signs exclude each other, so one measurement
+//! decides among them.
 
 use darboux::CornerDifference;
 
@@ -38,8 +39,8 @@ pub enum Difference {
 /// The measurement.
 pub struct Fit {
     pub difference: Difference,
-    /// What was measured: corners with usable tangents whose vertices do not lie on mirrored seams; triangles or vertices for a difference of a
-    /// part of the surface.
+    /// What was measured: corners with usable tangents whose vertices do not lie on mirrored seams;
+    /// triangles or vertices for a difference of a part of the surface.
     pub measured: usize,
     /// The corners that support the difference.
     pub supporting: usize,
@@ -73,8 +74,9 @@ struct Counts {
     flipped_triangles: Vec<usize>,
 }
 
-/// Measures: how the directions differ, and how the signs do where that is a difference of its own. Nothing where the surface has no tangents,
-/// normals or UVs. `expected`: MikkTSpace's tangents of all corners. `is_on_seam`: per vertex whether it lies on a mirrored UV seam.
+/// Measures: how the directions differ, and how the signs do where that is a difference of its own. Nothing
+/// where the surface has no tangents, normals or UVs. `expected`: MikkTSpace's tangents of all corners.
+/// `is_on_seam`: per vertex whether it lies on a mirrored UV seam.
 pub fn measure(
     surface: &Surface,
     expected: &[[f32; 4]],
@@ -122,7 +124,8 @@ fn or_else(fits: Vec<Fit>, other: impl FnOnce() -> Fit) -> Vec<Fit> {
     if fits.is_empty() { vec![other()] } else { fits }
 }
 
-/// The other UV set that the tangents follow, and how they do: with its signs, or else in their directions alone.
+/// The other UV set that the tangents follow, and how they do: with its signs, or else in their directions
+/// alone.
 fn other_uv_set(surface: &Surface, own: &Counts, winding: Winding<'_>) -> Option<(usize, Counts)> {
     let is_most = |part: usize, of: &Counts| part as f64 >= MIN_SHARE * of.corners.max(1) as f64;
     if is_most(own.close, own) {
@@ -222,8 +225,9 @@ pub fn is_at_most_a_part(reversal: Option<Reversal>) -> bool {
 
 /// Whether the right signs are the opposite of MikkTSpace's.
 ///
-/// MikkTSpace's sign is that of the UV area, which changes with the order of the corners; what is lit depends on the normal alone. So signs are those
-/// of faces that are wound along their normals, unless it is the normals that are known to be reversed.
+/// MikkTSpace's sign is that of the UV area, which changes with the order of the corners; what is lit depends
+/// on the normal alone. So signs are those of faces that are wound along their normals, unless it is the
+/// normals that are known to be reversed.
 pub fn flips_signs(reversal: Option<Reversal>) -> bool {
     !is_at_most_a_part(reversal) && reversal != Some(Reversal::Normals)
 }

@@ -1,10 +1,14 @@
-//! Whether a map flattens the faces that the normals of a mesh round, or has a relief of its own on every face.
+//! Whether a map flattens the faces that the normals of a mesh round, or has a relief of its own on every
+//! face.
 //!
-//! A dome on every convex face leans away from the middle of the face, and the face's normal leans towards it: such a map leans against all faces, wherever
-//! it is right. Moving the map does not tell that from a bake with red and green inverted, because it does belong to this mesh. The means do: a relief in the middle of a face
-//! leans to all sides alike, so that its mean is zero, and what flattens a face leans on average as the smoothed normals do, which are skewed wherever
-//! the face's neighbours differ. So only the means of whole faces decide: triangles in one plane are one face, and so are two that share their longest edge. The null is a permutation: the
-//! leans of the faces against those of other faces, which correlate by chance only.
+//! A dome on every convex face leans away from the middle of the face, and the face's normal leans towards
+//! it: such a map leans against all faces, wherever it is right. Moving the map does not tell that from a
+//! bake with red and green inverted, because it does belong to this mesh. The means do: a relief in the
+//! middle of a face leans to all sides alike, so that its mean is zero, and what flattens a face leans on
+//! average as the smoothed normals do, which are skewed wherever the face's neighbours differ. So only the
+//! means of whole faces decide: triangles in one plane are one face, and so are two that share their longest
+//! edge. The null is a permutation: the leans of the faces against those of other faces, which correlate by
+//! chance only.
 
 use std::collections::BTreeMap;
 
@@ -16,10 +20,11 @@ use crate::surface::{dot, length, sub};
 /// More triangles of a surface are not asked.
 const TRIANGLES: usize = 200_000;
 
-/// The smallest correlation of the mean leans of the texels with those of the faces, and by how many standard deviations of its permutations it differs from zero at
-/// least, where every block of the map counts once.
+/// The smallest correlation of the mean leans of the texels with those of the faces, and by how many standard
+/// deviations of its permutations it differs from zero at least, where every block of the map counts once.
 ///
-/// Real maps that were baked for their meshes have 0.19 to 0.74; domes, cushions and studs on boxes, balls, lenses and rings 0.02 at most.
+/// Real maps that were baked for their meshes have 0.19 to 0.74; domes, cushions and studs on boxes, balls,
+/// lenses and rings 0.02 at most.
 const CORRELATION: f64 = 0.2;
 const DEVIATIONS: f64 = 3.5;
 
@@ -29,7 +34,8 @@ const SMALLEST: f64 = 4.0 / 255.0;
 /// The cosine of the angle up to which neighbours lie in one plane: two degrees.
 const ONE_PLANE: f64 = 0.9994;
 
-/// By arrangement: 1 where the texels flatten the faces, -1 where they do so once red and green are both inverted, 0 where neither is shown.
+/// By arrangement: 1 where the texels flatten the faces, -1 where they do so once red and green are both
+/// inverted, 0 where neither is shown.
 pub fn flattening(uses: &[MapUse<'_>], image: &RgbaImage) -> [f64; ARRANGEMENTS] {
     let mut faces: Vec<Means> = Vec::new();
     for facets in uses.iter().filter_map(|map_use| Facets::new(*map_use)) {
@@ -49,7 +55,8 @@ pub fn flattening(uses: &[MapUse<'_>], image: &RgbaImage) -> [f64; ARRANGEMENTS]
             [tx * x + ty * y, tx * x - ty * y, tx * y + ty * x, ty * x - tx * y][index]
         });
         let correlation = products.sum::<f64>() / size;
-        // The correlation of n independent pairs of vectors has a standard deviation of 1 / sqrt(2 n) over their permutations.
+        // The correlation of n independent pairs of vectors has a standard deviation of 1 / sqrt(2 n) over
+        // their permutations.
         let deviations = correlation * (2.0 * blocks.len() as f64).sqrt();
         let is_shown = correlation.abs() >= CORRELATION && deviations.abs() >= DEVIATIONS;
         if is_shown { correlation.signum() } else { 0.0 }

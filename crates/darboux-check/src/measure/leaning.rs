@@ -10,7 +10,8 @@ use crate::surface::{dot, length, xyz};
 /// Degrees from the plane of the normal that rounding explains.
 const MAX_DEGREES_FROM_PLANE: f64 = 2.0;
 
-/// The vertices whose tangents lean towards their normals by a mistake of their own, ascending, each with the degrees from the plane of the normal.
+/// The vertices whose tangents lean towards their normals by a mistake of their own, ascending, each with the
+/// degrees from the plane of the normal.
 pub fn leaning(facts: &SurfaceFacts<'_>) -> Vec<(usize, f64)> {
     if facts.other_axes.is_some() {
         return Vec::new();
@@ -35,7 +36,8 @@ pub fn leaning(facts: &SurfaceFacts<'_>) -> Vec<(usize, f64)> {
     found.into_iter().map(|vertex| (vertex, angle(vertex))).collect()
 }
 
-/// Drops vertices whose own normal is reported, unless most normals are, as after all were scaled or negated: then their axes are right.
+/// Drops vertices whose own normal is reported, unless most normals are, as after all were scaled or negated:
+/// then their axes are right.
 fn without_damaged_normals(
     facts: &SurfaceFacts<'_>,
     normals: &[[f32; 3]],
@@ -55,8 +57,8 @@ fn without_damaged_normals(
     vertices.into_iter().filter(is_sound).collect()
 }
 
-/// Drops vertices with the tangent that MikkTSpace gives them, up to rounding: what leans there comes from the UVs or the normals, and computing it
-/// again does not help.
+/// Drops vertices with the tangent that MikkTSpace gives them, up to rounding: what leans there comes from
+/// the UVs or the normals, and computing it again does not help.
 fn without_those_of_mikktspace(
     facts: &SurfaceFacts<'_>,
     tangents: &[[f32; 4]],

@@ -1,4 +1,5 @@
-//! [`Map`]: a decoded normal map, the judgement on it and the votes of the meshes that use it, as the rules read them.
+//! [`Map`]: a decoded normal map, the judgement on it and the votes of the meshes that use it, as the rules
+//! read them.
 
 use darboux::{
     BitangentDirection, MapJudgement, MapVerdict, NormalMapJudge, SrgbMistake, TangentDirection, TexelLayout,
@@ -23,11 +24,12 @@ pub struct Map {
     pub is_other_format: bool,
     /// The number of tiles that the judgement is from.
     pub tiles: usize,
-    /// Where the texels look as if they had gone through the transfer function of sRGB once too often: which way, and the judgement on them as
-    /// they were before.
+    /// Where the texels look as if they had gone through the transfer function of sRGB once too often: which
+    /// way, and the judgement on them as they were before.
     pub srgb_mistake: Option<SrgbMistake>,
     pub before_srgb: Option<MapJudgement>,
-    /// Where all vectors have about the same length, which is not 1: the judgement on them after they were scaled to it.
+    /// Where all vectors have about the same length, which is not 1: the judgement on them after they were
+    /// scaled to it.
     pub scaled: Option<MapJudgement>,
     /// What the two channels hold that would be x and y of a map without z; none where three channels vary.
     pub two_channels: Option<TwoChannels>,
@@ -35,7 +37,8 @@ pub struct Map {
     pub contradiction: Option<Contradiction>,
     /// Where the vectors point along another axis than z: which one.
     pub reordered: Option<Reordered>,
-    /// Whether most texels have other lengths than 1, and red and green are light and dark together, as in pictures.
+    /// Whether most texels have other lengths than 1, and red and green are light and dark together, as in
+    /// pictures.
     pub is_picture: bool,
     /// What storage did to the texels.
     pub storage: Storage,
@@ -144,8 +147,8 @@ impl Map {
         self.judgement.as_ref().ok()
     }
 
-    /// True where the facets of a mesh decide for the first of the two possibilities of an arrangement, false for the second one; none where there is
-    /// no mesh, or it does not decide.
+    /// True where the facets of a mesh decide for the first of the two possibilities of an arrangement, false
+    /// for the second one; none where there is no mesh, or it does not decide.
     pub fn decide(&self, arrangement: Arrangement) -> Option<bool> {
         self.facets.as_ref()?.decide(arrangement)
     }
@@ -185,7 +188,8 @@ fn is_other_format(file: &[u8]) -> bool {
     is_avif || starts.iter().any(|start| file.starts_with(start))
 }
 
-/// The smallest correlation between red and green of a picture. That of slopes in all directions is 0, and that of brightness is 1.
+/// The smallest correlation between red and green of a picture. That of slopes in all directions is 0, and
+/// that of brightness is 1.
 const MIN_CORRELATION_OF_PICTURES: f64 = 0.8;
 
 /// Whether most texels have other lengths than 1, and red and green are light and dark together.
@@ -206,14 +210,17 @@ fn is_picture(image: &RgbaImage, judgement: &MapJudgement) -> bool {
     variances > 0.0 && product - red * green >= MIN_CORRELATION_OF_PICTURES * variances.sqrt()
 }
 
-/// The shares of vectors of other lengths than 1, in percent, of texels as they should not be, and as they were before.
+/// The shares of vectors of other lengths than 1, in percent, of texels as they should not be, and as they
+/// were before.
 const MIN_DAMAGED: f64 = 40.0;
 const MAX_HEALTHY: f64 = 5.0;
 
-/// How far maps lean at least, in red and green, whose values went through the transfer function: flat texels lean by 0.47 and 0.57.
+/// How far maps lean at least, in red and green, whose values went through the transfer function: flat texels
+/// lean by 0.47 and 0.57.
 const MIN_LEAN: f32 = 0.3;
 
-/// The mistake that explains why few vectors have length 1: without it, nearly all do. A map without flat parts has no commonest texel that tells.
+/// The mistake that explains why few vectors have length 1: without it, nearly all do. A map without flat
+/// parts has no commonest texel that tells.
 fn srgb_mistake_by_length(image: &RgbaImage, judgement: &MapJudgement) -> Option<SrgbMistake> {
     let [x, y, _] = judgement.mean;
     let mistake = if x.min(y) >= MIN_LEAN {
@@ -231,7 +238,8 @@ fn srgb_mistake_by_length(image: &RgbaImage, judgement: &MapJudgement) -> Option
     (!leans && percent(&before, before.not_unit) <= MAX_HEALTHY).then_some(mistake)
 }
 
-/// Judges an image after giving its vectors the length 1 on average; none where they have it, or where their lengths differ.
+/// Judges an image after giving its vectors the length 1 on average; none where they have it, or where their
+/// lengths differ.
 fn judge_scaled(image: &RgbaImage, judgement: &MapJudgement) -> Option<MapJudgement> {
     let length = judgement.mean_length;
     let is_other = percent(judgement, judgement.not_unit) > 100.0 - MAX_HEALTHY;

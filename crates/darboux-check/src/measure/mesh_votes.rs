@@ -19,8 +19,9 @@ impl MeshVotes {
         Self { facets: FacetVotes::of(uses, image), seams: SeamFits::of(uses, image) }
     }
 
-    /// True where the first of the two possibilities of an arrangement is decided, false for the second one; none without a decision. Nothing is decided
-    /// where the seams show that the map was made for another layout.
+    /// True where the first of the two possibilities of an arrangement is decided, false for the second one;
+    /// none without a decision. Nothing is decided where the seams show that the map was made for another
+    /// layout.
     pub fn decide(&self, arrangement: Arrangement) -> Option<bool> {
         self.facets.decide(arrangement).filter(|_| !self.is_of_other_layout())
     }

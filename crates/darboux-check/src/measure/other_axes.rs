@@ -1,11 +1,13 @@
-//! Normals that are in other axes than the positions, as after an export that turned to another up axis or mirrored only the positions.
+//! Normals that are in other axes than the positions, as after an export that turned to another up axis or
+//! mirrored only the positions.
 //!
-//! Of all ways to exchange and to negate x, y and z, one makes such normals fit the faces. Normals that were bent on purpose, as on foliage,
-//! fit in no way, or are so equal that nothing tells the ways apart.
+//! Of all ways to exchange and to negate x, y and z, one makes such normals fit the faces. Normals that were
+//! bent on purpose, as on foliage, fit in no way, or are so equal that nothing tells the ways apart.
 
 use crate::surface::{Surface, cross, length, sub};
 
-/// How the normals have to be read to fit the faces: component i is `signs[i]` times the stored component `sources[i]`.
+/// How the normals have to be read to fit the faces: component i is `signs[i]` times the stored component
+/// `sources[i]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OtherAxes {
     pub sources: [usize; 3],
@@ -20,7 +22,8 @@ const MAX_AS_STORED: f64 = 0.6;
 /// The smallest mean cosine as they have to be read: that of the smooth normals of a cube is 0.577.
 const MIN_AS_READ: f64 = 0.5;
 
-/// The smallest difference of both. Two exchanged axes, or a negated one, take two thirds of the cosine of a sphere.
+/// The smallest difference of both. Two exchanged axes, or a negated one, take two thirds of the cosine of a
+/// sphere.
 const MIN_GAIN: f64 = 0.25;
 
 /// The smallest correlation of the deviations from the mean normal with those from the mean face.
@@ -32,8 +35,8 @@ const MIN_VARIANCE: f64 = 0.003;
 /// The ways to take the components from others.
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [2, 1, 0], [1, 2, 0], [2, 0, 1]];
 
-/// Sums over the triangles: of unit fronts and unit normals, and of the products of their components. Every triangle counts once: weighted by
-/// area, the few triangles of one lost vertex could outweigh all others.
+/// Sums over the triangles: of unit fronts and unit normals, and of the products of their components. Every
+/// triangle counts once: weighted by area, the few triangles of one lost vertex could outweigh all others.
 #[derive(Default)]
 struct Sums {
     count: f64,
@@ -44,7 +47,8 @@ struct Sums {
 }
 
 impl OtherAxes {
-    /// None where the normals fit the faces as they are or negated, or in no way, or where there are no normals.
+    /// None where the normals fit the faces as they are or negated, or in no way, or where there are no
+    /// normals.
     pub fn of(surface: &Surface) -> Option<Self> {
         let sums = Sums::of(surface)?;
         let as_stored = sums.mean_cosine([0, 1, 2], [1.0; 3]);
@@ -55,7 +59,8 @@ impl OtherAxes {
         let signs = |bits: u8| [1, 2, 4].map(|bit| if bits & bit == 0 { 1.0 } else { -1.0 });
         let ways = ORDERS.into_iter().flat_map(|sources| (0..8).map(move |bits| (sources, signs(bits))));
         let fit = |&(sources, signs): &([usize; 3], [f64; 3])| sums.mean_cosine(sources, signs);
-        // The first one of several that fit equally, as on surfaces without normals along one axis, changes least.
+        // The first one of several that fit equally, as on surfaces without normals along one axis, changes
+        // least.
         let best = ways.reduce(|best, other| if fit(&other) > fit(&best) + 1e-6 { other } else { best })?;
         let (sources, signs) = best;
         let gain = fit(&best) - as_stored;

@@ -1,7 +1,8 @@
-//! Finds tangents that are far from those of the method that made most of the others, as after a part of them was overwritten.
+//! Finds tangents that are far from those of the method that made most of the others, as after a part of them
+//! was overwritten.
 //!
-//! Such damage leaves two kinds of tangents: those of the method, and others that have nothing to do with it. Where many lie between the two, the
-//! tangents are those of a method that is not known.
+//! Such damage leaves two kinds of tangents: those of the method, and others that have nothing to do with it.
+//! Where many lie between the two, the tangents are those of a method that is not known.
 
 use darboux::internal::recipe_tangents;
 use darboux::{Context, Convention, CornerDifference, Recipe, RecipeMatch};
@@ -19,11 +20,12 @@ pub const FAR: f64 = 20.0;
 /// The least share of vertices with the tangents of the method.
 const MIN_NEAR: f64 = 0.5;
 
-/// The largest share of vertices between near and far: quads that were cut are estimated, and some estimates are wrong.
+/// The largest share of vertices between near and far: quads that were cut are estimated, and some estimates
+/// are wrong.
 const MAX_BETWEEN: f64 = 0.1;
 
-/// The share above which far tangents are an error: one in a hundred is seen on a model that fills the screen. Fewer may be differences between
-/// versions of a method.
+/// The share above which far tangents are an error: one in a hundred is seen on a model that fills the
+/// screen. Fewer may be differences between versions of a method.
 const MIN_FAR: f64 = 0.01;
 
 /// The tangents that are far from those of the method that made the others.
@@ -32,13 +34,14 @@ pub struct Outliers {
     pub recipe: Recipe,
     /// The vertices, ascending.
     pub vertices: Vec<usize>,
-    /// The tangents of corners without other mistakes, in the convention in which they are computed, with those of the method at these vertices.
+    /// The tangents of corners without other mistakes, in the convention in which they are computed, with
+    /// those of the method at these vertices.
     pub replaced: Vec<[f32; 4]>,
 }
 
 impl Outliers {
-    /// None where no method explains most tangents, or no part of the others is far from it. `tangents`: of corners, without other mistakes; `best`: the
-    /// recipe that explains them best.
+    /// None where no method explains most tangents, or no part of the others is far from it. `tangents`: of
+    /// corners, without other mistakes; `best`: the recipe that explains them best.
     pub fn from(facts: &SurfaceFacts<'_>, mut tangents: Vec<[f32; 4]>, best: &RecipeMatch) -> Option<Self> {
         if (best.close as f64) < MIN_NEAR * best.corners as f64 {
             return None;
@@ -69,8 +72,8 @@ impl Outliers {
     }
 }
 
-/// Per vertex the smallest angle in degrees between its tangent and the method's at its corners in triangles with an area; none where its tangent
-/// has another mistake, or none can be right for all its corners.
+/// Per vertex the smallest angle in degrees between its tangent and the method's at its corners in triangles
+/// with an area; none where its tangent has another mistake, or none can be right for all its corners.
 fn angles(facts: &SurfaceFacts<'_>, of_corners: &[[f32; 4]], made: &[[f32; 4]]) -> Option<Vec<Option<f64>>> {
     let Surface { tangents, normals, uv_sets, uv_set, .. } = facts.surface;
     let (tangents, normals, uvs) = (tangents.as_ref()?, normals.as_ref()?, uv_sets.get(uv_set)?);
@@ -106,8 +109,9 @@ fn angles(facts: &SurfaceFacts<'_>, of_corners: &[[f32; 4]], made: &[[f32; 4]]) 
     Some(angles)
 }
 
-/// The tangents of corners as methods compute them, without what other rules name: signs that are none, and all where some are flipped, become those
-/// of MikkTSpace, negated directions are turned back, and single rotated ones become those of MikkTSpace. None where there are no tangents or none can be computed.
+/// The tangents of corners as methods compute them, without what other rules name: signs that are none, and
+/// all where some are flipped, become those of MikkTSpace, negated directions are turned back, and single
+/// rotated ones become those of MikkTSpace. None where there are no tangents or none can be computed.
 pub fn tangents_without_other_mistakes(facts: &SurfaceFacts<'_>) -> Option<Vec<[f32; 4]>> {
     let surface = facts.surface;
     let of_vertex = surface.tangents.as_ref()?;

@@ -1,6 +1,7 @@
 //! Finds the triangles that share area with other triangles in UV space.
 //!
-//! Every pair of triangles that could meet is tested exactly (by separating edges). The pairs come from square grids, one per power of two:
+//! Every pair of triangles that could meet is tested exactly (by separating edges). The pairs come from
+//! square grids, one per power of two:
 //!
 //! ```text
 //! leave out the triangles that lie where UV space is covered once (single_cover.rs): most of them, in most meshes
@@ -10,7 +11,8 @@
 //!     put the triangle into the cells of the smallest grid whose cells are as large as its bounding box: at most four
 //! ```
 //!
-//! UVs are taken as they are, without wrapping: parts that were moved by a whole tile do not overlap, and bakers leave them out.
+//! UVs are taken as they are, without wrapping: parts that were moved by a whole tile do not overlap, and
+//! bakers leave them out.
 
 mod layout;
 mod single_cover;
@@ -35,10 +37,12 @@ pub struct Overlaps {
 const TESTS_PER_TRIANGLE: usize = 128;
 const FREE_TESTS: usize = 1 << 20;
 
-/// How far triangles may reach into each other in units of the last place of their coordinates: UVs are rounded to 32-bit floats.
+/// How far triangles may reach into each other in units of the last place of their coordinates: UVs are
+/// rounded to 32-bit floats.
 const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 
-/// Finds overlapping triangles. `vertex_of_corner`: three per triangle. Triangles without area, or with UVs that are not finite, overlap nothing.
+/// Finds overlapping triangles. `vertex_of_corner`: three per triangle. Triangles without area, or with UVs
+/// that are not finite, overlap nothing.
 pub fn overlapping(uvs: &[[f32; 2]], vertex_of_corner: &[u32]) -> Overlaps {
     let layout = Layout { uvs, vertex_of_corner };
     let mut order: Vec<(i32, u32)> = may_overlap(&layout)
@@ -62,7 +66,8 @@ pub fn overlapping(uvs: &[[f32; 2]], vertex_of_corner: &[u32]) -> Overlaps {
     }
 }
 
-/// The triangles of a cell. Those that overlap something already are tested only until one of them is found to overlap.
+/// The triangles of a cell. Those that overlap something already are tested only until one of them is found
+/// to overlap.
 #[derive(Default)]
 struct Cell {
     free: Vec<u32>,
@@ -85,8 +90,8 @@ impl<'a> Search<'a> {
         Self { layout, is_overlapping: vec![false; layout.len()], grids: BTreeMap::new(), tests_left }
     }
 
-    /// Tests a triangle against those that were added before, none of which is in a finer grid, and adds it. Nothing is done, and none returned,
-    /// once no tests are left.
+    /// Tests a triangle against those that were added before, none of which is in a finer grid, and adds it.
+    /// Nothing is done, and none returned, once no tests are left.
     fn add(&mut self, level: i32, number: u32) -> Option<()> {
         let triangle = self.layout.triangle(number as usize);
         let [low, high] = bounds(&triangle);
@@ -112,7 +117,8 @@ impl<'a> Search<'a> {
 }
 
 impl Cell {
-    /// Notes which triangles of the cell overlap the triangle `number`, and whether it overlaps any. None: `share_area` gives no more answers.
+    /// Notes which triangles of the cell overlap the triangle `number`, and whether it overlaps any. None:
+    /// `share_area` gives no more answers.
     fn test(
         &mut self,
         number: usize,
@@ -213,7 +219,8 @@ mod tests {
         assert_eq!((found.area_share, found.is_complete), (0.5, true));
     }
 
-    /// The grids lose no pair: the same as when all pairs are tested. Coordinates are few, so that many edges and corners touch.
+    /// The grids lose no pair: the same as when all pairs are tested. Coordinates are few, so that many edges
+    /// and corners touch.
     #[test]
     fn grids_find_what_all_pairs_give() {
         for seed in 0..300 {
@@ -241,7 +248,8 @@ mod tests {
         }
     }
 
-    /// Leaving out what is covered once loses no pair either: patches of many triangles, turned, mirrored and laid over each other.
+    /// Leaving out what is covered once loses no pair either: patches of many triangles, turned, mirrored and
+    /// laid over each other.
     #[test]
     fn patches_give_what_all_pairs_give() {
         for seed in 0..20 {
@@ -275,7 +283,8 @@ mod tests {
         }
     }
 
-    /// Stacks are found at once, and a fan of slivers stops the search: in a time that grows with the number of triangles, not with its square.
+    /// Stacks are found at once, and a fan of slivers stops the search: in a time that grows with the number
+    /// of triangles, not with its square.
     #[test]
     fn large_inputs_take_bounded_time() {
         let stack: Vec<[f32; 2]> = (0..3_000).flat_map(|i| moved(CORNER, [1e-6 * i as f32, 0.0])).collect();

@@ -59,8 +59,9 @@ impl Recipes {
         }
     }
 
-    /// The corners that are more than [`FAR`] from MikkTSpace around the normal, in percent of those that lie in triangles with an area and not on
-    /// mirrored seams. Tangents that are outliers, negated or rotated, or lean towards the normal, have findings of their own.
+    /// The corners that are more than [`FAR`] from MikkTSpace around the normal, in percent of those that lie
+    /// in triangles with an area and not on mirrored seams. Tangents that are outliers, negated or
+    /// rotated, or lean towards the normal, have findings of their own.
     pub fn percent_far(&self, facts: &SurfaceFacts<'_>) -> f64 {
         let surface = facts.surface;
         let (Some(tangents), Some(normals), Some(uvs), Some(expected)) =
@@ -99,7 +100,8 @@ impl Recipes {
 
 impl Recognised {
     pub fn is_of_mikktspace(&self) -> bool {
-        // Where MikkTSpace explains all corners, nothing shows that another recipe was used, though it may have more bits in common.
+        // Where MikkTSpace explains all corners, nothing shows that another recipe was used, though it may
+        // have more bits in common.
         let is_explained = self.mikktspace.close == self.mikktspace.corners;
         is_explained || is_mikktspace(&self.best) && close(&self.best) >= IS_MIKKTSPACE
     }

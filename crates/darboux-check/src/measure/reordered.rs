@@ -1,8 +1,10 @@
-//! Maps whose vectors point along another axis than z on average: the channels are in another order, or inverted.
+//! Maps whose vectors point along another axis than z on average: the channels are in another order, or
+//! inverted.
 //!
-//! On average a map in tangent space points along z, because its slopes cancel. Unit vectors that point along red or green instead belong to a map
-//! whose channels were exchanged with blue, or to a flat surface in object space; the texels do not tell which. Which of the other two channels is
-//! x and which is y shows in their derivatives.
+//! On average a map in tangent space points along z, because its slopes cancel. Unit vectors that point along
+//! red or green instead belong to a map whose channels were exchanged with blue, or to a flat surface in
+//! object space; the texels do not tell which. Which of the other two channels is x and which is y shows in
+//! their derivatives.
 
 use darboux::{MapJudgement, MapVerdict, TexelLayout, judge_normal_map};
 use darboux_io::image::RgbaImage;
@@ -21,7 +23,8 @@ pub struct Reordered {
 const MIN_MEAN: f32 = 0.6;
 
 impl Reordered {
-    /// None where the vectors point along z, or where most of them do not have length 1. `judgement`: that on red, green and blue.
+    /// None where the vectors point along z, or where most of them do not have length 1. `judgement`: that on
+    /// red, green and blue.
     pub fn of(image: &RgbaImage, judgement: &MapJudgement) -> Option<Self> {
         let points_along = |channel: usize| {
             let mean = judgement.mean[channel];

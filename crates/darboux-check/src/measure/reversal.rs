@@ -1,9 +1,11 @@
 //! Decides whether faces or normals are reversed, where they disagree.
 //!
-//! Faces that enclose a volume are wound outwards if it is positive. On an open surface the tangents can side with the faces: the bitangent
-//! w cross(n, t) points along the rising v if the normals are those that the tangents were made for, and against it if the normals were negated
-//! since. (So it does in a mirrored space, where the faces and the signs w are reversed; turning the normals over keeps the visible side visible.)
-//! Tangents that side with the normals decide nothing: either the faces are reversed, or both the normals and the signs w were negated.
+//! Faces that enclose a volume are wound outwards if it is positive. On an open surface the tangents can side
+//! with the faces: the bitangent w cross(n, t) points along the rising v if the normals are those that the
+//! tangents were made for, and against it if the normals were negated since. (So it does in a mirrored space,
+//! where the faces and the signs w are reversed; turning the normals over keeps the visible side visible.)
+//! Tangents that side with the normals decide nothing: either the faces are reversed, or both the normals and
+//! the signs w were negated.
 
 use std::collections::BTreeMap;
 
@@ -102,15 +104,17 @@ struct Solid {
     high: Vector,
 }
 
-/// The largest length of the area vector, as a part of the area, of surfaces that are called nearly closed: their holes are no larger. Published
-/// models with small gaps have at most 0.013, an open hemisphere has 0.5.
+/// The largest length of the area vector, as a part of the area, of surfaces that are called nearly closed:
+/// their holes are no larger. Published models with small gaps have at most 0.013, an open hemisphere has
+/// 0.5.
 const MAX_HOLES: f64 = 0.1;
 
-/// The smallest volume over area and distance from the origin: rounding of positions changes the ratio by some 1e-7. Smaller volumes belong to
-/// flat shapes that are closed by having two sides.
+/// The smallest volume over area and distance from the origin: rounding of positions changes the ratio by
+/// some 1e-7. Smaller volumes belong to flat shapes that are closed by having two sides.
 const MIN_THICKNESS: f64 = 1e-6;
 
-/// By the signs of the volumes of nearly closed parts; none where they are less than half of the surface or contradict each other.
+/// By the signs of the volumes of nearly closed parts; none where they are less than half of the surface or
+/// contradict each other.
 fn by_volume(surface: &Surface) -> Option<Reversal> {
     let solids = solids(surface);
     let all: f64 = solids.iter().map(|solid| solid.area).sum();
@@ -152,10 +156,11 @@ impl Solid {
         }
     }
 
-    /// 1 where a nearly closed part is wound outwards, -1 where it is wound inwards, 0 where it has too large holes or no volume.
+    /// 1 where a nearly closed part is wound outwards, -1 where it is wound inwards, 0 where it has too large
+    /// holes or no volume.
     ///
-    /// Holes that are closed by cones to a point q leave the volume V(q) = V(0) - dot(q, area vector) / 3, so the sign is sure if it is the
-    /// same for every q of the bounding box.
+    /// Holes that are closed by cones to a point q leave the volume V(q) = V(0) - dot(q, area vector) / 3, so
+    /// the sign is sure if it is the same for every q of the bounding box.
     fn sign(&self) -> f64 {
         let Self { area, area_vector, volume, low, high } = *self;
         let distance = (0..3).map(|i| low[i].abs().max(high[i].abs())).fold(0.0, f64::max);

@@ -1,8 +1,10 @@
-//! The vertices whose normals point to the back of all faces around them, as on a part of the surface that was flipped or mirrored.
+//! The vertices whose normals point to the back of all faces around them, as on a part of the surface that
+//! was flipped or mirrored.
 //!
-//! A smooth normal is a sum of the normals of faces with positive weights, so it points to the front of one of them at least, on thin sheets and
-//! at sharp points, too. The faces around a vertex are those of all vertices with the same position and the same normal: a UV seam may leave a
-//! vertex with the faces of one side, and two sheets that are drawn back to back may share their normals.
+//! A smooth normal is a sum of the normals of faces with positive weights, so it points to the front of one
+//! of them at least, on thin sheets and at sharp points, too. The faces around a vertex are those of all
+//! vertices with the same position and the same normal: a UV seam may leave a vertex with the faces of one
+//! side, and two sheets that are drawn back to back may share their normals.
 
 use std::collections::HashMap;
 
@@ -13,18 +15,21 @@ use crate::surface::{Surface, cross, dot, length, sub};
 pub struct Reversed {
     /// The vertices, ascending.
     pub vertices: Vec<usize>,
-    /// The numbers of the triangles that have such corners, and no corner whose normal points to the front, ascending.
+    /// The numbers of the triangles that have such corners, and no corner whose normal points to the front,
+    /// ascending.
     pub triangles: Vec<usize>,
-    /// The numbers of the triangles that have such corners and others whose normals point to the front, ascending.
+    /// The numbers of the triangles that have such corners and others whose normals point to the front,
+    /// ascending.
     pub mixed: Vec<usize>,
-    /// The number of connected parts that have such triangles. Parts are connected by vertices with the same position and normal.
+    /// The number of connected parts that have such triangles. Parts are connected by vertices with the same
+    /// position and normal.
     pub parts: usize,
     /// The number of all connected parts that have an area.
     pub all_parts: usize,
 }
 
-/// The cosine between a normal and the fronts of all its faces below which it is reversed. Normals that were bent on purpose, as on foliage, may
-/// lean past the plane of a face here and there.
+/// The cosine between a normal and the fronts of all its faces below which it is reversed. Normals that were
+/// bent on purpose, as on foliage, may lean past the plane of a face here and there.
 const REVERSED: f64 = -0.3;
 
 /// Triangles whose height is a smaller part of their longest edge have no direction beyond rounding.
@@ -81,7 +86,8 @@ fn is_reversed(largest_cosine: f64) -> bool {
     largest_cosine.is_finite() && largest_cosine < REVERSED
 }
 
-/// Per vertex the largest cosine between its normal and the fronts of the triangles around it; negative infinity without any.
+/// Per vertex the largest cosine between its normal and the fronts of the triangles around it; negative
+/// infinity without any.
 fn largest_cosines(surface: &Surface, normals: &[[f32; 3]]) -> Vec<f64> {
     let mut largest = vec![f64::NEG_INFINITY; normals.len()];
     for triangle in surface.triangles() {

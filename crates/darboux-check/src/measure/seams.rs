@@ -1,12 +1,15 @@
 //! Whether a map was made for the UV layout of a mesh, by the seams.
 //!
-//! At a seam the surface goes on, and the map does not: its two sides lie in different charts, turned in different ways. In a map that was baked for
-//! this layout, the lean of the normals in space is nearly the same on both sides, or, where the seam lies on an edge that the mesh rounds and the map
-//! makes sharp, nearly the opposite. In another map it has nothing to do with it. The correlation of the
-//! two sides, over all seams of smooth normals, is compared with that of the same map moved by other offsets, which has the same details, the
-//! same repetitions and the same shared UVs: a null from the data. Points that read the same two texels count once.
+//! At a seam the surface goes on, and the map does not: its two sides lie in different charts, turned in
+//! different ways. In a map that was baked for this layout, the lean of the normals in space is nearly the
+//! same on both sides, or, where the seam lies on an edge that the mesh rounds and the map makes sharp,
+//! nearly the opposite. In another map it has nothing to do with it. The correlation of the two sides, over
+//! all seams of smooth normals, is compared with that of the same map moved by other offsets, which has the
+//! same details, the same repetitions and the same shared UVs: a null from the data. Points that read the
+//! same two texels count once.
 //!
-//! The map is also read as if its layout were mirrored or turned by 180 degrees. If it fits so, and not as it is, the UVs or the image were turned.
+//! The map is also read as if its layout were mirrored or turned by 180 degrees. If it fits so, and not as it
+//! is, the UVs or the image were turned.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -146,7 +149,8 @@ impl SeamFit {
         let count = moved.len() as f64;
         let mean = moved.iter().sum::<f64>() / count;
         let variance = moved.iter().map(|other| (other - mean).powi(2)).sum::<f64>() / (count - 1.0);
-        // A map whose copies all agree alike has no null; the root of the number of points is that of independent ones.
+        // A map whose copies all agree alike has no null; the root of the number of points is that of
+        // independent ones.
         let deviation = variance.sqrt().max(1.0 / (points.len() as f64).sqrt());
         (moved.len() > OFFSETS / 2).then(|| Self { correlation, z_score: (correlation - mean) / deviation })
     }

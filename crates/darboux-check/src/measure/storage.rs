@@ -1,7 +1,9 @@
-//! What storage did to the texels of a map: enlargement without interpolation, few levels per channel, and the blocks of a compression.
+//! What storage did to the texels of a map: enlargement without interpolation, few levels per channel, and
+//! the blocks of a compression.
 //!
-//! All three are patterns of the grid of texels or of the codes, which no surface has by itself, and each is measured in what it costs: the angle of the
-//! steps that it adds. Sums are of integers, so that they are the same everywhere.
+//! All three are patterns of the grid of texels or of the codes, which no surface has by itself, and each is
+//! measured in what it costs: the angle of the steps that it adds. Sums are of integers, so that they are the
+//! same everywhere.
 
 use darboux_io::image::RgbaImage;
 
@@ -51,7 +53,8 @@ const JPEG_SIDE: usize = 8;
 const TEXTURE_BLOCK_SIDE: usize = 4;
 
 impl Storage {
-    /// `file`: the bytes that the image was decoded from. KTX 2 files have blocks of 4 x 4 texels, other files those of JPEG, if any.
+    /// `file`: the bytes that the image was decoded from. KTX 2 files have blocks of 4 x 4 texels, other
+    /// files those of JPEG, if any.
     pub fn of(image: &RgbaImage, file: &[u8]) -> Self {
         let is_ktx = file.starts_with(b"\xABKTX 20\xBB");
         let side = if is_ktx { TEXTURE_BLOCK_SIDE } else { JPEG_SIDE };
@@ -77,11 +80,13 @@ fn squared_step(a: &[u8; 4], b: &[u8; 4]) -> u64 {
     (0..2).map(|i| u64::from(a[i].abs_diff(b[i])).pow(2)).sum()
 }
 
-/// The fewest rows, and columns, that differ from the one before. Fewer may be the edges of a few parts that lie on a grid.
+/// The fewest rows, and columns, that differ from the one before. Fewer may be the edges of a few parts that
+/// lie on a grid.
 const MIN_CHANGES: usize = 8;
 
 impl Enlargement {
-    /// The greatest common divisor of all columns that differ from the one before is the factor of the width, and that of rows the factor of the height.
+    /// The greatest common divisor of all columns that differ from the one before is the factor of the width,
+    /// and that of rows the factor of the height.
     fn of(image: &RgbaImage) -> Option<Self> {
         let width = image.width as usize;
         let mut differs = vec![false; width];
@@ -122,7 +127,8 @@ fn common_divisor(a: usize, b: usize) -> usize {
 /// The fewest bits that are looked for, and the most.
 const BITS: std::ops::RangeInclusive<u32> = 3..=6;
 
-/// The fewest levels that show a number of bits: ten levels of a map of 8 bits are all among the 64 of 6 bits once in a million maps.
+/// The fewest levels that show a number of bits: ten levels of a map of 8 bits are all among the 64 of 6 bits
+/// once in a million maps.
 const MIN_LEVELS: usize = 10;
 
 impl FewLevels {
@@ -145,7 +151,8 @@ impl FewLevels {
     }
 }
 
-/// The fewest bits whose levels hold all used codes, in one of three ways to make 8 bits of them; none above [`BITS`].
+/// The fewest bits whose levels hold all used codes, in one of three ways to make 8 bits of them; none above
+/// [`BITS`].
 fn bits(used: &[bool; 256]) -> Option<u32> {
     let truncated = |level: u32, bits: u32| level << (8 - bits);
     let repeated = |level: u32, bits: u32| {
@@ -167,10 +174,12 @@ const PART: usize = 512;
 /// The largest squared second difference: a step of a quarter of the range is a border of charts.
 const MAX_SQUARE: u64 = 16256;
 
-/// What blocks add in degrees: less is not seen, and more is a grating or a grid of tiles whose edges lie on the borders.
+/// What blocks add in degrees: less is not seen, and more is a grating or a grid of tiles whose edges lie on
+/// the borders.
 const DEGREES: std::ops::RangeInclusive<f64> = 1.0..=15.0;
 
-/// The least share of borders that stand out, and the least ratio of their squared steps to those in the middles of the blocks.
+/// The least share of borders that stand out, and the least ratio of their squared steps to those in the
+/// middles of the blocks.
 const MIN_SHARE: f64 = 0.8;
 const MIN_RATIO: f64 = 1.6;
 
@@ -178,7 +187,8 @@ const MIN_RATIO: f64 = 1.6;
 const MIN_BORDERS: usize = 7;
 
 impl BlockSteps {
-    /// A step at a border is compared with those in the middles of the two blocks. Steps are second differences, in which even slopes cancel.
+    /// A step at a border is compared with those in the middles of the two blocks. Steps are second
+    /// differences, in which even slopes cancel.
     fn of(image: &RgbaImage, side: usize) -> Option<Self> {
         let size = [image.width, image.height].map(|side| side as usize);
         let start = size.map(|length| length.saturating_sub(PART) / 2 / side * side);

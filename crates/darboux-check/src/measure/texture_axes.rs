@@ -1,7 +1,9 @@
-//! What `KHR_texture_transform` does to the axes of a texture, and whether the tangents of a surface follow the UVs before it or after it.
+//! What `KHR_texture_transform` does to the axes of a texture, and whether the tangents of a surface follow
+//! the UVs before it or after it.
 //!
-//! Where the transform mirrors the image or turns it, both differ in what red and green of a normal map mean: a map with green up looks as if it were inverted on
-//! tangents that follow the mirrored UVs before the transform, and is right on those that follow the UVs after it.
+//! Where the transform mirrors the image or turns it, both differ in what red and green of a normal map mean:
+//! a map with green up looks as if it were inverted on tangents that follow the mirrored UVs before the
+//! transform, and is right on those that follow the UVs after it.
 
 use darboux_io::gltf::TextureUse;
 
@@ -19,18 +21,21 @@ pub fn axes(texture: &TextureUse) -> Axes {
     })
 }
 
-/// Whether red or green of a map point another way before the transform than after it: it mirrors an axis or turns it by a right angle or more.
+/// Whether red or green of a map point another way before the transform than after it: it mirrors an axis or
+/// turns it by a right angle or more.
 pub fn turns_channels([u, v]: Axes) -> bool {
     // Rounding leaves a little of the cosine of a right angle.
     let is_turned = |along: f64, across: f64| along <= 1e-3 * across.abs();
     is_turned(u[0], u[1]) || is_turned(v[1], v[0])
 }
 
-/// The share of corners whose tangents follow UVs, from which on a surface follows them, and up to which it does not.
+/// The share of corners whose tangents follow UVs, from which on a surface follows them, and up to which it
+/// does not.
 const FOLLOWS: f64 = 0.9;
 const FOLLOWS_NOT: f64 = 0.5;
 
-/// The UVs after a transform that turns channels, where the tangents of the surface follow these, and not the ones before it.
+/// The UVs after a transform that turns channels, where the tangents of the surface follow these, and not the
+/// ones before it.
 pub fn followed(surface: &Surface, texture: &TextureUse) -> Option<Vec<[f32; 2]>> {
     if texture.uv_set != surface.uv_set || !turns_channels(axes(texture)) {
         return None;
@@ -42,7 +47,8 @@ pub fn followed(surface: &Surface, texture: &TextureUse) -> Option<Vec<[f32; 2]>
     (transformed >= FOLLOWS && before <= FOLLOWS_NOT).then_some(after)
 }
 
-/// The share of corners whose tangents point along u, and whose bitangents point along v of the image, upwards; none without tangents.
+/// The share of corners whose tangents point along u, and whose bitangents point along v of the image,
+/// upwards; none without tangents.
 fn share_that_follows(surface: &Surface, uvs: &[[f32; 2]]) -> Option<f64> {
     let (normals, tangents) = (surface.normals.as_ref()?, surface.tangents.as_ref()?);
     let (mut all, mut following) = (0usize, 0usize);

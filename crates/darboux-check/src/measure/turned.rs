@@ -1,12 +1,15 @@
-//! Finds single vertices whose tangents point against u or along v, where those of the other vertices are right.
+//! Finds single vertices whose tangents point against u or along v, where those of the other vertices are
+//! right.
 //!
-//! All methods sum the u directions of the triangles around a vertex with positive weights. So a tangent that points against all of them is wrong,
-//! whatever the method. Where these directions spread over more than a right angle, only the method tells: if the other tangents are MikkTSpace's,
-//! one that points against MikkTSpace's is wrong, too, and so is one that is turned by a right angle.
+//! All methods sum the u directions of the triangles around a vertex with positive weights. So a tangent that
+//! points against all of them is wrong, whatever the method. Where these directions spread over more than a
+//! right angle, only the method tells: if the other tangents are MikkTSpace's, one that points against
+//! MikkTSpace's is wrong, too, and so is one that is turned by a right angle.
 //!
-//! Rounding the UVs, as compression does, can flip the u direction of a triangle that is thin in UV space. With such triangles around it, a
-//! vertex is judged only where the other triangles outweigh them in MikkTSpace's sum, which weights by the angles at the vertex, or where the
-//! tangents of nearly all thin triangles are MikkTSpace's, so that nothing was rounded since.
+//! Rounding the UVs, as compression does, can flip the u direction of a triangle that is thin in UV space.
+//! With such triangles around it, a vertex is judged only where the other triangles outweigh them in
+//! MikkTSpace's sum, which weights by the angles at the vertex, or where the tangents of nearly all thin
+//! triangles are MikkTSpace's, so that nothing was rounded since.
 
 use crate::measure::expected::{are_those_of_the_file, is_measured};
 use crate::surface::{Surface, cross, dot, indices_where, length, sub, uv_area, xyz};
@@ -20,29 +23,31 @@ pub struct Turned {
     pub rotated: Vec<usize>,
 }
 
-/// The cosine to the u direction below which a tangent points against it. Sums of unit u directions with positive weights have a positive cosine
-/// to one of them at least; the rest is rounding.
+/// The cosine to the u direction below which a tangent points against it. Sums of unit u directions with
+/// positive weights have a positive cosine to one of them at least; the rest is rounding.
 const AGAINST: f64 = -0.1;
 
-/// The cosines between a tangent and MikkTSpace's: from which on they are the same or opposite, up to which they are at a right angle, and from
-/// which on the tangents of a surface are called MikkTSpace's.
+/// The cosines between a tangent and MikkTSpace's: from which on they are the same or opposite, up to which
+/// they are at a right angle, and from which on the tangents of a surface are called MikkTSpace's.
 const OPPOSITE: f64 = 0.98;
 const ACROSS: f64 = 0.1;
 const EQUAL: f64 = 0.9998;
 
-/// The least share of corners with MikkTSpace's tangent or its opposite on a surface whose other tangents are MikkTSpace's: where a tangent is
-/// the opposite, and where it is turned by a right angle, which a tangent of another method may be by chance.
+/// The least share of corners with MikkTSpace's tangent or its opposite on a surface whose other tangents are
+/// MikkTSpace's: where a tangent is the opposite, and where it is turned by a right angle, which a tangent of
+/// another method may be by chance.
 const MIN_SHARE: f64 = 0.9;
 const MIN_SHARE_FOR_ACROSS: f64 = 0.95;
 
-/// The least share of the corners of thin triangles with MikkTSpace's tangent, of UVs that were not rounded since.
+/// The least share of the corners of thin triangles with MikkTSpace's tangent, of UVs that were not rounded
+/// since.
 const MIN_SHARE_OF_THIN: f64 = 0.9;
 
 /// The shortest sum of u directions, as a part of the sum of their weights, that is sure of its direction.
 const MIN_SUM: f64 = 0.3;
 
-/// Compression stores UVs with 12 bits or more: a triangle is thin only if its height is a smaller part of the extent of all UVs than this, and
-/// than 1 in 50 of its longest edge.
+/// Compression stores UVs with 12 bits or more: a triangle is thin only if its height is a smaller part of
+/// the extent of all UVs than this, and than 1 in 50 of its longest edge.
 const THIN: f64 = 1.0 / 4096.0;
 
 /// The sum of u directions times the angles at a vertex, and the sum of these angles.
@@ -70,7 +75,8 @@ struct Around {
     /// The u directions of such triangles, and of thin ones.
     thick: WeightedSum,
     thin: WeightedSum,
-    /// Whether all corners have the opposite of MikkTSpace's tangent, and whether all have it turned by a right angle.
+    /// Whether all corners have the opposite of MikkTSpace's tangent, and whether all have it turned by a
+    /// right angle.
     is_opposite: bool,
     is_across: bool,
 }
@@ -89,7 +95,8 @@ impl Around {
         self.thin.weight == 0.0 && self.largest_cosine.is_finite() && self.largest_cosine < AGAINST
     }
 
-    /// Whether MikkTSpace's tangent is sure of its direction. `trusts_thin`: whether thin triangles are as good as others.
+    /// Whether MikkTSpace's tangent is sure of its direction. `trusts_thin`: whether thin triangles are as
+    /// good as others.
     fn is_determined(&self, trusts_thin: bool) -> bool {
         let Self { thick, thin, .. } = self;
         let sum = |of: &dyn Fn(usize) -> f64| (0..3).map(|i| of(i).powi(2)).sum::<f64>().sqrt();
@@ -180,7 +187,8 @@ fn extent(uvs: &[[f32; 2]]) -> f64 {
     side(0).max(side(1))
 }
 
-/// Whether a triangle is so thin in UV space that rounding its UVs could flip its u direction. `thin`: the height below which it may be.
+/// Whether a triangle is so thin in UV space that rounding its UVs could flip its u direction. `thin`: the
+/// height below which it may be.
 fn is_thin(uvs: &[[f32; 2]], triangle: [usize; 3], thin: f64) -> bool {
     let [a, b, c] = triangle.map(|vertex| uvs[vertex]);
     let edge =

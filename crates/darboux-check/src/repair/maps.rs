@@ -33,8 +33,8 @@ pub struct FixedMap {
     pub findings: Vec<FixedFinding>,
 }
 
-/// Repairs an image file that is a normal map. A JPEG becomes a PNG. Inverted green is left, because it may as well be inverted red:
-/// [`fix_map_on_model`] asks the faces of the model.
+/// Repairs an image file that is a normal map. A JPEG becomes a PNG. Inverted green is left, because it may
+/// as well be inverted red: [`fix_map_on_model`] asks the faces of the model.
 ///
 /// `name` stands for the file in messages. Errors: a PNG that needs more memory than `loading` permits.
 pub fn fix_map(
@@ -48,7 +48,8 @@ pub fn fix_map(
     fix_checked(name, file, check(file), &check, loading, options)
 }
 
-/// As [`fix_map`], for the normal map of a model, which is not changed. Its findings are not among those of the result.
+/// As [`fix_map`], for the normal map of a model, which is not changed. Its findings are not among those of
+/// the result.
 pub fn fix_map_on_model(
     name: &str,
     file: &[u8],
@@ -65,7 +66,8 @@ fn with_limit_of(options: &FixOptions, loading: &LoadOptions) -> FixOptions {
     FixOptions { check: options.check.with_memory_limit(loading.memory_limit), ..options.clone() }
 }
 
-/// Checks an image file again after a repair, with all that was known before, so that one repair does not mislead the next.
+/// Checks an image file again after a repair, with all that was known before, so that one repair does not
+/// mislead the next.
 type Check<'a> = dyn Fn(&[u8]) -> MapDefects + 'a;
 
 /// Repairs an image file whose findings are known: meshes may have helped to find them.
@@ -85,7 +87,8 @@ fn fix_checked(
     let has_directions =
         |judgement: &MapJudgement| matches!(judgement.verdict, MapVerdict::OpenGl | MapVerdict::DirectX);
     let directions_were_hidden = !checked.judgement.as_ref().is_some_and(has_directions);
-    // With both inverted back the texels show what they showed before, and the assumption would be said of them again.
+    // With both inverted back the texels show what they showed before, and the assumption would be said of
+    // them again.
     let assumed = options.check.assumed_map.map(|assumed| relative(assumed, options.check.green));
     let is_both_assumed = assumed == Some(Inverted::Both);
     let mut image: Option<PngImage> = None;
@@ -126,7 +129,8 @@ fn fix_checked(
     Ok(FixedMap { image: image.filter(|_| is_any_repaired), findings })
 }
 
-/// What was known to be left is left for the same reason after other repairs: other images and surfaces may be that.
+/// What was known to be left is left for the same reason after other repairs: other images and surfaces may
+/// be that.
 fn keep_reasons(known: &[Defect], defects: &mut [Defect]) {
     for defect in defects {
         let Some(before) = known.iter().find(|known| known.is_same(defect)) else { continue };
@@ -200,7 +204,8 @@ fn green(wanted: BitangentDirection) -> Conversion {
     }
 }
 
-/// A texel with a vector of length 1. Black, white and middle grey texels are background, and keep their values.
+/// A texel with a vector of length 1. Black, white and middle grey texels are background, and keep their
+/// values.
 fn unit(texel: [f64; 3]) -> [f64; 3] {
     let vector = texel.map(|x| 2.0 * x - 1.0);
     let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -48,7 +48,8 @@ impl FixOptions {
         Self { codes: Some(codes.into_iter().collect()), ..self }
     }
 
-    /// Whether a defect is to be repaired, and can be. Tangents that the wanted method made are not made again.
+    /// Whether a defect is to be repaired, and can be. Tangents that the wanted method made are not made
+    /// again.
     pub(super) fn repairs(&self, defect: &Defect) -> bool {
         let is_wanted_method = || match &defect.fault {
             Fault::TangentOtherRecipe { recognised, .. } => self.is_other_method(recognised),

@@ -44,7 +44,8 @@ pub struct FixedFinding {
     pub finding: Finding,
     /// Whether it is gone: repaired, or together with what was.
     pub repaired: bool,
-    /// What was done to the tangents of its primitive; none for findings about anything else, and where only the signs w were negated.
+    /// What was done to the tangents of its primitive; none for findings about anything else, and where only
+    /// the signs w were negated.
     pub change: Option<Change>,
     pub(super) was_fixable: bool,
 }
@@ -60,7 +61,8 @@ pub struct FixedDocument {
 }
 
 impl FixedFinding {
-    /// Whether the check said that a repair removes it. [`Finding::left_because`] says why one that is still there is.
+    /// Whether the check said that a repair removes it. [`Finding::left_because`] says why one that is still
+    /// there is.
     pub fn was_fixable(&self) -> bool {
         self.was_fixable
     }

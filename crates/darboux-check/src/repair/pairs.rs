@@ -1,4 +1,5 @@
-//! Mistakes of a map and of a surface that cancel each other: bumps look right, and would be inverted if only one were repaired.
+//! Mistakes of a map and of a surface that cancel each other: bumps look right, and would be inverted if only
+//! one were repaired.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +14,8 @@ use crate::hypotheses::has_flipped_signs;
 use crate::instances::{Key, key};
 use crate::severity::Severity;
 
-/// The primitives and images that are left because a part of such a pair is left, each with the pair, or may be one.
+/// The primitives and images that are left because a part of such a pair is left, each with the pair, or may
+/// be one.
 #[derive(Debug, Default)]
 pub struct LeftPairs {
     primitives: BTreeMap<Key, &'static Pair>,
@@ -25,7 +27,8 @@ pub struct LeftPairs {
 }
 
 impl LeftPairs {
-    /// Finds them. `on_images` and `on_surfaces`: the defects of the document. Errors: invalid data of the materials.
+    /// Finds them. `on_images` and `on_surfaces`: the defects of the document. Errors: invalid data of the
+    /// materials.
     pub fn new(
         document: &Document,
         on_images: &[Defect],

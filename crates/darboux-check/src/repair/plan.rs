@@ -19,7 +19,8 @@ pub struct Edit {
     pub kept: Kept,
 }
 
-/// What is wrong with all tangents of a primitive and stays so when they are computed again, because a mistake in the map that is left may cancel it.
+/// What is wrong with all tangents of a primitive and stays so when they are computed again, because a
+/// mistake in the map that is left may cancel it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Kept {
     /// The signs w stay flipped.
@@ -205,7 +206,8 @@ fn is_about_single_tangents(defect: &Defect) -> bool {
     }
 }
 
-/// Whether the tangents of a primitive were computed in another way than MikkTSpace, and the options want them to stay so.
+/// Whether the tangents of a primitive were computed in another way than MikkTSpace, and the options want
+/// them to stay so.
 pub fn keeps_recipe(defects: &[&Defect], options: &FixOptions) -> bool {
     let is_recipe = |defect: &&Defect| defect.code() == Code::TangentOtherRecipe;
     defects.iter().any(is_recipe) && !options.chooses(Code::TangentOtherRecipe)

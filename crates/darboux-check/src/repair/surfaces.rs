@@ -18,7 +18,8 @@ use crate::instances::{Groups, Key, key};
 use crate::model_area::ModelArea;
 use crate::severity::Severity;
 
-/// A repair that has not ended after so many rounds is taken as it is. Each round leaves fewer defects than the one before.
+/// A repair that has not ended after so many rounds is taken as it is. Each round leaves fewer defects than
+/// the one before.
 const MAX_ROUNDS: usize = 16;
 
 /// Repairs normals and tangents, but those in `left`.
@@ -51,7 +52,8 @@ struct Repair {
     after: Vec<Defect>,
     /// What was done to tangents.
     changes: BTreeMap<Key, Change>,
-    /// The primitives whose repair was taken back in the last round, each with the reason if it is more than that the defects are still there.
+    /// The primitives whose repair was taken back in the last round, each with the reason if it is more than
+    /// that the defects are still there.
     refused: BTreeMap<Key, Option<Obstacle>>,
     /// The primitives whose tangents were corrected, and are not all made again to repair the rest.
     kept: BTreeSet<Key>,
@@ -93,7 +95,8 @@ impl Work<'_> {
         self.groups.get(&at).map_or(at, key)
     }
 
-    /// One repair of everything that is to be repaired, without the edits that do not help. Returns whether anything was changed.
+    /// One repair of everything that is to be repaired, without the edits that do not help. Returns whether
+    /// anything was changed.
     fn round(&self, document: &mut Document, repair: &mut Repair) -> Result<bool, Error> {
         let mut refused = BTreeMap::new();
         // Every turn refuses the repair of one more primitive at least.
@@ -183,8 +186,9 @@ impl Work<'_> {
         attempt.edited.iter().filter_map(refusal).collect()
     }
 
-    /// Whether fewer defects are to be repaired than before, or as many on fewer vertices or triangles. With another method than MikkTSpace, tangents
-    /// of another recipe may also become those of the method that was asked for.
+    /// Whether fewer defects are to be repaired than before, or as many on fewer vertices or triangles. With
+    /// another method than MikkTSpace, tangents of another recipe may also become those of the method
+    /// that was asked for.
     fn have_shrunk(&self, before: &[&Defect], after: &[&Defect]) -> bool {
         let size = |defects: &[&Defect]| {
             let wanted: Vec<&&Defect> =
@@ -197,8 +201,8 @@ impl Work<'_> {
         size(after) < size(before) || has_other_recipe()
     }
 
-    /// Whether a defect is worse than a remark, and was not there before as bad as it is. Tangents of another method are no defect where that method is
-    /// asked for.
+    /// Whether a defect is worse than a remark, and was not there before as bad as it is. Tangents of another
+    /// method are no defect where that method is asked for.
     fn is_worse(&self, left: &Defect, before: &[&Defect]) -> bool {
         if left.code() == Code::TangentOtherRecipe && self.options.asks_for_other_method() {
             return false;

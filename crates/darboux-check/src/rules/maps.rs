@@ -75,7 +75,8 @@ fn object_space(map: &Map) -> Option<Defect> {
     Some(defect(MapFault::ObjectSpace(texels(judgement, judgement.negative_z))))
 }
 
-/// The vectors of a tangent-space map point along z on average. Vectors of a flat surface in object space may point along any axis.
+/// The vectors of a tangent-space map point along z on average. Vectors of a flat surface in object space may
+/// point along any axis.
 fn reordered(map: &Map) -> Option<Defect> {
     let judgement = of_kind(map, Kind::Reordered)?;
     let reordered = map.reordered.clone()?;
@@ -155,7 +156,8 @@ fn direction_evidence(judgement: &MapJudgement, map: &Map) -> DirectionEvidence 
     }
 }
 
-/// The defect with the severity of its confidence: an error where it is sure. A direction that is not sure is a warning and left.
+/// The defect with the severity of its confidence: an error where it is sure. A direction that is not sure is
+/// a warning and left.
 fn with_confidence(found: Defect, judgement: &MapJudgement) -> Defect {
     let percent = 100.0 * f64::from(judgement.confidence);
     if percent >= SURE_PERCENT {
@@ -172,8 +174,8 @@ fn contradiction(map: &Map) -> Option<Defect> {
     Some(found.with_severity(Severity::Warning).with_obstacle(Some(Obstacle::OnlyAPartOfMap)))
 }
 
-/// The z score of the faces up to which they make inverted red likelier than inverted green, without deciding it. Faces that a map was not made for
-/// give 4 by chance.
+/// The z score of the faces up to which they make inverted red likelier than inverted green, without deciding
+/// it. Faces that a map was not made for give 4 by chance.
 const LEANS_TO_RED: f64 = -5.0;
 
 fn green_flipped(map: &Map) -> Option<Defect> {
@@ -215,7 +217,8 @@ fn red_flipped(map: &Map) -> Option<Defect> {
     is_left.then(|| with_confidence(found(), judgement))
 }
 
-/// A map whose channels seem to be right, and that leans against the faces: bumps on the faces, or dents that were bumps.
+/// A map whose channels seem to be right, and that leans against the faces: bumps on the faces, or dents that
+/// were bumps.
 fn may_be_dents(map: &Map) -> Option<Defect> {
     let judgement = directed(map).filter(|_| !is_assumed(map))?;
     let shown = arrangement(judgement)?;
@@ -253,8 +256,9 @@ fn channels_swapped(map: &Map) -> Option<Defect> {
 /// How far x and y of a map may lean on average; the slopes of a surface cancel.
 const MAX_MEAN_LEAN: f32 = 0.25;
 
-/// Mean lengths that cost no visible light. Resizing and compression shorten and lengthen single vectors of a rough map, and nearly all renderers
-/// normalise: where neither the mean nor most vectors are off, nothing needs to be done.
+/// Mean lengths that cost no visible light. Resizing and compression shorten and lengthen single vectors of a
+/// rough map, and nearly all renderers normalise: where neither the mean nor most vectors are off, nothing
+/// needs to be done.
 const MEAN_LENGTHS: std::ops::RangeInclusive<f32> = 0.9..=1.1;
 
 fn not_unit(map: &Map) -> Option<Defect> {
@@ -296,8 +300,8 @@ fn is_near_zero(code: &u8) -> bool {
     (120..=136).contains(code)
 }
 
-/// Whether the commonest texel, or the colour of the whole map, leans. Another commonest texel belongs to the surface, unless there is no other;
-/// 127 is the other nearest code of zero.
+/// Whether the commonest texel, or the colour of the whole map, leans. Another commonest texel belongs to the
+/// surface, unless there is no other; 127 is the other nearest code of zero.
 fn leans_where_flat(judgement: &MapJudgement) -> bool {
     let code = judgement.commonest;
     let is_off = code.iter().any(|code| !(127..=128).contains(code));
@@ -361,7 +365,8 @@ mod tests {
     use super::*;
     use crate::measure::storage::Storage;
 
-    /// Waves along u, v and both, as `[x, y]`; `is_exchanged` exchanges red and green, and green is inverted before.
+    /// Waves along u, v and both, as `[x, y]`; `is_exchanged` exchanges red and green, and green is inverted
+    /// before.
     fn map(is_exchanged: bool) -> Map {
         let texel = |i: usize| {
             let (x, y) = ((i % 128) as f32 / 5.0, (i / 128) as f32 / 5.0);

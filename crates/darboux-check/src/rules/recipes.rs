@@ -12,8 +12,8 @@ use crate::severity::Severity;
 
 pub const RULES: &[SurfaceRule] = &[other_recipe];
 
-/// The share of corners far from MikkTSpace, in percent, above which tangents of no known method are an error: one in a hundred is seen on a model
-/// that fills the screen.
+/// The share of corners far from MikkTSpace, in percent, above which tangents of no known method are an
+/// error: one in a hundred is seen on a model that fills the screen.
 const MAX_PERCENT_FAR: f64 = 1.0;
 
 /// The largest angle to MikkTSpace in degrees that cannot be seen.

@@ -98,7 +98,8 @@ fn sign_mixed(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     part.map(Fault::TangentSignMixed).map(Defect::new).into_iter().collect()
 }
 
-/// The rules that one measurement decides: at most one about all directions, or a part of them, and one about signs is true.
+/// The rules that one measurement decides: at most one about all directions, or a part of them, and one about
+/// signs is true.
 fn direction_or_sign(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     facts.fits.iter().filter_map(|fit| different(facts, fit)).collect()
 }

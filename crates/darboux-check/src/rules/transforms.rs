@@ -38,7 +38,8 @@ fn zero_scale(material: &Material) -> Option<Defect> {
     is_hidden.then(|| Defect::new(Fault::MapScaleZero(scale)))
 }
 
-/// The largest scale that is not worth a warning: of 436 normal textures of public models, 3 have a larger one.
+/// The largest scale that is not worth a warning: of 436 normal textures of public models, 3 have a larger
+/// one.
 const LARGEST_SCALE: f64 = 4.0;
 
 fn extreme_scale(material: &Material) -> Option<Defect> {

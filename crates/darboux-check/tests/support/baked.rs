@@ -57,8 +57,9 @@ pub fn rows() -> Vec<Row> {
     BAKED_MISTAKES.iter().map(|mistake| row(mistake, &models)).collect()
 }
 
-/// The healthy models that are curved and have enough faces to vote, each with a map that was baked for it. Models are left out whose faces
-/// overlap in the map so that its texels show no convention, and mirrored grids that bend along one axis, which have fewer than ten faces in different planes.
+/// The healthy models that are curved and have enough faces to vote, each with a map that was baked for it.
+/// Models are left out whose faces overlap in the map so that its texels show no convention, and mirrored
+/// grids that bend along one axis, which have fewer than ten faces in different planes.
 pub fn baked_models() -> Vec<Model> {
     const FACES: usize = 100;
     let has_votes = |model: &Model| {
@@ -127,7 +128,8 @@ fn unit(a: Vector) -> Vector {
     a.map(|x| x / dot(a, a).sqrt())
 }
 
-/// The map of a detailed model whose flat parts are the faces of `model`, with gentle bumps on them: what a baker writes.
+/// The map of a detailed model whose flat parts are the faces of `model`, with gentle bumps on them: what a
+/// baker writes.
 fn baked(model: &Model) -> Map {
     const BUMPS: f32 = 0.25;
     let bumps = &model.map.texels;

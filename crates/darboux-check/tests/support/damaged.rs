@@ -1,4 +1,5 @@
-//! Damaged models: words of accessors, bytes and attributes of small models of the repository are changed, each time by a seed.
+//! Damaged models: words of accessors, bytes and attributes of small models of the repository are changed,
+//! each time by a seed.
 
 use std::fs;
 use std::path::Path;

@@ -19,7 +19,8 @@ pub struct Map {
 /// Texels per row and column.
 const SIDE: usize = 128;
 
-/// A map of a generated height field, a third of it flat. Fields whose convention their texels do not show are left out.
+/// A map of a generated height field, a third of it flat. Fields whose convention their texels do not show
+/// are left out.
 pub fn healthy_map(number: usize) -> Map {
     let mut maps = (0..).map(|attempt| generated_map(number + 1000 * attempt));
     let is_decided = |map: &Map| {
@@ -80,7 +81,8 @@ pub struct MapMistake {
     /// How it was made.
     pub how: &'static str,
     pub make: fn(&Map) -> Map,
-    /// The most that a repaired channel may differ from the healthy one, in codes; none where it is not repaired.
+    /// The most that a repaired channel may differ from the healthy one, in codes; none where it is not
+    /// repaired.
     pub tolerance: Option<u8>,
 }
 

@@ -1,4 +1,5 @@
-//! Healthy models, the mistakes that are made on them, and the table of what the check and the repair make of them.
+//! Healthy models, the mistakes that are made on them, and the table of what the check and the repair make of
+//! them.
 
 #![allow(dead_code, reason = "each test file and the example use their part")]
 

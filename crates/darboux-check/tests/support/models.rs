@@ -24,7 +24,8 @@ pub struct Model {
     pub uvs: Vec<Vec<[f32; 2]>>,
     pub tangents: Option<Vec<[f32; 4]>>,
     pub indices: Vec<u32>,
-    /// Where the model has mirrored seams: the vertices before the split, with the tangents of their last corners.
+    /// Where the model has mirrored seams: the vertices before the split, with the tangents of their last
+    /// corners.
     pub unsplit: Option<Arrays>,
     pub uv_set: usize,
     pub has_normal_map: bool,
@@ -40,7 +41,8 @@ pub struct Model {
     pub map: Map,
 }
 
-/// Plain, mirrored and closed models, ten or more of each: curved and flat, skinned, with one to three UV sets. Each has a map of its own.
+/// Plain, mirrored and closed models, ten or more of each: curved and flat, skinned, with one to three UV
+/// sets. Each has a map of its own.
 pub fn healthy_models() -> Vec<Model> {
     let plain = [
         ("grid", families::grid(9, 7, false, false)),

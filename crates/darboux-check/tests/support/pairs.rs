@@ -50,7 +50,8 @@ impl Made {
 pub enum Outcome {
     /// Both are named.
     BothNamed,
-    /// The file has the bits of a healthy model, or of one with a single mistake, which is given; nothing of the other is left in it.
+    /// The file has the bits of a healthy model, or of one with a single mistake, which is given; nothing of
+    /// the other is left in it.
     SameFile(Option<Made>),
     /// One is not named, or none; which are, and what is named instead.
     Missed { named: [bool; 2], instead: BTreeSet<Code> },
@@ -64,7 +65,8 @@ pub struct PairRow {
     pub failure: Option<String>,
 }
 
-/// All pairs in both orders: of mistakes in models, and of one in the model and one in the map, whose order makes no difference.
+/// All pairs in both orders: of mistakes in models, and of one in the model and one in the map, whose order
+/// makes no difference.
 pub fn all_pairs() -> Vec<[Made; 2]> {
     let in_models: Vec<Made> =
         MISTAKES.iter().filter(|mistake| is_paired(mistake)).map(Made::InModel).collect();
@@ -84,8 +86,8 @@ fn is_paired(mistake: &Mistake) -> bool {
     mistake.code.repair().is_some() && !removes.contains(&mistake.code)
 }
 
-/// Makes pairs, checks and repairs them, each on the first of two curved models with two UV sets, mirrored and closed, on which both mistakes can
-/// be made; pairs that can be made on neither are left out.
+/// Makes pairs, checks and repairs them, each on the first of two curved models with two UV sets, mirrored
+/// and closed, on which both mistakes can be made; pairs that can be made on neither are left out.
 pub fn rows(pairs: &[[Made; 2]]) -> Vec<PairRow> {
     let models = healthy_models();
     let models = ["mirrored sheared wavy grid", "wavy sphere"].map(|name| {

@@ -6,7 +6,8 @@ use darboux_check::Code;
 use super::maps::Map;
 use super::models::Model;
 
-/// The healthy model of the pictures with a large mistake; none where the mistake of the tests can be seen, or none can be made.
+/// The healthy model of the pictures with a large mistake; none where the mistake of the tests can be seen,
+/// or none can be made.
 pub fn shown_mistake(healthy: &Model, code: Code) -> Option<Model> {
     let mut model = healthy.clone();
     let patch = patch(healthy);
@@ -70,8 +71,8 @@ fn of_blocks(map: &Map, block: usize, part: f32) -> Map {
     map.with_texels((0..map.texels.len()).map(texel).collect())
 }
 
-/// A drawing of a UV layout, as SVG, for what cannot be seen on a model; none for other codes. Mirrored triangles are orange, and what lies below
-/// shows through.
+/// A drawing of a UV layout, as SVG, for what cannot be seen on a model; none for other codes. Mirrored
+/// triangles are orange, and what lies below shows through.
 pub fn shown_layout(code: Code) -> Option<String> {
     let triangles = match code {
         Code::UvMirrored => quads([10.0, 10.0], 80.0).chain(quads([190.0, 10.0], -80.0)).collect(),
@@ -85,7 +86,8 @@ pub fn shown_layout(code: Code) -> Option<String> {
     (!triangles.is_empty()).then(|| format!("{head}\n{shapes}</svg>\n"))
 }
 
-/// The triangles of four by four quads beside a corner, with the signed width given; those of a negative width are mirrored.
+/// The triangles of four by four quads beside a corner, with the signed width given; those of a negative
+/// width are mirrored.
 fn quads([left, top]: [f32; 2], width: f32) -> impl Iterator<Item = [[f32; 2]; 3]> {
     let at = move |i: usize, j: usize| [left + 0.25 * width * i as f32, top + 20.0 * j as f32];
     (0..16).flat_map(move |quad| {

@@ -39,7 +39,8 @@ pub fn without_maps() -> CheckOptions {
     CheckOptions::default().with_maps(false)
 }
 
-/// The user says that maps with one inverted channel are DirectX's: the faces say nothing about maps that were not baked for them.
+/// The user says that maps with one inverted channel are DirectX's: the faces say nothing about maps that
+/// were not baked for them.
 pub fn assuming_directx() -> FixOptions {
     FixOptions::default().with_check(CheckOptions::default().with_assumed_map(Some(AssumedMap::DirectX)))
 }

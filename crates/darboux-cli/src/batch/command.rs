@@ -60,7 +60,8 @@ pub trait FileCommand: Sync {
         false
     }
 
-    /// What a run says of a file that an earlier run processed, in addition; `recorded` is the summary of that run.
+    /// What a run says of a file that an earlier run processed, in addition; `recorded` is the summary of
+    /// that run.
     fn note_up_to_date(_recorded: &Map<String, Value>) -> Option<String> {
         None
     }
@@ -68,7 +69,8 @@ pub trait FileCommand: Sync {
     /// What was done to each part of a file, one line each.
     fn lines(summary: &Self::Summary) -> Vec<String>;
 
-    /// What is still wrong with a file, one line each; printed with `--quiet`, where [`FileCommand::lines`] are not.
+    /// What is still wrong with a file, one line each; printed with `--quiet`, where [`FileCommand::lines`]
+    /// are not.
     fn errors(_summary: &Self::Summary) -> Vec<String> {
         Vec::new()
     }

@@ -1,7 +1,9 @@
-//! `darboux tangents FILES --out-dir FOLDER --resume` in steps, for programs that distribute the files to their own workers.
+//! `darboux tangents FILES --out-dir FOLDER --resume` in steps, for programs that distribute the files to
+//! their own workers.
 //!
-//! [`DistributedBatch::open`] makes one task per file. [`run_task`] processes a task and returns its result, in any process on any machine
-//! that sees the same files. [`DistributedBatch::record`] adds the result to the journal. Tasks, results and reports are JSON.
+//! [`DistributedBatch::open`] makes one task per file. [`run_task`] processes a task and returns its result,
+//! in any process on any machine that sees the same files. [`DistributedBatch::record`] adds the result to
+//! the journal. Tasks, results and reports are JSON.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -54,8 +56,8 @@ enum AnyTask {
 impl DistributedBatch {
     /// Finds the models in files and folders, as the command does, and opens the journal of `folder`.
     ///
-    /// `options` are command-line options of `darboux tangents`. A path that is not UTF-8 fails alone. Errors, one sentence each: the command
-    /// line is refused; another run writes to the folder.
+    /// `options` are command-line options of `darboux tangents`. A path that is not UTF-8 fails alone.
+    /// Errors, one sentence each: the command line is refused; another run writes to the folder.
     pub fn open(inputs: &[PathBuf], folder: &Path, options: &[String]) -> Result<Self, String> {
         let arguments = parsed(inputs, folder, options)?;
         arguments.check().map_err(|usage| usage.0)?;
@@ -111,7 +113,8 @@ impl DistributedBatch {
         &self.failed
     }
 
-    /// Adds the result of a task to the journal. Errors: the result was not made by [`run_task`]; the journal cannot be written.
+    /// Adds the result of a task to the journal. Errors: the result was not made by [`run_task`]; the journal
+    /// cannot be written.
     pub fn record(&self, result: &str) -> Result<(), String> {
         record(&self.journal, result)
     }
@@ -123,8 +126,8 @@ impl DistributedBatch {
     }
 }
 
-/// Processes the file of a task, or bakes the entry of a job. The result of one that fails holds the reason. Errors: the task was not made by
-/// [`DistributedBatch::open`] or by that of a job.
+/// Processes the file of a task, or bakes the entry of a job. The result of one that fails holds the reason.
+/// Errors: the task was not made by [`DistributedBatch::open`] or by that of a job.
 pub fn run_task(task: &str) -> Result<String, String> {
     match parse_task(task)? {
         AnyTask::Tangents(task) => run_tangents_task(task),
@@ -133,7 +136,8 @@ pub fn run_task(task: &str) -> Result<String, String> {
     }
 }
 
-/// The result of a task that could not be run, for example because its worker was lost at every attempt. Errors: those of [`run_task`].
+/// The result of a task that could not be run, for example because its worker was lost at every attempt.
+/// Errors: those of [`run_task`].
 pub fn failed_task(task: &str, reason: &str) -> Result<String, String> {
     match parse_task(task)? {
         AnyTask::Tangents(task) => failed_tangents_task(&task, reason),

@@ -1,17 +1,22 @@
-//! The journal of `--resume`: a file in the output folder with one line of JSON per run and one per finished output.
+//! The journal of `--resume`: a file in the output folder with one line of JSON per run and one per finished
+//! output.
 //!
-//! An output is up to date if its input's content, the options and the version are those of its record, and every file that was written
-//! with it still has the recorded hash. A broken line, as a killed process may leave it, is ignored: its file is processed again. Temporary
-//! files carry the identifier of their run, so that those of killed runs are recognised and removed; no other file is removed. All paths
-//! are relative to the folder, so that the folder can be moved. An output outside the folder (behind a link) is not recorded and is
-//! processed again each time.
+//! An output is up to date if its input's content, the options and the version are those of its record, and
+//! every file that was written with it still has the recorded hash. A broken line, as a killed process may
+//! leave it, is ignored: its file is processed again. Temporary files carry the identifier of their run, so
+//! that those of killed runs are recognised and removed; no other file is removed. All paths are relative to
+//! the folder, so that the folder can be moved. An output outside the folder (behind a link) is not recorded
+//! and is processed again each time.
 //!
-//! A file is noted before it is begun. One that was at work when a run was killed is tried again alone, after all others; one that was at work
-//! when two runs were killed is skipped and named, until --retry asks for it. A run that a signal ends says so, and blames no file.
+//! A file is noted before it is begun. One that was at work when a run was killed is tried again alone, after
+//! all others; one that was at work when two runs were killed is skipped and named, until --retry asks for
+//! it. A run that a signal ends says so, and blames no file.
 //!
-//! An output that exists is replaced only if a run wrote it or may have written it: if it has a record, or was noted and not finished.
+//! An output that exists is replaced only if a run wrote it or may have written it: if it has a record, or
+//! was noted and not finished.
 //!
-//! Lines are only appended while a run works. Opening the journal rewrites it without superseded lines once they are the majority.
+//! Lines are only appended while a run works. Opening the journal rewrites it without superseded lines once
+//! they are the majority.
 
 mod history;
 
@@ -101,7 +106,8 @@ impl OutputInputs {
     }
 }
 
-/// Hashes the hashes of a model and of all files that it refers to, or of the file alone if it cannot be read as a model.
+/// Hashes the hashes of a model and of all files that it refers to, or of the file alone if it cannot be read
+/// as a model.
 fn content_of(input: &Path, reading: &ReadOptions) -> Result<String, String> {
     let document = reading.open(input);
     let files = document.map_or_else(|_| vec![input.to_owned()], |document| document.source_files());
@@ -121,8 +127,8 @@ fn hash_of(file: &Path, links: Links) -> io::Result<blake3::Hash> {
 }
 
 impl Record {
-    /// The record of an output with all files written for it; `None` if one of them is outside `folder`. Errors: a written file cannot be
-    /// read again.
+    /// The record of an output with all files written for it; `None` if one of them is outside `folder`.
+    /// Errors: a written file cannot be read again.
     pub fn new(
         folder: &Path,
         output: &Path,
@@ -182,7 +188,8 @@ fn relative_to(folder: &Path, path: &Path) -> Option<String> {
 }
 
 impl Journal {
-    /// Opens the journal of a folder, removes temporary files of killed runs, and records the start of `run`. A missing folder is created.
+    /// Opens the journal of a folder, removes temporary files of killed runs, and records the start of `run`.
+    /// A missing folder is created.
     ///
     /// Errors: another process has the journal open; it cannot be read or written.
     pub fn open(folder: &Path, run: RunId) -> Result<Self, String> {
@@ -283,8 +290,9 @@ impl Journal {
         self.history.attempts(&relative_to(&self.folder, output)?)
     }
 
-    /// Works on an output between two notes, so that a run that is killed meanwhile leaves its name. `work` returns the record to add, if there is one.
-    /// None without work, where `retry` does not permit what earlier runs were killed at. Errors: the journal cannot be written.
+    /// Works on an output between two notes, so that a run that is killed meanwhile leaves its name. `work`
+    /// returns the record to add, if there is one. None without work, where `retry` does not permit what
+    /// earlier runs were killed at. Errors: the journal cannot be written.
     pub fn around<T>(
         &self,
         output: &Path,
@@ -313,7 +321,8 @@ impl Journal {
         relative_to(&self.folder, output).map_or(Ok(()), |planned| self.append(&Planned { planned }))
     }
 
-    /// From now on a signal that ends the process is noted in the journal, so that no file is blamed. Until the result is dropped.
+    /// From now on a signal that ends the process is noted in the journal, so that no file is blamed. Until
+    /// the result is dropped.
     pub fn note_interrupts(&self) -> Option<interrupt::Note> {
         let mut line = Vec::new();
         append_line(&mut line, &Interrupted { interrupted: self.run.to_string() }).ok()?;
@@ -334,8 +343,8 @@ impl Journal {
     }
 }
 
-/// Opens and locks the journal's file; `None` if another process has locked it. A missing file is created. A file system without locks
-/// gives no protection against a second run.
+/// Opens and locks the journal's file; `None` if another process has locked it. A missing file is created. A
+/// file system without locks gives no protection against a second run.
 fn open_locked(path: &Path) -> io::Result<Option<File>> {
     loop {
         let mut options = OpenOptions::new();
@@ -343,7 +352,8 @@ fn open_locked(path: &Path) -> io::Result<Option<File>> {
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Ok(None);
         }
-        // Between opening and locking, another run may have compacted the journal: then this file has lost its name.
+        // Between opening and locking, another run may have compacted the journal: then this file has lost
+        // its name.
         let is_current = match Handle::from_path(path) {
             Ok(named) => named == Handle::from_file(file.try_clone()?)?,
             Err(error) => error.kind() != io::ErrorKind::NotFound,

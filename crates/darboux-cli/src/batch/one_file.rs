@@ -88,7 +88,8 @@ fn resume<W: FileCommand>(
     Ok(FinishedFile { report: report_of(job, processed), record })
 }
 
-/// Refuses an output that exists although no run has written it. `entry` is `None` for runs without a journal.
+/// Refuses an output that exists although no run has written it. `entry` is `None` for runs without a
+/// journal.
 pub fn refuse_foreign(
     command: &impl FileCommand,
     job: &Job,

@@ -64,8 +64,8 @@ impl OutputRules<'_> {
 
 /// Returns the jobs of a command in the order of the inputs, each input once.
 ///
-/// Errors: an output that does not fit the inputs, two inputs with one output, an output that is an input, a file and a report that both go
-/// to standard output.
+/// Errors: an output that does not fit the inputs, two inputs with one output, an output that is an input, a
+/// file and a report that both go to standard output.
 pub fn plan_jobs(
     options: &FileOptions,
     rules: OutputRules<'_>,
@@ -141,7 +141,8 @@ fn check_usage(options: &FileOptions, rules: OutputRules<'_>) -> Result<(), Usag
     refuse_missing_folder(output).map_err(UsageError)
 }
 
-/// The outputs that several inputs would have, such as chair.glb for chair.fbx and chair.glb. Converted ones among them keep the ending of their input.
+/// The outputs that several inputs would have, such as chair.glb for chair.fbx and chair.glb. Converted ones
+/// among them keep the ending of their input.
 fn shared_outputs(options: &FileOptions, rules: OutputRules<'_>, found: &FoundInputs) -> HashSet<PathBuf> {
     let mut input_of_output: HashMap<PathBuf, PathBuf> = HashMap::new();
     let mut shared = HashSet::new();

@@ -1,4 +1,5 @@
-//! The JSON reports of the subcommands that write files. json.txt documents their fields, whose names are stable.
+//! The JSON reports of the subcommands that write files. json.txt documents their fields, whose names are
+//! stable.
 
 use std::io;
 use std::path::PathBuf;
@@ -55,7 +56,8 @@ impl ReportStream {
     }
 }
 
-/// JSON in lines, all but the first of which begin with this many spaces more. Texts in JSON have no line breaks.
+/// JSON in lines, all but the first of which begin with this many spaces more. Texts in JSON have no line
+/// breaks.
 fn indented(value: &impl Serialize, spaces: usize) -> io::Result<String> {
     Ok(serde_json::to_string_pretty(value)?.replace('\n', &format!("\n{}", " ".repeat(spaces))))
 }

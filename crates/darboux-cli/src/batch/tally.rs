@@ -1,4 +1,5 @@
-//! What is kept of the files of a run: counts, the sentences that are printed at its end, and with `--json` the report, which is written while the run goes on.
+//! What is kept of the files of a run: counts, the sentences that are printed at its end, and with `--json`
+//! the report, which is written while the run goes on.
 
 use std::time::Instant;
 
@@ -53,7 +54,8 @@ impl<'a, W: FileCommand> Tally<'a, W> {
         self.has_failed |= file.error.is_some() || self.command.fails(&file.summary);
     }
 
-    /// Prints errors, the totals and the end of the report; returns the exit code. `processed`: why the run ended early.
+    /// Prints errors, the totals and the end of the report; returns the exit code. `processed`: why the run
+    /// ended early.
     pub fn finish(self, processed: Result<(), String>, messages: &Messages, start: Instant) -> u8 {
         self.errors.iter().chain(&self.remaining).for_each(|error| messages.error(error));
         let totals = self.report.totals();

@@ -197,7 +197,8 @@ impl ConvertArguments {
         })
     }
 
-    /// Converts the vectors of an image to a space, with the frames of `--model`. Errors are one sentence each.
+    /// Converts the vectors of an image to a space, with the frames of `--model`. Errors are one sentence
+    /// each.
     #[cfg(not(feature = "bake"))]
     fn convert_space(
         &self,

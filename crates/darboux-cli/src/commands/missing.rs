@@ -1,4 +1,5 @@
-//! Stand-ins for the subcommands and options that this build lacks: each names the command line that installs them.
+//! Stand-ins for the subcommands and options that this build lacks: each names the command line that installs
+//! them.
 
 use std::ffi::OsString;
 

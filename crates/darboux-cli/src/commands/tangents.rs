@@ -57,7 +57,8 @@ impl FileCommand for TangentsArguments {
                 Err(UsageError(format!("{option} needs --method mikktspace; remove one of them")))
             }
             _ if self.device == Device::Gpu => open_early().map_err(UsageError),
-            // Opening redirects standard error for a moment, so it must not happen beside other work. A failure is reported with the file.
+            // Opening redirects standard error for a moment, so it must not happen beside other work. A
+            // failure is reported with the file.
             _ if self.device == Device::Auto && may_use_gpu() => {
                 _ = open_early();
                 Ok(())

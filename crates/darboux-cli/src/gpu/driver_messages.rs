@@ -1,9 +1,11 @@
 //! Keeps messages of GPU drivers out of the output of the command.
 //!
-//! Vulkan drivers and layers print to standard error while an adapter is opened, for example Mesa: "XDG_RUNTIME_DIR is invalid or not set",
-//! "lavapipe is not a conformant vulkan implementation". Users would take such lines for errors of the command.
+//! Vulkan drivers and layers print to standard error while an adapter is opened, for example Mesa:
+//! "XDG_RUNTIME_DIR is invalid or not set", "lavapipe is not a conformant vulkan implementation". Users would
+//! take such lines for errors of the command.
 
-/// Runs `open` and discards what drivers print to standard error. If `open` fails, prints it after all, because it may say why.
+/// Runs `open` and discards what drivers print to standard error. If `open` fails, prints it after all,
+/// because it may say why.
 #[cfg(unix)]
 pub fn without_driver_messages<T, E>(open: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
     use std::io::{Read, Seek, Write};

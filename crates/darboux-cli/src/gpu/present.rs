@@ -18,7 +18,8 @@ pub struct OpenGpu {
     pipelines: Mutex<MikkTSpace>,
 }
 
-/// Opens the fastest adapter; later calls return the same one. Errors: no adapter exists, or the adapter cannot be used.
+/// Opens the fastest adapter; later calls return the same one. Errors: no adapter exists, or the adapter
+/// cannot be used.
 pub fn open() -> Result<&'static OpenGpu, String> {
     static OPENED: OnceLock<Result<OpenGpu, String>> = OnceLock::new();
     let open = || {
@@ -31,7 +32,8 @@ pub fn open() -> Result<&'static OpenGpu, String> {
     opened.as_ref().map_err(Clone::clone)
 }
 
-/// Opens the adapter before other threads print, because standard error is redirected meanwhile. [`open`] returns the errors.
+/// Opens the adapter before other threads print, because standard error is redirected meanwhile. [`open`]
+/// returns the errors.
 pub fn open_early() -> Result<(), String> {
     let _returned_by_open = open();
     Ok(())
@@ -60,8 +62,8 @@ impl OpenGpu {
         })
     }
 
-    /// Computes the tangents of a mesh and returns the number of corners that the CPU computed. Errors: the adapter fails; the context's
-    /// token was cancelled.
+    /// Computes the tangents of a mesh and returns the number of corners that the CPU computed. Errors: the
+    /// adapter fails; the context's token was cancelled.
     pub fn generate(
         &self,
         mesh: &Mesh<'_>,

@@ -25,7 +25,8 @@ pub fn complete(document: &mut Document) -> Result<(), darboux_io::Error> {
     Ok(())
 }
 
-/// Draws a model in the light of the studio. `frame`: the model that is in view as a whole. Errors: one sentence.
+/// Draws a model in the light of the studio. `frame`: the model that is in view as a whole. Errors: one
+/// sentence.
 pub fn draw(
     gpu: &Gpu,
     model: &Model<'_>,

@@ -28,16 +28,18 @@ pub struct FileOptions {
     #[arg(short, long, value_name = "FILE", help_heading = "Output", help = OUTPUT, long_help = with_endings(LONG_OUTPUT))]
     pub output: Option<PathBuf>,
 
-    /// Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure of input folders
+    /// Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure
+    /// of input folders
     ///
-    /// A model of another format than glTF becomes a .glb: chair.fbx becomes chair.glb, or chair.fbx.glb where there is a chair.glb or chair.obj as well.
+    /// A model of another format than glTF becomes a .glb: chair.fbx becomes chair.glb, or chair.fbx.glb
+    /// where there is a chair.glb or chair.obj as well.
     #[arg(long, value_name = "FOLDER", help_heading = "Output")]
     pub out_dir: Option<PathBuf>,
 
     /// Replace each input by its output
     ///
-    /// The new file is written beside the old one and renamed when it is complete. New data of a .gltf goes to a new .bin file, and no
-    /// file is removed. A file in which nothing changes is not touched.
+    /// The new file is written beside the old one and renamed when it is complete. New data of a .gltf goes
+    /// to a new .bin file, and no file is removed. A file in which nothing changes is not touched.
     #[arg(long, help_heading = "Output")]
     pub in_place: bool,
 
@@ -47,18 +49,21 @@ pub struct FileOptions {
 
     /// Process only the inputs whose output in --out-dir is missing or out of date
     ///
-    /// An output is up to date if it was made from the same content with the same options. FOLDER/darboux-journal.jsonl records this for
-    /// each finished file. So the same command continues a run that was stopped.
+    /// An output is up to date if it was made from the same content with the same options.
+    /// FOLDER/darboux-journal.jsonl records this for each finished file. So the same command continues a
+    /// run that was stopped.
     #[arg(long, requires = "out_dir", help_heading = "Output")]
     pub resume: bool,
 
-    /// With --resume, process also inputs that are skipped because two runs were killed while they worked on them
+    /// With --resume, process also inputs that are skipped because two runs were killed while they worked on
+    /// them
     #[arg(long, requires = "resume", help_heading = "Output")]
     pub retry: bool,
 
     /// How many files are processed at the same time; by default one per processor core
     ///
-    /// The results, and the order of messages, are the same for every number. Each file needs memory of its own.
+    /// The results, and the order of messages, are the same for every number. Each file needs memory of its
+    /// own.
     #[arg(long, value_name = "NUMBER", value_parser = jobs, help_heading = "Output")]
     pub jobs: Option<NonZero<u16>>,
 

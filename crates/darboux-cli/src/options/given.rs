@@ -3,8 +3,8 @@
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, FromArgMatches, Id};
 
-/// The options that the command line gives, defaults left out. Flattened into a struct of arguments it must be the first field: the others take their
-/// values away.
+/// The options that the command line gives, defaults left out. Flattened into a struct of arguments it must
+/// be the first field: the others take their values away.
 #[derive(Clone, Debug, Default)]
 pub struct Given {
     ids: Vec<Id>,

@@ -18,7 +18,8 @@ pub struct ReadOptions {
     #[arg(long)]
     pub allow_outside: bool,
 
-    /// The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use
+    /// The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the
+    /// file, and at most what the process may use
     #[arg(long, value_name = "MIB")]
     pub memory_limit: Option<u32>,
 
@@ -42,11 +43,13 @@ impl ReadOptions {
     /// Opens a document, with large files mapped into memory.
     #[expect(unsafe_code, reason = "mapping a file needs a promise about other processes")]
     pub fn open(&self, path: &Path) -> Result<Document, Error> {
-        // SAFETY: `open_mapped` requires that no process writes into the files or shortens them while the document exists. This process
-        // does not: it writes outputs to temporary files and renames them. The command cannot lock files against other processes, so it
-        // leaves that part to its user (docs/security.md says so). If a process does it anyway, changed bytes give a wrong result or an
-        // error, because JSON is copied before it is parsed and every other number is checked where it is used; a shortened file ends
-        // this process by SIGBUS before an output has its name.
+        // SAFETY: `open_mapped` requires that no process writes into the files or shortens them while the
+        // document exists. This process does not: it writes outputs to temporary files and renames
+        // them. The command cannot lock files against other processes, so it leaves that part to its
+        // user (docs/security.md says so). If a process does it anyway, changed bytes give a wrong result or
+        // an error, because JSON is copied before it is parsed and every other number is checked
+        // where it is used; a shortened file ends this process by SIGBUS before an output has its
+        // name.
         unsafe { Document::open_mapped(path, &self.load_options()) }
     }
 }

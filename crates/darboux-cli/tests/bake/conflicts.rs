@@ -1,4 +1,5 @@
-//! Outputs that would replace an input or each other are refused before anything is baked, with `--force` too.
+//! Outputs that would replace an input or each other are refused before anything is baked, with `--force`
+//! too.
 
 use std::fs;
 use std::path::Path;

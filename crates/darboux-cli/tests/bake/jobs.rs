@@ -24,7 +24,8 @@ fn a_job_bakes_what_has_changed() {
     assert_eq!((report["bakes"].as_array().map(Vec::len), &report["up_to_date"]), (Some(2), &json!(0)));
     assert_eq!(report["bakes"][1]["size"], json!([8, 8]));
     let first = fs::read(pair.path("a.normal.png")).expect("a map");
-    // Of a second run nothing remains; a changed option or output is baked again, and a lost journal costs nothing but time.
+    // Of a second run nothing remains; a changed option or output is baked again, and a lost journal costs
+    // nothing but time.
     assert_eq!(run(&["--resume"]).exits(0).json()["up_to_date"], 2);
     write(4);
     fs::remove_file(pair.path("a.ao.png")).expect("a map");

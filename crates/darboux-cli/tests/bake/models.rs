@@ -1,4 +1,5 @@
-//! The models that are read and written: OBJ, materials, tangents, texture transforms, transfer, errors by vertex.
+//! The models that are read and written: OBJ, materials, tangents, texture transforms, transfer, errors by
+//! vertex.
 
 use std::fs;
 

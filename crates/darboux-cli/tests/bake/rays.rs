@@ -234,7 +234,8 @@ fn rays_are_straightened_by_an_amount_or_a_painted_image() {
     assert!(missing.contains("missing.png: cannot be read"), "{missing}");
 }
 
-/// Most of a map that shows nothing is a mistake in most bakes, but not in all: decals cover little. So scripts say what they allow.
+/// Most of a map that shows nothing is a mistake in most bakes, but not in all: decals cover little. So
+/// scripts say what they allow.
 #[test]
 fn many_misses_are_a_warning_and_an_error_where_that_was_asked_for() {
     let pair = Pair::new();

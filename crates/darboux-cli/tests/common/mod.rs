@@ -34,7 +34,8 @@ pub fn darboux<A: AsRef<std::ffi::OsStr>>(arguments: &[A]) -> Run {
     darboux_reading(arguments, b"")
 }
 
-/// As [`darboux`], with 256 MiB of addresses where the system can limit them: a large allocation ends the command.
+/// As [`darboux`], with 256 MiB of addresses where the system can limit them: a large allocation ends the
+/// command.
 pub fn darboux_with_little_memory<A: AsRef<std::ffi::OsStr>>(arguments: &[A]) -> Run {
     darboux_with_addresses(256 << 20, arguments)
 }

@@ -1,4 +1,5 @@
-//! Lists the GPU adapters of this machine and opens devices, for callers that have no wgpu device of their own.
+//! Lists the GPU adapters of this machine and opens devices, for callers that have no wgpu device of their
+//! own.
 
 use std::fmt;
 
@@ -121,7 +122,8 @@ impl Gpu {
         if gpus.is_empty() { Err(GpuError::NoAdapter) } else { Ok(gpus) }
     }
 
-    /// Lists all adapters, including software ones, each with its device or the reason why it cannot create one.
+    /// Lists all adapters, including software ones, each with its device or the reason why it cannot create
+    /// one.
     pub async fn list() -> Vec<(AdapterSummary, Result<Self, GpuError>)> {
         let mut found = Vec::new();
         for adapter in instance().enumerate_adapters(BACKENDS).await {
@@ -145,7 +147,8 @@ impl Gpu {
         readback::with_error_scopes(&self.device, || Ok(work()))?
     }
 
-    /// Submits the commands of `record` and then returns the bytes of `buffer`, which has `BufferUsages::COPY_SRC`.
+    /// Submits the commands of `record` and then returns the bytes of `buffer`, which has
+    /// `BufferUsages::COPY_SRC`.
     ///
     /// Errors: the device is lost.
     pub fn read(

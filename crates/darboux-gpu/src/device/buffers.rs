@@ -35,7 +35,8 @@ pub fn buffer_with_contents(device: &Device, label: &str, contents: &[u8], usage
     buffer
 }
 
-/// The byte length of the largest buffer that the device can create and bind, and that 32-bit offsets can address.
+/// The byte length of the largest buffer that the device can create and bind, and that 32-bit offsets can
+/// address.
 pub fn largest_buffer(limits: &Limits) -> u64 {
     limits.max_storage_buffer_binding_size.min(limits.max_buffer_size).min(u64::from(u32::MAX))
 }

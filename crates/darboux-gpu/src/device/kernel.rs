@@ -6,8 +6,9 @@ use wgpu::{
     ShaderSource,
 };
 
-/// Threads per workgroup. The stress build uses the SIMD width of Mesa's software adapter: with a smaller workgroup, that adapter also runs
-/// the unused lanes, which read zeros, and a loop that waits for another value in them ends only after 65,535 iterations.
+/// Threads per workgroup. The stress build uses the SIMD width of Mesa's software adapter: with a smaller
+/// workgroup, that adapter also runs the unused lanes, which read zeros, and a loop that waits for another
+/// value in them ends only after 65,535 iterations.
 pub(crate) const WORKGROUP: u32 = if cfg!(small_limits) { 8 } else { 64 };
 /// Values that one thread of a prefix sum adds up.
 pub(crate) const VALUES_PER_THREAD: u32 = if cfg!(small_limits) { 2 } else { 4 };
@@ -15,8 +16,8 @@ pub(crate) const VALUES_PER_THREAD: u32 = if cfg!(small_limits) { 2 } else { 4 }
 pub(crate) const BLOCK: u32 = WORKGROUP * VALUES_PER_THREAD;
 /// The most workgroups of an indirect dispatch, which has one dimension.
 const MAX_GROUPS: u32 = 65_535;
-/// The most loop iterations of one thread. Drivers kill kernels that run too long, and Mesa's software adapter silently leaves all loops of a
-/// thread after 65,535 iterations in total.
+/// The most loop iterations of one thread. Drivers kill kernels that run too long, and Mesa's software
+/// adapter silently leaves all loops of a thread after 65,535 iterations in total.
 pub(crate) const MAX_ITERATIONS: u32 = 1 << 15;
 
 /// The constants that every shader's source begins with.
@@ -68,7 +69,8 @@ enum Workgroups {
 }
 
 impl Dispatch {
-    /// `buffers`: buffer of each binding. At least `threads` threads run; the shader returns early in the surplus ones.
+    /// `buffers`: buffer of each binding. At least `threads` threads run; the shader returns early in the
+    /// surplus ones.
     pub fn new(
         device: &Device,
         pipeline: &ComputePipeline,
@@ -118,7 +120,8 @@ fn bind_group(device: &Device, pipeline: &ComputePipeline, buffers: &[(u32, &Buf
     device.create_bind_group(&BindGroupDescriptor { label: None, layout: &layout, entries: &entries })
 }
 
-/// The binding of a buffer without the bytes after its last whole word, because wgpu binds only multiples of 4 bytes.
+/// The binding of a buffer without the bytes after its last whole word, because wgpu binds only multiples of
+/// 4 bytes.
 fn whole_words(buffer: &Buffer) -> BindingResource<'_> {
     BindingResource::Buffer(BufferBinding { buffer, offset: 0, size: BufferSize::new(buffer.size() & !3) })
 }

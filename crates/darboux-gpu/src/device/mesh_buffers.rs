@@ -1,4 +1,5 @@
-//! Describes where positions, normals, UVs, indices and frames lie in the caller's buffers, and checks that description once.
+//! Describes where positions, normals, UVs, indices and frames lie in the caller's buffers, and checks that
+//! description once.
 
 use bytemuck::Zeroable;
 use wgpu::{Buffer, BufferUsages, Device, IndexFormat};
@@ -27,7 +28,8 @@ pub struct MeshBuffers<'a> {
     pub index_count: u32,
 }
 
-/// Byte offsets of the attributes of a vertex, all multiples of 4. They count from the start of the buffer to the first vertex's attribute.
+/// Byte offsets of the attributes of a vertex, all multiples of 4. They count from the start of the buffer to
+/// the first vertex's attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VertexLayout {
     /// Bytes from one vertex to the next.
@@ -56,8 +58,8 @@ pub enum Destination<'a> {
     },
 }
 
-/// Byte offsets of the parts of a frame, all multiples of 4, from the start of the buffer. For a tangent of four floats, the offset of the
-/// sign is that of the tangent plus 12.
+/// Byte offsets of the parts of a frame, all multiples of 4, from the start of the buffer. For a tangent of
+/// four floats, the offset of the sign is that of the tangent plus 12.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrameLayout {
     /// Offset of the tangent, three floats of unit length.
@@ -99,7 +101,8 @@ impl MeshUniform {
         Self { vertex_count, triangle_count, vertex_stride, position, normal, uv, ..Self::zeroed() }
     }
 
-    /// The description of `mesh` and `destination`. Errors: everything that can be checked without reading the buffers.
+    /// The description of `mesh` and `destination`. Errors: everything that can be checked without reading
+    /// the buffers.
     pub fn checked(
         device: &Device,
         mesh: &MeshBuffers<'_>,

@@ -1,7 +1,8 @@
 //! Compiles one kernel source for several kinds of arithmetic, and runs the exact one in two passes.
 //!
-//! A kernel is written against the scalar type `Real` and its functions (`add`, `multiply`, ...), which `shaders/precision/real_*.wgsl`
-//! define three times. Exact arithmetic gives the bits of the CPU on every device:
+//! A kernel is written against the scalar type `Real` and its functions (`add`, `multiply`, ...), which
+//! `shaders/precision/real_*.wgsl` define three times. Exact arithmetic gives the bits of the CPU on every
+//! device:
 //!
 //! ```text
 //! pass 1, every item:       compute with the device's floats, corrected to IEEE rounding; check that every value is in the range in which
@@ -45,8 +46,9 @@ pub enum Arithmetic {
     SoftFloat,
     /// As `Exact`, with the floats of a simulated device that rounds as badly as WGSL permits. For tests.
     HostileDevice,
-    /// As `Exact`, but the second pass leaves the listed items to the CPU. The npm package does so, because the software adapters of browsers
-    /// take minutes to compile the integer arithmetic. For tests of MikkTSpace.
+    /// As `Exact`, but the second pass leaves the listed items to the CPU. The npm package does so, because
+    /// the software adapters of browsers take minutes to compile the integer arithmetic. For tests of
+    /// MikkTSpace.
     CpuFallback,
     /// The device's own floats, in one pass.
     Fast,
@@ -126,7 +128,8 @@ fn compile(device: &Device, files: &[&str]) -> ComputePipeline {
 
 /// The binding of the work list.
 pub(crate) const WORK_LIST_BINDING: u32 = 9;
-/// The header of an empty work list: three words of an indirect dispatch without workgroups, then the number of items.
+/// The header of an empty work list: three words of an indirect dispatch without workgroups, then the number
+/// of items.
 const EMPTY_WORK_LIST: [u32; 4] = [0, 1, 1, 0];
 
 /// Items that one kernel appends and the next one processes with an indirect dispatch.
@@ -207,8 +210,8 @@ impl PrecisionDispatch {
         }
     }
 
-    /// Records a copy of the number of items of the second pass to the word of `destination` at byte `offset`. Without a second pass that
-    /// word keeps its value.
+    /// Records a copy of the number of items of the second pass to the word of `destination` at byte
+    /// `offset`. Without a second pass that word keeps its value.
     pub fn record_count(&self, encoder: &mut CommandEncoder, destination: &Buffer, offset: u64) {
         if let Some((_, unsure)) = &self.second {
             unsure.record_count(encoder, destination, offset);

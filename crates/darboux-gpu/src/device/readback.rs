@@ -36,8 +36,8 @@ pub(crate) fn with_error_scopes<T>(
 const SHORTEST_SLEEP: Duration = Duration::from_micros(20);
 const LONGEST_SLEEP: Duration = Duration::from_millis(10);
 
-/// Submits the commands of `record`, followed by copies of `sources`, which have `BufferUsages::COPY_SRC`. Errors: the context's token was
-/// cancelled.
+/// Submits the commands of `record`, followed by copies of `sources`, which have `BufferUsages::COPY_SRC`.
+/// Errors: the context's token was cancelled.
 pub(crate) fn submit<const N: usize>(
     device: &Device,
     queue: &Queue,
@@ -68,7 +68,8 @@ impl Readback {
         Self(copy)
     }
 
-    /// Waits for all submitted work and returns the elements. Errors: the device is lost; the context's token was cancelled.
+    /// Waits for all submitted work and returns the elements. Errors: the device is lost; the context's token
+    /// was cancelled.
     pub fn read<T: AnyBitPattern + NoUninit>(
         self,
         device: &Device,
@@ -85,11 +86,12 @@ impl Readback {
     }
 }
 
-/// Waits until `is_mapped` says whether a buffer was mapped. Errors: it was not, because the device is lost; the context's token was cancelled,
-/// after which the device still finishes its work.
+/// Waits until `is_mapped` says whether a buffer was mapped. Errors: it was not, because the device is lost;
+/// the context's token was cancelled, after which the device still finishes its work.
 ///
-/// Without a token it blocks. With one it polls, because a timed wait of wgpu 30 can panic while another thread waits for the same device; it
-/// sleeps for an eighth of the time so far, so that it finds the end of the work at most that much later.
+/// Without a token it blocks. With one it polls, because a timed wait of wgpu 30 can panic while another
+/// thread waits for the same device; it sleeps for an eighth of the time so far, so that it finds the end of
+/// the work at most that much later.
 fn wait(device: &Device, is_mapped: &mpsc::Receiver<bool>, context: &Context) -> Result<(), GpuError> {
     if !has_token(context) {
         device.poll(PollType::wait_indefinitely()).map_err(|_| GpuError::Lost)?;

@@ -1,4 +1,5 @@
-//! Lists the triangles at each vertex with a counting sort: count the corners of each vertex, take prefix sums, scatter the triangles.
+//! Lists the triangles at each vertex with a counting sort: count the corners of each vertex, take prefix
+//! sums, scatter the triangles.
 
 use wgpu::{Buffer, CommandEncoder, Device};
 
@@ -16,7 +17,8 @@ pub(crate) struct AdjacencyKernels(Program);
 /// The adjacency of one mesh, with the commands that compute it.
 #[derive(Clone, Debug)]
 pub(crate) struct Adjacency {
-    /// For each vertex, the end of its range in `triangles`. The range begins where that of the vertex before ends.
+    /// For each vertex, the end of its range in `triangles`. The range begins where that of the vertex
+    /// before ends.
     pub ends: Buffer,
     /// The triangles at each vertex, ascending.
     pub triangles: Buffer,

@@ -58,8 +58,8 @@ pub enum CpuFallback {
     Method,
     /// The mesh has faces that are not triangles.
     Faces,
-    /// The mesh has values that are not finite or larger than 1e38, or equal vertices whose zeros have different signs. The reference welds
-    /// those in an order that only the CPU reproduces.
+    /// The mesh has values that are not finite or larger than 1e38, or equal vertices whose zeros have
+    /// different signs. The reference welds those in an order that only the CPU reproduces.
     Values,
 }
 
@@ -81,7 +81,8 @@ impl MikkTSpace {
         Self::with_arithmetic(gpu, Arithmetic::Exact)
     }
 
-    /// The most triangles per tile on an adapter, which follows from its largest binding. Larger meshes run in several tiles.
+    /// The most triangles per tile on an adapter, which follows from its largest binding. Larger meshes run
+    /// in several tiles.
     pub fn triangle_limit(adapter: &AdapterSummary) -> u64 {
         adapter.largest_binding / BYTES_PER_TRIANGLE
     }
@@ -108,8 +109,9 @@ impl MikkTSpace {
 
     /// Computes the tangent of every corner, with the bits of `darboux::generate_tangents`.
     ///
-    /// The CPU computes vertices whose result depends on the order of triangles, vertices with several tangents or an unusable one, and
-    /// vertices on the border between tiles. Blocks until the device has finished.
+    /// The CPU computes vertices whose result depends on the order of triangles, vertices with several
+    /// tangents or an unusable one, and vertices on the border between tiles. Blocks until the device has
+    /// finished.
     ///
     /// Errors: the device is out of memory or lost, or its largest buffer is smaller than a triangle.
     pub fn generate_tangents(
@@ -120,9 +122,10 @@ impl MikkTSpace {
         self.generate_tangents_with(mesh, options, &mut Context::new())
     }
 
-    /// As [`MikkTSpace::generate_tangents`], with a context, whose limit of threads holds for the part of the CPU. Further error: the
-    /// context's token was cancelled. It is checked before each submission, at least every 10 ms while the device works, and on the CPU; the device
-    /// still finishes the commands that it has.
+    /// As [`MikkTSpace::generate_tangents`], with a context, whose limit of threads holds for the part of the
+    /// CPU. Further error: the context's token was cancelled. It is checked before each submission, at
+    /// least every 10 ms while the device works, and on the CPU; the device still finishes the commands
+    /// that it has.
     pub fn generate_tangents_with(
         &self,
         mesh: &Mesh<'_>,
@@ -152,7 +155,8 @@ impl MikkTSpace {
         Ok(GpuTangents { tangents, cpu_corners, cpu_fallback: None })
     }
 
-    /// The arrays between the stages for a mesh of one tile, for tests. Errors as for [`MikkTSpace::generate_tangents`].
+    /// The arrays between the stages for a mesh of one tile, for tests. Errors as for
+    /// [`MikkTSpace::generate_tangents`].
     #[doc(hidden)]
     pub fn stage_arrays(
         &self,
@@ -261,7 +265,8 @@ impl MikkTSpace {
         Ok(Some(PartialTangents { welded_vertex, tangents }))
     }
 
-    /// As [`MikkTSpace::run_tiles`] for meshes whose vertices are too large for a buffer: each tile uploads the vertices that it uses.
+    /// As [`MikkTSpace::run_tiles`] for meshes whose vertices are too large for a buffer: each tile uploads
+    /// the vertices that it uses.
     fn run_submeshes(
         &self,
         mesh: &Mesh<'_>,
@@ -338,7 +343,8 @@ impl StageRecording {
 #[doc(hidden)]
 #[derive(Clone, Debug)]
 pub struct StageArrays {
-    /// The number of vertices that cannot be welded on the GPU. If it is not 0, the other arrays are unspecified.
+    /// The number of vertices that cannot be welded on the GPU. If it is not 0, the other arrays are
+    /// unspecified.
     pub failure_count: u32,
     /// For each vertex, the first vertex that equals it.
     pub welded_vertex: Vec<u32>,

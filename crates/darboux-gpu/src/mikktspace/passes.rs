@@ -1,10 +1,10 @@
 //! The passes of MikkTSpace as data: kernels, their buffers by binding, and the number of threads.
 //!
-//! [`crate::mikktspace::program`] runs these lists. The npm package runs the same lists: it reads them from `shaders/passes.json`, and the
-//! files of the kernels from `shaders/mikktspace.json`, which a test writes.
+//! [`crate::mikktspace::program`] runs these lists. The npm package runs the same lists: it reads them from
+//! `shaders/passes.json`, and the files of the kernels from `shaders/mikktspace.json`, which a test writes.
 //!
-//! The caller provides the buffers `mesh` (the uniform `Mesh`), `evaluation` (the uniform `Evaluation`), `vertices` (as `mesh` describes
-//! them) and `indices` (three per triangle). All others are in [`BUFFERS`].
+//! The caller provides the buffers `mesh` (the uniform `Mesh`), `evaluation` (the uniform `Evaluation`),
+//! `vertices` (as `mesh` describes them) and `indices` (three per triangle). All others are in [`BUFFERS`].
 
 /// The element that there is one thread or a number of words for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,11 +40,13 @@ pub(crate) struct Run {
 pub(crate) enum Pass {
     /// Fills a buffer with zeros.
     Clear(&'static str),
-    /// Replaces every value by the sum of the values before it. The buffer has one value per element of the domain.
+    /// Replaces every value by the sum of the values before it. The buffer has one value per element of the
+    /// domain.
     Scan(&'static str, Domain),
     Run(Run),
-    /// A kernel of exact arithmetic, which lists the items that it is unsure of. Either the same kernel computes these again with integers,
-    /// or the second kernel defers them to the CPU. The list has the binding [`crate::device::precision::WORK_LIST_BINDING`].
+    /// A kernel of exact arithmetic, which lists the items that it is unsure of. Either the same kernel
+    /// computes these again with integers, or the second kernel defers them to the CPU. The list has the
+    /// binding [`crate::device::precision::WORK_LIST_BINDING`].
     RunExact(Run, Run),
 }
 

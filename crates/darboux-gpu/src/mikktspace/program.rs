@@ -58,7 +58,8 @@ impl Program {
         self.pipelines.insert((run.kernel.name, run.entry), compute_pipeline(device, module, run.entry));
     }
 
-    /// Creates the buffers that `buffers` lacks, and binds them. Errors: a buffer is larger than the device can bind.
+    /// Creates the buffers that `buffers` lacks, and binds them. Errors: a buffer is larger than the device
+    /// can bind.
     pub fn bind(
         &self,
         device: &Device,
@@ -120,8 +121,8 @@ impl MeshSizes {
     }
 }
 
-/// The number of slots of a hash table: a power of two, at least twice the number of entries, so that probe sequences are short. The stress
-/// build fills its tables nearly completely.
+/// The number of slots of a hash table: a power of two, at least twice the number of entries, so that probe
+/// sequences are short. The stress build fills its tables nearly completely.
 pub(crate) fn slot_count(entries: u32) -> u32 {
     let least = if cfg!(small_limits) { entries + 1 } else { 2 * entries };
     least.next_power_of_two()

@@ -37,8 +37,9 @@ pub struct GroupedMesh<'a> {
     pub adjacency_ends: &'a Buffer,
     /// The triangles at each welded vertex, ascending.
     pub adjacent_triangles: &'a Buffer,
-    /// For each triangle, the flags that [`Evaluation::record_derivatives`] writes: 1 if the UV map keeps its orientation, 2 if it is
-    /// UV-degenerate. For the frames, the test adds 8 if the triangle before is the other half of the same quad.
+    /// For each triangle, the flags that [`Evaluation::record_derivatives`] writes: 1 if the UV map keeps
+    /// its orientation, 2 if it is UV-degenerate. For the frames, the test adds 8 if the triangle before
+    /// is the other half of the same quad.
     pub triangle_flags: &'a Buffer,
     /// For each corner, a corner that stands for its group; none for corners without a group.
     pub seed_of_corner: &'a Buffer,
@@ -51,7 +52,8 @@ pub struct Evaluation {
     pub derivatives: Buffer,
     /// Eight words per corner: tangent, bitangent and magnitudes. Corners without a group are not written.
     pub frames: Buffer,
-    /// The number of items that integer arithmetic computed: triangles of derivatives, triangles of corner terms, corners.
+    /// The number of items that integer arithmetic computed: triangles of derivatives, triangles of corner
+    /// terms, corners.
     pub counts: Buffer,
     derivative_program: BoundProgram,
     frame_program: BoundProgram,

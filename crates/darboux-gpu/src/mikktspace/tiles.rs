@@ -31,7 +31,8 @@ impl Programs {
     }
 }
 
-/// The bytes per triangle in the largest buffers, which are the frames and, for unindexed meshes, the vertices.
+/// The bytes per triangle in the largest buffers, which are the frames and, for unindexed meshes, the
+/// vertices.
 pub(crate) const BYTES_PER_TRIANGLE: u64 = 3 * 32;
 
 const WORDS_PER_VERTEX: usize = 8;
@@ -96,7 +97,8 @@ pub(crate) struct Tile {
 }
 
 impl Tile {
-    /// `indices`: three per triangle. `is_shared`: 1 for vertices that other tiles use too; empty if there is only one tile.
+    /// `indices`: three per triangle. `is_shared`: 1 for vertices that other tiles use too; empty if there is
+    /// only one tile.
     ///
     /// Errors: a buffer is larger than the device can bind.
     pub fn new(
@@ -164,7 +166,8 @@ impl Submesh {
 /// The reference does not weld positions above half of the largest float. The core uses this bound too.
 const LARGEST: f32 = 1e38;
 
-/// For each vertex, the first vertex that equals it; none if there are values that only the core's serial order can weld.
+/// For each vertex, the first vertex that equals it; none if there are values that only the core's serial
+/// order can weld.
 ///
 /// The same as `shaders/mikktspace/weld.wgsl`, for meshes whose vertices are too large for a buffer.
 pub(crate) fn weld_on_cpu(mesh: &Mesh<'_>) -> Option<Vec<u32>> {

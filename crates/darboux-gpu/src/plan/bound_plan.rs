@@ -31,11 +31,12 @@ pub struct BoundPlan {
 impl Plan {
     /// Checks the buffers and creates everything that recording needs.
     ///
-    /// A plan may be used for several moving meshes one after the other, but not at the same time, because they share scratch memory.
+    /// A plan may be used for several moving meshes one after the other, but not at the same time, because
+    /// they share scratch memory.
     ///
-    /// Errors: another number of vertices; an offset or stride that is not a multiple of 4; attributes that overlap or do not lie in their
-    /// buffer; a buffer without `BufferUsages::STORAGE` or past a limit of the device; tangents per vertex where the corners of a vertex
-    /// have different tangents.
+    /// Errors: another number of vertices; an offset or stride that is not a multiple of 4; attributes that
+    /// overlap or do not lie in their buffer; a buffer without `BufferUsages::STORAGE` or past a limit of
+    /// the device; tangents per vertex where the corners of a vertex have different tangents.
     pub fn bind(&self, mesh: &MovingMesh<'_>) -> Result<BoundPlan, GpuError> {
         let Layout { uniform, sum_of_output, output_count } = &self.layout(mesh)?;
         let Planner { device, terms, gather, repair, write_tangents, .. } = &self.planner;
@@ -80,7 +81,8 @@ impl Plan {
 }
 
 impl BoundPlan {
-    /// Records the tangents for the positions and normals that the buffers hold when the device executes the commands.
+    /// Records the tangents for the positions and normals that the buffers hold when the device executes the
+    /// commands.
     pub fn record(&self, encoder: &mut CommandEncoder) {
         self.unusable.record_clear(encoder);
         encoder.clear_buffer(&self.repair_count, 0, None);
@@ -95,8 +97,9 @@ impl BoundPlan {
         encoder.copy_buffer_to_buffer(&self.repair_count, 0, &self.counts, 8, 4);
     }
 
-    /// A buffer of three counts, with `BufferUsages::COPY_SRC`: triangles that integer arithmetic computed; tangents that integer arithmetic
-    /// computed; unusable tangents that were replaced. The replacements are close to those of the core, but do not have their bits.
+    /// A buffer of three counts, with `BufferUsages::COPY_SRC`: triangles that integer arithmetic computed;
+    /// tangents that integer arithmetic computed; unusable tangents that were replaced. The replacements
+    /// are close to those of the core, but do not have their bits.
     pub fn counts(&self) -> &Buffer {
         &self.counts
     }

@@ -18,8 +18,8 @@ pub struct PlanCheck {
 }
 
 impl Plan {
-    /// A check of the buffers that were given to [`Plan::bind`]. Errors: those of that function; the mesh has faces other than
-    /// triangles.
+    /// A check of the buffers that were given to [`Plan::bind`]. Errors: those of that function; the mesh has
+    /// faces other than triangles.
     pub fn bind_check(&self, mesh: &MovingMesh<'_>) -> Result<PlanCheck, GpuError> {
         if self.has_quads {
             return Err(GpuError::NotTriangles);
@@ -59,7 +59,8 @@ impl Plan {
 }
 
 impl PlanCheck {
-    /// Records the check. Record [`BoundPlan::record`](super::bound_plan::BoundPlan::record) of the same buffers before.
+    /// Records the check. Record [`BoundPlan::record`](super::bound_plan::BoundPlan::record) of the same
+    /// buffers before.
     pub fn record(&self, encoder: &mut CommandEncoder) {
         encoder.clear_buffer(&self.counts, 0, None);
         encoder.clear_buffer(&self.hash_slots, 0, None);
@@ -73,10 +74,12 @@ impl PlanCheck {
     /// 1. triangles that were degenerate and are no longer,
     /// 2. vertices that no longer equal the vertex they were welded with,
     /// 3. vertices that have become equal to another vertex,
-    /// 4. triangles whose tangent or bitangent direction at a corner is so far from the corner's tangent that they may no longer share it.
+    /// 4. triangles whose tangent or bitangent direction at a corner is so far from the corner's tangent that
+    ///    they may no longer share it.
     ///
-    /// If all counts are 0, a fresh run in [`Mode::Corrected`](darboux::Mode::Corrected) gives the tangents of the plan. In the other modes
-    /// it does so too, unless the reference's unsorted last edges change its result, which depends on the positions.
+    /// If all counts are 0, a fresh run in [`Mode::Corrected`](darboux::Mode::Corrected) gives the tangents
+    /// of the plan. In the other modes it does so too, unless the reference's unsorted last edges change
+    /// its result, which depends on the positions.
     pub fn counts(&self) -> &Buffer {
         &self.counts
     }

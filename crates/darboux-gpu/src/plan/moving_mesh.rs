@@ -26,7 +26,8 @@ pub enum TangentsPer {
     Corner,
 }
 
-/// The moving vertices of a planned mesh, and where their tangents are written. All attributes may lie in one buffer.
+/// The moving vertices of a planned mesh, and where their tangents are written. All attributes may lie in one
+/// buffer.
 #[derive(Clone, Copy, Debug)]
 pub struct MovingMesh<'a> {
     /// The number of vertices.

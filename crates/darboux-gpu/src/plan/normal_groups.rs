@@ -13,14 +13,16 @@ use crate::error::GpuError;
 /// Two vertices are in one group if they have one position and one normal in the planned mesh.
 pub(crate) struct NormalGroups {
     pub count: u32,
-    /// The number of groups; the end of each group's range of members; the members, which are corners `3 t + k` of triangles `t`.
+    /// The number of groups; the end of each group's range of members; the members, which are corners `3 t +
+    /// k` of triangles `t`.
     pub words: Vec<u32>,
     /// For each vertex, its group; none for unused vertices.
     pub group_of_vertex: Vec<u32>,
 }
 
 impl NormalGroups {
-    /// `triangles`: five words per triangle; the first three have the vertices of its corners in the bits of `vertex_bits`.
+    /// `triangles`: five words per triangle; the first three have the vertices of its corners in the bits of
+    /// `vertex_bits`.
     ///
     /// Errors: a group has more members than one thread can add up.
     pub fn new(mesh: &Mesh<'_>, triangles: &[u32], vertex_bits: u32) -> Result<Self, GpuError> {

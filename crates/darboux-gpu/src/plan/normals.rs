@@ -19,8 +19,8 @@ pub struct PlanNormals {
 impl Plan {
     /// Smooth normals in the buffers that were given to [`Plan::bind`], with its errors.
     ///
-    /// A normal is the mean of the normals of adjacent triangles, weighted by their angles. Vertices share a normal if they had one position
-    /// and one normal in the planned mesh. The rounding is the device's.
+    /// A normal is the mean of the normals of adjacent triangles, weighted by their angles. Vertices share a
+    /// normal if they had one position and one normal in the planned mesh. The rounding is the device's.
     pub fn bind_normals(&self, mesh: &MovingMesh<'_>) -> Result<PlanNormals, GpuError> {
         let Layout { uniform, .. } = &self.layout(mesh)?;
         let device = &self.planner.device;
@@ -48,7 +48,8 @@ impl Plan {
 }
 
 impl PlanNormals {
-    /// Records the normals. Record [`BoundPlan::record`](super::bound_plan::BoundPlan::record) of the same buffers afterwards.
+    /// Records the normals. Record [`BoundPlan::record`](super::bound_plan::BoundPlan::record) of the same
+    /// buffers afterwards.
     pub fn record(&self, encoder: &mut CommandEncoder) {
         self.sums.record(encoder);
         self.write.record(encoder);

@@ -1,4 +1,5 @@
-//! Analyses the topology of a mesh once, on the CPU, and uploads what does not depend on the positions of its vertices.
+//! Analyses the topology of a mesh once, on the CPU, and uploads what does not depend on the positions of its
+//! vertices.
 
 use bytemuck::Zeroable;
 use darboux::internal::gpu_plan::{PlanArrays, VERTEX_MASK};
@@ -64,7 +65,8 @@ pub struct Plan {
     pub(super) triangles: Buffer,
     pub(super) representatives: Buffer,
     pub(super) sums: Buffer,
-    /// The sum of every vertex or corner, and their number, by [`TangentsPer`](crate::plan::moving_mesh::TangentsPer).
+    /// The sum of every vertex or corner, and their number, by
+    /// [`TangentsPer`](crate::plan::moving_mesh::TangentsPer).
     outputs: [Result<(Buffer, u32), GpuError>; 2],
     pub(super) terms: Buffer,
     pub(super) tangents: Buffer,
@@ -112,12 +114,14 @@ impl Planner {
         }
     }
 
-    /// Groups the corners of `mesh` on the CPU, and uploads what does not depend on the positions of vertices.
+    /// Groups the corners of `mesh` on the CPU, and uploads what does not depend on the positions of
+    /// vertices.
     ///
     /// Quads keep the diagonals that they have in `mesh`.
     ///
-    /// Errors: the method is not MikkTSpace; a corner of a quad averages the tangents of two triangles, or one triangle of a quad is
-    /// degenerate; a vertex has too many triangles; a buffer is past a limit of the device.
+    /// Errors: the method is not MikkTSpace; a corner of a quad averages the tangents of two triangles, or
+    /// one triangle of a quad is degenerate; a vertex has too many triangles; a buffer is past a limit of
+    /// the device.
     pub fn plan(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Plan, GpuError> {
         self.plan_with(mesh, options, &mut Context::new())
     }

@@ -1,4 +1,5 @@
-//! The WGSL files of the kernels of plans. Files with `Real` arithmetic are completed by [`crate::device::precision::kernel_files`].
+//! The WGSL files of the kernels of plans. Files with `Real` arithmetic are completed by
+//! [`crate::device::precision::kernel_files`].
 
 const UNIFORMS: &str = include_str!("../../shaders/plan/uniforms.wgsl");
 const TRIANGLE: &str = include_str!("../../shaders/plan/triangle.wgsl");

@@ -1,8 +1,10 @@
 //! Writes and compares the lists from which the npm package runs the same kernels.
 //!
-//! - `shaders/kernels.json` has the files of the kernels of plans and of the methods `Average` and `Lengyel`, in the order of concatenation.
+//! - `shaders/kernels.json` has the files of the kernels of plans and of the methods `Average` and `Lengyel`,
+//!   in the order of concatenation.
 //! - `shaders/mikktspace.json` has those of MikkTSpace.
-//! - `shaders/passes.json` has the constants that every shader begins with, and the lists of [`crate::mikktspace::passes`].
+//! - `shaders/passes.json` has the constants that every shader begins with, and the lists of
+//!   [`crate::mikktspace::passes`].
 
 use std::fmt::Write;
 use std::fs;

@@ -1,4 +1,5 @@
-//! Counts the operations of each kernel from its parsed source. These counts are an estimate of speed that needs no GPU.
+//! Counts the operations of each kernel from its parsed source. These counts are an estimate of speed that
+//! needs no GPU.
 
 use naga::valid::{FunctionInfo, ModuleInfo};
 use naga::{
@@ -16,7 +17,8 @@ struct Cost {
     simple: usize,
     /// The float additions and multiplications among them, for which GPUs have the most units.
     of_floats: usize,
-    /// Divisions and square roots of floats, divisions of integers: each takes at least as long as ten simple ones.
+    /// Divisions and square roots of floats, divisions of integers: each takes at least as long as ten
+    /// simple ones.
     slow: usize,
 }
 

@@ -1,12 +1,14 @@
-//! Bounds of the rounding errors of frames of the methods `Average` and `Lengyel`, derived from the guarantees of WGSL.
+//! Bounds of the rounding errors of frames of the methods `Average` and `Lengyel`, derived from the
+//! guarantees of WGSL.
 //!
-//! With u = 2^-24, sums and products have relative errors of u, quotients of 2.5 ulp (5 u), and square roots, which WGSL defines as
-//! reciprocals of reciprocal roots, of 4.5 ulp (9 u). Fused operations have smaller errors. dP/du times the UV area, dv2 e1 - dv1 e2, has
-//! four roundings and an error of 4 u M, where M = |dv2| |e1| + |dv1| |e2|. Normalising a vector at most doubles its relative error and
-//! adds less than 20 u.
+//! With u = 2^-24, sums and products have relative errors of u, quotients of 2.5 ulp (5 u), and square roots,
+//! which WGSL defines as reciprocals of reciprocal roots, of 4.5 ulp (9 u). Fused operations have smaller
+//! errors. dP/du times the UV area, dv2 e1 - dv1 e2, has four roundings and an error of 4 u M, where M =
+//! |dv2| |e1| + |dv1| |e2|. Normalising a vector at most doubles its relative error and adds less than 20 u.
 //!
-//! `Lengyel` divides by the UV area instead: the product with 1 / area has a relative error of 6 u. With an area that is off by the share d,
-//! the error of a term T is at most ((d + 7 u) |T| + 5 u M / |area|) / (1 - d).
+//! `Lengyel` divides by the UV area instead: the product with 1 / area has a relative error of 6 u. With an
+//! area that is off by the share d, the error of a term T is at most ((d + 7 u) |T| + 5 u M / |area|) / (1 -
+//! d).
 
 use darboux::Method;
 use darboux_tests::OwnedMesh;

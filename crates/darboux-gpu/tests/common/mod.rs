@@ -1,4 +1,5 @@
-//! Packs meshes into buffers of any layout, runs `Average` and `Lengyel` on them and reads the results. Shared by all test files.
+//! Packs meshes into buffers of any layout, runs `Average` and `Lengyel` on them and reads the results.
+//! Shared by all test files.
 
 #![allow(dead_code, reason = "every test file uses only a part")]
 
@@ -18,7 +19,8 @@ use darboux_tests::{FaceSizes, OwnedMesh};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages, IndexFormat};
 
-/// The devices of all adapters. Without adapters, prints once that tests are skipped, or fails in continuous integration.
+/// The devices of all adapters. Without adapters, prints once that tests are skipped, or fails in continuous
+/// integration.
 pub fn gpus() -> &'static [Gpu] {
     static GPUS: OnceLock<Vec<Gpu>> = OnceLock::new();
     GPUS.get_or_init(|| {

@@ -1,10 +1,12 @@
 //! Bounds of the rounding errors of tangents of plans in fast precision, derived from the guarantees of WGSL.
 //!
-//! With u = 2^-24, as in bound.rs: dP/du has an error of 4 u M, where M = |dv2| |e1| + |dv1| |e2|. Normalising a vector doubles its relative
-//! error and adds 20 u. Projecting a unit vector with error e into the plane of the normal, where it has length r, adds 60 u, so its
-//! direction has an error of D = (2 e + 120 u) / r + 20 u. The cosine of a corner has an error of C = D + D' + 3 u, its angle w of
-//! A = min(C / sin w, sqrt(2 C)) + 1e-6, where the last term is for the arccosine. A sum of n terms w s has an error of the sum of w D + A,
-//! plus n u times the sum of w for the additions. Its direction has twice that error divided by its length, plus 20 u.
+//! With u = 2^-24, as in bound.rs: dP/du has an error of 4 u M, where M = |dv2| |e1| + |dv1| |e2|.
+//! Normalising a vector doubles its relative error and adds 20 u. Projecting a unit vector with error e into
+//! the plane of the normal, where it has length r, adds 60 u, so its direction has an error of D = (2 e + 120
+//! u) / r + 20 u. The cosine of a corner has an error of C = D + D' + 3 u, its angle w of A = min(C / sin w,
+//! sqrt(2 C)) + 1e-6, where the last term is for the arccosine. A sum of n terms w s has an error of the sum
+//! of w D + A, plus n u times the sum of w for the additions. Its direction has twice that error divided by
+//! its length, plus 20 u.
 
 use darboux::internal::stage_arrays::Stages;
 use darboux_tests::OwnedMesh;

@@ -7,7 +7,8 @@ use wgpu::BufferUsages;
 
 use super::{UNTOUCHED, buffer, words_of};
 
-/// The results of a plan: four words per corner or vertex, its counts, and the counts of its check, which exists only for triangles.
+/// The results of a plan: four words per corner or vertex, its counts, and the counts of its check, which
+/// exists only for triangles.
 #[derive(Debug, PartialEq)]
 pub struct Found {
     pub words: Vec<u32>,

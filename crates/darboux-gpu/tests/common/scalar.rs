@@ -29,7 +29,8 @@ fn main(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) g
 /// The most samples per dispatch.
 const BATCH: usize = 1 << 20;
 
-/// Runs `body` on samples of `N` words, with results of `M` words. It reads `given[at]`, ... and writes `got[into]`, ...
+/// Runs `body` on samples of `N` words, with results of `M` words. It reads `given[at]`, ... and writes
+/// `got[into]`, ...
 pub fn map<const N: usize, const M: usize>(
     gpu: &Gpu,
     files: &[&str],

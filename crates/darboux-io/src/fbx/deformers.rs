@@ -9,7 +9,8 @@ use crate::source::{CornerValues, SourceMorph, SourceSkin, VertexWeights};
 /// The most influences of a vertex that are kept: readers of glTF take four or eight.
 const MAX_INFLUENCES: usize = 8;
 
-/// The skin of a mesh, and the weights of its vertices; none without bones. `lacks` gets a noun phrase for what is left out.
+/// The skin of a mesh, and the weights of its vertices; none without bones. `lacks` gets a noun phrase for
+/// what is left out.
 pub fn skin(mesh: &Mesh, lacks: &mut Vec<String>) -> Option<(SourceSkin, Vec<VertexWeights>)> {
     let name = &*shortened(&mesh.element.name);
     let mut skins = mesh.skin_deformers.into_iter();
@@ -65,7 +66,8 @@ pub fn skin(mesh: &Mesh, lacks: &mut Vec<String>) -> Option<(SourceSkin, Vec<Ver
     Some((skin, sets))
 }
 
-/// Appends the influences of one vertex, the largest first, to all sets. They add up to 1; a vertex without any follows the first joint.
+/// Appends the influences of one vertex, the largest first, to all sets. They add up to 1; a vertex without
+/// any follows the first joint.
 fn add_influences(sets: &mut [VertexWeights], influences: &[SkinWeight]) {
     let kept = &influences[..influences.len().min(4 * sets.len())];
     let sum: f64 = kept.iter().map(|influence| influence.weight).sum();
@@ -83,7 +85,8 @@ fn add_influences(sets: &mut [VertexWeights], influences: &[SkinWeight]) {
     }
 }
 
-/// The blend shapes of a mesh at their full weight. `lacks` gets a noun phrase for shapes between the rest and a full weight.
+/// The blend shapes of a mesh at their full weight. `lacks` gets a noun phrase for shapes between the rest
+/// and a full weight.
 pub fn morphs(mesh: &Mesh, lacks: &mut Vec<String>) -> Vec<SourceMorph> {
     let name = &*shortened(&mesh.element.name);
     let channels = || mesh.blend_deformers.into_iter().flat_map(|deformer| &deformer.channels);

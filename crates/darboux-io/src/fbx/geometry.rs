@@ -22,7 +22,8 @@ pub struct Losses {
     pub lines_and_points: usize,
     /// Whether ufbx made the normals, from smoothing groups.
     pub has_made_normals: bool,
-    /// Whether there are tangents without a sign: neither bitangents nor a fourth component. They are left out.
+    /// Whether there are tangents without a sign: neither bitangents nor a fourth component. They are left
+    /// out.
     pub has_tangents_without_sign: bool,
     /// Whether UV sets after the first have tangents.
     pub has_further_tangents: bool,
@@ -78,7 +79,8 @@ fn colors(attribute: &VertexVec4, places: &[usize]) -> Option<CornerValues<4>> {
 
 /// Tangents with their sign, from bitangents or from the fourth component.
 ///
-/// The sign is that for which bitangent = sign * cross(normal, tangent). FBX's bitangents point along increasing v, which points up.
+/// The sign is that for which bitangent = sign * cross(normal, tangent). FBX's bitangents point along
+/// increasing v, which points up.
 fn tangents(mesh: &Mesh, places: &[usize]) -> Option<CornerValues<4>> {
     let (normal, tangent, bitangent) = (&mesh.vertex_normal, &mesh.vertex_tangent, &mesh.vertex_bitangent);
     if !tangent.exists || !normal.exists {

@@ -16,8 +16,8 @@ const KNOWN_VERSIONS: std::ops::RangeInclusive<u32> = 6100..=7700;
 
 /// The scene of a file, in its own units and axes. Missing normals are made by smoothing groups.
 ///
-/// `budget` is shared by ufbx's result, ufbx's temporary memory, and what is made of them. Errors: bytes that are no FBX, or a truncated or broken
-/// one; a scene that needs more memory.
+/// `budget` is shared by ufbx's result, ufbx's temporary memory, and what is made of them. Errors: bytes that
+/// are no FBX, or a truncated or broken one; a scene that needs more memory.
 pub fn load(bytes: &[u8], budget: &Budget) -> Result<SceneRoot, ContentError> {
     // A limit of 0 means none to ufbx.
     let limit = || AllocatorOpts { memory_limit: (budget.bytes / 3).max(1), ..AllocatorOpts::default() };
@@ -65,7 +65,8 @@ fn version(details: &str) -> String {
     if details.is_empty() { String::new() } else { format!(" ({details})") }
 }
 
-/// One sentence for each kind of damage that was repaired while the file was read, and for a version that was not tested.
+/// One sentence for each kind of damage that was repaired while the file was read, and for a version that was
+/// not tested.
 pub fn warnings(scene: &ufbx::Scene) -> Vec<String> {
     let version = scene.metadata.version;
     let mut sentences = Vec::new();

@@ -192,7 +192,8 @@ impl<'a> MaterialReader<'a> {
         place
     }
 
-    /// The bytes within the FBX, or those of the file that it names: relative to the model, then as the exporter's machine had it.
+    /// The bytes within the FBX, or those of the file that it names: relative to the model, then as the
+    /// exporter's machine had it.
     fn read_image(&mut self, file: &TextureFile) -> Option<SourceImage> {
         let paths = [&*file.relative_filename, &*file.absolute_filename, &*file.filename];
         let mut references = paths.into_iter().filter(|path| !path.is_empty());
@@ -222,8 +223,8 @@ impl<'a> MaterialReader<'a> {
     }
 }
 
-/// The opacity. Lambert's and Phong's materials have the opposite: a factor and a colour. Programs write 1 and white for opaque materials, too, so that a
-/// material without any opacity is opaque.
+/// The opacity. Lambert's and Phong's materials have the opposite: a factor and a colour. Programs write 1
+/// and white for opaque materials, too, so that a material without any opacity is opaque.
 fn opacity(material: &ufbx::Material) -> f32 {
     let (pbr, fbx) = (&material.pbr, &material.fbx);
     if !is_classic(material) {
@@ -239,7 +240,8 @@ fn is_classic(material: &ufbx::Material) -> bool {
     matches!(material.shader_type, ShaderType::FbxLambert | ShaderType::FbxPhong)
 }
 
-/// Whether the texture is scaled, rotated or moved in the plane of UVs. Some programs write numbers about the third axis, which mean nothing.
+/// Whether the texture is scaled, rotated or moved in the plane of UVs. Some programs write numbers about the
+/// third axis, which mean nothing.
 fn moves_uvs(texture: &Texture) -> bool {
     let m = &texture.texture_to_uv;
     texture.has_uv_transform && [m.m00, m.m01, m.m03, m.m10, m.m11, m.m13] != [1.0, 0.0, 0.0, 0.0, 1.0, 0.0]

@@ -1,4 +1,5 @@
-//! From a scene of ufbx to a scene of polygons: nodes with their paths, meshes with the materials that their nodes give them, skins, shapes.
+//! From a scene of ufbx to a scene of polygons: nodes with their paths, meshes with the materials that their
+//! nodes give them, skins, shapes.
 
 use std::collections::HashMap;
 
@@ -61,7 +62,8 @@ fn check_memory(
     uses: &HashMap<MeshUse, (usize, &Node)>,
     budget: &Budget,
 ) -> Result<(), ContentError> {
-    // Nodes and materials become JSON text and its parsed form. A node's path repeats the names of its parents.
+    // Nodes and materials become JSON text and its parsed form. A node's path repeats the names of its
+    // parents.
     const PER_ELEMENT: usize = 4096;
     let elements = scene.nodes.count.saturating_add(scene.materials.count).saturating_mul(PER_ELEMENT);
     let meshes = uses.keys().map(|(mesh, _)| geometry::estimate(&scene.meshes[*mesh as usize]));

@@ -14,8 +14,9 @@ use crate::error::ContentError;
 const MAX_ZEROS: usize = 1 << 16;
 
 impl Document {
-    /// The elements of an accessor as vectors of floats. Normalised integers become fractions, other integers become numbers, sparse
-    /// elements are in place, and an accessor without a buffer view is zero. Borrowed from the file if its layout permits.
+    /// The elements of an accessor as vectors of floats. Normalised integers become fractions, other integers
+    /// become numbers, sparse elements are in place, and an accessor without a buffer view is zero.
+    /// Borrowed from the file if its layout permits.
     ///
     /// Errors: the accessor does not have `N` components; its bytes are outside the buffer.
     pub fn vectors<const N: usize>(&self, accessor: usize) -> Result<Cow<'_, [[f32; N]]>, Error> {
@@ -156,8 +157,8 @@ impl Document {
         })
     }
 
-    /// Checks by the sizes in the JSON that every buffer view lies in its buffer, the elements of every accessor in its buffer view, and that
-    /// every attribute of a primitive has one element per position.
+    /// Checks by the sizes in the JSON that every buffer view lies in its buffer, the elements of every
+    /// accessor in its buffer view, and that every attribute of a primitive has one element per position.
     pub(super) fn check_sizes(&self) -> Result<(), ContentError> {
         self.check_views()?;
         self.check_accessors()?;
@@ -257,7 +258,8 @@ fn elements_in_view<'a>(
     Ok(StoredElements { bytes: view[offset.min(end)..end].into(), size, stride: stride.unwrap_or(size) })
 }
 
-/// The offset after the last element. Errors: the elements overlap, or do not fit a view of `view_length` bytes.
+/// The offset after the last element. Errors: the elements overlap, or do not fit a view of `view_length`
+/// bytes.
 fn end_in_view(view_length: usize, layout: &ElementLayout, at: &str) -> Result<usize, ContentError> {
     let ElementLayout { offset, count, size, stride } = *layout;
     if let Some(stride) = stride.filter(|&stride| stride < size) {

@@ -28,8 +28,8 @@ pub struct Unpaired {
     pub is_one_sided: bool,
 }
 
-/// The corners of a primitive, three per triangle, in the order of the files. Values are stored per vertex, borrowed from the files if their layout
-/// permits.
+/// The corners of a primitive, three per triangle, in the order of the files. Values are stored per vertex,
+/// borrowed from the files if their layout permits.
 #[derive(Clone, Debug, Default)]
 pub struct PairedCorners<'a> {
     /// The vertex of each corner in the first document. It is a vertex of all arrays of that document.

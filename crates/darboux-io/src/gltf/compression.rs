@@ -1,4 +1,5 @@
-//! Decompression: primitives compressed with Draco and buffer views compressed with meshoptimizer become plain data.
+//! Decompression: primitives compressed with Draco and buffer views compressed with meshoptimizer become
+//! plain data.
 
 mod draco;
 mod meshopt;
@@ -14,11 +15,13 @@ use crate::error::ContentError;
 use crate::memory_limit::Budget;
 
 impl Document {
-    /// Decodes all compressed meshes and buffer views and removes the extensions. Opening does this before anything else reads the document. It does
-    /// not count as an edit: without others, the file is written as it was.
+    /// Decodes all compressed meshes and buffer views and removes the extensions. Opening does this before
+    /// anything else reads the document. It does not count as an edit: without others, the file is
+    /// written as it was.
     ///
-    /// A file's uncompressed fallback data is used if there is any. Errors: a stream that is broken, or does not match its accessors or
-    /// buffer views; more data than [`LoadOptions::memory_limit`](crate::LoadOptions::memory_limit) permits.
+    /// A file's uncompressed fallback data is used if there is any. Errors: a stream that is broken, or does
+    /// not match its accessors or buffer views; more data than
+    /// [`LoadOptions::memory_limit`](crate::LoadOptions::memory_limit) permits.
     pub(super) fn decompress(&mut self) -> Result<(), ContentError> {
         let mut primitives = self.root.meshes.iter().flat_map(|mesh| &mesh.primitives);
         let is_compressed = primitives.any(|primitive| primitive.extensions.draco.is_some())
@@ -32,7 +35,8 @@ impl Document {
         Ok(())
     }
 
-    /// Makes the decoding of compressed data an edit: the document is then written without compression even if there are no others.
+    /// Makes the decoding of compressed data an edit: the document is then written without compression even
+    /// if there are no others.
     pub fn discard_compression(&mut self) {
         self.is_changed |= self.was_compressed;
     }

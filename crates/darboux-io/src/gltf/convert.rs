@@ -1,8 +1,8 @@
 //! Converts the vertex data of a document to another convention.
 //!
-//! A valid glTF file is in glTF's convention. There are two uses of conversion: to repair a file whose writer stored numbers of another
-//! convention, and to prepare numbers for a program that reads them without conversion. Files that are not in glTF's convention are marked
-//! by `asset.extras.darboux_convention`.
+//! A valid glTF file is in glTF's convention. There are two uses of conversion: to repair a file whose writer
+//! stored numbers of another convention, and to prepare numbers for a program that reads them without
+//! conversion. Files that are not in glTF's convention are marked by `asset.extras.darboux_convention`.
 
 mod attributes;
 mod axes;
@@ -26,11 +26,13 @@ use axes::AxisChange;
 use faces::FaceReverser;
 use scene::SceneConverter;
 
-/// Converts the vertex data of every primitive: positions, normals, tangents, UVs, morph targets and the winding of triangles. If the axes
-/// differ, the transforms of nodes, skins, instances and animations are converted too.
+/// Converts the vertex data of every primitive: positions, normals, tangents, UVs, morph targets and the
+/// winding of triangles. If the axes differ, the transforms of nodes, skins, instances and animations are
+/// converted too.
 ///
-/// Images, cameras and lights are not converted; warnings name them. Accessors that change become floats. Errors: a document that is marked
-/// with a convention other than `from`; animations that cannot be converted; invalid data. After an error the document is unspecified: drop it.
+/// Images, cameras and lights are not converted; warnings name them. Accessors that change become floats.
+/// Errors: a document that is marked with a convention other than `from`; animations that cannot be
+/// converted; invalid data. After an error the document is unspecified: drop it.
 pub fn convert_vertices(
     document: &mut Document,
     from: Convention,

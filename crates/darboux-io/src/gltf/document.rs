@@ -22,8 +22,9 @@ use crate::{Error, LoadOptions};
 
 /// A glTF document: read from a file, edited, and written to another file or in place.
 ///
-/// Everything that is not edited is kept, unknown extensions, the order of keys and the spelling of numbers included. A document without edits
-/// is written byte for byte. Compressed meshes are decoded when the document is read, and written without compression if there are edits.
+/// Everything that is not edited is kept, unknown extensions, the order of keys and the spelling of numbers
+/// included. A document without edits is written byte for byte. Compressed meshes are decoded when the
+/// document is read, and written without compression if there are edits.
 #[derive(Debug)]
 pub struct Document {
     pub(super) name: String,
@@ -76,7 +77,8 @@ impl Document {
         self.options.budget(read, decompressed)
     }
 
-    /// The most bytes that may be decoded from `size` bytes of an image: the memory limit of [`LoadOptions`] for a file of this size.
+    /// The most bytes that may be decoded from `size` bytes of an image: the memory limit of [`LoadOptions`]
+    /// for a file of this size.
     pub fn memory_limit_of(&self, size: usize) -> u64 {
         self.options.budget(size, 0).bytes as u64
     }
@@ -166,7 +168,8 @@ impl Document {
         range.ok_or_else(|| outside_buffer(offset, length, bytes.len(), &at()))
     }
 
-    /// The bytes of a buffer of the input; none for that of new bytes. `at` is the JSON path that refers to it.
+    /// The bytes of a buffer of the input; none for that of new bytes. `at` is the JSON path that refers to
+    /// it.
     pub(super) fn buffer(&self, index: usize, at: impl Fn() -> String) -> Result<&[u8], ContentError> {
         let (Some(buffer), Some(source)) = (self.root.buffers.get(index), self.buffers.get(index)) else {
             let problem = format!("buffer {index} does not exist: there are {}", self.root.buffers.len());

@@ -1,4 +1,5 @@
-//! Edits of documents. Every edit changes the JSON and renews the typed part that it changes, so that readers see one document.
+//! Edits of documents. Every edit changes the JSON and renews the typed part that it changes, so that readers
+//! see one document.
 //!
 //! ```text
 //! edit              elements of arrays, new data
@@ -28,7 +29,8 @@ use crate::error::ContentError;
 use crate::json;
 
 impl Document {
-    /// Appends an accessor with new buffer views. Returns its index. It is written if something refers to it then.
+    /// Appends an accessor with new buffer views. Returns its index. It is written if something refers to it
+    /// then.
     ///
     /// Panics if `new.elements.bytes` does not have the length of `count` elements.
     pub fn push_accessor(&mut self, new: NewAccessor) -> usize {
@@ -48,8 +50,8 @@ impl Document {
         self.push_element("accessors", Value::Object(element))
     }
 
-    /// As [`Document::push_accessor`], unless the accessor `old`, which `new` would replace, has the same elements: then `old` is
-    /// kept. A second run with the same result thus stores nothing new.
+    /// As [`Document::push_accessor`], unless the accessor `old`, which `new` would replace, has the same
+    /// elements: then `old` is kept. A second run with the same result thus stores nothing new.
     pub(super) fn push_in_place_of(&mut self, old: Option<usize>, new: NewAccessor) -> usize {
         let is_same = |&old: &usize| self.find_elements(old).is_ok_and(|elements| elements == new.elements);
         match old.filter(is_same) {
@@ -134,7 +136,8 @@ impl Document {
         self.push_element("bufferViews", Value::Object(element))
     }
 
-    /// Appends bytes to the buffer of new bytes, which is made on first use. Returns the buffer and the offset.
+    /// Appends bytes to the buffer of new bytes, which is made on first use. Returns the buffer and the
+    /// offset.
     fn push_bytes(&mut self, bytes: Vec<u8>) -> (usize, usize) {
         if !matches!(self.buffers.last(), Some(BufferSource::New(_))) {
             self.buffers.push(BufferSource::New(NewBytes::default()));
@@ -168,7 +171,8 @@ impl Document {
         }
     }
 
-    /// Appends an element to an array of the root object. Returns its index. The caller appends the typed element, if there is one.
+    /// Appends an element to an array of the root object. Returns its index. The caller appends the typed
+    /// element, if there is one.
     fn push_element(&mut self, array: &str, element: Value) -> usize {
         self.is_changed = true;
         if let Some(Value::Array(elements)) = self.json.get_mut(array) {
@@ -202,7 +206,8 @@ impl Document {
         Ok(true)
     }
 
-    /// Whether the typed parts are what the JSON says. Every edit keeps this; builds with debug assertions check it whenever a document is written.
+    /// Whether the typed parts are what the JSON says. Every edit keeps this; builds with debug assertions
+    /// check it whenever a document is written.
     pub(super) fn agrees_with_its_json(&self) -> bool {
         json::read::<Root>(&self.json, "").is_ok_and(|root| root == self.root)
     }
@@ -243,7 +248,8 @@ impl Document {
 }
 
 impl Root {
-    /// Reads an element again whose JSON has changed, if it is one of the typed parts. Errors: it cannot be read.
+    /// Reads an element again whose JSON has changed, if it is one of the typed parts. Errors: it cannot be
+    /// read.
     fn renew(&mut self, array: &'static str, index: usize, element: &Value) -> Result<(), ContentError> {
         let at = format!("{array}[{index}]");
         match array {

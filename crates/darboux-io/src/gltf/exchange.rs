@@ -1,4 +1,5 @@
-//! Writes documents as PLY and OBJ, which hold the surfaces of a scene and little else. What they cannot hold is listed.
+//! Writes documents as PLY and OBJ, which hold the surfaces of a scene and little else. What they cannot hold
+//! is listed.
 
 mod format;
 mod left_out;
@@ -20,7 +21,8 @@ pub(super) struct ExchangeFile<'a> {
     pub library: Option<String>,
 }
 
-/// The content of an exchange file. `library`: the name of the material library. `textures`: the path of each image as the library spells it.
+/// The content of an exchange file. `library`: the name of the material library. `textures`: the path of each
+/// image as the library spells it.
 pub(super) fn content<'a>(
     document: &Document,
     format: ExchangeFormat,

@@ -1,4 +1,5 @@
-//! The content of a file: read into memory or, on request and if it is large, mapped, so that it is neither copied nor read twice.
+//! The content of a file: read into memory or, on request and if it is large, mapped, so that it is neither
+//! copied nor read twice.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -20,7 +21,8 @@ pub enum FileBytes {
     Read(Vec<u8>),
 }
 
-/// Files below this size are always read: that takes a twentieth of a second, and no other process can change what was read.
+/// Files below this size are always read: that takes a twentieth of a second, and no other process can change
+/// what was read.
 #[cfg(unix)]
 const MAPPED_FROM: u64 = if cfg!(small_limits) { 1 } else { 256 << 20 };
 
@@ -49,7 +51,8 @@ impl FileAccess {
         Self::Disk { maps: true }
     }
 
-    /// A path of a file or folder with links resolved. The names of given files have no links. Errors: on the disk, there is nothing at the path.
+    /// A path of a file or folder with links resolved. The names of given files have no links. Errors: on the
+    /// disk, there is nothing at the path.
     pub fn resolved(&self, path: &Path) -> io::Result<PathBuf> {
         match self {
             Self::Disk { .. } => path.canonicalize(),
@@ -74,8 +77,8 @@ impl FileAccess {
         }
     }
 
-    /// Opens a file at a path whose links were resolved before. A file that cannot be mapped is read. `most`: the bytes that the process may use.
-    /// Errors: it cannot be opened or read; it is larger than that.
+    /// Opens a file at a path whose links were resolved before. A file that cannot be mapped is read. `most`:
+    /// the bytes that the process may use. Errors: it cannot be opened or read; it is larger than that.
     pub fn open(&self, path: &Path, most: Option<u64>) -> io::Result<FileBytes> {
         let maps = match self {
             Self::Disk { maps } => *maps,
@@ -110,8 +113,9 @@ fn map(file: &File) -> Option<FileBytes> {
     if file.metadata().ok()?.len() < MAPPED_FROM {
         return None;
     }
-    // SAFETY: only `FileAccess::mapped` makes a value that maps, and its caller has promised that no process changes the file. The map is only
-    // read, and this crate never writes into a file that exists: outputs are new files, renamed when they are complete.
+    // SAFETY: only `FileAccess::mapped` makes a value that maps, and its caller has promised that no process
+    // changes the file. The map is only read, and this crate never writes into a file that exists:
+    // outputs are new files, renamed when they are complete.
     let mapped = unsafe { memmap2::Mmap::map(file) }.ok()?;
     Some(FileBytes::Mapped(mapped))
 }

@@ -9,9 +9,11 @@ use super::materials::Texture;
 const NORMAL_MAPS: [&str; 2] = ["normalTexture", "clearcoatNormalTexture"];
 
 impl Document {
-    /// Why the texels of an image cannot be changed as those of a normal map, as a clause whose subject is the image; none if they can.
+    /// Why the texels of an image cannot be changed as those of a normal map, as a clause whose subject is
+    /// the image; none if they can.
     ///
-    /// They cannot where a material also uses the image as another texture, and where its texture refers to the same picture in several formats.
+    /// They cannot where a material also uses the image as another texture, and where its texture refers to
+    /// the same picture in several formats.
     pub fn normal_map_obstacle(&self, image: usize) -> Option<&'static str> {
         let textures: Vec<Texture> = json::read(&self.json["textures"], "textures").unwrap_or_default();
         let is_texture = |index: u64| {
@@ -28,7 +30,8 @@ impl Document {
     }
 }
 
-/// Whether a part of a material, which is the member `key`, has a texture that is no normal map and fulfils a condition.
+/// Whether a part of a material, which is the member `key`, has a texture that is no normal map and fulfils a
+/// condition.
 fn has_other_use(value: &Value, key: &str, is_texture: &dyn Fn(u64) -> bool) -> bool {
     match value {
         Value::Object(members) => {

@@ -21,20 +21,23 @@ use crate::source::{Built, ModelFiles, Provenance};
 use crate::{Error, Files, LoadOptions, paths, readers};
 
 impl Document {
-    /// Reads a `.glb` or `.gltf` file and the buffers that it refers to, and decodes what is compressed with Draco or meshopt; or a model of another
-    /// format, which becomes a glTF document with [`Document::provenance`]. The content decides, not the name's ending.
+    /// Reads a `.glb` or `.gltf` file and the buffers that it refers to, and decodes what is compressed with
+    /// Draco or meshopt; or a model of another format, which becomes a glTF document with
+    /// [`Document::provenance`]. The content decides, not the name's ending.
     ///
-    /// Errors: a file that cannot be read, or is not valid glTF; a mode of a primitive, or a reference to an element, that does not exist; a compressed stream that is broken.
+    /// Errors: a file that cannot be read, or is not valid glTF; a mode of a primitive, or a reference to an
+    /// element, that does not exist; a compressed stream that is broken.
     pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Error> {
         Self::open_with(path, options, FileAccess::default())
     }
 
-    /// As [`Document::open`], with files of 256 MiB and more mapped where the system can: they are not copied, and parts that are not
-    /// needed are not read.
+    /// As [`Document::open`], with files of 256 MiB and more mapped where the system can: they are not
+    /// copied, and parts that are not needed are not read.
     ///
     /// # Safety
-    /// Until the document is dropped, no process may write into its files or shorten them. A process that shortens a file ends this
-    /// one by a signal (SIGBUS on Unix); one that writes into a file changes bytes that Rust takes for constant.
+    /// Until the document is dropped, no process may write into its files or shorten them. A process that
+    /// shortens a file ends this one by a signal (SIGBUS on Unix); one that writes into a file changes
+    /// bytes that Rust takes for constant.
     #[expect(unsafe_code, reason = "the caller vouches for other processes")]
     pub unsafe fn open_mapped(path: &Path, options: &LoadOptions) -> Result<Self, Error> {
         // SAFETY: the caller makes the promise that `mapped` asks for.
@@ -54,8 +57,9 @@ impl Document {
 
     /// Reads a document from memory.
     ///
-    /// `name` stands for the file in messages. `base` is the folder of external files; without it, buffers must be embedded, and
-    /// references to image files are kept as they are. Errors: as [`Document::open`].
+    /// `name` stands for the file in messages. `base` is the folder of external files; without it, buffers
+    /// must be embedded, and references to image files are kept as they are. Errors: as
+    /// [`Document::open`].
     pub fn from_bytes(
         name: &str,
         bytes: Vec<u8>,
@@ -65,9 +69,11 @@ impl Document {
         Self::from_file(name, FileBytes::Read(bytes), base, options, FileAccess::default())
     }
 
-    /// Reads a document from memory, and the buffers and images that it refers to from `files`, in which its own name is `name`.
+    /// Reads a document from memory, and the buffers and images that it refers to from `files`, in which its
+    /// own name is `name`.
     ///
-    /// References with `..` reach all of `files`. Errors: as [`Document::open`]; a buffer that is not among the files.
+    /// References with `..` reach all of `files`. Errors: as [`Document::open`]; a buffer that is not among
+    /// the files.
     pub fn from_files(
         name: &str,
         bytes: Vec<u8>,

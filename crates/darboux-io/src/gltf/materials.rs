@@ -96,7 +96,8 @@ pub enum Alpha {
 /// A texture of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureUse {
-    /// The index of the image: the texture's source, or else the source of an extension for WebP, AVIF or KTX 2.
+    /// The index of the image: the texture's source, or else the source of an extension for WebP, AVIF or
+    /// KTX 2.
     pub image: Option<usize>,
     /// The UV set n of `TEXCOORD_n`.
     pub uv_set: usize,
@@ -385,7 +386,8 @@ impl Document {
         })
     }
 
-    /// The content of an image file of any format. Errors: the image has no content, or its file may not be read.
+    /// The content of an image file of any format. Errors: the image has no content, or its file may not be
+    /// read.
     pub fn image_bytes(&self, index: usize) -> Result<Cow<'_, [u8]>, Error> {
         self.find_image(index).map_err(|error| error.in_file(self.name()))
     }

@@ -30,9 +30,9 @@ use select::select;
 
 /// Adds normals to every triangle primitive. The primitives of one mesh are shaded as one surface.
 ///
-/// Tangents that belonged to other normals are removed. Morph targets with position offsets get normal offsets. A document with nothing to
-/// do stays unchanged. Errors: invalid data of a primitive that gets normals; more corners than the memory limit permits. After an error the
-/// document is unspecified: drop it.
+/// Tangents that belonged to other normals are removed. Morph targets with position offsets get normal
+/// offsets. A document with nothing to do stays unchanged. Errors: invalid data of a primitive that gets
+/// normals; more corners than the memory limit permits. After an error the document is unspecified: drop it.
 pub fn add_normals(
     document: &mut Document,
     options: &AddNormalsOptions,
@@ -51,8 +51,8 @@ pub fn add_normals_with(
     add_normals_to(document, options, &|_| true, context, progress)
 }
 
-/// As [`add_normals_with`], for the primitives that `is_wanted` accepts. The others keep what they have, and do not count as parts of their
-/// meshes.
+/// As [`add_normals_with`], for the primitives that `is_wanted` accepts. The others keep what they have, and
+/// do not count as parts of their meshes.
 pub fn add_normals_to(
     document: &mut Document,
     options: &AddNormalsOptions,

@@ -1,13 +1,15 @@
 //! Rejects arrays where glTF requires objects.
 //!
-//! Structs that derive `Deserialize` can also be read from arrays, member by member, which glTF does not permit.
+//! Structs that derive `Deserialize` can also be read from arrays, member by member, which glTF does not
+//! permit.
 
 use std::fmt;
 
 use serde::de::{Deserializer, MapAccess, Visitor};
 use serde::forward_to_deserialize_any;
 
-/// Implements `Deserialize` for structs that derive it with `#[serde(remote = "Self")]`, from JSON objects only.
+/// Implements `Deserialize` for structs that derive it with `#[serde(remote = "Self")]`, from JSON objects
+/// only.
 macro_rules! read_from_objects {
     ($($name:ident),* $(,)?) => {$(
         impl<'de> serde::Deserialize<'de> for $name {

@@ -1,7 +1,8 @@
 //! The layout of an output: the destination of every buffer's bytes, and the JSON with the new offsets.
 //!
-//! A *binary output* is the binary chunk of a GLB, or a new file beside a `.gltf`. A GLB has one, to which all buffers are moved; a
-//! `.gltf` has one for each buffer that was in memory only. Buffer views move with their buffers.
+//! A *binary output* is the binary chunk of a GLB, or a new file beside a `.gltf`. A GLB has one, to which
+//! all buffers are moved; a `.gltf` has one for each buffer that was in memory only. Buffer views move with
+//! their buffers.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
@@ -109,8 +110,8 @@ pub struct OutputLayout<'a> {
 impl<'a> OutputLayout<'a> {
     /// The layout of a GLB: all buffers in the binary chunk, images in buffer views.
     ///
-    /// Buffers after the first that have extras or extensions become `data:` URIs, so that these are kept. Buffers without bytes keep
-    /// their JSON and follow the binary chunk.
+    /// Buffers after the first that have extras or extensions become `data:` URIs, so that these are kept.
+    /// Buffers without bytes keep their JSON and follow the binary chunk.
     pub fn glb(document: &'a Document) -> Result<Self, ContentError> {
         let mut layout = Self::empty(document);
         let mut binary = BinaryOutput::default();
@@ -154,8 +155,8 @@ impl<'a> OutputLayout<'a> {
         Ok(layout)
     }
 
-    /// The layout of a `.gltf`. Buffers keep their files; those that were in memory only, or in files that an earlier run made, get new
-    /// files. New bytes are appended to the first of these.
+    /// The layout of a `.gltf`. Buffers keep their files; those that were in memory only, or in files that an
+    /// earlier run made, get new files. New bytes are appended to the first of these.
     pub fn gltf(document: &'a Document) -> Result<Self, ContentError> {
         let mut layout = Self::empty(document);
         for (i, store) in document.buffers.iter().enumerate() {

@@ -1,6 +1,8 @@
-//! Names of files that are written beside an output. They come from names in the document, which may hold anything.
+//! Names of files that are written beside an output. They come from names in the document, which may hold
+//! anything.
 //!
-//! Whatever a document says, such a file lies in the output's folder or below, its URI can be read again, and Windows, macOS and Linux can have it.
+//! Whatever a document says, such a file lies in the output's folder or below, its URI can be read again, and
+//! Windows, macOS and Linux can have it.
 
 use std::collections::HashMap;
 use std::ffi::OsStr;
@@ -9,13 +11,16 @@ use std::path::{Component, Path, PathBuf};
 /// The most bytes of a part of a path. File systems permit 255, and a number may follow.
 const LONGEST_PART: usize = 240;
 
-/// Names that Windows takes for devices, also with an extension; the digits of `COM1` and `LPT1` are left out.
+/// Names that Windows takes for devices, also with an extension; the digits of `COM1` and `LPT1` are left
+/// out.
 const DEVICES: [&str; 8] = ["CON", "PRN", "AUX", "NUL", "COM", "LPT", "CONIN$", "CONOUT$"];
 
-/// A relative path for a new file: `path` without a root, `.` and `..`, and with `_` in place of whatever a URI cannot spell or a reader refuses.
+/// A relative path for a new file: `path` without a root, `.` and `..`, and with `_` in place of whatever a
+/// URI cannot spell or a reader refuses.
 ///
-/// These are bytes that are not UTF-8, control characters, the characters `:` and `\`, and dots and spaces at the end of a part. Devices of Windows
-/// get a `_` behind their name, and long parts are cut before their extension.
+/// These are bytes that are not UTF-8, control characters, the characters `:` and `\`, and dots and spaces at
+/// the end of a part. Devices of Windows get a `_` behind their name, and long parts are cut before their
+/// extension.
 pub fn portable(path: &Path) -> PathBuf {
     let parts = path.components().filter_map(|component| match component {
         Component::Normal(part) => Some(portable_part(part)),
@@ -55,13 +60,15 @@ fn is_device(stem: &str) -> bool {
         .any(|device| device.eq_ignore_ascii_case(name) && has_number == matches!(*device, "COM" | "LPT"))
 }
 
-/// The file name of an image, from its name: the part after the last `/` or `\`; none if nothing is left of it.
+/// The file name of an image, from its name: the part after the last `/` or `\`; none if nothing is left of
+/// it.
 pub fn image_stem(name: &str) -> Option<&str> {
     let name = name.rsplit(['/', '\\']).next().unwrap_or_default().trim();
     (!name.trim_matches('.').is_empty()).then_some(name)
 }
 
-/// Numbers that make names unique. The smallest numbers that are taken are remembered, so that many equal names take no more time each than the first.
+/// Numbers that make names unique. The smallest numbers that are taken are remembered, so that many equal
+/// names take no more time each than the first.
 #[derive(Debug, Default)]
 pub struct Numbers {
     first_free: HashMap<PathBuf, u32>,

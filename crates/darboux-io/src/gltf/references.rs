@@ -1,4 +1,5 @@
-//! Finds and checks the references in a document's JSON: indices into its arrays, such as the accessor of an attribute.
+//! Finds and checks the references in a document's JSON: indices into its arrays, such as the accessor of an
+//! attribute.
 
 use std::collections::BTreeSet;
 
@@ -46,8 +47,8 @@ impl ReferenceKind {
     }
 }
 
-/// The paths of references in glTF 2.0 and in the extensions of [`KNOWN_EXTENSIONS`]: keys from the root to a number. `*` stands for every key
-/// and every index.
+/// The paths of references in glTF 2.0 and in the extensions of [`KNOWN_EXTENSIONS`]: keys from the root to a
+/// number. `*` stands for every key and every index.
 const PATHS: &[(ReferenceKind, &str)] = &[
     (ReferenceKind::Accessor, "meshes.*.primitives.*.attributes.*"),
     (ReferenceKind::Accessor, "meshes.*.primitives.*.indices"),
@@ -346,7 +347,8 @@ fn path_of(steps: &[Step<'_>]) -> String {
     path
 }
 
-/// The first extension of a document, in order of names, that may refer to accessors or buffer views at unknown paths.
+/// The first extension of a document, in order of names, that may refer to accessors or buffer views at
+/// unknown paths.
 pub fn unknown_extension(json: &Value) -> Option<&str> {
     let is_known = |name: &str| {
         KNOWN_EXTENSIONS.contains(&name) || KNOWN_FAMILIES.iter().any(|family| name.starts_with(family))

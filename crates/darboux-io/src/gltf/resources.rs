@@ -1,7 +1,7 @@
 //! Resolves the URIs of a document: to files that may be read, to embedded data, or to other machines.
 //!
-//! Only regular files inside the document's folder are opened, unless the caller allows more: no absolute path, no `..` that leaves the
-//! folder, no link out of it.
+//! Only regular files inside the document's folder are opened, unless the caller allows more: no absolute
+//! path, no `..` that leaves the folder, no link out of it.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -68,7 +68,8 @@ impl Resources {
         self.base.as_deref()
     }
 
-    /// The target of `uri`. A file exists and may be read. The error is a clause that says what is wrong and what to do.
+    /// The target of `uri`. A file exists and may be read. The error is a clause that says what is wrong and
+    /// what to do.
     pub fn resolve<'a>(&self, uri: &'a str) -> Result<UriTarget<'a>, String> {
         match scheme(uri) {
             Some(name) if name.eq_ignore_ascii_case("data") => Ok(UriTarget::Data(&uri[5..])),
@@ -193,7 +194,8 @@ fn scheme(uri: &str) -> Option<&str> {
     is_scheme.then_some(name)
 }
 
-/// A relative path without `.` and `..`; none if it is absolute, leaves its folder, or has a form of Windows (`c:a`, `a\b`).
+/// A relative path without `.` and `..`; none if it is absolute, leaves its folder, or has a form of Windows
+/// (`c:a`, `a\b`).
 fn normalised(path: &str) -> Option<PathBuf> {
     let drive = path.as_bytes().get(1) == Some(&b':');
     if drive || path.contains(['\\', '\0']) {

@@ -1,4 +1,5 @@
-//! Writes documents: as a GLB in memory or a stream, or as files, the document after the files that it refers to.
+//! Writes documents: as a GLB in memory or a stream, or as files, the document after the files that it refers
+//! to.
 
 use std::collections::{HashMap, HashSet};
 use std::ffi::OsStr;
@@ -25,40 +26,46 @@ use crate::{Error, FileKind, SaveOptions, paths};
 impl Document {
     /// The document as a GLB with all its buffers and images, except remote and missing ones.
     ///
-    /// A GLB without edits and without external files is returned byte for byte. Errors: more than 4 GiB; files that cannot be read.
+    /// A GLB without edits and without external files is returned byte for byte. Errors: more than 4 GiB;
+    /// files that cannot be read.
     pub fn to_glb(&self) -> Result<Vec<u8>, Error> {
         Ok(segments::joined(&self.glb_segments()?))
     }
 
     /// Writes the bytes of [`Document::to_glb`] without assembling them in memory.
     ///
-    /// Errors: as [`Document::to_glb`], before anything is written; [`Error::Write`] about `name` if `out` fails.
+    /// Errors: as [`Document::to_glb`], before anything is written; [`Error::Write`] about `name` if `out`
+    /// fails.
     pub fn write_glb(&self, name: &Path, out: impl Write) -> Result<(), Error> {
         segments::write(&self.glb_segments()?, out)
             .map_err(|source| Error::Write { file: name.to_owned(), source })
     }
 
-    /// Writes the document and, for a `.gltf`, the files that it refers to. Returns the files written, the document last.
+    /// Writes the document and, for a `.gltf`, the files that it refers to. Returns the files written, the
+    /// document last.
     ///
-    /// The extension decides the container: `.glb` (or `.vrm`) or `.gltf`, or the format: `.obj` or `.ply`, which do not hold everything
-    /// ([`Document::left_out`]). New data of a `.gltf` goes into a new `.bin` file, materials of an `.obj` into a new `.mtl` file. Existing
-    /// files beside the output are never changed; one with the same content is reused. Missing folders are created. Errors: an existing
-    /// output without [`SaveOptions::force`]; the input, or a file that it refers to, as output; a `.gltf` of a GLB that has chunks of
-    /// unknown type. After an error, no file is left.
+    /// The extension decides the container: `.glb` (or `.vrm`) or `.gltf`, or the format: `.obj` or `.ply`,
+    /// which do not hold everything ([`Document::left_out`]). New data of a `.gltf` goes into a new
+    /// `.bin` file, materials of an `.obj` into a new `.mtl` file. Existing files beside the output are
+    /// never changed; one with the same content is reused. Missing folders are created. Errors: an existing
+    /// output without [`SaveOptions::force`]; the input, or a file that it refers to, as output; a `.gltf` of
+    /// a GLB that has chunks of unknown type. After an error, no file is left.
     pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<Vec<PathBuf>, Error> {
         let mut outputs = Outputs::new(options.run);
         self.stage(path, options, &mut outputs)?;
         outputs.commit()
     }
 
-    /// Stages the document as one of several outputs. The files that a `.gltf` needs get their names at once. Errors as of [`Document::save`].
+    /// Stages the document as one of several outputs. The files that a `.gltf` needs get their names at once.
+    /// Errors as of [`Document::save`].
     pub fn stage(&self, path: &Path, options: &SaveOptions, outputs: &mut Outputs) -> Result<(), Error> {
         let container = Container::of(path)?;
         let target = self.checked_target(path, options)?;
         self.stage_at(&target, container, options, outputs.staging())
     }
 
-    /// What a file of a kind does not hold of the document: a noun phrase each, such as `2 cameras`; nothing for glTF. Errors: invalid data.
+    /// What a file of a kind does not hold of the document: a noun phrase each, such as `2 cameras`; nothing
+    /// for glTF. Errors: invalid data.
     pub fn left_out(&self, kind: FileKind) -> Result<Vec<String>, Error> {
         match kind {
             FileKind::Ply => exchange::left_out(self, ExchangeFormat::Ply),
@@ -67,9 +74,11 @@ impl Document {
         }
     }
 
-    /// Replaces the input file, with the same container and permissions. Returns the files written, none without edits.
+    /// Replaces the input file, with the same container and permissions. Returns the files written, none
+    /// without edits.
     ///
-    /// Errors: as [`Document::save`]; a document that was not read from a file, or from another format than glTF; an input that no longer exists.
+    /// Errors: as [`Document::save`]; a document that was not read from a file, or from another format than
+    /// glTF; an input that no longer exists.
     pub fn save_in_place(&self) -> Result<Vec<PathBuf>, Error> {
         let input = self.input.as_ref().ok_or_else(|| Error::Output {
             file: self.name().into(),
@@ -92,8 +101,8 @@ impl Document {
         outputs.commit()
     }
 
-    /// The file of a buffer that an earlier run made for new data, if the document has edits: it gets a new file for that buffer. The old
-    /// file is kept, since other documents may refer to it.
+    /// The file of a buffer that an earlier run made for new data, if the document has edits: it gets a new
+    /// file for that buffer. The old file is kept, since other documents may refer to it.
     pub(super) fn replaced_file(&self, buffer: usize) -> Option<&LocatedFile> {
         let is_ours = self.element("buffers", buffer)["name"] == Buffer::NAME_FOR_NEW_DATA;
         match self.buffers.get(buffer) {
@@ -185,7 +194,8 @@ impl Document {
         Ok(vec![Segment::Owned(layout.json(&uris, &self.layout))])
     }
 
-    /// Writes the material library and the textures of an OBJ beside it. Returns the content of the exchange file.
+    /// Writes the material library and the textures of an OBJ beside it. Returns the content of the exchange
+    /// file.
     fn stage_exchange(
         &self,
         target: &Path,
@@ -245,8 +255,8 @@ impl Document {
         })
     }
 
-    /// Copies the files that the document refers to into the output's folder, unless that is the document's folder. Returns the files
-    /// whose path had to change, with their new URI.
+    /// Copies the files that the document refers to into the output's folder, unless that is the document's
+    /// folder. Returns the files whose path had to change, with their new URI.
     fn copy_files(
         &self,
         files: &[LocatedFile],
@@ -271,7 +281,8 @@ impl Document {
         Ok(renamed)
     }
 
-    /// The input file and the files on the disk that it refers to, links resolved. Missing files are left out.
+    /// The input file and the files on the disk that it refers to, links resolved. Missing files are left
+    /// out.
     pub fn source_files(&self) -> Vec<PathBuf> {
         if !self.resources.are_on_disk() {
             return Vec::new();
@@ -335,7 +346,8 @@ impl Container {
     }
 }
 
-/// The path of a texture as a material library spells it. A path that begins as an option does, or with white space, begins with the folder.
+/// The path of a texture as a material library spells it. A path that begins as an option does, or with white
+/// space, begins with the folder.
 fn path_in_library(path: &Path) -> String {
     let path = path.to_string_lossy().replace('\\', "/");
     if path.starts_with(|c: char| c == '-' || c.is_whitespace()) { format!("./{path}") } else { path }
@@ -374,8 +386,8 @@ impl<'a> FileNames<'a> {
         self.place(wanted, staging, |file| holds(file, segments), write)
     }
 
-    /// Puts a file into the folder under the name `wanted` or, if that is taken, `wanted_1`, `wanted_2` and so on. An existing file for
-    /// which `is_same` holds is used as it is. Returns the relative path.
+    /// Puts a file into the folder under the name `wanted` or, if that is taken, `wanted_1`, `wanted_2` and
+    /// so on. An existing file for which `is_same` holds is used as it is. Returns the relative path.
     ///
     /// The name has no characters that a URI cannot spell or that readers refuse.
     fn place(

@@ -26,7 +26,8 @@ const MAX_MESH_INSTANCES: usize = 1 << 20;
 pub struct MeshInstances {
     /// The meshes of all nodes.
     pub meshes: Vec<MeshInstance>,
-    /// The joint matrices of every skin, from the bind pose of the mesh to the scene; empty for unused skins.
+    /// The joint matrices of every skin, from the bind pose of the mesh to the scene; empty for unused
+    /// skins.
     pub skins: Vec<Vec<[[f64; 4]; 4]>>,
 }
 
@@ -37,10 +38,11 @@ pub struct MeshInstance {
     pub mesh: usize,
     /// The name of the node, if it has one.
     pub node_name: Option<String>,
-    /// The transforms from the mesh to the scene, in columns: one per instance of `EXT_mesh_gpu_instancing`, otherwise one. The identity
-    /// for a skinned mesh.
+    /// The transforms from the mesh to the scene, in columns: one per instance of `EXT_mesh_gpu_instancing`,
+    /// otherwise one. The identity for a skinned mesh.
     pub matrices: Vec<[[f64; 4]; 4]>,
-    /// The weights of morph targets; empty if all are zero. Nodes without weights of their own share those of the mesh.
+    /// The weights of morph targets; empty if all are zero. Nodes without weights of their own share those
+    /// of the mesh.
     pub weights: Arc<[f64]>,
     /// The index of the skin that moves its vertices.
     pub skin: Option<usize>,
@@ -131,8 +133,8 @@ fn no_scale() -> [f64; 3] {
 impl Document {
     /// The meshes of the default scene, without animation.
     ///
-    /// A document without scenes has all nodes in its scene, one without nodes all meshes. Errors: joints outside the scene, missing matrices, nodes with several parents, more
-    /// than 2^20 instances.
+    /// A document without scenes has all nodes in its scene, one without nodes all meshes. Errors: joints
+    /// outside the scene, missing matrices, nodes with several parents, more than 2^20 instances.
     pub fn mesh_instances(&self) -> Result<MeshInstances, Error> {
         let scenes: Scenes = self.read().map_err(|error| error.in_file(self.name()))?;
         let nodes = placed_nodes(&scenes).map_err(|error| error.in_file(self.name()))?;
@@ -215,7 +217,8 @@ impl Document {
         Ok(Some(MeshInstance { mesh, node_name, matrices, weights, skin: node.skin }))
     }
 
-    /// The joint matrices of a skin. `at` is its JSON path; `nodes` has the transforms of the nodes in the scene, by index.
+    /// The joint matrices of a skin. `at` is its JSON path; `nodes` has the transforms of the nodes in the
+    /// scene, by index.
     fn joints(
         &self,
         skin: &Skin,

@@ -84,7 +84,8 @@ pub struct Primitive {
 }
 
 impl Primitive {
-    /// The materials that it is drawn with: its own first, then those of its variants (`KHR_materials_variants`), each once.
+    /// The materials that it is drawn with: its own first, then those of its variants
+    /// (`KHR_materials_variants`), each once.
     pub fn materials(&self) -> Vec<usize> {
         let variants = self.extensions.variants.iter().flat_map(|variants| &variants.mappings);
         let others: BTreeSet<usize> = variants.map(|mapping| mapping.material).collect();

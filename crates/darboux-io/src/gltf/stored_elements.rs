@@ -1,4 +1,5 @@
-//! Converts the stored elements of an accessor to floats and indices, or borrows them if the file has them in that form.
+//! Converts the stored elements of an accessor to floats and indices, or borrows them if the file has them in
+//! that form.
 
 use std::borrow::Cow;
 

@@ -51,8 +51,9 @@ use write::{GroupAccessors, TangentWriter};
 
 /// Adds tangents to every triangle primitive that has positions, normals and UVs.
 ///
-/// A document without such primitives stays unchanged. Errors: invalid data of a primitive that gets tangents; more corners than the
-/// memory limit permits; with [`AddTangentsOptions::strict`], unusable vertex data. After an error the document is unspecified: drop it.
+/// A document without such primitives stays unchanged. Errors: invalid data of a primitive that gets
+/// tangents; more corners than the memory limit permits; with [`AddTangentsOptions::strict`], unusable vertex
+/// data. After an error the document is unspecified: drop it.
 pub fn add_tangents(
     document: &mut Document,
     options: &AddTangentsOptions,
@@ -61,8 +62,8 @@ pub fn add_tangents(
     add_tangents_with(document, options, &mut Context::new(), Generate::OnCpu, progress)
 }
 
-/// As [`add_tangents`], with a context, and with tangents that `generate` computes, for example on a GPU. Tangents of morph targets are
-/// computed on the CPU.
+/// As [`add_tangents`], with a context, and with tangents that `generate` computes, for example on a GPU.
+/// Tangents of morph targets are computed on the CPU.
 ///
 /// Further errors: those of `generate`; the context's token was cancelled.
 pub fn add_tangents_with(

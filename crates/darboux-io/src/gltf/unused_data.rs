@@ -1,6 +1,7 @@
 //! Finds accessors, buffer views and bytes that nothing refers to any more.
 //!
-//! What nothing in the input referred to is kept: it may be there for a reason that is not written in the file.
+//! What nothing in the input referred to is kept: it may be there for a reason that is not written in the
+//! file.
 //!
 //! ```text
 //! unused accessors = accessors without a reference
@@ -38,8 +39,8 @@ struct BufferUse {
 const ALIGNMENT: usize = 16;
 
 impl UnusedData {
-    /// The unused data of a document, compressed data that was decoded included; nothing in a document that is as it was read, or if an unknown extension
-    /// might refer to it.
+    /// The unused data of a document, compressed data that was decoded included; nothing in a document that
+    /// is as it was read, or if an unknown extension might refer to it.
     pub fn of(document: &Document) -> Self {
         let differs = document.is_changed() || document.was_compressed;
         match differs && unknown_extension(&document.json).is_none() {
@@ -90,7 +91,8 @@ impl UnusedData {
         all - self.is_unused_view.iter().filter(|&&is_unused| is_unused).count()
     }
 
-    /// The JSON without the unused accessors and with references renumbered; none if nothing is unused. Buffer views are still all there.
+    /// The JSON without the unused accessors and with references renumbered; none if nothing is unused.
+    /// Buffer views are still all there.
     pub fn cleared(&self, json: &Value) -> Option<Value> {
         let has_unused = |list: &[bool]| list.contains(&true);
         if !has_unused(&self.is_unused_accessor) && !has_unused(&self.is_unused_view) {
@@ -119,7 +121,8 @@ impl UnusedData {
 }
 
 impl Document {
-    /// A warning if unused data is kept because an unknown extension might refer to it. Returned once per document.
+    /// A warning if unused data is kept because an unknown extension might refer to it. Returned once per
+    /// document.
     pub(super) fn unused_data_warning(&mut self) -> Option<String> {
         if self.is_unused_data_reported || !self.is_changed {
             return None;

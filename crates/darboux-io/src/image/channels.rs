@@ -5,7 +5,8 @@ use std::str::FromStr;
 
 use png::ColorType;
 
-/// The channels of x, y and, if it is stored, z: `rgb`, `rg`, `ag` (x in alpha, y in green), `la` (grey and alpha) and so on.
+/// The channels of x, y and, if it is stored, z: `rgb`, `rg`, `ag` (x in alpha, y in green), `la` (grey and
+/// alpha) and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Channels {
     x: PngChannel,

@@ -22,7 +22,8 @@ pub struct Chunks<'a> {
 }
 
 impl<'a> Chunks<'a> {
-    /// Splits a file into its chunks. Checksums are not checked. Errors: a file that is not a PNG, or ends within a chunk.
+    /// Splits a file into its chunks. Checksums are not checked. Errors: a file that is not a PNG, or ends
+    /// within a chunk.
     pub fn split(file: &'a [u8]) -> Result<Self, ContentError> {
         let Some(mut rest) = file.strip_prefix(&SIGNATURE) else {
             return Err(ContentError::invalid("", "is not a PNG; save it as one"));

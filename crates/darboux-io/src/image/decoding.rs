@@ -2,7 +2,8 @@
 
 use crate::MemoryLimit;
 
-/// The largest image that is decoded. By default the sides may have 16,384 texels and the image 2^27, which take 512 MiB.
+/// The largest image that is decoded. By default the sides may have 16,384 texels and the image 2^27, which
+/// take 512 MiB.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct DecodeLimits {
@@ -16,7 +17,8 @@ pub struct DecodeLimits {
 const BYTES_PER_TEXEL: u64 = 8;
 
 impl DecodeLimits {
-    /// The limits for a file of `size` bytes: the default, and at most the texels that fit a memory limit while they are decoded.
+    /// The limits for a file of `size` bytes: the default, and at most the texels that fit a memory limit
+    /// while they are decoded.
     pub fn of_file(size: usize, limit: MemoryLimit) -> Self {
         let limits = Self::default();
         let texels = limit.budget(size, 0, "").bytes as u64 / BYTES_PER_TEXEL;

@@ -1,4 +1,5 @@
-//! Decodes the first image of KTX 2 files: Basis Universal (ETC1S and UASTC, as KHR_texture_basisu has them), and uncompressed texels.
+//! Decodes the first image of KTX 2 files: Basis Universal (ETC1S and UASTC, as KHR_texture_basisu has them),
+//! and uncompressed texels.
 
 use ktx2::{Format, Header, Level, Reader, SupercompressionScheme};
 use ruzstd::StreamingDecoder;
@@ -18,7 +19,8 @@ pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<(u32, u32, Vec<[u8; 
     if header.layer_count > 1 || header.face_count != 1 || header.pixel_depth > 1 {
         return Err(broken("it is no single picture, but an array, a cube or a volume"));
     }
-    // Four by four texels take at most 16 bytes. Without this test, damaged lengths ask for any amount of memory.
+    // Four by four texels take at most 16 bytes. Without this test, damaged lengths ask for any amount of
+    // memory.
     let blocks = u64::from(width.div_ceil(4)) * u64::from(height.div_ceil(4));
     let is_too_long = |level: Level<'_>| level.uncompressed_byte_length > 16 * blocks;
     if header.format.is_none() && reader.levels().any(is_too_long) {
@@ -35,7 +37,8 @@ pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<(u32, u32, Vec<[u8; 
     Ok((width, height, texels))
 }
 
-/// Whether the data format descriptor has whole blocks with sizes of texel blocks below 256. The crate `ktx2` 0.5 panics at others.
+/// Whether the data format descriptor has whole blocks with sizes of texel blocks below 256. The crate `ktx2`
+/// 0.5 panics at others.
 fn has_sound_descriptor(file: &[u8]) -> bool {
     let word = |at: usize| Some(u32::from_le_bytes(*file.get(at..)?.first_chunk()?) as usize);
     let (Some(start), Some(length)) = (word(48), word(52)) else { return false };

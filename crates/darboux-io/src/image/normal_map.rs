@@ -1,4 +1,5 @@
-//! Converts normal maps between conventions and channels: [`darboux::Conversion::texels`] and [`darboux::repack_texels`] on images.
+//! Converts normal maps between conventions and channels: [`darboux::Conversion::texels`] and
+//! [`darboux::repack_texels`] on images.
 
 use darboux::{Channel, Conversion, TexelLayout, repack_texels};
 
@@ -7,11 +8,11 @@ use super::png_image::{PngImage, Texels};
 use crate::Error;
 use crate::error::ContentError;
 
-/// Converts a normal map in place: inverts red and green as `conversion` requires, and moves the vector from the channels `from` to the
-/// channels `to`.
+/// Converts a normal map in place: inverts red and green as `conversion` requires, and moves the vector from
+/// the channels `from` to the channels `to`.
 ///
-/// Channels outside the vector keep their content. If `to` has a z and `from` does not, z is reconstructed. The kind of texels changes if
-/// `to` requires it. Errors: the image does not have the channels `from`.
+/// Channels outside the vector keep their content. If `to` has a z and `from` does not, z is reconstructed.
+/// The kind of texels changes if `to` requires it. Errors: the image does not have the channels `from`.
 pub fn convert_normal_map(
     image: &mut PngImage,
     conversion: &Conversion,
@@ -35,7 +36,8 @@ pub fn convert_normal_map(
     Ok(())
 }
 
-/// The vectors of all texels, row after row, as [`TexelLayout::vector`] decodes them: not normalised. A z that is not stored is reconstructed.
+/// The vectors of all texels, row after row, as [`TexelLayout::vector`] decodes them: not normalised. A z
+/// that is not stored is reconstructed.
 ///
 /// Errors: the image does not have the channels.
 pub fn normal_vectors(image: &PngImage, channels: Channels) -> Result<Vec<[f32; 3]>, Error> {
@@ -47,9 +49,11 @@ pub fn normal_vectors(image: &PngImage, channels: Channels) -> Result<Vec<[f32; 
     })
 }
 
-/// Replaces the vectors of all texels; each component becomes the nearest code. Other channels keep their content.
+/// Replaces the vectors of all texels; each component becomes the nearest code. Other channels keep their
+/// content.
 ///
-/// `vectors`: one per texel, with components from -1 to 1. Errors: the image does not have the channels, or another number of texels.
+/// `vectors`: one per texel, with components from -1 to 1. Errors: the image does not have the channels, or
+/// another number of texels.
 pub fn set_normal_vectors(
     image: &mut PngImage,
     channels: Channels,
@@ -103,7 +107,8 @@ fn encoded<C: Channel>(
     channels
 }
 
-/// Changes red, green and blue of every texel, each a number from 0 to 1, and rounds to the image's bit depth. Alpha is kept.
+/// Changes red, green and blue of every texel, each a number from 0 to 1, and rounds to the image's bit
+/// depth. Alpha is kept.
 ///
 /// Errors: the image does not have these channels.
 pub fn change_texels(image: &mut PngImage, change: impl Fn([f64; 3]) -> [f64; 3]) -> Result<(), Error> {
@@ -142,8 +147,8 @@ fn changed<C: Channel>(
     channels
 }
 
-/// Counts the texels whose channels do not hold a unit normal ([`TexelLayout::holds_normal`]): nearly none in a normal map, most in a
-/// photograph, all if the image does not have the channels.
+/// Counts the texels whose channels do not hold a unit normal ([`TexelLayout::holds_normal`]): nearly none in
+/// a normal map, most in a photograph, all if the image does not have the channels.
 pub fn count_invalid_normals(image: &PngImage, channels: Channels) -> usize {
     let indices = channels.indices(image.color);
     match (&image.texels, indices) {
@@ -168,7 +173,8 @@ fn count_invalid<C: Channel>(channels: &[C], samples: usize, indices: VectorChan
 /// The indices of the channels of x, y and z.
 type VectorChannels = (usize, usize, Option<usize>);
 
-/// Converts texels of `before` channels, with the vector in `from`, to texels of `after` channels, with the vector in `to`.
+/// Converts texels of `before` channels, with the vector in `from`, to texels of `after` channels, with the
+/// vector in `to`.
 fn converted<C: Channel>(
     channels: &[C],
     conversion: &Conversion,

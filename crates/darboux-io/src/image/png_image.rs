@@ -14,7 +14,8 @@ use crate::error::ContentError;
 use crate::staging::Outputs;
 use crate::{Error, SaveOptions, paths};
 
-/// A PNG with 8 or 16 bits per channel: grey with alpha, RGB or RGBA, to which a palette is expanded; grey alone where it is made here.
+/// A PNG with 8 or 16 bits per channel: grey with alpha, RGB or RGBA, to which a palette is expanded; grey
+/// alone where it is made here.
 #[derive(Debug)]
 pub struct PngImage {
     name: String,
@@ -68,13 +69,13 @@ const COPIES: usize = 3;
 /// Chunks whose content depends on the channels of texels and their bit depth.
 const CHUNKS_OF_TEXELS: [&[u8; 4]; 3] = [b"tRNS", b"bKGD", b"sBIT"];
 
-/// Chunks that are valid for colours only, or for greys only: palettes and profiles (PNG specification, third edition, 11.2.2 and
-/// 11.3.2.3).
+/// Chunks that are valid for colours only, or for greys only: palettes and profiles (PNG specification, third
+/// edition, 11.2.2 and 11.3.2.3).
 const CHUNKS_OF_COLOURS: [&[u8; 4]; 4] = [b"PLTE", b"sPLT", b"hIST", b"iCCP"];
 
 impl PngImage {
-    /// Reads a PNG. Errors: a file that cannot be read; a file that is not a PNG of a supported kind, or is damaged; more texels than
-    /// [`LoadOptions::memory_limit`] permits.
+    /// Reads a PNG. Errors: a file that cannot be read; a file that is not a PNG of a supported kind, or is
+    /// damaged; more texels than [`LoadOptions::memory_limit`] permits.
     pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Error> {
         let bytes = paths::read_regular(path)?;
         Self::from_bytes(&path.display().to_string(), bytes, options)
@@ -85,7 +86,8 @@ impl PngImage {
         Self::decode(name, bytes, options).map_err(|error| error.in_file(name))
     }
 
-    /// An image of RGB texels, row after row, the top row first. Errors: the number of texels is not `width` times `height`.
+    /// An image of RGB texels, row after row, the top row first. Errors: the number of texels is not `width`
+    /// times `height`.
     pub fn from_rgb<S: Sample>(name: &str, size: [u32; 2], texels: &[[S; 3]]) -> Result<Self, Error> {
         Self::from_channels(name, size, ColorType::Rgb, S::texels(texels.as_flattened()))
     }
@@ -146,8 +148,8 @@ impl PngImage {
         bytes.starts_with(&chunks::SIGNATURE)
     }
 
-    /// Why a file cannot be read as an image of this kind, judged by its header and the kinds of its chunks, as a clause whose subject is the
-    /// image; none if it can, unless its texels are damaged.
+    /// Why a file cannot be read as an image of this kind, judged by its header and the kinds of its chunks,
+    /// as a clause whose subject is the image; none if it can, unless its texels are damaged.
     pub fn obstacle(file: &[u8]) -> Option<String> {
         let checked = || {
             let chunks = Chunks::split(file)?;
@@ -238,8 +240,8 @@ impl PngImage {
         self.is_changed
     }
 
-    /// The file. Without changes it is the file that was read; otherwise it has new texels, and all other chunks are kept except those
-    /// that are not valid for the new kind of texels.
+    /// The file. Without changes it is the file that was read; otherwise it has new texels, and all other
+    /// chunks are kept except those that are not valid for the new kind of texels.
     ///
     /// An interlaced image becomes one that is not. Errors: the texels cannot be encoded.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
@@ -277,8 +279,8 @@ impl PngImage {
         out
     }
 
-    /// Writes the image. Errors: an existing file without [`SaveOptions::force`], or one that is not regular; a path that cannot be
-    /// written. After an error, no file is left.
+    /// Writes the image. Errors: an existing file without [`SaveOptions::force`], or one that is not regular;
+    /// a path that cannot be written. After an error, no file is left.
     pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<PathBuf, Error> {
         let mut outputs = Outputs::new(options.run);
         self.stage(path, options, &mut outputs)?;

@@ -1,4 +1,5 @@
-//! Why an image cannot be decoded, in the words of its format: what the decoders say is meant for their developers.
+//! Why an image cannot be decoded, in the words of its format: what the decoders say is meant for their
+//! developers.
 
 use png::DecodingError;
 

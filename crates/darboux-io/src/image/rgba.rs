@@ -1,4 +1,5 @@
-//! Decodes texture files (PNG, JPEG, WebP; KTX 2 with the feature `ktx2`) to 8-bit RGBA texels. The first bytes of a file decide its format.
+//! Decodes texture files (PNG, JPEG, WebP; KTX 2 with the feature `ktx2`) to 8-bit RGBA texels. The first
+//! bytes of a file decide its format.
 
 use std::io::Cursor;
 
@@ -29,7 +30,8 @@ const JPEG: &[u8] = b"\xFF\xD8\xFF";
 const KTX2: &[u8] = b"\xABKTX 20\xBB\r\n\x1A\n";
 
 impl RgbaImage {
-    /// Decodes an image file. Grey becomes RGB; 16-bit channels are rounded to 8 bits; without alpha, texels are opaque.
+    /// Decodes an image file. Grey becomes RGB; 16-bit channels are rounded to 8 bits; without alpha, texels
+    /// are opaque.
     pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<Self, DecodeError> {
         let brand = file.get(8..12);
         if file.starts_with(&PNG) {
@@ -56,8 +58,8 @@ impl RgbaImage {
             || cfg!(feature = "ktx2") && file.starts_with(KTX2)
     }
 
-    /// Whether the image has colours, as normal maps do and height maps do not: whether the channels of its texels differ by more than 24 of
-    /// 255 on average.
+    /// Whether the image has colours, as normal maps do and height maps do not: whether the channels of its
+    /// texels differ by more than 24 of 255 on average.
     ///
     /// The image is averaged down to 32 x 32 texels first, so that noise does not count.
     pub fn is_colored(&self) -> bool {
@@ -135,13 +137,14 @@ fn decode_jpeg(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeEr
     Ok(RgbaImage { width: width as u32, height: height as u32, texels })
 }
 
-/// Whether the segments of a JPEG reach the marker of its end (ITU-T T.81, annex B). A thumbnail in the metadata has such a marker, too, so the
-/// segments are followed by their lengths.
+/// Whether the segments of a JPEG reach the marker of its end (ITU-T T.81, annex B). A thumbnail in the
+/// metadata has such a marker, too, so the segments are followed by their lengths.
 fn ends_with_its_image(file: &[u8]) -> bool {
     const END: u8 = 0xD9;
     let mut at = 2;
     loop {
-        // A marker is 0xFF, repeated as often as one likes, and a code. In the data of a scan, 0xFF 0x00 is a byte and 0xD0 to 0xD7 are restarts.
+        // A marker is 0xFF, repeated as often as one likes, and a code. In the data of a scan, 0xFF 0x00 is a
+        // byte and 0xD0 to 0xD7 are restarts.
         let rest = file.get(at..).unwrap_or_default();
         let is_marker = |pair: &[u8]| pair[0] == 0xFF && !matches!(pair[1], 0 | 0xD0..=0xD7 | 0xFF);
         let Some(skipped) = rest.windows(2).position(is_marker) else { return false };

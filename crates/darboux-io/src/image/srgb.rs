@@ -1,4 +1,5 @@
-//! The sRGB transfer function (IEC 61966-2-1), with the same bits on every platform: the power functions of systems differ in the last bit.
+//! The sRGB transfer function (IEC 61966-2-1), with the same bits on every platform: the power functions of
+//! systems differ in the last bit.
 
 /// The linear value of a channel in sRGB, both from 0 to 1.
 pub fn srgb_to_linear(channel: f64) -> f64 {
@@ -21,7 +22,8 @@ pub fn linear_to_srgb(channel: f64) -> f64 {
     1.055 * root((square * square * channel).sqrt().sqrt(), 3) - 0.055
 }
 
-/// The root of a positive number by Newton's method, from a guess whose exponent is right; relative error below 1e-15.
+/// The root of a positive number by Newton's method, from a guess whose exponent is right; relative error
+/// below 1e-15.
 fn root(x: f64, degree: i32) -> f64 {
     const ONE: i64 = 1.0f64.to_bits() as i64;
     let guess = f64::from_bits(((x.to_bits() as i64 - ONE) / i64::from(degree) + ONE) as u64);

@@ -7,8 +7,8 @@ use crate::memory_limit::Budget;
 /// The deepest nesting of arrays and objects. Deeper JSON could exhaust the stack of a program that walks it.
 const MAX_DEPTH: usize = 100;
 
-/// The memory of a value without its text, and of a member of an object with its value: beside that of the finished list, that of the one that grew, and for
-/// a member that of the index of its key.
+/// The memory of a value without its text, and of a member of an object with its value: beside that of the
+/// finished list, that of the one that grew, and for a member that of the index of its key.
 const BYTES_PER_VALUE: usize = 96;
 const BYTES_PER_MEMBER: usize = 224;
 
@@ -17,8 +17,9 @@ const LONGEST_PATH: usize = 12;
 
 /// Parses the JSON of a document.
 ///
-/// Errors: it is not JSON; an object has a key twice, of which readers would see different values; it is nested more than 100 levels deep;
-/// a number is beyond the range of 64-bit floats; the value would take more memory than `limit`.
+/// Errors: it is not JSON; an object has a key twice, of which readers would see different values; it is
+/// nested more than 100 levels deep; a number is beyond the range of 64-bit floats; the value would take more
+/// memory than `limit`.
 pub fn parse(text: &str, limit: Budget) -> Result<Value, ContentError> {
     let mut parser = Parser {
         text,

@@ -22,8 +22,8 @@ const LONGEST_INDENTATION: usize = 16;
 /// The white space of one level in place of a longer one.
 const DEFAULT_INDENTATION: &str = "  ";
 
-/// The white space of an output by the size of its input. Text that is nested deeply would need any amount of it. Lines of a few characters
-/// on ten levels of two spaces need ten times their own size.
+/// The white space of an output by the size of its input. Text that is nested deeply would need any amount of
+/// it. Lines of a few characters on ten levels of two spaces need ten times their own size.
 const WHITE_SPACE_PER_BYTE: usize = 16;
 
 /// The white space that the shortest text may get.
@@ -37,7 +37,8 @@ pub enum Part<'a> {
 }
 
 impl TextLayout {
-    /// The layout of a JSON text, by the white space before its first key. A longer one than 16 characters becomes two spaces.
+    /// The layout of a JSON text, by the white space before its first key. A longer one than 16 characters
+    /// becomes two spaces.
     pub fn of(text: &str) -> Self {
         let first_line = text.trim_start().strip_prefix('{').and_then(|rest| {
             let has_carriage_returns = rest.starts_with("\r\n");

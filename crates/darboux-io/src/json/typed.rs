@@ -11,7 +11,8 @@ use serde_path_to_error::Segment;
 use super::value::{Key, Number, Value};
 use crate::error::{ContentError, shortened};
 
-/// A part of a document's JSON as another type. `at` is the JSON path of the part. Errors: it is not of that type.
+/// A part of a document's JSON as another type. `at` is the JSON path of the part. Errors: it is not of that
+/// type.
 pub fn read<T: DeserializeOwned>(value: &Value, at: &str) -> Result<T, ContentError> {
     // Tracking the path of a failure costs time, so only a value that fails is read again for it.
     T::deserialize(value).or_else(|_| {

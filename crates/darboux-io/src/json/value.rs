@@ -1,4 +1,5 @@
-//! [`Value`]: a JSON value whose objects keep the order of their members and whose numbers keep their spelling.
+//! [`Value`]: a JSON value whose objects keep the order of their members and whose numbers keep their
+//! spelling.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -25,7 +26,8 @@ pub enum Value {
 static NULL: Value = Value::Null;
 
 impl Value {
-    /// The member of an object with a key, or the element of an array with an index; none if it does not exist.
+    /// The member of an object with a key, or the element of an array with an index; none if it does not
+    /// exist.
     pub fn get(&self, place: impl Place) -> Option<&Self> {
         place.of(self)
     }
@@ -255,7 +257,8 @@ impl Map {
         &mut self.members[place].1
     }
 
-    /// Sets a member, which keeps its place if it exists and else becomes the last one. Returns the old value.
+    /// Sets a member, which keeps its place if it exists and else becomes the last one. Returns the old
+    /// value.
     pub fn insert(&mut self, key: impl AsRef<str>, value: Value) -> Option<Value> {
         let is_new = !self.contains_key(key.as_ref());
         let old = std::mem::replace(self.get_or_add(key.as_ref()), value);
@@ -340,7 +343,8 @@ pub trait Place: Copy {
     fn of(self, value: &Value) -> Option<&Value>;
     /// The value at the place, to change it.
     fn of_mut(self, value: &mut Value) -> Option<&mut Value>;
-    /// The value at the place, which is added if it is a member that does not exist. Null becomes an object for it.
+    /// The value at the place, which is added if it is a member that does not exist. Null becomes an object
+    /// for it.
     fn of_or_add(self, value: &mut Value) -> Option<&mut Value>;
 }
 

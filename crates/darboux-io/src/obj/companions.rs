@@ -9,10 +9,12 @@ use super::statements::statements;
 use crate::error::ContentError;
 use crate::{Error, paths};
 
-/// References in longer lines are ignored: no path has more bytes, and a reference may begin at every word of a line.
+/// References in longer lines are ignored: no path has more bytes, and a reference may begin at every word of
+/// a line.
 const LONGEST_LINE: usize = 4096;
 
-/// The most paths that are looked up for one OBJ. Every word of a library may be a path, and each lookup asks the operating system.
+/// The most paths that are looked up for one OBJ. Every word of a library may be a path, and each lookup asks
+/// the operating system.
 const MAX_LOOKUPS: usize = 100_000;
 
 /// What is wrong with a file without faces.
@@ -29,13 +31,15 @@ pub struct Companion {
 }
 
 impl Companion {
-    /// The content of the file. Errors: the file cannot be read; it is no longer a regular file without links in its path.
+    /// The content of the file. Errors: the file cannot be read; it is no longer a regular file without links
+    /// in its path.
     pub fn read(&self) -> io::Result<Vec<u8>> {
         paths::read_resolved(&self.path)
     }
 }
 
-/// The libraries and textures that the OBJ at `path` refers to. Files outside its folder and missing files are left out.
+/// The libraries and textures that the OBJ at `path` refers to. Files outside its folder and missing files
+/// are left out.
 ///
 /// Errors: the file cannot be read; it has no faces.
 pub fn companions(path: &Path) -> Result<Vec<Companion>, Error> {
@@ -107,7 +111,8 @@ impl FileLookup {
 
     /// The texture that a statement of a material library names.
     ///
-    /// Options may stand before the name, and the name may contain spaces, so the longest end of the line that names a file is taken.
+    /// Options may stand before the name, and the name may contain spaces, so the longest end of the line
+    /// that names a file is taken.
     fn texture(&self, library: &str, line: &[u8]) -> Option<Companion> {
         if line.len() > LONGEST_LINE {
             return None;
@@ -119,7 +124,8 @@ impl FileLookup {
         self.textures.borrow_mut().entry((library.to_owned(), line.to_owned())).or_insert_with(find).clone()
     }
 
-    /// The file that `reference` names, relative to the file `base`; none unless it is a file in the folder or below, links followed.
+    /// The file that `reference` names, relative to the file `base`; none unless it is a file in the folder
+    /// or below, links followed.
     fn find(&self, base: &str, reference: &[u8]) -> Option<Companion> {
         self.left.set(self.left.get().checked_sub(1)?);
         inside(&self.folder, base, reference)
@@ -131,7 +137,8 @@ fn is_texture(word: &[u8]) -> bool {
     word.starts_with(b"map_") || [&b"norm"[..], b"bump", b"disp", b"decal", b"refl"].contains(&&word[..])
 }
 
-/// The file that `reference` names, relative to the file `base`; none unless it is a file in `folder` or below, links followed.
+/// The file that `reference` names, relative to the file `base`; none unless it is a file in `folder` or
+/// below, links followed.
 fn inside(folder: &Path, base: &str, reference: &[u8]) -> Option<Companion> {
     let reference = str::from_utf8(reference).ok()?.replace('\\', "/");
     let mut parts: Vec<&str> = base.split('/').collect();

@@ -172,7 +172,8 @@ impl<'a> Materials<'a> {
         Some(SourceTexture { image: image?, ..SourceTexture::default() })
     }
 
-    /// The image of a statement. Its options may be unknown, and its name may contain spaces, so the longest end of the line that names a file is taken.
+    /// The image of a statement. Its options may be unknown, and its name may contain spaces, so the longest
+    /// end of the line that names a file is taken.
     fn find_image(&mut self, library: &str, map: &MtlMap) -> Option<usize> {
         let found = self.files.find(library, &map.file).map(|file| (&*map.file, file)).or_else(|| {
             let line = &*map.statement;

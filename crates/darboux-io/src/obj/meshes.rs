@@ -1,4 +1,5 @@
-//! Makes a mesh of each object and group: its positions, UVs and normals are those that its faces use, in the order of use.
+//! Makes a mesh of each object and group: its positions, UVs and normals are those that its faces use, in the
+//! order of use.
 
 use super::text::{NONE, ObjText, Run};
 use crate::error::ContentError;

@@ -1,4 +1,5 @@
-//! Parses material libraries (MTL), with the metallic-roughness statements that Blender and other programs write.
+//! Parses material libraries (MTL), with the metallic-roughness statements that Blender and other programs
+//! write.
 
 use super::statements::{statements, words};
 

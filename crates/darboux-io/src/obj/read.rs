@@ -142,7 +142,8 @@ fn number(word: &[u8]) -> Result<f32, String> {
     })
 }
 
-/// The indices of a corner, such as `1/2/3`, `1//3` or `-1`. `counts`: the positions, UVs and normals before the face.
+/// The indices of a corner, such as `1/2/3`, `1//3` or `-1`. `counts`: the positions, UVs and normals before
+/// the face.
 fn corner(word: &[u8], counts: [usize; 3]) -> Result<Corner, String> {
     let wrong = || {
         format!(

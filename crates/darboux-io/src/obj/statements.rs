@@ -4,7 +4,8 @@ use crate::source::without_byte_order_mark;
 
 /// The statements of a text with the numbers of their lines: the first word, and the rest of the line.
 ///
-/// A byte order mark at the start belongs to no statement. A line that ends with `\` continues on the next one; the rest then contains the line break, which is white space as any other.
+/// A byte order mark at the start belongs to no statement. A line that ends with `\` continues on the next
+/// one; the rest then contains the line break, which is white space as any other.
 pub fn statements(text: &[u8]) -> impl Iterator<Item = (usize, &[u8], &[u8])> {
     let (mut rest, mut number) = (without_byte_order_mark(text), 0);
     std::iter::from_fn(move || {

@@ -7,7 +7,8 @@ use crate::source::{ModelFiles, SourceImage, SourceMaterial, SourceScene, Source
 /// The most textures. Files of MeshLab have a few; each makes a material.
 const MOST: usize = 10_000;
 
-/// Adds a material for each texture that the comments name, with its image where the file is found. Returns how many.
+/// Adds a material for each texture that the comments name, with its image where the file is found. Returns
+/// how many.
 pub fn add(header: &Header, files: &ModelFiles, scene: &mut SourceScene) -> usize {
     let names = header.comments.iter().filter_map(|comment| {
         let rest = comment.strip_prefix("comment")?.trim_start();

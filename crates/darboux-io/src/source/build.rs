@@ -1,4 +1,5 @@
-//! Builds a glTF document from a scene: its faces cut, its corners joined to vertices, everything else as JSON.
+//! Builds a glTF document from a scene: its faces cut, its corners joined to vertices, everything else as
+//! JSON.
 //!
 //! ```text
 //! meshes      primitives by material: faces cut, vertices, accessors
@@ -34,7 +35,8 @@ pub struct Built {
 
 /// Builds the document of a scene. `size`: the length of the file, for the memory limit.
 ///
-/// Errors: a scene without faces; indices out of range; more primitives than the memory limit permits; more than the 4 GiB that a GLB can hold.
+/// Errors: a scene without faces; indices out of range; more primitives than the memory limit permits; more
+/// than the 4 GiB that a GLB can hold.
 pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Result<Built, ContentError> {
     let mut warnings = std::mem::take(&mut scene.warnings);
     warnings.extend(smoothing::add_normals(&mut scene.meshes).warnings());

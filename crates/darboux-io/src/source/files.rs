@@ -1,7 +1,8 @@
-//! The files that a model refers to: textures, material libraries. The rules are those of glTF: nothing outside the model's folder, unless the caller
-//! allows it.
+//! The files that a model refers to: textures, material libraries. The rules are those of glTF: nothing
+//! outside the model's folder, unless the caller allows it.
 //!
-//! Other formats often hold absolute paths of another machine, or paths of Windows. Such a file is looked up by its name in the model's folder.
+//! Other formats often hold absolute paths of another machine, or paths of Windows. Such a file is looked up
+//! by its name in the model's folder.
 
 use std::cell::{Cell, RefCell};
 use std::io;
@@ -67,7 +68,8 @@ impl ModelFiles {
         }
     }
 
-    /// The file that a reference names, relative to the folder of the file `base`; empty is the model itself. `\` separates folders as `/` does.
+    /// The file that a reference names, relative to the folder of the file `base`; empty is the model itself.
+    /// `\` separates folders as `/` does.
     pub fn find(&self, base: &str, reference: &str) -> Option<FoundFile> {
         let reference = reference.trim().replace('\\', "/");
         if reference.is_empty() || reference.len() > LONGEST_PATH {

@@ -72,7 +72,8 @@ fn is_usdz(head: &[u8]) -> bool {
         && [&b".usdc"[..], b".usda", b".usd"].iter().any(|end| name.ends_with(end))
 }
 
-/// The length of a binary STL follows from its number of triangles. An ASCII STL begins with `solid` and has a `facet`.
+/// The length of a binary STL follows from its number of triangles. An ASCII STL begins with `solid` and has
+/// a `facet`.
 fn is_stl(bytes: &[u8], text: &[u8]) -> bool {
     let count = bytes.get(80..84).and_then(|bytes| bytes.first_chunk());
     let is_binary = count.is_some_and(|count| {
@@ -83,8 +84,8 @@ fn is_stl(bytes: &[u8], text: &[u8]) -> bool {
     is_binary || (text.starts_with(b"solid") && (has_word(b"facet") || has_word(b"endsolid")))
 }
 
-/// A file whose first facet is one of a binary STL: numbers that are finite, not all zero, and a normal of length 1 or 0. Its length is wrong,
-/// since [`detect`] takes it otherwise.
+/// A file whose first facet is one of a binary STL: numbers that are finite, not all zero, and a normal of
+/// length 1 or 0. Its length is wrong, since [`detect`] takes it otherwise.
 fn is_cut_stl(bytes: &[u8]) -> bool {
     let Some(facet) = bytes.get(84..132) else { return false };
     let numbers: Vec<f64> =

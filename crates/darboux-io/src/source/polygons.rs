@@ -1,7 +1,8 @@
 //! Cuts faces of four and more corners into triangles.
 //!
-//! A quad is cut where MikkTSpace cuts it: along its shorter diagonal in UV space, or in space where both are equally long. A concave quad whose shorter
-//! diagonal lies outside is cut along the other one. Larger faces are cut by a [`PolygonRule`]; docs/formats.md describes the rules.
+//! A quad is cut where MikkTSpace cuts it: along its shorter diagonal in UV space, or in space where both are
+//! equally long. A concave quad whose shorter diagonal lies outside is cut along the other one. Larger faces
+//! are cut by a [`PolygonRule`]; docs/formats.md describes the rules.
 
 mod alternating;
 mod corner_tree;
@@ -14,8 +15,8 @@ use darboux::internal::is_quad_cut_across;
 use ears::Polygon;
 pub use triangle::Triangle;
 
-/// The most steps that the cuts of one file may take: tries of a corner, and nodes of the tree that a try visits. A face of ordinary shape takes
-/// about a hundred per corner.
+/// The most steps that the cuts of one file may take: tries of a corner, and nodes of the tree that a try
+/// visits. A face of ordinary shape takes about a hundred per corner.
 const MAX_STEPS: u64 = 1 << 26;
 
 /// How faces of five and more corners are cut into triangles, which MikkTSpace needs. Quads are not affected.
@@ -58,7 +59,8 @@ pub struct Cutter {
     steps: u64,
     /// Concave quads that are not cut along the diagonal of MikkTSpace.
     pub outside_diagonals: usize,
-    /// Faces with triangles that face the other way than the face: it crosses itself, or the steps are used up.
+    /// Faces with triangles that face the other way than the face: it crosses itself, or the steps are used
+    /// up.
     pub folded: usize,
 }
 
@@ -67,7 +69,8 @@ impl Cutter {
         Self { rule, steps: MAX_STEPS, outside_diagonals: 0, folded: 0 }
     }
 
-    /// The halves of a quad, in the order of MikkTSpace. `uvs`: none for a mesh without UVs, whose quads are cut from the first to the third corner.
+    /// The halves of a quad, in the order of MikkTSpace. `uvs`: none for a mesh without UVs, whose quads are
+    /// cut from the first to the third corner.
     pub fn quad(&mut self, positions: &[[f32; 3]; 4], uvs: Option<[[f32; 2]; 4]>) -> [Triangle; 2] {
         const ALONG: [Triangle; 2] = [[0, 1, 2], [0, 2, 3]];
         const ACROSS: [Triangle; 2] = [[0, 1, 3], [1, 2, 3]];

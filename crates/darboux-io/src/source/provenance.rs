@@ -1,4 +1,5 @@
-//! Where a document came from: its format, the places of its primitives in that file, and the faces before they were cut.
+//! Where a document came from: its format, the places of its primitives in that file, and the faces before
+//! they were cut.
 
 use std::collections::HashMap;
 use std::path::PathBuf;

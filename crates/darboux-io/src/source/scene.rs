@@ -1,4 +1,5 @@
-//! What the reader of a format returns: a scene as the file has it, before faces are cut and vertices are made.
+//! What the reader of a format returns: a scene as the file has it, before faces are cut and vertices are
+//! made.
 
 use darboux::{BitangentDirection, Convention, UvOrigin};
 
@@ -10,7 +11,8 @@ pub struct SourceScene {
     pub format: SourceFormat,
     /// The program that wrote the file, where the file says so.
     pub generator: Option<String>,
-    /// The axes of positions, normals and nodes. A root node turns them to those of glTF, so that vertices keep their bits.
+    /// The axes of positions, normals and nodes. A root node turns them to those of glTF, so that vertices
+    /// keep their bits.
     pub axes: darboux::Axes,
     /// The length of a unit; none where the format does not say.
     pub meters_per_unit: Option<f64>,
@@ -23,7 +25,8 @@ pub struct SourceScene {
     pub skins: Vec<SourceSkin>,
     /// What is wrong with the file, one sentence each.
     pub warnings: Vec<String>,
-    /// What the file has and glTF, or this reader, does not carry over: a noun phrase each, such as `2 cameras`.
+    /// What the file has and glTF, or this reader, does not carry over: a noun phrase each, such as `2
+    /// cameras`.
     pub not_carried: Vec<String>,
 }
 
@@ -62,7 +65,8 @@ pub struct SourceNode {
 #[derive(Clone, Debug, Default)]
 pub struct SourceMesh {
     pub name: String,
-    /// Where the mesh is in its file, as the program that wrote it would say: the path of its node, `o Body`.
+    /// Where the mesh is in its file, as the program that wrote it would say: the path of its node, `o
+    /// Body`.
     pub path: String,
     pub positions: Vec<[f32; 3]>,
     /// The position of each corner, face after face.
@@ -78,7 +82,8 @@ pub struct SourceMesh {
     pub material_of_face: Vec<Option<u32>>,
     /// The material of all faces.
     pub material: Option<u32>,
-    /// The smoothing group of each face, 0 for none; empty if the file has no such groups. Meshes without normals get theirs by these.
+    /// The smoothing group of each face, 0 for none; empty if the file has no such groups. Meshes without
+    /// normals get theirs by these.
     pub smoothing_of_face: Vec<u32>,
     /// Four influences of each position per set; joints are indices into [`SourceSkin::joints`].
     pub weights: Vec<VertexWeights>,

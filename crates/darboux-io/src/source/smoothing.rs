@@ -1,6 +1,7 @@
 //! Makes the normals that a mesh lacks by its smoothing groups.
 //!
-//! Corners at one position share a normal if their faces have the same group. Faces of group 0, as `s off` writes it, are flat.
+//! Corners at one position share a normal if their faces have the same group. Faces of group 0, as `s off`
+//! writes it, are flat.
 
 use std::collections::HashMap;
 
@@ -65,7 +66,8 @@ pub fn add_normals(meshes: &mut [SourceMesh]) -> MadeNormals {
     made
 }
 
-/// The normal of each corner. None: the mesh refers to positions that do not exist, which the builder refuses.
+/// The normal of each corner. None: the mesh refers to positions that do not exist, which the builder
+/// refuses.
 fn normals_of_corners(mesh: &SourceMesh) -> Option<Vec<[f32; 3]>> {
     let groups = groups_of_corners(mesh)?;
     let faces = match &mesh.faces {

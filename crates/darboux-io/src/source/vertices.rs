@@ -1,7 +1,7 @@
 //! Makes vertices of corners: corners at one position whose other values have the same bits are one vertex.
 //!
-//! The vertices of a position are a linked list. A position with many different vertices continues in a hash map, so that no file takes more than linear
-//! time.
+//! The vertices of a position are a linked list. A position with many different vertices continues in a hash
+//! map, so that no file takes more than linear time.
 
 use std::collections::HashMap;
 
@@ -83,7 +83,8 @@ impl<'a> VertexFinder<'a> {
         Self { mesh, first: Vec::new() }
     }
 
-    /// The vertices of some corners. `used`: the values that tell vertices apart. All corners have valid positions.
+    /// The vertices of some corners. `used`: the values that tell vertices apart. All corners have valid
+    /// positions.
     pub fn find(&mut self, used: &Used, corners: impl Iterator<Item = u32>) -> FoundVertices {
         let mesh = self.mesh;
         self.first.resize(mesh.positions.len(), NONE);

@@ -30,7 +30,8 @@ pub struct Quad {
     pub node: &'static str,
     /// JSON of more nodes, each after a comma.
     pub nodes: &'static str,
-    /// JSON of more attributes, each after a comma. The accessors 0 to 3 have positions, normals, tangents and UVs.
+    /// JSON of more attributes, each after a comma. The accessors 0 to 3 have positions, normals, tangents
+    /// and UVs.
     pub attributes: &'static str,
     /// JSON of more members of the primitive and of the file, each after a comma.
     pub primitive: &'static str,
@@ -39,7 +40,8 @@ pub struct Quad {
     pub material: &'static str,
     /// The file of the base colour texture and its media type. Without one the base colour is grey.
     pub base: Option<(Vec<u8>, &'static str)>,
-    /// JSON of more members of the base colour texture, each after a comma. Sampler 0 clamps and magnifies to the nearest texel.
+    /// JSON of more members of the base colour texture, each after a comma. Sampler 0 clamps and magnifies
+    /// to the nearest texel.
     pub base_sampler: &'static str,
     /// The extension that names the image of the base colour texture; empty if the texture itself names it.
     pub image_extension: &'static str,

@@ -9,7 +9,8 @@ impl Convention {
     }
 }
 
-/// The conversion from one convention to another. The numbers change; the surface, its texture and its shading stay the same.
+/// The conversion from one convention to another. The numbers change; the surface, its texture and its
+/// shading stay the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conversion {
     /// For each new axis: the old axis and a factor, 1 or -1.
@@ -27,7 +28,8 @@ impl Conversion {
         let inverts_red = from.tangent != to.tangent;
         let inverts_green = from.bitangent != to.bitangent;
         let other_hand = from.axes.handedness() != to.axes.handedness();
-        // w is +1 or -1 times the triple product of bitangent, normal and tangent. Each of these four changes negates it.
+        // w is +1 or -1 times the triple product of bitangent, normal and tangent. Each of these four changes
+        // negates it.
         let negations = [other_hand, inverts_red, inverts_green, from.sign != to.sign];
         Self {
             axes: signed_permutation(from.axes, to.axes),
@@ -51,13 +53,14 @@ impl Conversion {
         [x, y, z, self.sign * w]
     }
 
-    /// Converts a UV: v becomes 1 - v where the origins differ. A round trip is exact for multiples of 2^-24 in [0, 1]; its error for other
-    /// values is at most one ulp of the larger of 1 and |v|.
+    /// Converts a UV: v becomes 1 - v where the origins differ. A round trip is exact for multiples of 2^-24
+    /// in [0, 1]; its error for other values is at most one ulp of the larger of 1 and |v|.
     pub fn uv(&self, [u, v]: [f32; 2]) -> [f32; 2] {
         [u, if self.flips_v { 1.0 - v } else { v }]
     }
 
-    /// Converts the corners of one face: reverses their order where the winding differs. The first corner stays first.
+    /// Converts the corners of one face: reverses their order where the winding differs. The first corner
+    /// stays first.
     ///
     /// `corners`: the indices of the face, or any values in their order.
     pub fn face<T>(&self, corners: &mut [T]) {

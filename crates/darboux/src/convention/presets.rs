@@ -19,8 +19,9 @@ const Y_UP_LEFT_HANDED: Axes = axes(Axis::X, Axis::Y, Axis::Z);
 const Z_UP_RIGHT_HANDED: Axes = axes(Axis::MinusX, Axis::Z, Axis::MinusY);
 
 impl Convention {
-    /// glTF 2.0, 3.4 (y up, z forward, -x right), 3.7.2.1 (counter-clockwise fronts; bitangent = cross(normal, tangent.xyz) * tangent.w),
-    /// 3.8.2 (UVs from the upper left) and 3.9.3 (red to the right, green up).
+    /// glTF 2.0, 3.4 (y up, z forward, -x right), 3.7.2.1 (counter-clockwise fronts; bitangent =
+    /// cross(normal, tangent.xyz) * tangent.w), 3.8.2 (UVs from the upper left) and 3.9.3 (red to the
+    /// right, green up).
     pub const GLTF: Self = Self {
         axes: Y_UP_RIGHT_HANDED,
         winding: Winding::CounterClockwise,
@@ -30,12 +31,14 @@ impl Convention {
         sign: SignRule::NormalCrossTangent,
     };
 
-    /// OpenGL: front faces are GL_CCW by default (OpenGL 4.6, 14.6.1), and the first row of a texture is at t = 0, the bottom of the
-    /// image (8.5). OpenGL does not define the axes of models and the direction of green; common practice is right-handed, y up, "Y+".
+    /// OpenGL: front faces are GL_CCW by default (OpenGL 4.6, 14.6.1), and the first row of a texture is at t
+    /// = 0, the bottom of the image (8.5). OpenGL does not define the axes of models and the direction of
+    /// green; common practice is right-handed, y up, "Y+".
     pub const OPENGL: Self = Self { uv_origin: UvOrigin::BottomLeft, ..Self::GLTF };
 
-    /// Direct3D: left-handed, clockwise front faces (D3D11_RASTERIZER_DESC, FrontCounterClockwise is FALSE by default), UVs from the upper
-    /// left. Direct3D does not define the direction of green; common practice is down, "Y-".
+    /// Direct3D: left-handed, clockwise front faces (D3D11_RASTERIZER_DESC, FrontCounterClockwise is FALSE by
+    /// default), UVs from the upper left. Direct3D does not define the direction of green; common
+    /// practice is down, "Y-".
     pub const DIRECTX: Self = Self {
         axes: Y_UP_LEFT_HANDED,
         winding: Winding::Clockwise,
@@ -43,8 +46,8 @@ impl Convention {
         ..Self::GLTF
     };
 
-    /// Blender: z up, UVs from the lower left, bitangent = bitangent_sign * cross(normal, tangent) (MeshLoop.bitangent_sign), baked
-    /// normal maps +X +Y +Z.
+    /// Blender: z up, UVs from the lower left, bitangent = bitangent_sign * cross(normal, tangent)
+    /// (MeshLoop.bitangent_sign), baked normal maps +X +Y +Z.
     pub const BLENDER: Self = Self { axes: Z_UP_RIGHT_HANDED, ..Self::OPENGL };
 
     /// Unity: left-handed, y up, z forward, clockwise fronts, UVs from the lower left, normal maps "Y+".
@@ -54,12 +57,13 @@ impl Convention {
     pub const UNREAL: Self =
         Self { axes: axes(Axis::Y, Axis::Z, Axis::X), bitangent: BitangentDirection::Down, ..Self::GLTF };
 
-    /// Godot 4: right-handed, y up, models face +z (Vector3.MODEL_FRONT), clockwise front faces (ArrayMesh), UVs from the upper left,
-    /// green up.
+    /// Godot 4: right-handed, y up, models face +z (Vector3.MODEL_FRONT), clockwise front faces (ArrayMesh),
+    /// UVs from the upper left, green up.
     pub const GODOT: Self = Self { winding: Winding::Clockwise, ..Self::GLTF };
 
-    /// three.js: right-handed, y up, objects face +z; textures are flipped on upload (Texture.flipY), so the UV origin is the lower
-    /// left. Textures of loaded glTF are not flipped: use [`Convention::GLTF`] for those.
+    /// three.js: right-handed, y up, objects face +z; textures are flipped on upload (Texture.flipY), so the
+    /// UV origin is the lower left. Textures of loaded glTF are not flipped: use [`Convention::GLTF`] for
+    /// those.
     pub const THREE_JS: Self = Self::OPENGL;
 
     /// Maya: right-handed, y up, UVs from the lower left, right-handed tangent space.

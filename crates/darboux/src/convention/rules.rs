@@ -1,4 +1,5 @@
-//! The choices that make up a convention: axes, winding, UV origin, directions of tangent and bitangent, meaning of the sign.
+//! The choices that make up a convention: axes, winding, UV origin, directions of tangent and bitangent,
+//! meaning of the sign.
 
 /// A direction along a coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,8 +71,8 @@ impl Axes {
         self.front
     }
 
-    /// The handedness of the coordinate system. Right, up and front of a model are left-handed in space, so the coordinates are left-handed
-    /// exactly when the determinant of the three axes is +1.
+    /// The handedness of the coordinate system. Right, up and front of a model are left-handed in space, so
+    /// the coordinates are left-handed exactly when the determinant of the three axes is +1.
     pub const fn handedness(self) -> Handedness {
         let is_cyclic = (self.right.index() + 1) % 3 == self.up.index();
         let is_odd = self.right.is_negative() != (self.up.is_negative() != self.front.is_negative());
@@ -97,7 +98,8 @@ pub enum UvOrigin {
     TopLeft,
 }
 
-/// The direction of the tangent, as a direction in the texture image. More red tilts the normal in this direction.
+/// The direction of the tangent, as a direction in the texture image. More red tilts the normal in this
+/// direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentDirection {
     /// To the right of the image.
@@ -106,8 +108,8 @@ pub enum TangentDirection {
     Left,
 }
 
-/// The direction of the bitangent that a shader rebuilds, as a direction in the texture image. More green tilts the normal in this
-/// direction.
+/// The direction of the bitangent that a shader rebuilds, as a direction in the texture image. More green
+/// tilts the normal in this direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BitangentDirection {
     /// To the top of the image ("OpenGL", Y+).
@@ -116,7 +118,8 @@ pub enum BitangentDirection {
     Down,
 }
 
-/// The formula by which a shader rebuilds the bitangent from normal, tangent and sign, applied to coordinates of either handedness.
+/// The formula by which a shader rebuilds the bitangent from normal, tangent and sign, applied to coordinates
+/// of either handedness.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SignRule {
     /// w * cross(normal, tangent).
@@ -143,11 +146,12 @@ pub struct Convention {
 }
 
 impl Convention {
-    /// The convention of the tangents that [`crate::generate_tangents`] returns for a mesh in this convention. Axes, winding and UV origin
-    /// stay.
+    /// The convention of the tangents that [`crate::generate_tangents`] returns for a mesh in this
+    /// convention. Axes, winding and UV origin stay.
     ///
-    /// The tangent points along u. The sign is that of the UV area, so w * cross(normal, tangent) points along v if front faces wind about the
-    /// normal by the right-hand rule in coordinates, and against v otherwise.
+    /// The tangent points along u. The sign is that of the UV area, so w * cross(normal, tangent) points
+    /// along v if front faces wind about the normal by the right-hand rule in coordinates, and against v
+    /// otherwise.
     pub const fn generated(self) -> Self {
         let is_right = matches!(self.axes.handedness(), Handedness::Right);
         let is_counter_clockwise = matches!(self.winding, Winding::CounterClockwise);

@@ -47,7 +47,8 @@ impl fmt::Display for ConventionError {
 
 impl Error for ConventionError {}
 
-/// A choice: its name, a function that reads its value, one that sets it, and one that lists the valid values.
+/// A choice: its name, a function that reads its value, one that sets it, and one that lists the valid
+/// values.
 type Choice =
     (&'static str, fn(Convention) -> String, fn(Convention, &str) -> Option<Convention>, fn() -> String);
 
@@ -91,7 +92,8 @@ impl Convention {
     }
 }
 
-/// The first name of the convention; without a name, `gltf` and the changes. [`Convention::from_str`] parses the text.
+/// The first name of the convention; without a name, `gltf` and the changes. [`Convention::from_str`] parses
+/// the text.
 impl fmt::Display for Convention {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(name) = self.names().next() {
@@ -106,8 +108,9 @@ impl fmt::Display for Convention {
 impl FromStr for Convention {
     type Err = ConventionError;
 
-    /// Parses the name of a preset, followed by any number of `,CHOICE=VALUE`: `axes=-x/y/z` (right, up, front), `fronts=ccw` or `cw`, `v0=bottom`
-    /// or `top`, `red=right` or `left`, `green=up` or `down`, `w=n-cross-t` or `t-cross-n`.
+    /// Parses the name of a preset, followed by any number of `,CHOICE=VALUE`: `axes=-x/y/z` (right, up,
+    /// front), `fronts=ccw` or `cw`, `v0=bottom` or `top`, `red=right` or `left`, `green=up` or `down`,
+    /// `w=n-cross-t` or `t-cross-n`.
     fn from_str(text: &str) -> Result<Self, ConventionError> {
         let mut parts = text.split(',');
         let name = parts.next().unwrap_or_default();

@@ -1,21 +1,25 @@
-//! Diamond encoding: a tangent as one number, its position around the normal, counted from a perpendicular of the normal.
+//! Diamond encoding: a tangent as one number, its position around the normal, counted from a perpendicular of
+//! the normal.
 //!
-//! The number is not the angle but the position on the diamond |x| + |y| = 1, which needs neither sine nor cosine. Those differ between GPUs,
-//! by up to 2^-11 in Vulkan, four times the step of this encoding.
+//! The number is not the angle but the position on the diamond |x| + |y| = 1, which needs neither sine nor
+//! cosine. Those differ between GPUs, by up to 2^-11 in Vulkan, four times the step of this encoding.
 //!
-//! Source: J. Ong, "Tangent Spaces and Diamond Encoding", 2023. The perpendicular is that of T. Duff et al., 2017.
+//! Source: J. Ong, "Tangent Spaces and Diamond Encoding", 2023. The perpendicular is that of T. Duff et al.,
+//! 2017.
 //!
-//! Error: 2^15 steps make a full turn, a length of 4 on the diamond. A step turns the direction by at most twice its length, because the
-//! sides of the diamond are 1 / sqrt(2) from its centre. Rounding moves it by half a step: 4 / 2^15 radians.
+//! Error: 2^15 steps make a full turn, a length of 4 on the diamond. A step turns the direction by at most
+//! twice its length, because the sides of the diamond are 1 / sqrt(2) from its centre. Rounding moves it by
+//! half a step: 4 / 2^15 radians.
 
 use crate::math::{add, dot, perpendiculars, scale};
 
 const STEPS_OF_SIDE: f32 = 8192.0;
 
-/// Encodes a tangent in two bytes: 15 bits of position, and a lowest bit that is set for w = -1. Error: up to 0.0071 degrees.
+/// Encodes a tangent in two bytes: 15 bits of position, and a lowest bit that is set for w = -1. Error: up to
+/// 0.0071 degrees.
 ///
-/// `normal`: unit, with the same bits that the decoder gets. Pass the decoded normal where normals are encoded as well. The component of the
-/// tangent along the normal is lost.
+/// `normal`: unit, with the same bits that the decoder gets. Pass the decoded normal where normals are
+/// encoded as well. The component of the tangent along the normal is lost.
 pub fn tangent_to_diamond(normal: [f32; 3], [x, y, z, w]: [f32; 4]) -> u16 {
     let [first, second] = perpendiculars(normal);
     let tangent = [x, y, z];

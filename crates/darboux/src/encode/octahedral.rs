@@ -1,10 +1,13 @@
-//! Octahedral encoding: directions as points of a square. The sphere is projected to an octahedron, whose lower half is folded outwards.
+//! Octahedral encoding: directions as points of a square. The sphere is projected to an octahedron, whose
+//! lower half is folded outwards.
 //!
-//! Source: Q. Meyer et al., "On Floating-Point Normal Vectors", EGSR 2010; Z. Cigolle et al., "A Survey of Efficient Representations for
-//! Independent Unit Vectors", JCGT 3(2), 2014. We round to the nearest point and do not search its neighbours. Decoding is exact
-//! in integers until the vector is normalised, so that the sign of z is the same on every machine.
+//! Source: Q. Meyer et al., "On Floating-Point Normal Vectors", EGSR 2010; Z. Cigolle et al., "A Survey of
+//! Efficient Representations for Independent Unit Vectors", JCGT 3(2), 2014. We round to the nearest point
+//! and do not search its neighbours. Decoding is exact in integers until the vector is normalised, so that
+//! the sign of z is the same on every machine.
 //!
-//! Error: steps of h and k along x and y move the point on the octahedron by up to (h, k, h + k) / 2, at a radius of at least 1 / sqrt(3).
+//! Error: steps of h and k along x and y move the point on the octahedron by up to (h, k, h + k) / 2, at a
+//! radius of at least 1 / sqrt(3).
 
 use crate::math::{V3, dot, scale, sign};
 
@@ -24,7 +27,8 @@ pub fn normal_from_octahedral(code: [i16; 2]) -> [f32; 3] {
     unfold(x, y, NORMAL_GRID)
 }
 
-/// Encodes a tangent in four bytes: 16 bits of x; 15 bits of y, and a lowest bit that is set for w = -1. Error: up to 0.0057 degrees.
+/// Encodes a tangent in four bytes: 16 bits of x; 15 bits of y, and a lowest bit that is set for w = -1.
+/// Error: up to 0.0057 degrees.
 pub fn tangent_to_octahedral([x, y, z, w]: [f32; 4]) -> [i16; 2] {
     let [x, y] = project([x, y, z]);
     let half = (y * (TANGENT_GRID / 2.0)).round() as i16;

@@ -1,20 +1,23 @@
-//! Quaternion encoding of a frame: the rotation that maps x, y and z to tangent, cross(normal, tangent) and normal.
+//! Quaternion encoding of a frame: the rotation that maps x, y and z to tangent, cross(normal, tangent) and
+//! normal.
 //!
-//! q and -q are the same rotation, so the sign of the scalar component stores the sign w. The scalar component must not be zero, because
-//! integers have no -0.
+//! q and -q are the same rotation, so the sign of the scalar component stores the sign w. The scalar
+//! component must not be zero, because integers have no -0.
 //!
-//! Source: I. Frey and I. Herzeg, "Spherical Skinning with Dual-Quaternions and QTangents", SIGGRAPH Talks 2011. We deviate: they move the
-//! scalar component away from zero before rounding; we round first, which moves it by at most one step. Quaternion of a matrix:
-//! S. W. Shepperd, "Quaternion from Rotation Matrix", Journal of Guidance and Control 1(3), 1978.
+//! Source: I. Frey and I. Herzeg, "Spherical Skinning with Dual-Quaternions and QTangents", SIGGRAPH Talks
+//! 2011. We deviate: they move the scalar component away from zero before rounding; we round first, which
+//! moves it by at most one step. Quaternion of a matrix: S. W. Shepperd, "Quaternion from Rotation Matrix",
+//! Journal of Guidance and Control 1(3), 1978.
 //!
-//! Error: three components are rounded by up to half a step, the scalar by up to one step, and the angle of the rotation is twice that of the
-//! quaternion: 2 sqrt(3/4 + 1) / 32767 radians.
+//! Error: three components are rounded by up to half a step, the scalar by up to one step, and the angle of
+//! the rotation is twice that of the quaternion: 2 sqrt(3/4 + 1) / 32767 radians.
 
 use crate::math::{V3, cross, sign, unit_in_plane};
 
 const LARGEST: f32 = 32767.0;
 
-/// Encodes a frame in eight bytes: x, y, z and the scalar component. Error of either direction: up to 0.0047 degrees.
+/// Encodes a frame in eight bytes: x, y, z and the scalar component. Error of either direction: up to 0.0047
+/// degrees.
 ///
 /// `normal`, `tangent`: unit. The component of the tangent along the normal is lost.
 pub fn frame_to_quaternion(normal: [f32; 3], [x, y, z, w]: [f32; 4]) -> [i16; 4] {
@@ -36,7 +39,8 @@ pub fn frame_from_quaternion(code: [i16; 4]) -> ([f32; 3], [f32; 4]) {
     (normal, [tangent[0], tangent[1], tangent[2], sign(w)])
 }
 
-/// The unit quaternion (scalar last) of the rotation with these columns. The largest component is computed first, so that no digits cancel.
+/// The unit quaternion (scalar last) of the rotation with these columns. The largest component is computed
+/// first, so that no digits cancel.
 fn rotation([[m00, m10, m20], [m01, m11, m21], [m02, m12, m22]]: [V3; 3]) -> [f32; 4] {
     let four_squares =
         [1.0 + m00 - m11 - m22, 1.0 - m00 + m11 - m22, 1.0 - m00 - m11 + m22, 1.0 + m00 + m11 + m22];

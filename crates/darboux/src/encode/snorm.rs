@@ -1,7 +1,8 @@
-//! Signed normalized integers: code c decodes to max(c / largest, -1), as in OpenGL 4.2, Vulkan, Direct3D 10, WebGPU and glTF.
+//! Signed normalized integers: code c decodes to max(c / largest, -1), as in OpenGL 4.2, Vulkan, Direct3D 10,
+//! WebGPU and glTF.
 //!
-//! Rounding moves each component by up to half a step, so the error of a direction is up to asin(sqrt(3) / (2 largest)). Decoded vectors are
-//! not normalised.
+//! Rounding moves each component by up to half a step, so the error of a direction is up to asin(sqrt(3) / (2
+//! largest)). Decoded vectors are not normalised.
 
 use crate::math::sign;
 
@@ -25,8 +26,8 @@ pub fn tangent_from_snorm16(code: [i16; 4]) -> [f32; 4] {
     code.map(|component| value(component.into(), 32767.0))
 }
 
-/// Encodes a tangent in four bytes: ten bits each of x (lowest), y and z, and two bits of w. VK_FORMAT_A2B10G10R10_SNORM_PACK32,
-/// GL_INT_2_10_10_10_REV. Error: up to 0.098 degrees.
+/// Encodes a tangent in four bytes: ten bits each of x (lowest), y and z, and two bits of w.
+/// VK_FORMAT_A2B10G10R10_SNORM_PACK32, GL_INT_2_10_10_10_REV. Error: up to 0.098 degrees.
 pub fn tangent_to_snorm10([x, y, z, w]: [f32; 4]) -> u32 {
     let [x, y, z] = [x, y, z].map(|component| steps(component, 511.0) as u32 & 0x3ff);
     let w = sign(w) as i32 as u32 & 3;

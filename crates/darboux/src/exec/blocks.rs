@@ -1,4 +1,5 @@
-//! Long lists in blocks: few results are in memory at a time, and the result does not depend on the number of threads.
+//! Long lists in blocks: few results are in memory at a time, and the result does not depend on the number of
+//! threads.
 
 use std::ops::Range;
 
@@ -6,12 +7,15 @@ use crate::Error;
 use crate::exec::limits::RunLimits;
 use crate::exec::threads;
 
-/// Blocks per thread whose results wait to be folded. A thread that has finished its block takes the next one of these.
+/// Blocks per thread whose results wait to be folded. A thread that has finished its block takes the next one
+/// of these.
 const BLOCKS_AT_ONCE: usize = 8;
 
-/// Calls `of` for consecutive ranges of the numbers below `count` on all threads, and `fold` with their results in order.
+/// Calls `of` for consecutive ranges of the numbers below `count` on all threads, and `fold` with their
+/// results in order.
 ///
-/// `block`: the length of all ranges but the last. Errors: the call was cancelled; `of` may have returned early then.
+/// `block`: the length of all ranges but the last. Errors: the call was cancelled; `of` may have returned
+/// early then.
 pub(crate) fn fold_blocks<R: Send>(
     limits: RunLimits<'_>,
     count: usize,

@@ -1,14 +1,15 @@
 //! Helpers: threads of the pool that take a share of a call's work if they come in time.
 //!
-//! The calling thread begins at once and never waits for a thread that has not begun: waking one takes tens of microseconds, in which a
-//! thread computes thousands of triangles, and a pool may be busy with other work for much longer. Scopes of rayon wait for all of their
-//! tasks, also for those that no thread has begun.
+//! The calling thread begins at once and never waits for a thread that has not begun: waking one takes tens
+//! of microseconds, in which a thread computes thousands of triangles, and a pool may be busy with other work
+//! for much longer. Scopes of rayon wait for all of their tasks, also for those that no thread has begun.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
-/// Calls `work` on this thread and meanwhile on up to `helpers` threads of the current pool. Returns when all calls that began have ended.
+/// Calls `work` on this thread and meanwhile on up to `helpers` threads of the current pool. Returns when all
+/// calls that began have ended.
 ///
 /// `work`: takes parts from a common list until none is left, so that one call alone does everything.
 ///
@@ -46,8 +47,9 @@ struct LentWork {
 impl LentWork {
     #[expect(unsafe_code, reason = "tasks of a pool cannot borrow from a caller that does not wait for them")]
     fn new<'a>(work: &'a (dyn Fn() + Sync + 'a)) -> Self {
-        // SAFETY: `call_with_helpers` neither returns nor unwinds before `TakeBack` has removed the reference, under a lock that no helper
-        // holds any more. So nothing has the reference when its real lifetime ends.
+        // SAFETY: `call_with_helpers` neither returns nor unwinds before `TakeBack` has removed the
+        // reference, under a lock that no helper holds any more. So nothing has the reference when
+        // its real lifetime ends.
         let work = unsafe { std::mem::transmute::<&'a (dyn Fn() + Sync + 'a), &'static Work>(work) };
         Self { work: RwLock::new(Some(work)), panic: Mutex::new(None) }
     }
@@ -67,7 +69,8 @@ impl LentWork {
 /// Takes lent work back when it is dropped: waits for the helpers that have begun.
 struct TakeBack<'a>(&'a LentWork);
 
-/// How often the lock is tried before other threads get this thread's core: the last parts end within microseconds of each other.
+/// How often the lock is tried before other threads get this thread's core: the last parts end within
+/// microseconds of each other.
 const SPINS: usize = 1 << 10;
 
 impl Drop for TakeBack<'_> {

@@ -1,7 +1,8 @@
-//! The limits of one call: a cancellation request, a number of threads and a vector width. The counter of its progress goes with them.
+//! The limits of one call: a cancellation request, a number of threads and a vector width. The counter of its
+//! progress goes with them.
 //!
-//! A public function takes them from its [`Context`](crate::Context) once and passes the copy to every stage, also to stages that run
-//! on the threads of a pool. Nothing depends on the thread that a stage runs on.
+//! A public function takes them from its [`Context`](crate::Context) once and passes the copy to every stage,
+//! also to stages that run on the threads of a pool. Nothing depends on the thread that a stage runs on.
 
 use std::ops::Range;
 
@@ -10,7 +11,8 @@ use crate::cancel::Cancel;
 use crate::exec::simd::{Width, WidthLimit};
 use crate::exec::vertex_progress::VertexProgress;
 
-/// The fewest triangles per thread. With fewer, two threads are not always faster than one: docs/notes/speed.md has the measurements.
+/// The fewest triangles per thread. With fewer, two threads are not always faster than one:
+/// docs/notes/speed.md has the measurements.
 const MIN_PER_THREAD: usize = if cfg!(small_limits) { 1 } else { 1 << 13 };
 
 /// Elements between two cancellation checks of a long loop.
@@ -51,7 +53,8 @@ impl<'a> RunLimits<'a> {
         if index.is_multiple_of(CHECK_INTERVAL) { self.check() } else { Ok(()) }
     }
 
-    /// The consecutive parts of a range. The token is checked before each part; after cancellation there are no further parts.
+    /// The consecutive parts of a range. The token is checked before each part; after cancellation there are
+    /// no further parts.
     pub fn parts(self, range: Range<usize>) -> impl Iterator<Item = Range<usize>> + use<'a> {
         let end = range.end;
         let part = move |start: usize| start..end.min(start + CHECK_INTERVAL);
@@ -87,7 +90,8 @@ fn pool_threads() -> usize {
     1
 }
 
-/// Starts rayon's global pool where it has not been started. False where the system refuses threads, for which rayon itself panics.
+/// Starts rayon's global pool where it has not been started. False where the system refuses threads, for
+/// which rayon itself panics.
 #[cfg(feature = "parallel")]
 fn has_global_pool() -> bool {
     use std::error::Error;

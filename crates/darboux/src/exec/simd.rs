@@ -1,7 +1,8 @@
 //! Vector instructions of the widest kind that the processor has, chosen at run time.
 //!
-//! Every task is compiled once per vector width, from one source. A lane rounds every operation alike at all widths, and the compiler
-//! does not fuse multiplications with additions, so results do not depend on the width.
+//! Every task is compiled once per vector width, from one source. A lane rounds every operation alike at all
+//! widths, and the compiler does not fuse multiplications with additions, so results do not depend on the
+//! width.
 
 /// Work that is compiled once per vector width. `run` must be `#[inline(always)]`.
 pub(crate) trait Task {
@@ -52,7 +53,8 @@ impl Width {
     #[expect(unsafe_code, reason = "functions with target features are unsafe to call")]
     pub fn run(self, task: impl Task) {
         match self.0 {
-            // SAFETY: only `widest` makes a width, and it has detected these instructions or wider ones that include them.
+            // SAFETY: only `widest` makes a width, and it has detected these instructions or wider ones that
+            // include them.
             WidthLimit::Bits512 => unsafe { avx512(task) },
             // SAFETY: as above.
             WidthLimit::Bits256 => unsafe { avx2(task) },

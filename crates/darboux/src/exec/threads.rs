@@ -8,7 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::exec::helpers::call_with_helpers;
 use crate::exec::limits::RunLimits;
 
-/// Calls `job` once for every worker with its part of the work, on at most as many threads as there are workers.
+/// Calls `job` once for every worker with its part of the work, on at most as many threads as there are
+/// workers.
 pub(crate) fn run<W: Send, P: Send>(
     workers: &mut [W],
     parts: impl Iterator<Item = P> + Send,
@@ -36,7 +37,8 @@ pub(crate) fn for_each<T: Send>(threads: usize, list: &mut [T], with: impl Fn(&m
     for_each_with(&mut vec![(); threads], list.iter_mut(), |(), element| with(element));
 }
 
-/// As [`for_each`], with the elements of an iterator, on as many threads as there are workers. Each thread uses a worker of its own.
+/// As [`for_each`], with the elements of an iterator, on as many threads as there are workers. Each thread
+/// uses a worker of its own.
 pub(crate) fn for_each_with<W: Send, T>(
     workers: &mut [W],
     elements: impl Iterator<Item = T> + Send,
@@ -54,7 +56,8 @@ pub(crate) fn for_each_with<W: Send, T>(
     });
 }
 
-/// The values of a function for all numbers below `count`, computed on all threads. There are fewer after cancellation.
+/// The values of a function for all numbers below `count`, computed on all threads. There are fewer after
+/// cancellation.
 pub(crate) fn map<T: Send>(limits: RunLimits<'_>, count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let threads = limits.thread_count(count);
     let mut lists: Vec<Vec<T>> = (0..threads).map(|_| Vec::new()).collect();
@@ -71,14 +74,14 @@ pub(crate) fn map<T: Send>(limits: RunLimits<'_>, count: usize, of: impl Fn(usiz
         .unwrap_or_default()
 }
 
-/// Sets every element to the value of a function for its index, on all threads. A single thread allocates nothing. After cancellation the
-/// remaining elements stay as they are.
+/// Sets every element to the value of a function for its index, on all threads. A single thread allocates
+/// nothing. After cancellation the remaining elements stay as they are.
 pub(crate) fn fill<T: Send>(limits: RunLimits<'_>, slice: &mut [T], of: impl Fn(usize) -> T + Sync) {
     update(limits, slice, |at, element| *element = of(at));
 }
 
-/// Calls a function with the index of every element and the element, on all threads. A single thread allocates nothing. After cancellation
-/// the remaining elements are skipped.
+/// Calls a function with the index of every element and the element, on all threads. A single thread
+/// allocates nothing. After cancellation the remaining elements are skipped.
 pub(crate) fn update<T: Send>(limits: RunLimits<'_>, slice: &mut [T], with: impl Fn(usize, &mut T) + Sync) {
     let threads = limits.thread_count(slice.len());
     let ranges = split_range(0..slice.len(), threads, 1);
@@ -92,8 +95,8 @@ pub(crate) fn update<T: Send>(limits: RunLimits<'_>, slice: &mut [T], with: impl
     });
 }
 
-/// True when a predicate holds for all numbers below `count`, tested on all threads. A single thread allocates nothing. The result is
-/// unspecified after cancellation.
+/// True when a predicate holds for all numbers below `count`, tested on all threads. A single thread
+/// allocates nothing. The result is unspecified after cancellation.
 pub(crate) fn all(limits: RunLimits<'_>, count: usize, predicate: impl Fn(usize) -> bool + Sync) -> bool {
     let threads = limits.thread_count(count);
     let holds = AtomicBool::new(true);
@@ -105,7 +108,8 @@ pub(crate) fn all(limits: RunLimits<'_>, count: usize, predicate: impl Fn(usize)
     holds.into_inner()
 }
 
-/// Splits a range into `count` consecutive ranges of nearly equal length. All but the last length are multiples of `unit`.
+/// Splits a range into `count` consecutive ranges of nearly equal length. All but the last length are
+/// multiples of `unit`.
 pub(crate) fn split_range(
     range: Range<usize>,
     count: usize,

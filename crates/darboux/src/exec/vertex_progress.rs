@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Progress on the current vertex with very many faces, shared by its clones. Of several such vertices at once it shows the one that wrote
-/// last.
+/// Progress on the current vertex with very many faces, shared by its clones. Of several such vertices at
+/// once it shows the one that wrote last.
 #[derive(Clone, Debug, Default)]
 pub struct VertexProgress(Arc<AtomicU32>);
 

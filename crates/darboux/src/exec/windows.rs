@@ -1,8 +1,10 @@
-//! Windows: consecutive triangles of the triangle list, and which vertices each window uses. Threads divide the windows among themselves.
+//! Windows: consecutive triangles of the triangle list, and which vertices each window uses. Threads divide
+//! the windows among themselves.
 
 use std::ops::Range;
 
-/// Triangles per window. Vertices are read before the first window that uses them, and finished after the last.
+/// Triangles per window. Vertices are read before the first window that uses them, and finished after the
+/// last.
 pub(crate) const WINDOW: usize = if cfg!(small_limits) { 2 } else { 1024 };
 
 /// The vertices of one window, and of the windows before and after it.
@@ -35,8 +37,8 @@ pub(crate) fn accumulate_bounds(windows: &mut [Window]) {
 pub(crate) struct Partition {
     /// The windows whose corners the thread writes.
     pub windows: Range<usize>,
-    /// The end of the windows that the thread adds: it is behind the last window that uses one of the thread's vertices. Windows from
-    /// `windows.end` on are added by two threads.
+    /// The end of the windows that the thread adds: it is behind the last window that uses one of the
+    /// thread's vertices. Windows from `windows.end` on are added by two threads.
     pub end_window: usize,
     /// The vertices that the thread finishes: those whose first window is one of `windows`.
     pub vertices: Range<usize>,

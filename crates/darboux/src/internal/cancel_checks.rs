@@ -1,5 +1,5 @@
-//! Checks of a context's token outside this crate, and tokens that count their checks: for tests of cancellation that depend on work and not on
-//! time.
+//! Checks of a context's token outside this crate, and tokens that count their checks: for tests of
+//! cancellation that depend on work and not on time.
 
 use crate::{Cancel, Context, Error};
 

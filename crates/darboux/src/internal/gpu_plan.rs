@@ -1,4 +1,5 @@
-//! Position-independent arrays of a GPU plan: the sums that each corner has, in the layout of the plan shaders.
+//! Position-independent arrays of a GPU plan: the sums that each corner has, in the layout of the plan
+//! shaders.
 //!
 //! For `darboux-gpu` and the npm package. Not part of the API.
 
@@ -27,7 +28,8 @@ pub const VERTEX_MASK: u32 = SECOND_FLAG - 1;
 /// Why a mesh has no GPU plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlanRefusal {
-    /// Some corners of quads have the average of two tangents, or copy a tangent from the other half of the quad by position.
+    /// Some corners of quads have the average of two tangents, or copy a tangent from the other half of the
+    /// quad by position.
     QuadHalvesDiffer {
         /// The number of these corners.
         corners: usize,
@@ -54,7 +56,8 @@ impl From<Error> for PlanRefusal {
 /// The arrays of a plan, in the layout of the shaders.
 #[derive(Debug, Default)]
 pub struct PlanArrays {
-    /// Five words per triangle: three vertices with flags, and two differences of v. Degenerate triangles come last.
+    /// Five words per triangle: three vertices with flags, and two differences of v. Degenerate triangles
+    /// come last.
     pub triangles: Vec<u32>,
     /// Two words per triangle: two differences of u.
     pub du: Vec<u32>,
@@ -65,7 +68,8 @@ pub struct PlanArrays {
     /// The end of each sum in the member list, the vertex of each sum, and the member list.
     pub sums: Vec<u32>,
     pub sum_count: u32,
-    /// The sum of each corner of the triangles that are not degenerate, with a flag where the corner's group has several sums.
+    /// The sum of each corner of the triangles that are not degenerate, with a flag where the corner's group
+    /// has several sums.
     pub sum_of_place: Vec<u32>,
     /// Two words per vertex: the UVs, with -0 replaced by +0.
     pub uvs: Vec<u32>,
@@ -181,7 +185,8 @@ fn representatives(mesh: &Mesh<'_>, lists: [&Triangles; 2]) -> Vec<u32> {
     of_vertex
 }
 
-/// The sum of each corner of the triangles that are not degenerate, flagged where the members of the group have several sums.
+/// The sum of each corner of the triangles that are not degenerate, flagged where the members of the group
+/// have several sums.
 fn sums_of_places(stages: &Stages, sum_of_corner: &[u32]) -> Vec<u32> {
     let corners = stages.triangulation.good.corners.as_flattened();
     let sum_of_place = |place: &u32| sum_of_corner[corners[*place as usize] as usize] & !FIRST_FLAG;
@@ -257,7 +262,8 @@ impl PlanSums {
         starts.zip(&self.ends).map(|(start, &end)| (end - start) as usize).max()
     }
 
-    /// The sum of every corner, with the sign of the base. Corners of unsupported faces have a sum that is always replaced, if `repairs`.
+    /// The sum of every corner, with the sign of the base. Corners of unsupported faces have a sum that is
+    /// always replaced, if `repairs`.
     fn of_corners(
         &mut self,
         mesh: &Mesh<'_>,

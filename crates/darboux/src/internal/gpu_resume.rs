@@ -14,13 +14,13 @@ use crate::tangents::submesh;
 
 pub use crate::tangents::fast::UNDECIDED;
 
-/// Decides the undecided vertices. Returns the report of the whole mesh, and the number of corners that were undecided. Errors: the
-/// context's token was cancelled.
+/// Decides the undecided vertices. Returns the report of the whole mesh, and the number of corners that were
+/// undecided. Errors: the context's token was cancelled.
 ///
-/// `mesh`: indexed triangles with finite values. `welded`: for each vertex the first vertex with equal bits. `out`: one tangent per corner;
-/// the sign [`UNDECIDED`] marks all corners of vertices that the GPU did not decide. A GPU must leave undecided: vertices whose triangles are
-/// not one group and one subgroup, vertices of UV-degenerate triangles, vertices without a usable tangent, and corners of degenerate
-/// triangles.
+/// `mesh`: indexed triangles with finite values. `welded`: for each vertex the first vertex with equal bits.
+/// `out`: one tangent per corner; the sign [`UNDECIDED`] marks all corners of vertices that the GPU did not
+/// decide. A GPU must leave undecided: vertices whose triangles are not one group and one subgroup, vertices
+/// of UV-degenerate triangles, vertices without a usable tangent, and corners of degenerate triangles.
 pub fn complete(
     mesh: &Mesh<'_>,
     options: &MikkTSpaceOptions,

@@ -7,7 +7,8 @@ use crate::{Context, Error};
 
 /// Calls a function with every element of a list. A thread that has finished an element takes the next one.
 ///
-/// The token is checked before every element. Errors: the context's token was cancelled; some elements were not visited.
+/// The token is checked before every element. Errors: the context's token was cancelled; some elements were
+/// not visited.
 pub fn for_each<T: Send>(
     context: &Context,
     list: &mut [T],
@@ -38,14 +39,15 @@ pub fn map_with<T: Sync, R: Send>(
     results.into_iter().filter_map(|(_, result)| result).collect()
 }
 
-/// As many contexts as threads that `context` permits for so many jobs, each of one thread, with its token and its progress.
+/// As many contexts as threads that `context` permits for so many jobs, each of one thread, with its token
+/// and its progress.
 pub fn contexts(context: &Context, jobs: usize) -> Vec<Context> {
     let threads = context.limits().thread_count_of_jobs(jobs);
     (0..threads).map(|_| context.of_one_thread()).collect()
 }
 
-/// Calls `of` for consecutive ranges of the numbers below `count`, each on one thread, and `fold` with their results in order. The ranges do not
-/// depend on the number of threads.
+/// Calls `of` for consecutive ranges of the numbers below `count`, each on one thread, and `fold` with their
+/// results in order. The ranges do not depend on the number of threads.
 ///
 /// `block`: the length of all ranges but the last. Errors: the context's token was cancelled.
 pub fn fold_blocks<R: Send>(

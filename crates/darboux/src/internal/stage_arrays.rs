@@ -1,4 +1,5 @@
-//! The arrays between the stages of MikkTSpace: for the kernels of `darboux-gpu`, which mirror the stages, and for tests.
+//! The arrays between the stages of MikkTSpace: for the kernels of `darboux-gpu`, which mirror the stages,
+//! and for tests.
 //!
 //! Not part of the API: these types change with the stages.
 
@@ -34,7 +35,8 @@ pub struct Stages {
     pub neighbours: Vec<[u32; 3]>,
     /// The derivatives with one orientation per quad, before grouping.
     pub derivatives: Vec<Derivative>,
-    /// The orientation of each triangle after grouping: UV-degenerate triangles have adopted that of their first group.
+    /// The orientation of each triangle after grouping: UV-degenerate triangles have adopted that of their
+    /// first group.
     pub preserves: Vec<bool>,
     /// The groups, in the order of their first triangles.
     pub groups: Groups,
@@ -49,18 +51,21 @@ pub struct Stages {
 /// The distinct subgroups of all groups, as compressed rows.
 #[derive(Clone, Debug, Default)]
 pub struct SubgroupSums {
-    /// The members of each sum, ascending: corner `k` of triangle `t` as `3 t + k`. UV-degenerate members, which add nothing, are absent.
+    /// The members of each sum, ascending: corner `k` of triangle `t` as `3 t + k`. UV-degenerate members,
+    /// which add nothing, are absent.
     pub members: Vec<u32>,
     /// The end of each sum in `members`.
     pub ends: Vec<u32>,
     /// The welded vertex of each sum, which has the normal.
     pub vertices: Vec<u32>,
-    /// The sum of each corner of the mesh, or two sums whose frames are averaged. Unused entries are [`NONE`].
+    /// The sum of each corner of the mesh, or two sums whose frames are averaged. Unused entries are
+    /// [`NONE`].
     pub of_corner: Vec<[u32; 2]>,
 }
 
 impl Stages {
-    /// Runs every exact stage. `None` where the members of all sums would exceed `limit`. Errors: the context's token was cancelled.
+    /// Runs every exact stage. `None` where the members of all sums would exceed `limit`. Errors: the
+    /// context's token was cancelled.
     pub fn new(
         mesh: &Mesh<'_>,
         options: &MikkTSpaceOptions,

@@ -1,7 +1,8 @@
 //! The comparison of two sets of tangents.
 //!
-//! Blocks of corners are compared on all threads, and what they sum is added in the order of the corners. Of each corner that differs,
-//! only the angle is kept, from which the median and the 95th percentile are selected: 8 bytes per corner at most.
+//! Blocks of corners are compared on all threads, and what they sum is added in the order of the corners. Of
+//! each corner that differs, only the angle is kept, from which the median and the 95th percentile are
+//! selected: 8 bytes per corner at most.
 
 use std::ops::Range;
 
@@ -14,7 +15,8 @@ use crate::math_f64::unit;
 /// The maximum length of [`TangentDifference::worst`].
 const MAX_WORST_CORNERS: usize = 16;
 
-/// The difference of two sets of tangents of one mesh. Angles are in degrees, between the xyz of one corner in both sets.
+/// The difference of two sets of tangents of one mesh. Angles are in degrees, between the xyz of one corner
+/// in both sets.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct TangentDifference {
@@ -38,7 +40,8 @@ pub struct TangentDifference {
     pub max: f64,
     /// The number of corners per bin of [`TangentDifference::HISTOGRAM_BIN_ENDS`].
     pub histogram: [usize; 10],
-    /// Up to 16 corners with the largest angles above zero, and the angles: descending by angle, then ascending by corner.
+    /// Up to 16 corners with the largest angles above zero, and the angles: descending by angle, then
+    /// ascending by corner.
     pub worst: Vec<(usize, f64)>,
 }
 
@@ -80,8 +83,8 @@ const BLOCK: usize = if cfg!(small_limits) { 2 } else { 1 << 16 };
 
 /// Compares two sets of tangents, corner by corner.
 ///
-/// `a`, `b`: one tangent per corner ([`CornerTangents::per_corner`](crate::CornerTangents::per_corner)) of the same mesh, in the same
-/// convention. Errors: different lengths.
+/// `a`, `b`: one tangent per corner ([`CornerTangents::per_corner`](crate::CornerTangents::per_corner)) of
+/// the same mesh, in the same convention. Errors: different lengths.
 pub fn measure_tangents(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<TangentDifference, Error> {
     measure_tangents_with(a, b, &mut Context::new())
 }
@@ -112,7 +115,8 @@ pub fn measure_tangents_with(
     Ok(TangentDifference { worst, ..sums.difference(&mut angles) })
 }
 
-/// Inserts a corner into the list of [`TangentDifference::worst`]. Corners come in ascending order, so a later one follows those of its angle.
+/// Inserts a corner into the list of [`TangentDifference::worst`]. Corners come in ascending order, so a
+/// later one follows those of its angle.
 fn insert_worst(worst: &mut Vec<(usize, f64)>, corner: usize, angle: Option<f64>) {
     let Some(angle) = angle.filter(|angle| *angle > 0.0) else { return };
     if worst.len() == MAX_WORST_CORNERS && worst.last().is_some_and(|(_, least)| angle <= *least) {
@@ -122,7 +126,8 @@ fn insert_worst(worst: &mut Vec<(usize, f64)>, corner: usize, angle: Option<f64>
     worst.truncate(MAX_WORST_CORNERS);
 }
 
-/// The counts and sums of a [`TangentDifference`], which corners and later sums are added to. The angles above zero are in a list beside it.
+/// The counts and sums of a [`TangentDifference`], which corners and later sums are added to. The angles
+/// above zero are in a list beside it.
 #[derive(Clone, Debug, Default)]
 pub struct DifferenceSums {
     corners: usize,
@@ -164,7 +169,8 @@ impl DifferenceSums {
         self.histogram.iter_mut().zip(later.histogram).for_each(|(bin, more)| *bin += more);
     }
 
-    /// The difference, without a list of the worst corners. `angles`: the angles above zero of these corners; their order changes.
+    /// The difference, without a list of the worst corners. `angles`: the angles above zero of these corners;
+    /// their order changes.
     pub fn difference(&self, angles: &mut [f64]) -> TangentDifference {
         let count = self.corners - self.without_angle;
         let zeros = count - angles.len();
@@ -186,8 +192,8 @@ impl DifferenceSums {
     }
 }
 
-/// The smallest angle that the fraction `part` of the corners does not exceed, 0 if there are none. `zeros`: the number of angles that are
-/// zero; `angles`: the others, whose order changes.
+/// The smallest angle that the fraction `part` of the corners does not exceed, 0 if there are none. `zeros`:
+/// the number of angles that are zero; `angles`: the others, whose order changes.
 fn quantile(zeros: usize, angles: &mut [f64], part: f64) -> f64 {
     let count = zeros + angles.len();
     let within = (part * count as f64).ceil() as usize;

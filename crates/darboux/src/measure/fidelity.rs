@@ -23,9 +23,10 @@ pub struct UvFidelity {
 
 /// Measures tangents against the derivatives of the UV map.
 ///
-/// Each triangle is sampled at the centres of 16 equal parts. At each sample, the tangents of the three corners are interpolated linearly, and
-/// the angle to the triangle's dP/du is measured. Smooth normals alone cause a part of the angle: tangents are perpendicular to them, while
-/// dP/du lies in the face. Quads are cut from corner 0 to 2. `tangents`: one per corner. Errors: another number of tangents than corners.
+/// Each triangle is sampled at the centres of 16 equal parts. At each sample, the tangents of the three
+/// corners are interpolated linearly, and the angle to the triangle's dP/du is measured. Smooth normals alone
+/// cause a part of the angle: tangents are perpendicular to them, while dP/du lies in the face. Quads are cut
+/// from corner 0 to 2. `tangents`: one per corner. Errors: another number of tangents than corners.
 pub fn measure_uv_fidelity(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Result<UvFidelity, Error> {
     measure_uv_fidelity_with(mesh, tangents, &mut Context::new())
 }

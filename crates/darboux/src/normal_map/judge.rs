@@ -1,28 +1,34 @@
-//! Judges a normal map by its texels: whether it is the slope of a surface, which way its green points, and what else is odd about it.
+//! Judges a normal map by its texels: whether it is the slope of a surface, which way its green points, and
+//! what else is odd about it.
 //!
-//! The slopes p along u and q along v of a surface are derivatives of one height, so dp/dv = dq/du. A map whose green is inverted stores -q,
-//! and then the two mixed derivatives have opposite signs. The statistic is their correlation c = sum(dp/dv dq/du) / sqrt(sum (dp/dv)^2
-//! sum (dq/du)^2), which does not depend on the scales of u and v: it is positive for OpenGL's maps (green up) and negative for DirectX's.
+//! The slopes p along u and q along v of a surface are derivatives of one height, so dp/dv = dq/du. A map
+//! whose green is inverted stores -q, and then the two mixed derivatives have opposite signs. The statistic
+//! is their correlation c = sum(dp/dv dq/du) / sqrt(sum (dp/dv)^2 sum (dq/du)^2), which does not depend on
+//! the scales of u and v: it is positive for OpenGL's maps (green up) and negative for DirectX's.
 //!
-//! Every tile of 16 x 16 texels has a correlation of its own, on the map and on the map halved again and again, because noise and rounding
-//! hide a gentle surface at full size. The x and y of the vectors stand for the slopes: they are bounded, so a step at the border of a chart
-//! cannot outvote a surface. Three numbers sum the evidence up, and `score.rs` weighs them:
+//! Every tile of 16 x 16 texels has a correlation of its own, on the map and on the map halved again and
+//! again, because noise and rounding hide a gentle surface at full size. The x and y of the vectors stand for
+//! the slopes: they are bounded, so a step at the border of a chart cannot outvote a surface. Three numbers
+//! sum the evidence up, and `score.rs` weighs them:
 //!
-//! - the plain votes: the mean over the tiles divided by its standard error, the z score of a level. Each tile counts alike, so that faint noise of
-//!   many tiles can outvote the relief of a few;
-//! - the relief: the mean of the correlations, each weighted by the energy of the tile's slopes above that of rounding;
-//! - the second witness (`spectrum.rs`), which fails on other maps: how much more of the slopes' energy a height field explains in one convention than in
-//!   the other, against the same map with its green shifted by every offset.
+//! - the plain votes: the mean over the tiles divided by its standard error, the z score of a level. Each
+//!   tile counts alike, so that faint noise of many tiles can outvote the relief of a few;
+//! - the relief: the mean of the correlations, each weighted by the energy of the tile's slopes above that of
+//!   rounding;
+//! - the second witness (`spectrum.rs`), which fails on other maps: how much more of the slopes' energy a
+//!   height field explains in one convention than in the other, against the same map with its green shifted
+//!   by every offset.
 //!
-//! Where the plain votes contradict the other two, the relief is in one convention and the fine detail in the other, as in a map that was overlaid with
-//! a detail map. The verdict is that of the relief.
+//! Where the plain votes contradict the other two, the relief is in one convention and the fine detail in the
+//! other, as in a map that was overlaid with a detail map. The verdict is that of the relief.
 //!
-//! Exchanged channels keep the sign of c, and show in the energies: for every gradient, dp/du dq/dv and dp/dv dq/du have the same mean
-//! (integrate by parts twice), while the Cauchy-Schwarz inequality bounds that mean by the unmixed derivatives. Mixed derivatives that are
-//! larger than the unmixed ones therefore belong to exchanged channels.
+//! Exchanged channels keep the sign of c, and show in the energies: for every gradient, dp/du dq/dv and dp/dv
+//! dq/du have the same mean (integrate by parts twice), while the Cauchy-Schwarz inequality bounds that mean
+//! by the unmixed derivatives. Mixed derivatives that are larger than the unmixed ones therefore belong to
+//! exchanged channels.
 //!
-//! What the texels cannot show: green and red inverted together, or a map turned by 180 degrees, is the map of the surface with bumps for
-//! dents. Red inverted alone looks as green inverted alone.
+//! What the texels cannot show: green and red inverted together, or a map turned by 180 degrees, is the map
+//! of the surface with bumps for dents. Red inverted alone looks as green inverted alone.
 
 mod fourier;
 mod judgement;
@@ -42,8 +48,8 @@ use crate::exec::simd::{Task, Width, WidthLimit};
 
 /// Judges a normal map.
 ///
-/// `texels`: row after row, the top row first. `size`: width and height. `layout`: the channels of the vector.
-/// Errors: the number of texels is not width times height.
+/// `texels`: row after row, the top row first. `size`: width and height. `layout`: the channels of the
+/// vector. Errors: the number of texels is not width times height.
 ///
 /// ```
 /// use darboux::{MapVerdict, TexelLayout, judge_normal_map};
@@ -92,7 +98,8 @@ impl<const N: usize> NormalMapJudge<N> {
         Self { layout, width, evidence: RowEvidence { texel_counts, levels, row: [const { Vec::new() }; 3] } }
     }
 
-    /// Takes the next row. Texels beyond the width are ignored. Errors: fewer texels than the width; then nothing is taken.
+    /// Takes the next row. Texels beyond the width are ignored. Errors: fewer texels than the width; then
+    /// nothing is taken.
     pub fn push_row<C: Channel>(&mut self, texels: &[[C; N]]) -> Result<(), Error> {
         let row = texels.get(..self.width);
         let texels = row.ok_or(Error::ImageSize { width: self.width, height: 1, found: texels.len() })?;
@@ -107,7 +114,8 @@ impl<const N: usize> NormalMapJudge<N> {
         let evidence = score::combine_levels(&self.evidence.levels);
         let mut judgement = self.evidence.texel_counts.judgement();
         evidence.write(&mut judgement);
-        // Values that went through the transfer function of sRGB are too long for normals, and their slopes are still those of a surface.
+        // Values that went through the transfer function of sRGB are too long for normals, and their slopes
+        // are still those of a surface.
         let is_gradient = evidence.is_clear_gradient()
             || judgement.srgb_mistake().is_some() && evidence.verdict().is_direction();
         let holds_no_normals = judgement.holds_no_normals() && !is_gradient;

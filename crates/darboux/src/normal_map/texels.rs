@@ -1,8 +1,9 @@
 //! Texels of normal maps: inverts channels, moves channels, and reconstructs z.
 //!
-//! An n-bit code c decodes to 2 c / (2^n - 1) - 1 (glTF 2.0, 3.9.3; unsigned normalized formats of all APIs). No code decodes to zero: the
-//! 128 of a flat 8-bit texel is 1/255. Inversion maps c to 2^n - 1 - c, its exact negation, so that inverting twice restores the texel and
-//! 128 becomes 127. Tools that decode 128 as zero, by (c - 128) / 127, have no negation of code 0.
+//! An n-bit code c decodes to 2 c / (2^n - 1) - 1 (glTF 2.0, 3.9.3; unsigned normalized formats of all APIs).
+//! No code decodes to zero: the 128 of a flat 8-bit texel is 1/255. Inversion maps c to 2^n - 1 - c, its
+//! exact negation, so that inverting twice restores the texel and 128 becomes 127. Tools that decode 128 as
+//! zero, by (c - 128) / 127, have no negation of code 0.
 
 use crate::Conversion;
 
@@ -78,12 +79,14 @@ impl TexelLayout<3> {
 impl TexelLayout<4> {
     /// x, y and z; alpha is not part of the vector.
     pub const RGBA: Self = Self { x: 0, y: 1, z: Some(2) };
-    /// x in alpha and y in green; z is reconstructed. "DXT5nm": alpha and green are the most precise channels of BC3.
+    /// x in alpha and y in green; z is reconstructed. "DXT5nm": alpha and green are the most precise channels
+    /// of BC3.
     pub const AG: Self = Self { x: 3, y: 1, z: None };
 }
 
 impl<const N: usize> TexelLayout<N> {
-    /// The layout with the given channels of x, y and z. `None` where two components share a channel or a channel is not below `N`.
+    /// The layout with the given channels of x, y and z. `None` where two components share a channel or a
+    /// channel is not below `N`.
     pub fn new(x: usize, y: usize, z: Option<usize>) -> Option<Self> {
         let is_free = |z: usize| z < N && z != x && z != y;
         (x < N && y < N && x != y && z.is_none_or(is_free)).then_some(Self { x, y, z })
@@ -100,7 +103,8 @@ impl<const N: usize> TexelLayout<N> {
         [x, y, z].map(|component| component as f32)
     }
 
-    /// Encodes a vector with components from -1 to 1, each as the nearest code. Channels without a component have the maximum value.
+    /// Encodes a vector with components from -1 to 1, each as the nearest code. Channels without a component
+    /// have the maximum value.
     pub fn texel<C: Channel>(&self, [x, y, z]: [f32; 3]) -> [C; N] {
         let mut texel = [C::LARGEST; N];
         texel[self.x] = C::nearest(f64::from(x));
@@ -111,8 +115,8 @@ impl<const N: usize> TexelLayout<N> {
         texel
     }
 
-    /// True when a texel can be a normal of a tangent-space map: its length is in [0.5, 1.2], as filtering and rounding leave it, and z is at
-    /// least -0.1.
+    /// True when a texel can be a normal of a tangent-space map: its length is in [0.5, 1.2], as filtering
+    /// and rounding leave it, and z is at least -0.1.
     pub fn holds_normal<C: Channel>(&self, texel: [C; N]) -> bool {
         let [x, y, z] = self.vector(texel);
         can_be_normal((x * x + y * y + z * z).sqrt(), z)
@@ -126,7 +130,8 @@ pub(super) fn can_be_normal(length: f32, z: f32) -> bool {
 }
 
 impl Conversion {
-    /// Converts the texels of a normal map in place: inverts red and green as the conventions require. The image is not flipped.
+    /// Converts the texels of a normal map in place: inverts red and green as the conventions require. The
+    /// image is not flipped.
     pub fn texels<C: Channel, const N: usize>(&self, layout: TexelLayout<N>, texels: &mut [[C; N]]) {
         let channels = [(self.inverts_red(), layout.x), (self.inverts_green(), layout.y)];
         for (_, channel) in channels.into_iter().filter(|(inverts, _)| *inverts) {
@@ -139,9 +144,10 @@ impl Conversion {
 
 /// Moves the components of a normal map to other channels.
 ///
-/// x and y keep their bits. z keeps its bits, or is reconstructed where `from` does not store it. A channel of `to` without a component keeps
-/// the value of that channel, or has the maximum value where `from` stored a component in it. Reconstructing a z that was dropped restores
-/// it for unit vectors; other vectors change their direction.
+/// x and y keep their bits. z keeps its bits, or is reconstructed where `from` does not store it. A channel
+/// of `to` without a component keeps the value of that channel, or has the maximum value where `from` stored
+/// a component in it. Reconstructing a z that was dropped restores it for unit vectors; other vectors change
+/// their direction.
 pub fn repack_texels<C: Channel, const N: usize, const M: usize>(
     texels: &[[C; N]],
     from: TexelLayout<N>,

@@ -11,8 +11,8 @@ pub struct Recipe {
     pub method: Method,
     /// True where they were computed with 1 - v instead of v, and the sign negated. Only rounding differs.
     pub flips_v: bool,
-    /// True where they were computed before quads were cut into triangles, as Unity and other importers do. Which triangles were quads is an
-    /// estimate from their shapes.
+    /// True where they were computed before quads were cut into triangles, as Unity and other importers do.
+    /// Which triangles were quads is an estimate from their shapes.
     pub from_quads: bool,
     /// How corners share the tangents of vertices.
     pub writing: RecipeWriting,
@@ -26,7 +26,8 @@ pub struct Recipe {
 pub enum RecipeWriting {
     /// Every corner has its own tangent: vertices were split where needed.
     Corners,
-    /// Every vertex has the tangent of its last corner, as a loop has it that writes through the index list. Mirrored seams break.
+    /// Every vertex has the tangent of its last corner, as a loop has it that writes through the index list.
+    /// Mirrored seams break.
     LastCorner,
     /// Every vertex has the tangent of its first corner.
     FirstCorner,

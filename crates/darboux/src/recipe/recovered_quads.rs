@@ -1,8 +1,9 @@
-//! Recovers the quads that a triangle list was made of: programs compute tangents on quads and cut them afterwards, often along the other
-//! diagonal than MikkTSpace does.
+//! Recovers the quads that a triangle list was made of: programs compute tangents on quads and cut them
+//! afterwards, often along the other diagonal than MikkTSpace does.
 //!
-//! Two triangles with a common edge are the likelier halves of a quad, the more it is a parallelogram in UV space, and flat and rectangular in
-//! space. The likeliest pairs are taken first, and every triangle once. Vertices with the same values are one: a file may have one per corner.
+//! Two triangles with a common edge are the likelier halves of a quad, the more it is a parallelogram in UV
+//! space, and flat and rectangular in space. The likeliest pairs are taken first, and every triangle once.
+//! Vertices with the same values are one: a file may have one per corner.
 
 use std::collections::HashMap;
 
@@ -27,7 +28,8 @@ struct Pair {
 }
 
 impl QuadMesh {
-    /// None where no triangles have a common edge, and for meshes of other faces than triangles. Errors: cancellation.
+    /// None where no triangles have a common edge, and for meshes of other faces than triangles. Errors:
+    /// cancellation.
     pub fn recover(mesh: &Mesh<'_>, limits: RunLimits<'_>) -> Result<Option<Self>, Error> {
         if !matches!(mesh.faces(), Faces::Triangles) {
             return Ok(None);
@@ -139,8 +141,8 @@ fn first_equal_vertices(mesh: &Mesh<'_>) -> Vec<u32> {
 /// How much the cosines of a quad's corners weigh.
 const SHEAR: f32 = 0.3;
 
-/// How far a quad is from a parallelogram in UV space, in lengths of the diagonal, plus 1 minus the cosine between its halves, plus the weighted mean
-/// of the cosines of its corners.
+/// How far a quad is from a parallelogram in UV space, in lengths of the diagonal, plus 1 minus the cosine
+/// between its halves, plus the weighted mean of the cosines of its corners.
 fn cost(mesh: &Mesh<'_>, a: u32, b: u32) -> f32 {
     let at = |corner: u32| mesh.vertex_of_corner(corner as usize);
     let corners = [at(a), at(next(a)), at(b), at(next(next(a)))];

@@ -1,8 +1,9 @@
 //! A small part of a large mesh, on which most recipes are excluded.
 //!
-//! The part consists of the triangles in some cells of a grid in space, chosen by a hash, so that it has connected pieces from all over the mesh.
-//! Only corners are compared whose tangents cannot depend on the rest: those of vertices whose triangles lie in chosen cells with all three
-//! vertices. Their triangles are complete, and so are those of the neighbouring vertices, which the method angle-area reads.
+//! The part consists of the triangles in some cells of a grid in space, chosen by a hash, so that it has
+//! connected pieces from all over the mesh. Only corners are compared whose tangents cannot depend on the
+//! rest: those of vertices whose triangles lie in chosen cells with all three vertices. Their triangles are
+//! complete, and so are those of the neighbouring vertices, which the method angle-area reads.
 
 use crate::Mesh;
 use crate::mesh::Faces;
@@ -30,7 +31,8 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// None for small meshes, for other faces than triangles, and where no fitting part was found. `tangents`: one per corner of the mesh.
+    /// None for small meshes, for other faces than triangles, and where no fitting part was found.
+    /// `tangents`: one per corner of the mesh.
     pub fn new(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Option<Self> {
         let triangles = mesh.corner_count() / 3;
         if triangles < LARGE || !matches!(mesh.faces(), Faces::Triangles) {
@@ -89,7 +91,8 @@ fn chosen_vertices(mesh: &Mesh<'_>, every: u64) -> Option<Vec<bool>> {
     };
     let (low, high) = (bound(f32::INFINITY, f32::min), bound(f32::NEG_INFINITY, f32::max));
     let size = (0..3).map(|i| f64::from(high[i]) - f64::from(low[i])).fold(0.0, f64::max);
-    // The vertices lie on a surface, so that their number per cell falls with the square of the cells per axis.
+    // The vertices lie on a surface, so that their number per cell falls with the square of the cells per
+    // axis.
     let cells = ((mesh.vertex_count() / VERTICES_PER_CELL) as f64).sqrt().max(1.0);
     let scale = cells / size;
     let cell =

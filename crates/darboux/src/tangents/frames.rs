@@ -1,4 +1,5 @@
-//! Full frames: computes the tangents, then bitangents and magnitudes per vertex, and combines them per corner when frames are read.
+//! Full frames: computes the tangents, then bitangents and magnitudes per vertex, and combines them per
+//! corner when frames are read.
 
 use crate::Context;
 use crate::CornerFrames;
@@ -53,8 +54,8 @@ fn generate(mesh: &Mesh<'_>, options: &TangentOptions, context: &mut Context) ->
 
 /// As [`generate_frames_with`], into the caller's array.
 ///
-/// `corners`: receives one frame per corner, in corner order, which is not vertex order; unspecified after cancellation.
-/// Errors: an array of another length; the context's token was cancelled.
+/// `corners`: receives one frame per corner, in corner order, which is not vertex order; unspecified after
+/// cancellation. Errors: an array of another length; the context's token was cancelled.
 pub fn write_frames(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
@@ -67,10 +68,11 @@ pub fn write_frames(
     limits.check().map(|()| report)
 }
 
-/// As [`generate_frames_with`], but the frames stay in the context's memory, in a compact form, until they are read.
+/// As [`generate_frames_with`], but the frames stay in the context's memory, in a compact form, until they
+/// are read.
 ///
-/// It is for output arrays of other layouts than [`Frame`], which [`CompactFrames::read`] fills block by block. Errors: the context's
-/// token was cancelled.
+/// It is for output arrays of other layouts than [`Frame`], which [`CompactFrames::read`] fills block by
+/// block. Errors: the context's token was cancelled.
 pub fn generate_compact_frames<'a>(
     mesh: &'a Mesh<'a>,
     options: &TangentOptions,
@@ -89,7 +91,8 @@ pub fn generate_compact_frames<'a>(
     Ok(CompactFrames { mesh, fast: &memory.fast, memory: &memory.frames, limits, report })
 }
 
-/// Frames of corners, one per corner, in corner order, which is not vertex order. They borrow the memory of a [`Context`].
+/// Frames of corners, one per corner, in corner order, which is not vertex order. They borrow the memory of a
+/// [`Context`].
 #[derive(Clone, Copy, Debug)]
 pub struct CompactFrames<'a> {
     mesh: &'a Mesh<'a>,
@@ -115,8 +118,8 @@ impl CompactFrames<'_> {
         self.len() == 0
     }
 
-    /// Reads the frames of consecutive corners into `out`, which sets their number. `first`: the first of these corners. Panics where
-    /// `first + out.len()` exceeds the number of corners.
+    /// Reads the frames of consecutive corners into `out`, which sets their number. `first`: the first of
+    /// these corners. Panics where `first + out.len()` exceeds the number of corners.
     pub fn read(&self, first: usize, out: &mut [Frame]) {
         assert!(
             first.checked_add(out.len()).is_some_and(|end| end <= self.len()),
@@ -143,8 +146,8 @@ impl CompactFrames<'_> {
         }
     }
 
-    /// Reads all frames into three arrays: tangents with their signs, bitangents, magnitudes. Errors: an array of another length than one
-    /// per corner.
+    /// Reads all frames into three arrays: tangents with their signs, bitangents, magnitudes. Errors: an
+    /// array of another length than one per corner.
     pub fn read_apart(
         &self,
         tangents: &mut [[f32; 4]],

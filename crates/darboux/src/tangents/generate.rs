@@ -1,4 +1,5 @@
-//! The tangents of a mesh by any method: the choice of the method, without checks of arguments and of cancellation.
+//! The tangents of a mesh by any method: the choice of the method, without checks of arguments and of
+//! cancellation.
 
 use crate::CornerTangents;
 use crate::Mesh;

@@ -31,8 +31,8 @@ pub(crate) enum MethodPlan {
     Nothing,
 }
 
-/// The vertices that the fast path decided, the groups and the submesh of the others, and a copy of the mesh's vertices, from which the general path groups the
-/// mesh when a moved mesh invalidates the decisions.
+/// The vertices that the fast path decided, the groups and the submesh of the others, and a copy of the
+/// mesh's vertices, from which the general path groups the mesh when a moved mesh invalidates the decisions.
 #[derive(Debug)]
 pub(crate) struct FastMethodPlan {
     options: MikkTSpaceOptions,
@@ -98,7 +98,8 @@ impl MethodPlan {
         (Self::Groups(Box::new(plan)), Tangents { corners: CornerTangents(tangents), report })
     }
 
-    /// Writes the tangents of the moved mesh with the signs of the base's. `base`: what it was planned with, and its tangents.
+    /// Writes the tangents of the moved mesh with the signs of the base's. `base`: what it was planned with,
+    /// and its tangents.
     pub fn evaluate(
         &self,
         mesh: &Mesh<'_>,
@@ -145,7 +146,8 @@ impl FastMethodPlan {
         take_signs(base, out);
     }
 
-    /// The stages of the mesh that was planned, which are made when they are first asked for; `None` after cancellation.
+    /// The stages of the mesh that was planned, which are made when they are first asked for; `None` after
+    /// cancellation.
     fn stages(&self, moved: &Mesh<'_>, limits: RunLimits<'_>) -> Option<&GroupedMesh> {
         if self.stages.get().is_none() {
             let made = GroupedMesh::new(&self.base.of(moved), &self.options, limits)?;

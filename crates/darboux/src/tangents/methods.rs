@@ -27,7 +27,8 @@ use crate::tangents::options::Method;
 use crate::tangents::output::Output;
 use crate::tangents::report::Report;
 
-/// Runs a method. `corners`: receives one output per corner. `mikktspace`: runs MikkTSpace, in the way of the caller.
+/// Runs a method. `corners`: receives one output per corner. `mikktspace`: runs MikkTSpace, in the way of the
+/// caller.
 ///
 /// The choice is made in the caller's code, so that a program whose method is constant links no other.
 #[inline(always)]

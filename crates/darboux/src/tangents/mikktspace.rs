@@ -1,9 +1,10 @@
 //! MikkTSpace in its exact stages: bit for bit what mikktspace.c computes.
 //!
-//! [`GroupedMesh`] is the table of contents: [`GroupedMesh::new`] runs the stages that depend on topology, [`GroupedMesh::frames`] those
-//! that follow. Every floating-point operation is rounded to `f32` in the reference's order. These stages are slower than
-//! [`crate::tangents::fast`] and define its results; they also complete what it leaves undecided ([`crate::tangents::submesh`]).
-//! docs/algorithms/mikktspace.md says what "exact" covers.
+//! [`GroupedMesh`] is the table of contents: [`GroupedMesh::new`] runs the stages that depend on topology,
+//! [`GroupedMesh::frames`] those that follow. Every floating-point operation is rounded to `f32` in the
+//! reference's order. These stages are slower than [`crate::tangents::fast`] and define its results; they
+//! also complete what it leaves undecided ([`crate::tangents::submesh`]). docs/algorithms/mikktspace.md says
+//! what "exact" covers.
 //!
 //! Source: Morten S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, and mikktspace.c.
 
@@ -65,7 +66,8 @@ pub(crate) struct GroupedMesh {
 pub(crate) struct SubmeshWeld<'a> {
     /// The welded vertex of each corner, named by the first corner of the submesh that has it.
     pub vertex_of_corner: &'a [u32],
-    /// For each corner: true when the submesh has all faces around the corner's vertex. Only these vertices get groups.
+    /// For each corner: true when the submesh has all faces around the corner's vertex. Only these vertices
+    /// get groups.
     pub is_complete: &'a [bool],
     /// The runs of the mesh's edge tail. Half-edges of a run match with each other only.
     pub tail_runs: &'a [Vec<TriangleEdge>],
@@ -105,7 +107,8 @@ impl GroupedMesh {
         limits.check().ok().map(|()| grouped)
     }
 
-    /// Builds the groups. `is_wanted`: vertices for which it returns false get no group. Groups are absent after cancellation.
+    /// Builds the groups. `is_wanted`: vertices for which it returns false get no group. Groups are absent
+    /// after cancellation.
     pub fn from_stages(
         mesh: &Mesh<'_>,
         triangulation: Triangulation,
@@ -146,7 +149,8 @@ impl GroupedMesh {
         self.finish(mesh, &self.base, &WeldedMesh::new(mesh), initial, limits)
     }
 
-    /// As [`GroupedMesh::frames_from`] for the mesh after its vertices moved. Orientations and groups stay the base's.
+    /// As [`GroupedMesh::frames_from`] for the mesh after its vertices moved. Orientations and groups stay
+    /// the base's.
     pub fn frames_of_moved(
         &self,
         mesh: &Mesh<'_>,
@@ -225,7 +229,8 @@ impl GroupedMesh {
     }
 }
 
-/// Computes the frames of all corners and writes what `out` holds of them. Returns an empty report after cancellation.
+/// Computes the frames of all corners and writes what `out` holds of them. Returns an empty report after
+/// cancellation.
 pub(crate) fn run<O: Output>(
     mesh: &Mesh<'_>,
     options: &MikkTSpaceOptions,

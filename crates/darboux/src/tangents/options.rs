@@ -2,8 +2,9 @@
 
 use crate::choice::choice;
 
-/// Options of [`generate_tangents`](crate::generate_tangents) and [`generate_frames`](crate::generate_frames). The default, MikkTSpace with
-/// its default options, is right for normal maps from today's bakers.
+/// Options of [`generate_tangents`](crate::generate_tangents) and
+/// [`generate_frames`](crate::generate_frames). The default, MikkTSpace with its default options, is right
+/// for normal maps from today's bakers.
 ///
 /// ```
 /// use darboux::{Method, MikkTSpaceOptions, Mode, TangentOptions};
@@ -32,31 +33,34 @@ impl From<MikkTSpaceOptions> for TangentOptions {
     }
 }
 
-/// How tangents are computed. A normal map needs the method that it was baked with, nearly always the default.
+/// How tangents are computed. A normal map needs the method that it was baked with, nearly always the
+/// default.
 ///
-/// All methods but [`Method::MikkTSpace`] leave out triangles whose values are not finite, give every face one sign, and replace tangents
-/// without a direction. Derivations are in docs/algorithms/methods.md.
+/// All methods but [`Method::MikkTSpace`] leave out triangles whose values are not finite, give every face
+/// one sign, and replace tangents without a direction. Derivations are in docs/algorithms/methods.md.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Method {
-    /// The standard of bakers and renderers: sums of unit tangents weighted by corner angles, over welded vertices.
+    /// The standard of bakers and renderers: sums of unit tangents weighted by corner angles, over welded
+    /// vertices.
     MikkTSpace(MikkTSpaceOptions),
-    /// MikkTSpace's groups with weights of corner angle times area: closest to the UVs where the mesh is cut unevenly, so the choice
-    /// where no baked map requires another method.
+    /// MikkTSpace's groups with weights of corner angle times area: closest to the UVs where the mesh is cut
+    /// unevenly, so the choice where no baked map requires another method.
     AngleArea,
-    /// MikkTSpace's groups with weights of corner angle times the lengths of the corner's edges: the default of meshoptimizer, so that of
-    /// gltfpack and of Godot from 4.6 on.
+    /// MikkTSpace's groups with weights of corner angle times the lengths of the corner's edges: the default
+    /// of meshoptimizer, so that of gltfpack and of Godot from 4.6 on.
     AngleEdge,
-    /// The sum of dP/du per vertex and UV orientation, not normalised: triangles with dense UVs weigh more (Lengyel 2001).
+    /// The sum of dP/du per vertex and UV orientation, not normalised: triangles with dense UVs weigh more
+    /// (Lengyel 2001).
     Lengyel,
-    /// As `Lengyel` with one sum per vertex, as three.js and many tutorials have it: mirrored seams break, and are counted in
-    /// [`Report::merged_vertices`](crate::Report::merged_vertices). One tangent per vertex, so that nothing splits; signs can differ within
-    /// a face.
+    /// As `Lengyel` with one sum per vertex, as three.js and many tutorials have it: mirrored seams break,
+    /// and are counted in [`Report::merged_vertices`](crate::Report::merged_vertices). One tangent per
+    /// vertex, so that nothing splits; signs can differ within a face.
     LengyelPerVertex,
     /// The mean of the unit tangents per vertex and UV orientation; all triangles weigh the same.
     Average,
-    /// The mean of the unit tangents per vertex and UV orientation, weighted by area. Where a normal is absent (zero) the tangent is
-    /// perpendicular to the mean of the triangles' normals instead.
+    /// The mean of the unit tangents per vertex and UV orientation, weighted by area. Where a normal is
+    /// absent (zero) the tangent is perpendicular to the mean of the triangles' normals instead.
     Area,
     /// dP/du of each face, in the plane of the face: exact on each face, not smooth.
     Face,
@@ -104,11 +108,12 @@ impl From<MikkTSpaceOptions> for Method {
 pub struct MikkTSpaceOptions {
     /// How faithfully defects of the reference are kept. Default: [`Mode::Repaired`].
     pub mode: Mode,
-    /// Angular threshold in degrees: faces around a vertex share a tangent while their tangents and their bitangents differ by less.
-    /// Default: 180, which is what bakers use. Any value is accepted; its cosine is compared.
+    /// Angular threshold in degrees: faces around a vertex share a tangent while their tangents and their
+    /// bitangents differ by less. Default: 180, which is what bakers use. Any value is accepted; its
+    /// cosine is compared.
     ///
-    /// Below 180 the faces around a vertex are compared in pairs, unless all are near their mean: a vertex with 20,000 faces takes about 2 s,
-    /// one with 100,000 about a minute.
+    /// Below 180 the faces around a vertex are compared in pairs, unless all are near their mean: a vertex
+    /// with 20,000 faces takes about 2 s, one with 100,000 about a minute.
     pub threshold: f32,
 }
 
@@ -141,9 +146,11 @@ impl MikkTSpaceOptions {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Mode {
-    /// Every bit of the reference, its defects included: zero-length tangents, tangents along the normal, NaN.
+    /// Every bit of the reference, its defects included: zero-length tangents, tangents along the normal,
+    /// NaN.
     Reference,
-    /// Every bit of the reference where its result is usable, a unit tangent perpendicular to the normal elsewhere.
+    /// Every bit of the reference where its result is usable, a unit tangent perpendicular to the normal
+    /// elsewhere.
     #[default]
     Repaired,
     /// As `Repaired`, with complete edge matching (the reference's issue 5) and one sign per face.

@@ -1,4 +1,5 @@
-//! Orthogonalisation of full frames: the bitangent that shaders compute from the normal, the tangent and the sign.
+//! Orthogonalisation of full frames: the bitangent that shaders compute from the normal, the tangent and the
+//! sign.
 
 use crate::CornerFrames;
 use crate::Error;
@@ -7,7 +8,8 @@ use crate::Mesh;
 use crate::tangents::repair::across;
 
 impl CornerFrames {
-    /// The same frames with the bitangent that shaders rebuild: sign * cross(normal, tangent), unit. The tangent stays.
+    /// The same frames with the bitangent that shaders rebuild: sign * cross(normal, tangent), unit. The
+    /// tangent stays.
     ///
     /// Without a normal it is a perpendicular of the tangent. Errors: frames of another number of corners.
     pub fn orthogonalized(mut self, mesh: &Mesh<'_>) -> Result<Self, Error> {

@@ -17,18 +17,21 @@ pub struct Report {
     pub unsupported_faces: usize,
     /// Triangles with two equal positions.
     pub degenerate_triangles: usize,
-    /// Triangles whose UVs span no area, or too little area for a direction. Degenerate and non-finite triangles are not counted.
+    /// Triangles whose UVs span no area, or too little area for a direction. Degenerate and non-finite
+    /// triangles are not counted.
     pub uv_degenerate_triangles: usize,
     /// Corners with NaN or infinity in the position, normal or UV.
     pub non_finite_corners: usize,
-    /// Corners without a usable tangent, or whose sign [`Mode::Corrected`](crate::Mode::Corrected) changed without a tangent to copy. Their
-    /// tangents are replaced, except in [`Mode::Reference`](crate::Mode::Reference).
+    /// Corners without a usable tangent, or whose sign [`Mode::Corrected`](crate::Mode::Corrected) changed
+    /// without a tangent to copy. Their tangents are replaced, except in
+    /// [`Mode::Reference`](crate::Mode::Reference).
     pub repaired_corners: usize,
     /// Faces whose corners have both signs before [`Mode::Corrected`](crate::Mode::Corrected) unifies them.
     pub mixed_sign_faces: usize,
     /// Edges between two triangles of opposite UV orientation.
     pub mirrored_edges: usize,
-    /// Vertices of the mesh whose corners have different tangents. [`split_vertices`](crate::split_vertices) splits them.
+    /// Vertices of the mesh whose corners have different tangents. [`split_vertices`](crate::split_vertices)
+    /// splits them.
     pub split_vertices: usize,
     /// Vertices at which triangles of both UV orientations share one tangent. Zero for all methods but
     /// [`Method::LengyelPerVertex`](crate::Method::LengyelPerVertex).
@@ -49,8 +52,8 @@ pub(crate) fn count_non_finite_corners(mesh: &Mesh<'_>) -> usize {
     (0..mesh.corner_count()).filter(|&corner| !finite(mesh.vertex_of_corner(corner))).count()
 }
 
-/// The number of vertices whose corners have different tangents, compared as bits, all NaNs as one value. The time depends on the number of corners only. The
-/// result is unspecified after cancellation.
+/// The number of vertices whose corners have different tangents, compared as bits, all NaNs as one value. The
+/// time depends on the number of corners only. The result is unspecified after cancellation.
 pub(crate) fn count_split_vertices<O: Output>(
     mesh: &Mesh<'_>,
     corners: &[O],

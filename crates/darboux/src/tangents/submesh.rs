@@ -1,9 +1,11 @@
 //! Completes a run of the fast path: runs the exact stages of MikkTSpace on the faces with undecided corners.
 //!
-//! The fast path ([`crate::tangents::fast`]) writes the tangents of vertices that it can decide, and the sign [`UNDECIDED`] at all other
-//! corners. The faces with an undecided corner are a submesh, which holds everything that decides about its undecided corners:
+//! The fast path ([`crate::tangents::fast`]) writes the tangents of vertices that it can decide, and the sign
+//! [`UNDECIDED`] at all other corners. The faces with an undecided corner are a submesh, which holds
+//! everything that decides about its undecided corners:
 //! - an undecided vertex has all its faces there;
-//! - a UV-degenerate triangle, whose orientation depends on the groups of all its vertices, leaves all of them undecided that have groups;
+//! - a UV-degenerate triangle, whose orientation depends on the groups of all its vertices, leaves all of
+//!   them undecided that have groups;
 //! - where a corner of a degenerate triangle copies a decided corner, a face with that corner is there.
 
 use crate::Faces;
@@ -99,7 +101,8 @@ impl UndecidedFaces {
         report
     }
 
-    /// As [`UndecidedFaces::decide`] for the mesh after its vertices moved. `base`: the tangents before; the signs are theirs.
+    /// As [`UndecidedFaces::decide`] for the mesh after its vertices moved. `base`: the tangents before; the
+    /// signs are theirs.
     pub fn decide_moved(
         &self,
         mesh: &Mesh<'_>,
@@ -115,7 +118,8 @@ impl UndecidedFaces {
         }
     }
 
-    /// The frames of decided corners, and the default frame for undecided ones. Bitangents and magnitudes are not read.
+    /// The frames of decided corners, and the default frame for undecided ones. Bitangents and magnitudes are
+    /// not read.
     fn initial_frames(&self, tangents: &[[f32; 4]]) -> Vec<Frame> {
         let frame = |(&corner, &is_undecided): (&u32, &bool)| {
             let [x, y, z, sign] = tangents[corner as usize];
@@ -132,8 +136,8 @@ impl UndecidedFaces {
     }
 }
 
-/// Writes the tangents of the undecided corners of `out`: first those that the groups around their vertices decide. Returns the report of the
-/// whole mesh.
+/// Writes the tangents of the undecided corners of `out`: first those that the groups around their vertices
+/// decide. Returns the report of the whole mesh.
 pub(crate) fn complete(
     mesh: &Mesh<'_>,
     options: &MikkTSpaceOptions,
@@ -144,8 +148,8 @@ pub(crate) fn complete(
     complete_for_plan(mesh, options, fast, limits, out).0
 }
 
-/// As [`complete`], and returns the faces that the groups around their vertices leave undecided. For meshes with undecided faces in which
-/// vertices without UV area are undecided, too.
+/// As [`complete`], and returns the faces that the groups around their vertices leave undecided. For meshes
+/// with undecided faces in which vertices without UV area are undecided, too.
 pub(crate) fn complete_for_plan(
     mesh: &Mesh<'_>,
     options: &MikkTSpaceOptions,
@@ -160,7 +164,8 @@ pub(crate) fn complete_for_plan(
     (whole_report(mesh, fast, out, resolved, left), faces)
 }
 
-/// As [`complete`], but lists the undecided corners and their full frames in `out`, ascending, and leaves them undecided in `tangents`.
+/// As [`complete`], but lists the undecided corners and their full frames in `out`, ascending, and leaves
+/// them undecided in `tangents`.
 pub(crate) fn complete_frames(
     mesh: &Mesh<'_>,
     options: &MikkTSpaceOptions,
@@ -181,8 +186,8 @@ pub(crate) fn complete_frames(
     Report { triangles: triangle_count(mesh), ..report }
 }
 
-/// The report of a whole mesh. `tangents`: the final ones. `resolved`: the counts of what was resolved. `left`: those of the faces that were
-/// left.
+/// The report of a whole mesh. `tangents`: the final ones. `resolved`: the counts of what was resolved.
+/// `left`: those of the faces that were left.
 fn whole_report(
     mesh: &Mesh<'_>,
     fast: &FastPath,
@@ -224,8 +229,8 @@ fn are_all_undecided(vertex_of_corner: &[u32], is_undecided: &[bool]) -> Vec<boo
     vertex_of_corner.iter().map(|&vertex| of_vertex[vertex as usize]).collect()
 }
 
-/// Renumbers the corners of half-edges from the mesh to the submesh, and drops those outside. `corners`: the corners of the submesh,
-/// ascending.
+/// Renumbers the corners of half-edges from the mesh to the submesh, and drops those outside. `corners`: the
+/// corners of the submesh, ascending.
 fn runs_within(corners: &[u32], runs: &[Vec<TriangleEdge>]) -> Vec<Vec<TriangleEdge>> {
     let within = |corner: u32| corners.partition_point(|&other| other < corner) as u32;
     let is_inside = |(triangle, _): &&TriangleEdge| corners.binary_search(&triangle[0]).is_ok();

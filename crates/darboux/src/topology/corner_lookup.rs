@@ -11,7 +11,8 @@ pub(crate) struct CornerOrigin {
 /// The lookup table. Good triangles come before degenerate ones.
 pub(crate) struct CornerLookup<'a> {
     triangulation: &'a Triangulation,
-    /// The first entry of each corner in `good.corners` and `degenerate.corners`, flattened and concatenated, or [`NONE`].
+    /// The first entry of each corner in `good.corners` and `degenerate.corners`, flattened and
+    /// concatenated, or [`NONE`].
     entry_of_corner: Vec<u32>,
 }
 

@@ -1,8 +1,9 @@
 //! The order in which mikktspace.c matches the edge tail: the half-edges with the largest lower vertex.
 //!
-//! The reference sorts half-edges by lower vertex with a quicksort, then each run of equal lower vertices by upper vertex, then each run
-//! of equal edges by triangle. Its loops end one run early, so that the tail keeps the order of the first, unstable sort. Equal edges
-//! that are not adjacent in that order are never matched with each other.
+//! The reference sorts half-edges by lower vertex with a quicksort, then each run of equal lower vertices by
+//! upper vertex, then each run of equal edges by triangle. Its loops end one run early, so that the tail
+//! keeps the order of the first, unstable sort. Equal edges that are not adjacent in that order are never
+//! matched with each other.
 //!
 //! ```text
 //! quicksort(list):                        # only ranges that can hold tail half-edges
@@ -13,14 +14,16 @@
 //! sort each run but the last              # the reference omits the last run
 //! ```
 //!
-//! The fast path does not know every vertex's name, the number that the reference sorts by. So the sort works on lower and upper bounds of
-//! names, and calls [`Edges::resolve_names`] only for vertices whose bounds do not decide.
+//! The fast path does not know every vertex's name, the number that the reference sorts by. So the sort works
+//! on lower and upper bounds of names, and calls [`Edges::resolve_names`] only for vertices whose bounds do
+//! not decide.
 //!
 //! Source: mikktspace.c, `BuildNeighborsFast` and `QuickSortEdges`.
 
 use crate::util::radix_sort::sort;
 
-/// A half-edge by its triangle: the triangle's corners, and the index 0 to 2 of the corner where the half-edge starts.
+/// A half-edge by its triangle: the triangle's corners, and the index 0 to 2 of the corner where the
+/// half-edge starts.
 pub(crate) type TriangleEdge = ([u32; 3], u32);
 
 /// Half-edges `3 t + k`, and bounds of the names of their vertices.
@@ -60,8 +63,9 @@ impl Edges for NamedTriangles<'_> {
 
 /// Returns the runs of the edge tail, in the reference's order. Half-edges match within a run only.
 ///
-/// `list`: all half-edges, ascending; reordered by the call. `last`: the name of the tail's lower vertex. `count`: the length of the tail.
-/// Equal edges can lie in several runs; then matches are missed (the reference's issue 5).
+/// `list`: all half-edges, ascending; reordered by the call. `last`: the name of the tail's lower vertex.
+/// `count`: the length of the tail. Equal edges can lie in several runs; then matches are missed (the
+/// reference's issue 5).
 pub(crate) fn tail_runs(list: &mut [u32], last: u32, count: usize, edges: &mut impl Edges) -> Vec<Vec<u32>> {
     sort_last(list, last, edges);
     let tail = &list[list.len() - count..];
@@ -78,7 +82,8 @@ pub(crate) fn tail_runs(list: &mut [u32], last: u32, count: usize, edges: &mut i
 
 const SEED: u32 = 39_871_946;
 
-/// The reference's quicksort, restricted to ranges that can hold half-edges of the tail. Both parts of a range inherit its seed.
+/// The reference's quicksort, restricted to ranges that can hold half-edges of the tail. Both parts of a
+/// range inherit its seed.
 fn sort_last(list: &mut [u32], last: u32, edges: &mut impl Edges) {
     let mut pending = vec![(0, list.len(), SEED)];
     while let Some((start, end, seed)) = pending.pop() {
@@ -125,8 +130,8 @@ fn resolve_near(pivot: u32, list: &[u32], edges: &mut impl Edges) {
     edges.resolve_names(&unclear);
 }
 
-/// Exchanges half-edges from both ends until none above `pivot` is left of one below. Returns the end of the left part and the start of
-/// the right part.
+/// Exchanges half-edges from both ends until none above `pivot` is left of one below. Returns the end of the
+/// left part and the start of the right part.
 fn exchange_around(list: &mut [u32], pivot: u32, edges: &impl Edges) -> (usize, usize) {
     let (mut left, mut right) = (0, list.len());
     loop {

@@ -1,7 +1,7 @@
 //! Edge adjacency of triangles: which triangle lies across each edge.
 //!
-//! A half-edge `3 t + k` runs from corner `k` of triangle `t` to the next corner. Two half-edges match when they connect the same two
-//! vertices in opposite directions:
+//! A half-edge `3 t + k` runs from corner `k` of triangle `t` to the next corner. Two half-edges match when
+//! they connect the same two vertices in opposite directions:
 //!
 //! ```text
 //! sort the half-edges by (lower vertex, upper vertex, number)
@@ -9,8 +9,9 @@
 //!     match each with the first unmatched one that runs the opposite way
 //! ```
 //!
-//! mikktspace.c sorts with a quicksort that leaves the *edge tail* unsorted: the half-edges with the largest lower vertex. Matches among
-//! them can be missed (the reference's issue 5). [`EdgeOrder::Reference`] reproduces that order with [`crate::topology::edge_sort`].
+//! mikktspace.c sorts with a quicksort that leaves the *edge tail* unsorted: the half-edges with the largest
+//! lower vertex. Matches among them can be missed (the reference's issue 5). [`EdgeOrder::Reference`]
+//! reproduces that order with [`crate::topology::edge_sort`].
 //!
 //! Source: mikktspace.c, `BuildNeighborsFast`.
 
@@ -30,7 +31,8 @@ pub(crate) enum EdgeOrder {
     Reference,
 }
 
-/// Finds the neighbour of every triangle across its edges 0-1, 1-2 and 2-0, or [`NONE`]. Neighbours are absent after cancellation.
+/// Finds the neighbour of every triangle across its edges 0-1, 1-2 and 2-0, or [`NONE`]. Neighbours are
+/// absent after cancellation.
 pub(crate) fn neighbours(triangles: &Triangles, order: EdgeOrder, limits: RunLimits<'_>) -> Vec<[u32; 3]> {
     let mut neighbours = vec![[NONE; 3]; triangles.len()];
     let (mut edges, run_ends) = edges_by_lower_vertex(triangles);
@@ -58,7 +60,8 @@ pub(crate) fn neighbours(triangles: &Triangles, order: EdgeOrder, limits: RunLim
     neighbours
 }
 
-/// True when the order of the edge tail can change which half-edges match: some edge occurs twice, and there are more than two half-edges.
+/// True when the order of the edge tail can change which half-edges match: some edge occurs twice, and there
+/// are more than two half-edges.
 ///
 /// `uppers`: the upper vertices of the tail's half-edges, ascending.
 pub(crate) fn tail_order_matters<U: PartialEq>(uppers: impl Iterator<Item = U> + Clone) -> bool {
@@ -66,7 +69,8 @@ pub(crate) fn tail_order_matters<U: PartialEq>(uppers: impl Iterator<Item = U> +
     has_equals && uppers.count() > 2
 }
 
-/// Discards the neighbours of the half-edges in `runs`, and matches the half-edges of each run with each other only.
+/// Discards the neighbours of the half-edges in `runs`, and matches the half-edges of each run with each
+/// other only.
 pub(crate) fn rematch(triangles: &Triangles, runs: &[Vec<u32>], neighbours: &mut [[u32; 3]]) {
     let slots = neighbours.as_flattened_mut();
     runs.iter().flatten().for_each(|&half_edge| slots[half_edge as usize] = NONE);
@@ -82,8 +86,8 @@ fn ends(triangles: &Triangles, half_edge: usize) -> (u32, u32) {
     (a.min(b), a.max(b))
 }
 
-/// Returns all half-edges, sorted by their lower vertex (stable), and the end of each lower vertex's run. Each entry is the pair of the
-/// upper vertex and the half-edge's number.
+/// Returns all half-edges, sorted by their lower vertex (stable), and the end of each lower vertex's run.
+/// Each entry is the pair of the upper vertex and the half-edge's number.
 fn edges_by_lower_vertex(triangles: &Triangles) -> (Vec<u64>, Vec<u32>) {
     let count = 3 * triangles.len();
     let vertices = triangles.vertices.as_flattened().iter().max().map_or(0, |&max| max as usize + 1);
@@ -111,8 +115,8 @@ fn match_edges(triangles: &Triangles, same: impl Iterator<Item = u32>, neighbour
         let vertices = triangles.vertices[half_edge / 3];
         vertices[half_edge % 3] < vertices[(half_edge + 1) % 3]
     };
-    // All unmatched half-edges before the current one run the same way, because opposite ones would have matched. So one queue suffices,
-    // and its front is the first unmatched half-edge.
+    // All unmatched half-edges before the current one run the same way, because opposite ones would have
+    // matched. So one queue suffices, and its front is the first unmatched half-edge.
     let mut unmatched: VecDeque<usize> = VecDeque::new();
     for edge in same.map(|half_edge| half_edge as usize) {
         match unmatched.front() {

@@ -1,7 +1,8 @@
 //! Splits the faces of a mesh into welded triangles, and separates the degenerate ones.
 //!
-//! A quad is cut along its shorter diagonal in UV space; if both are equally long there, along the shorter one in space; if both are
-//! equally long there as well, from corner 0 to 2. Faces of other than 3 or 4 corners have no triangles.
+//! A quad is cut along its shorter diagonal in UV space; if both are equally long there, along the shorter
+//! one in space; if both are equally long there as well, from corner 0 to 2. Faces of other than 3 or 4
+//! corners have no triangles.
 //!
 //! Source: mikktspace.c, `GenerateInitialVerticesIndexList` and `DegenPrologue`.
 

@@ -1,8 +1,8 @@
 //! Welding: merges corners with equal position, normal and UV into one vertex.
 //!
-//! Values compare as floats: -0 equals +0, and NaN equals nothing. A welded vertex is named by the corner that represents it. The choice
-//! of the representative can change which triangles share a tangent, because edges are sorted by names. So the representative is the
-//! reference's, the first corner in this order:
+//! Values compare as floats: -0 equals +0, and NaN equals nothing. A welded vertex is named by the corner
+//! that represents it. The choice of the representative can change which triangles share a tangent, because
+//! edges are sorted by names. So the representative is the reference's, the first corner in this order:
 //!
 //! ```text
 //! sort the corners into 2048 cells along the longest axis of the bounding box (stable)
@@ -15,8 +15,8 @@
 //!         continue with both parts
 //! ```
 //!
-//! Source: mikktspace.c, `GenerateSharedVerticesIndexList`. We deviate: the reference compares all pairs of a final range; here large
-//! ranges go through a hash map.
+//! Source: mikktspace.c, `GenerateSharedVerticesIndexList`. We deviate: the reference compares all pairs of a
+//! final range; here large ranges go through a hash map.
 
 use crate::Mesh;
 use crate::exec::limits::RunLimits;
@@ -32,7 +32,8 @@ const SMALL_RANGE: usize = 24;
 
 /// Returns the welded vertex of every entry of `corners`, named by the corner that represents it.
 ///
-/// `corners`: corner numbers in the order of the triangle list, three per triangle. After cancellation some corners are not merged.
+/// `corners`: corner numbers in the order of the triangle list, three per triangle. After cancellation some
+/// corners are not merged.
 pub(crate) fn weld(mesh: &Mesh<'_>, corners: &[u32], limits: RunLimits<'_>) -> Vec<u32> {
     let mut vertex_of_entry = corners.to_vec();
     if corners.is_empty() {
@@ -56,7 +57,8 @@ pub(crate) struct Point {
 /// Sorts all corners into cells along the longest axis, in list order within a cell.
 fn points_by_cell(mesh: &Mesh<'_>, corners: &[u32]) -> CellBuckets {
     let position = |corner: u32| mesh.positions().get(mesh.vertex_of_corner(corner as usize));
-    // The reference starts the box with corner 0, whether or not the list contains that corner, and skips the list's first entry.
+    // The reference starts the box with corner 0, whether or not the list contains that corner, and skips the
+    // list's first entry.
     let cells = Cells::of(&Bounds::of(position(0), corners[1..].iter().map(|&corner| position(corner))));
     let point = |(entry, &corner)| Point { position: position(corner), entry };
     let points: Vec<Point> = (0..).zip(corners).map(point).collect();
@@ -84,7 +86,8 @@ impl Cells {
         self.extent / CELL_COUNT as f32
     }
 
-    /// The cell of a position. Quotients that are NaN or exceed 32 bits go to cell 0, as the reference's cast does on x86-64.
+    /// The cell of a position. Quotients that are NaN or exceed 32 bits go to cell 0, as the reference's cast
+    /// does on x86-64.
     #[inline]
     pub fn at(&self, position: V3) -> usize {
         let place = CELL_COUNT as f32 * ((position[self.axis] - self.low) / self.extent);
@@ -146,7 +149,8 @@ impl CellBuckets {
     fn sort_by_counting(&mut self, cells: &Cells, points: &[Point]) {
         self.cells.clear();
         self.cells.extend(points.iter().map(|point| cells.at(point.position) as u16));
-        // While filling, each entry of `ends` is the next free slot of its cell, and so grows from the cell's start to its end.
+        // While filling, each entry of `ends` is the next free slot of its cell, and so grows from the cell's
+        // start to its end.
         self.ends.clear();
         self.ends.resize(CELL_COUNT + 1, 0);
         for &cell in &self.cells {
@@ -206,7 +210,8 @@ impl Bounds {
     }
 }
 
-/// Partitions the points of a cell down to final ranges, and calls `visit` with each that the reference welds.
+/// Partitions the points of a cell down to final ranges, and calls `visit` with each that the reference
+/// welds.
 ///
 /// `wanted`: ranges for which it returns false are skipped.
 pub(crate) fn for_each_final_range(

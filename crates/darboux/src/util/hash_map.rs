@@ -1,8 +1,8 @@
 //! Insertion-ordered hash map keyed by `[u32]` slices of any length.
 //!
-//! All maps of the crate share one copy of the probing code, whatever the types of their keys; `std::collections::HashMap` would be
-//! compiled once per type, which the WebAssembly build cannot afford. The hash is seeded at random, so that no mesh can be made whose
-//! keys collide.
+//! All maps of the crate share one copy of the probing code, whatever the types of their keys;
+//! `std::collections::HashMap` would be compiled once per type, which the WebAssembly build cannot afford.
+//! The hash is seeded at random, so that no mesh can be made whose keys collide.
 
 use crate::util::random::random_bits;
 

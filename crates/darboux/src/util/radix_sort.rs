@@ -1,7 +1,9 @@
-//! Stable sorting by integer keys: insertion sort for short lists, radix sort (least significant byte first) for long ones.
+//! Stable sorting by integer keys: insertion sort for short lists, radix sort (least significant byte first)
+//! for long ones.
 //!
-//! It replaces the standard library's sort for the sake of code size in the WebAssembly build: the standard sort is ten times as large and
-//! compiled once per element type. It is not slower here, because lists are short, nearly sorted or very long.
+//! It replaces the standard library's sort for the sake of code size in the WebAssembly build: the standard
+//! sort is ten times as large and compiled once per element type. It is not slower here, because lists are
+//! short, nearly sorted or very long.
 
 /// The longest list that is sorted by insertion, without a buffer.
 pub(crate) const MAX_INSERTION_SORT: usize = if cfg!(small_limits) { 4 } else { 64 };

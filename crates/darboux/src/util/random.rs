@@ -1,7 +1,9 @@
-//! Random bits for the keys of hash functions and fingerprints, so that nobody can make a mesh whose vertices collide.
+//! Random bits for the keys of hash functions and fingerprints, so that nobody can make a mesh whose vertices
+//! collide.
 //!
-//! The standard library has random bits wherever the operating system does. WebAssembly in browsers and Node.js has no operating
-//! system, and the standard library's keys depend only on the module and its calls there. So the host seeds a generator.
+//! The standard library has random bits wherever the operating system does. WebAssembly in browsers and
+//! Node.js has no operating system, and the standard library's keys depend only on the module and its calls
+//! there. So the host seeds a generator.
 
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 mod source {
@@ -20,7 +22,8 @@ mod source {
     /// Without a seed: digits of pi, so that hash functions still mix.
     static STATE: AtomicU64 = AtomicU64::new(0x243f_6a88_85a3_08d3);
 
-    /// Seeds the hash keys of this instance of a WebAssembly module. The host calls it once, before any other function, with random bits.
+    /// Seeds the hash keys of this instance of a WebAssembly module. The host calls it once, before any other
+    /// function, with random bits.
     pub fn seed_random(seed: u64) {
         STATE.store(seed, Ordering::Relaxed);
     }

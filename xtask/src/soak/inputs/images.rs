@@ -1,4 +1,5 @@
-//! Makes small images of every format that the command reads, and images that are much larger than their files.
+//! Makes small images of every format that the command reads, and images that are much larger than their
+//! files.
 
 use png::{BitDepth, ColorType};
 
@@ -39,7 +40,8 @@ pub fn any_png(random: &mut Random) -> Result<Vec<u8>, String> {
     Ok(bytes)
 }
 
-/// A PNG of RGBA texels with 16 bits per channel that are all zero: its texels take 158 times the size of the file.
+/// A PNG of RGBA texels with 16 bits per channel that are all zero: its texels take 158 times the size of the
+/// file.
 pub fn flat_png(side: u32) -> Vec<u8> {
     let header = [&side.to_be_bytes()[..], &side.to_be_bytes(), &[16, 6, 0, 0, 0]].concat();
     let texels = compressed_zeros((side as usize) * (8 * side as usize + 1));
@@ -53,14 +55,16 @@ pub fn flat_png(side: u32) -> Vec<u8> {
     file
 }
 
-/// A zlib stream of `count` zeros: one block of fixed Huffman codes (RFC 1951, 3.2.6), which repeats a zero by its longest match.
+/// A zlib stream of `count` zeros: one block of fixed Huffman codes (RFC 1951, 3.2.6), which repeats a zero
+/// by its longest match.
 fn compressed_zeros(count: usize) -> Vec<u8> {
     const LONGEST: usize = 258;
     let mut bits = BitWriter { bytes: vec![0x78, 0x01], used: 0 };
     bits.push(0b011, 3);
     let literals = 1 + (count - 1) % LONGEST;
     (0..literals).for_each(|_| bits.push(0b0000_1100, 8));
-    // The length 258 is the code 11000101, the distance 1 the code 00000; Huffman codes are written from their first bit.
+    // The length 258 is the code 11000101, the distance 1 the code 00000; Huffman codes are written from
+    // their first bit.
     (0..(count - literals) / LONGEST).for_each(|_| bits.push(0b0_0000_1010_0011, 13));
     bits.push(0, 7);
     // Adler-32 of zeros: the first sum stays 1, the second counts.

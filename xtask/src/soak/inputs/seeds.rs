@@ -1,4 +1,5 @@
-//! The files that are damaged: models of the repository and of a folder, and made ones for formats without a sample there.
+//! The files that are damaged: models of the repository and of a folder, and made ones for formats without a
+//! sample there.
 
 use std::fs;
 use std::path::{Path, PathBuf};

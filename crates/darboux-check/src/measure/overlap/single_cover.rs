@@ -1,7 +1,8 @@
 //! Finds the parts of UV space that are covered once, so that no pairs of triangles have to be tested there.
 //!
-//! Turn every triangle so that its area is positive. Edges that two triangles use in opposite directions cancel; the rest is the boundary, and it
-//! winds around a point as many times as triangles cover the point. Where no boundary passes, the cover is the same everywhere. So:
+//! Turn every triangle so that its area is positive. Edges that two triangles use in opposite directions
+//! cancel; the rest is the boundary, and it winds around a point as many times as triangles cover the point.
+//! Where no boundary passes, the cover is the same everywhere. So:
 //!
 //! ```text
 //! boundary = edges of the turned triangles that do not cancel
@@ -11,15 +12,17 @@
 //! a triangle may overlap another one if its bounding box meets a marked cell or one that is covered twice or more
 //! ```
 //!
-//! All triangles that overlap others are among those, because two triangles with a common area meet in a cell that is marked or covered twice.
-//! Directions of edges and areas are exact, or nearly: differences and products of 32-bit floats in 64 bits. Places in the grid are rounded, and
-//! marks reach half a row and a column further than the boundary.
+//! All triangles that overlap others are among those, because two triangles with a common area meet in a cell
+//! that is marked or covered twice. Directions of edges and areas are exact, or nearly: differences and
+//! products of 32-bit floats in 64 bits. Places in the grid are rounded, and marks reach half a row and a
+//! column further than the boundary.
 
 use std::collections::HashMap;
 
 use super::layout::{Layout, bounds, doubled_area};
 
-/// The cells that may be marked per triangle. Thousands of long thin triangles beside each other need more; then all triangles may overlap.
+/// The cells that may be marked per triangle. Thousands of long thin triangles beside each other need more;
+/// then all triangles may overlap.
 const MARKS_PER_TRIANGLE: usize = 16;
 const FREE_MARKS: usize = 1 << 16;
 
@@ -60,7 +63,8 @@ struct Edge {
     count: i32,
 }
 
-/// The edges of triangles, all turned to have a positive area, that do not cancel. Vertices with the same UV are one.
+/// The edges of triangles, all turned to have a positive area, that do not cancel. Vertices with the same UV
+/// are one.
 fn boundary(layout: &Layout<'_>, triangles: &[u32]) -> Vec<Edge> {
     let place_of_vertex = places(layout.uvs);
     let edges = || {
@@ -147,8 +151,8 @@ impl Grid {
         [column.min(self.columns - 1), row.min(self.rows - 1)]
     }
 
-    /// Adds an edge of the boundary: marks the cells near it, and counts where it crosses the middles of rows. Returns the marks that are left; none
-    /// if there are too few.
+    /// Adds an edge of the boundary: marks the cells near it, and counts where it crosses the middles of
+    /// rows. Returns the marks that are left; none if there are too few.
     fn add(&mut self, layout: &Layout<'_>, edge: Edge, mut marks_left: usize) -> Option<usize> {
         let [a, b] = edge.vertices.map(|vertex| layout.uv(vertex));
         let at = |y: f64| a[0] + ((y - a[1]) / (b[1] - a[1])).clamp(0.0, 1.0) * (b[0] - a[0]);
@@ -171,7 +175,8 @@ impl Grid {
         Some(marks_left)
     }
 
-    /// The number of cells left of and above every corner of the grid, row by row, that are marked or covered more than once.
+    /// The number of cells left of and above every corner of the grid, row by row, that are marked or covered
+    /// more than once.
     fn suspects_before(&self) -> Vec<u32> {
         let width = self.columns + 1;
         let mut before = vec![0; width * (self.rows + 1)];
@@ -206,7 +211,8 @@ mod tests {
         (may_overlap(&layout).len(), layout.len())
     }
 
-    /// Only the triangles at the border of a simple layout are tested in pairs, and all those of a folded one.
+    /// Only the triangles at the border of a simple layout are tested in pairs, and all those of a folded
+    /// one.
     #[test]
     fn only_suspects_are_tested() {
         let (found, all) = suspects(64, |uv| uv);

@@ -1,8 +1,9 @@
 //! Corrects the tangents of a surface that findings name one by one, and keeps the bits of all others.
 //!
-//! A tangent without a direction gets that of the recipe that explains the others, or of the method that is asked for where none does. One of
-//! another length, or one that leans, keeps its direction: it gets the bits of the recipe where that points the same way, and else it is laid into
-//! the plane of its normal and made unit. Signs become those of the UVs.
+//! A tangent without a direction gets that of the recipe that explains the others, or of the method that is
+//! asked for where none does. One of another length, or one that leans, keeps its direction: it gets the bits
+//! of the recipe where that points the same way, and else it is laid into the plane of its normal and made
+//! unit. Signs become those of the UVs.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,7 +24,8 @@ use crate::surface::{Surface, dot, length, xyz};
 /// The share of close corners from which on a recipe explains tangents.
 const EXPLAINED: f64 = 0.9;
 
-/// The share from which on the default of MikkTSpace does, whatever other recipes give: on simple surfaces all give the same.
+/// The share from which on the default of MikkTSpace does, whatever other recipes give: on simple surfaces
+/// all give the same.
 const IS_MIKKTSPACE: f64 = 0.99;
 
 /// The tangents of all corners of a surface, in glTF's convention; some were corrected.
@@ -33,7 +35,8 @@ pub struct Correction {
 }
 
 impl Correction {
-    /// Corrects wrong tangents; none where the surface lacks what is needed. `options`: the method where no recipe is recognised.
+    /// Corrects wrong tangents; none where the surface lacks what is needed. `options`: the method where no
+    /// recipe is recognised.
     pub fn new(surface: Surface, wrong: &WrongTangents, options: &FixOptions) -> Option<Self> {
         let corrector = Corrector::new(&surface, wrong, options)?;
         let corrected = corrector.corrected()?;
@@ -42,7 +45,8 @@ impl Correction {
         Some(Self { surface, tangent_of_corner })
     }
 
-    /// The tangents of the vertices that triangles use; none where the corners of a vertex have different ones.
+    /// The tangents of the vertices that triangles use; none where the corners of a vertex have different
+    /// ones.
     pub fn of_vertices(&self) -> Option<BTreeMap<usize, [f32; 4]>> {
         let mut of_vertices = BTreeMap::new();
         for (&vertex, &tangent) in self.surface.vertex_of_corner.iter().zip(&self.tangent_of_corner) {
@@ -94,7 +98,8 @@ struct Corrector<'a> {
     tangents: &'a [[f32; 4]],
     wrong: &'a WrongTangents,
     options: &'a FixOptions,
-    /// Per vertex whether its tangent is that of MikkTSpace for a corner without an area, which is no evidence.
+    /// Per vertex whether its tangent is that of MikkTSpace for a corner without an area, which is no
+    /// evidence.
     has_own_tangent: Vec<bool>,
     /// MikkTSpace's tangents of the corners, with the signs that are right here.
     expected: Vec<[f32; 4]>,
@@ -112,7 +117,8 @@ struct Corrector<'a> {
 /// The tangents of corners by the recipe of the file.
 struct Reference {
     tangents: Vec<[f32; 4]>,
-    /// Whether they are the bits of the file. Where they are not, all corners of a vertex with one sign get the tangent of the first.
+    /// Whether they are the bits of the file. Where they are not, all corners of a vertex with one sign get
+    /// the tangent of the first.
     is_exact: bool,
 }
 
@@ -229,7 +235,8 @@ impl<'a> Corrector<'a> {
         self.repairs(Code::TangentNegated) && self.wrong.negated.contains(vertex)
     }
 
-    /// Whether the direction of a vertex is evidence of the recipe that made it: it is known, and not one that is wrong and stays.
+    /// Whether the direction of a vertex is evidence of the recipe that made it: it is known, and not one
+    /// that is wrong and stays.
     fn is_judged(&self, vertex: usize, direction: Direction) -> bool {
         match direction {
             Direction::Unknown => false,
@@ -252,7 +259,8 @@ impl<'a> Corrector<'a> {
         (rest > 0.1 * length(direction)).then(|| laid.map(|x| (x / rest) as f32))
     }
 
-    /// Gives faces without an area in UV space whose corners have both signs MikkTSpace's tangents, which are those of neighbours.
+    /// Gives faces without an area in UV space whose corners have both signs MikkTSpace's tangents, which are
+    /// those of neighbours.
     fn unmixed(&self, mut tangent_of_corner: Vec<[f32; 4]>) -> Vec<[f32; 4]> {
         let is_own = |vertex: &usize| self.has_own_tangent[*vertex];
         for (number, triangle) in self.surface.triangles().enumerate() {
@@ -310,7 +318,8 @@ impl<'a> Corrector<'a> {
         let tangents: Vec<[f32; 4]> =
             self.surface.vertex_of_corner.iter().zip(&self.expected).map(of_corner).collect();
         let matches = recognise_recipe(&mesh, &tangents).ok()?;
-        // Only tangents that are known can be those of the recipe. Of a large mesh, some recipes are compared on a sample.
+        // Only tangents that are known can be those of the recipe. Of a large mesh, some recipes are compared
+        // on a sample.
         let vertices = self.surface.vertex_of_corner.iter().map(|&vertex| vertex as usize);
         let judged = vertices.filter(|&vertex| self.is_judged(vertex, directions[vertex])).count();
         let scale = tangents.len() as f64 / judged.max(1) as f64;
@@ -374,7 +383,8 @@ impl<'a> Corrector<'a> {
         first
     }
 
-    /// The tangent of a corner by the recipe. A corner without evidence takes that of another one of its vertex.
+    /// The tangent of a corner by the recipe. A corner without evidence takes that of another one of its
+    /// vertex.
     fn made(&self, reference: &Reference, first: &[[Option<usize>; 2]], corner: usize) -> [f32; 4] {
         let [positive, negative] = first[self.surface.vertex_of_corner[corner] as usize];
         let is_negative = self.expected[corner][3] < 0.0;
@@ -387,7 +397,8 @@ impl<'a> Corrector<'a> {
     }
 }
 
-/// Per vertex whether a defect that is to be repaired is about its sign, which has a value, but may be the wrong one.
+/// Per vertex whether a defect that is to be repaired is about its sign, which has a value, but may be the
+/// wrong one.
 fn with_named_signs(surface: &Surface, wrong: &WrongTangents) -> Vec<bool> {
     let has = |code: Code| wrong.codes.contains(&code);
     let count = surface.positions.len();

@@ -1,4 +1,5 @@
-//! Repairs normals: missing ones are made, others get unit length, and normals or faces that are reversed are flipped.
+//! Repairs normals: missing ones are made, others get unit length, and normals or faces that are reversed are
+//! flipped.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -17,7 +18,8 @@ use crate::surface::{dot, length};
 /// The attribute.
 const NORMAL: &str = "NORMAL";
 
-/// Applies the edits of normals. Returns the primitives that lost their tangents, because their normals are other ones now.
+/// Applies the edits of normals. Returns the primitives that lost their tangents, because their normals are
+/// other ones now.
 pub fn repair(
     document: &mut Document,
     edits: &[Edit],
@@ -60,7 +62,8 @@ fn make(
     Ok(without.map(|primitive| primitive.name).collect())
 }
 
-/// Gives normals unit length, and vertices whose normal has no direction a smooth one. Other normals keep their bits.
+/// Gives normals unit length, and vertices whose normal has no direction a smooth one. Other normals keep
+/// their bits.
 fn make_unit(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Error> {
     for (accessor, users) in users_of(document, NORMAL, names) {
         let mut normals = document.vectors::<3>(accessor)?.into_owned();
@@ -84,8 +87,9 @@ fn make_unit(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Err
     Ok(())
 }
 
-/// A smooth normal of every vertex of primitives that share their vertices; that of the vertex's own faces where other faces at the same place turn
-/// the smooth one to their back. Vertices without faces get (0, 0, 1).
+/// A smooth normal of every vertex of primitives that share their vertices; that of the vertex's own faces
+/// where other faces at the same place turn the smooth one to their back. Vertices without faces get (0, 0,
+/// 1).
 fn smooth_normals(
     document: &Document,
     users: &[PrimitiveName],

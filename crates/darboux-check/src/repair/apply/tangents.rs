@@ -19,8 +19,9 @@ use crate::repair::plan::{Kept, WrongTangents};
 /// The attribute.
 const TANGENT: &str = "TANGENT";
 
-/// Corrects tangents that are wrong, and keeps the bits of the others. Vertices are split where their corners need different tangents; on primitives
-/// with morph targets, all tangents are made again then, with those of the targets. `wrong` and `kept`: per primitive. Returns what was done to the primitives.
+/// Corrects tangents that are wrong, and keeps the bits of the others. Vertices are split where their corners
+/// need different tangents; on primitives with morph targets, all tangents are made again then, with those of
+/// the targets. `wrong` and `kept`: per primitive. Returns what was done to the primitives.
 pub fn correct(
     document: &mut Document,
     wrong: &BTreeMap<Key, &WrongTangents>,
@@ -78,7 +79,8 @@ struct Rewritten {
     of_vertices: BTreeMap<usize, [f32; 4]>,
 }
 
-/// Adds primitives to those that want no other values of the same accessor. Where all want others, they get an accessor of their own.
+/// Adds primitives to those that want no other values of the same accessor. Where all want others, they get
+/// an accessor of their own.
 fn add(
     rewritten: &mut Vec<Rewritten>,
     users: impl Iterator<Item = PrimitiveName>,
@@ -128,7 +130,8 @@ pub fn change(
     Ok(())
 }
 
-/// Makes the tangents of primitives again. Vertices whose corners need different tangents are split. `kept`: what stays wrong, per primitive.
+/// Makes the tangents of primitives again. Vertices whose corners need different tangents are split. `kept`:
+/// what stays wrong, per primitive.
 pub fn make(
     document: &mut Document,
     names: &[PrimitiveName],

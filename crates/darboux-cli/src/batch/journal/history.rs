@@ -47,7 +47,8 @@ pub struct History {
     /// All runs that ever started in the folder.
     pub runs: HashSet<RunId>,
     pub records: HashMap<String, Record>,
-    /// How many killed runs were at work on an output when they ended; 0 where a run may have written it without leaving a record.
+    /// How many killed runs were at work on an output when they ended; 0 where a run may have written it
+    /// without leaving a record.
     attempts: HashMap<String, usize>,
     /// The outputs that the latest run is at work on, and whether each was known before.
     at_work: HashMap<String, bool>,
@@ -93,7 +94,8 @@ impl History {
         }
     }
 
-    /// How many killed runs were at work on an output; none where no run can have written it without leaving a record.
+    /// How many killed runs were at work on an output; none where no run can have written it without leaving
+    /// a record.
     pub fn attempts(&self, output: &str) -> Option<usize> {
         self.attempts.get(output).copied()
     }
@@ -104,8 +106,8 @@ impl History {
         self.runs.len() + self.records.len() + attempts.sum::<usize>()
     }
 
-    /// The lines that say the same, in an order that does not depend on chance. The last one is the start of the run `latest`, so that what this run
-    /// begins is told from what earlier runs began.
+    /// The lines that say the same, in an order that does not depend on chance. The last one is the start of
+    /// the run `latest`, so that what this run begins is told from what earlier runs began.
     pub fn text(&self, latest: RunId) -> io::Result<Vec<u8>> {
         let mut text = Vec::new();
         let earlier = self.runs.iter().filter(|&&run| run != latest);

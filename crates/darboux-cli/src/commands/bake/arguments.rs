@@ -66,8 +66,8 @@ pub struct BakeArguments {
     #[arg(long, value_name = "HIGH", num_args = 1.., help = with_endings("The high models ({models}), which have the detail; their materials count, with normal maps and textures"))]
     pub high: Vec<PathBuf>,
 
-    /// The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png, and %UDIM% becomes the
-    /// number of each tile
+    /// The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in
+    /// crate.ao.png, and %UDIM% becomes the number of each tile
     #[arg(short, long, value_name = "IMAGE", default_value = "", hide_default_value = true, value_parser = any_path())]
     pub output: PathBuf,
 
@@ -86,9 +86,11 @@ pub struct BakeArguments {
     #[arg(long, value_name = "N|WxH", default_value = "1024", value_parser = size, help_heading = "Maps")]
     pub size: [u32; 2],
 
-    /// Bits per channel: 8 or 16 (PNG), 16 or 32 (EXR, TIFF); by default the more for heights, positions and thickness, the fewer for the others
+    /// Bits per channel: 8 or 16 (PNG), 16 or 32 (EXR, TIFF); by default the more for heights, positions and
+    /// thickness, the fewer for the others
     ///
-    /// EXR, and TIFF of 32 bits, hold numbers as they are: distances in the models' unit, light in linear light, directions from 0 to 1.
+    /// EXR, and TIFF of 32 bits, hold numbers as they are: distances in the models' unit, light in linear
+    /// light, directions from 0 to 1.
     #[arg(long, value_name = "8|16|32", value_parser = bits, help_heading = "Maps")]
     pub bits: Option<u8>,
 
@@ -96,7 +98,8 @@ pub struct BakeArguments {
     #[arg(long, value_name = "SEED", num_args = 0..=1, default_missing_value = "0", require_equals = true, help_heading = "Maps")]
     pub dither: Option<u32>,
 
-    /// Write an image whose channels are maps of one channel each, such as orm=ao,roughness,metalness: OUTPUT with NAME before its ending
+    /// Write an image whose channels are maps of one channel each, such as orm=ao,roughness,metalness:
+    /// OUTPUT with NAME before its ending
     #[arg(long, value_name = "NAME=MAPS", value_parser = pack, help_heading = "Maps")]
     pub pack: Vec<Pack>,
 
@@ -119,21 +122,25 @@ pub struct BakeArguments {
     #[arg(long, value_name = "OUT,IN", value_parser = two_distances, help_heading = "Rays")]
     pub distance: Option<[f32; 2]>,
 
-    /// Rays from a cage: the low model, moved outwards by this distance along smooth normals, so that hard edges leave no gaps; they end as far
-    /// inside
+    /// Rays from a cage: the low model, moved outwards by this distance along smooth normals, so that hard
+    /// edges leave no gaps; they end as far inside
     ///
-    /// Without any of these options the distance is 2 % of the diagonal of the low model's box, and is printed.
+    /// Without any of these options the distance is 2 % of the diagonal of the low model's box, and is
+    /// printed.
     #[arg(long, value_name = "DISTANCE", value_parser = distance, help_heading = "Rays")]
     pub cage_offset: Option<f32>,
 
-    /// Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as --cage-offset would
+    /// Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as
+    /// --cage-offset would
     #[arg(long, value_name = "CAGE", help_heading = "Rays")]
     pub cage: Option<PathBuf>,
 
-    /// Rays from a cage that is made for the models: at every vertex as close as all but a SHARE of the rays around allows, 0.001 by default
+    /// Rays from a cage that is made for the models: at every vertex as close as all but a SHARE of the rays
+    /// around allows, 0.001 by default
     ///
-    /// Detail that stands on the surface lies inside the cage, and what stands over it behind a gap, such as a handle over a lid, outside. The cage is at
-    /// most --cage-offset away, by default 10 % of the diagonal of the low model's box. The distances found are printed.
+    /// Detail that stands on the surface lies inside the cage, and what stands over it behind a gap, such as
+    /// a handle over a lid, outside. The cage is at most --cage-offset away, by default 10 % of the
+    /// diagonal of the low model's box. The distances found are printed.
     #[arg(long, value_name = "SHARE", num_args = 0..=1, default_missing_value = "0.001", require_equals = true, value_parser = share, conflicts_with_all = ["distance", "cage"], help_heading = "Rays")]
     pub auto_cage: Option<f32>,
 
@@ -141,14 +148,17 @@ pub struct BakeArguments {
     #[arg(long, conflicts_with_all = ["distance", "cage", "auto_cage"], help_heading = "Rays")]
     pub offset_colors: bool,
 
-    /// Turn rays towards the normals of the low model's triangles: by an AMOUNT from 0 to 1, or by a painted IMAGE over its UVs, white where rays
-    /// follow the triangle's normal and black where they follow the smooth one
+    /// Turn rays towards the normals of the low model's triangles: by an AMOUNT from 0 to 1, or by a painted
+    /// IMAGE over its UVs, white where rays follow the triangle's normal and black where they follow the
+    /// smooth one
     ///
-    /// It straightens details on flat faces with smooth normals; at hard edges straight rays leave gaps, which the image can leave out.
+    /// It straightens details on flat faces with smooth normals; at hard edges straight rays leave gaps,
+    /// which the image can leave out.
     #[arg(long, value_name = "AMOUNT|IMAGE", value_parser = skew, help_heading = "Rays")]
     pub skew: Option<SkewChoice>,
 
-    /// Fail, and write nothing, if the rays of more than this SHARE of the texels hit nothing; without it they are a warning, unless all miss
+    /// Fail, and write nothing, if the rays of more than this SHARE of the texels hit nothing; without it
+    /// they are a warning, unless all miss
     #[arg(long, value_name = "SHARE", value_parser = share, help_heading = "Rays")]
     pub max_misses: Option<f32>,
 
@@ -162,7 +172,8 @@ pub struct BakeArguments {
 
     /// Let rays hit triangles from behind
     ///
-    /// By default such triangles are transparent, so that a hole in the high model does not show its far wall.
+    /// By default such triangles are transparent, so that a hole in the high model does not show its far
+    /// wall.
     #[arg(long, help_heading = "Rays")]
     pub back_faces: bool,
 
@@ -170,7 +181,8 @@ pub struct BakeArguments {
     #[arg(long, help_heading = "Maps")]
     pub no_high_maps: bool,
 
-    /// How tangents are computed; by default those of the low model's file are used, and mikktspace if it has none for the UV set
+    /// How tangents are computed; by default those of the low model's file are used, and mikktspace if it
+    /// has none for the UV set
     #[arg(long, value_parser = choice::<Method>(), value_name = "NAME", help_heading = "Frames")]
     pub method: Option<Method>,
 
@@ -182,7 +194,8 @@ pub struct BakeArguments {
     #[arg(long, value_name = "N", help_heading = "Frames")]
     pub uv_set: Option<usize>,
 
-    /// Bake only the primitives with this material, materials[N] of the low model's file; by default all share the map
+    /// Bake only the primitives with this material, materials[N] of the low model's file; by default all
+    /// share the map
     #[arg(long, value_name = "N", help_heading = "Frames")]
     pub material: Option<usize>,
 
@@ -198,9 +211,11 @@ pub struct BakeArguments {
     #[arg(long, value_name = "GLB", help_heading = "Results")]
     pub write_model: Option<PathBuf>,
 
-    /// Shade the low model with the map that was written, as a renderer does, and print how far its normals are from those of the high models
+    /// Shade the low model with the map that was written, as a renderer does, and print how far its normals
+    /// are from those of the high models
     ///
-    /// One random point per texel is compared, in degrees: of all points, by cause, and what renderers with other frames would show.
+    /// One random point per texel is compared, in degrees: of all points, by cause, and what renderers with
+    /// other frames would show.
     #[arg(long, help_heading = "Results")]
     pub verify: bool,
 
@@ -208,7 +223,8 @@ pub struct BakeArguments {
     #[arg(long, value_name = "PNG", requires = "verify", help_heading = "Results")]
     pub heat_map: Option<PathBuf>,
 
-    /// Write the low model painted with these errors, unlit, and beside it a PNG of their scale; `darboux render` and every viewer show it
+    /// Write the low model painted with these errors, unlit, and beside it a PNG of their scale; `darboux
+    /// render` and every viewer show it
     #[arg(long, value_name = "GLB", requires = "verify", help_heading = "Results")]
     pub heat_model: Option<PathBuf>,
 
@@ -216,23 +232,28 @@ pub struct BakeArguments {
     #[arg(long, value_name = "MIN,MAX", requires = "verify", help_heading = "Results")]
     pub heat_range: Option<HeatRange>,
 
-    /// Write an HTML page with pictures of the maps, of errors and misses, and of the low model beside the high ones; it loads nothing
+    /// Write an HTML page with pictures of the maps, of errors and misses, and of the low model beside the
+    /// high ones; it loads nothing
     #[arg(long, value_name = "HTML", help_heading = "Results")]
     pub report: Option<PathBuf>,
 
-    /// Bake each NAME_low in the folder LOW from NAME_high, with the cage NAME_cage if there is one, into NAME.png in the folder of -o, or in LOW
+    /// Bake each NAME_low in the folder LOW from NAME_high, with the cage NAME_cage if there is one, into
+    /// NAME.png in the folder of -o, or in LOW
     ///
-    /// An -o such as maps/%NAME%.%UDIM%.exr has another name for the images of each pair; so have --write-model, --report and the others.
+    /// An -o such as maps/%NAME%.%UDIM%.exr has another name for the images of each pair; so have
+    /// --write-model, --report and the others.
     #[arg(long, help_heading = "Jobs")]
     pub suffixes: bool,
 
-    /// Skip bakes of a job whose models, options and outputs have not changed since an earlier run; a killed run is continued
+    /// Skip bakes of a job whose models, options and outputs have not changed since an earlier run; a killed
+    /// run is continued
     ///
     /// The journal of earlier runs is darboux-journal.jsonl in the folder of the job.
     #[arg(long, help_heading = "Jobs")]
     pub resume: bool,
 
-    /// With --resume, bake also pairs that are skipped because two runs were killed while they worked on them
+    /// With --resume, bake also pairs that are skipped because two runs were killed while they worked on
+    /// them
     #[arg(long, requires = "resume", help_heading = "Jobs")]
     pub retry: bool,
 
@@ -254,7 +275,8 @@ pub struct BakeArguments {
     #[arg(skip)]
     pub own_outputs: OwnOutputs,
 
-    /// Whether folders of outputs are made, as in jobs; otherwise one that is missing is most likely mistyped.
+    /// Whether folders of outputs are made, as in jobs; otherwise one that is missing is most likely
+    /// mistyped.
     #[arg(skip)]
     pub makes_folders: bool,
 }
@@ -331,7 +353,8 @@ pub enum MatchChoice {
     /// All of them: the first that a ray meets
     #[default]
     Nearest,
-    /// Those of the same name: crate_low gets the detail of crate_high and crate_high_bolts. The names of nodes count, or else of meshes
+    /// Those of the same name: crate_low gets the detail of crate_high and crate_high_bolts. The names of
+    /// nodes count, or else of meshes
     Name,
 }
 

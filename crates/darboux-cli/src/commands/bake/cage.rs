@@ -25,7 +25,8 @@ pub enum Rays {
     CageFile {
         inwards: f32,
     },
-    /// The cage is made for the models: `share` as of the command line, `reach` the largest offset, `least` and `most` those found.
+    /// The cage is made for the models: `share` as of the command line, `reach` the largest offset, `least`
+    /// and `most` those found.
     AutoCage {
         share: f32,
         reach: f32,
@@ -94,8 +95,8 @@ fn rounded(distance: f32) -> f64 {
 pub struct Cages(pub Vec<Vec<[f32; 3]>>);
 
 impl Cages {
-    /// Makes or reads the cages; fills in what an automatic cage has found. `file`: that of `--cage`; `low`: those of `prepared`, without cages. Errors
-    /// are one sentence each.
+    /// Makes or reads the cages; fills in what an automatic cage has found. `file`: that of `--cage`; `low`:
+    /// those of `prepared`, without cages. Errors are one sentence each.
     pub fn read(
         arguments: &BakeArguments,
         file: Option<&Document>,
@@ -152,7 +153,8 @@ impl Cages {
     }
 }
 
-/// The positions of the cage's primitives, which must have the vertices of the low model's, in the same order.
+/// The positions of the cage's primitives, which must have the vertices of the low model's, in the same
+/// order.
 fn of_document(document: &Document, low: &[LowSurface<'_>]) -> Result<Vec<Vec<[f32; 3]>>, String> {
     let sentence = |error: darboux_io::Error| error.to_string();
     let corners = document.corners().map_err(sentence)?;

@@ -1,4 +1,5 @@
-//! `--write-cage`: the cage as a GLB with the vertices and triangles of the low model, which `--cage` and modelling programs read.
+//! `--write-cage`: the cage as a GLB with the vertices and triangles of the low model, which `--cage` and
+//! modelling programs read.
 
 use std::path::Path;
 
@@ -8,7 +9,8 @@ use serde_json::{Value, json};
 
 use super::arguments::BakeArguments;
 
-/// Stages the cage and returns its path; none if it was not asked for. `names`: of the surfaces. Errors are one sentence each.
+/// Stages the cage and returns its path; none if it was not asked for. `names`: of the surfaces. Errors are
+/// one sentence each.
 pub fn stage_cage<'n>(
     arguments: &BakeArguments,
     low: &[LowSurface<'_>],

@@ -1,7 +1,8 @@
-//! Blue noise: thresholds that differ between neighbouring texels as evenly as possible, so that rounding to 8 bits leaves neither bands nor grain.
+//! Blue noise: thresholds that differ between neighbouring texels as evenly as possible, so that rounding to
+//! 8 bits leaves neither bands nor grain.
 //!
-//! R. Ulichney, "The void-and-cluster method for dither array generation", 1993. The energy of a texel is a sum over the others by their distance, in
-//! whole numbers, so that the array has the same bits everywhere.
+//! R. Ulichney, "The void-and-cluster method for dither array generation", 1993. The energy of a texel is a
+//! sum over the others by their distance, in whole numbers, so that the array has the same bits everywhere.
 
 /// Texels per side of the array, which repeats.
 const SIDE: usize = 64;
@@ -40,7 +41,8 @@ impl BlueNoise {
 /// The texels in the order in which they are set: each time in the largest void.
 fn void_and_cluster() -> Vec<usize> {
     let mut field = Field::new();
-    // A tenth of the texels at places without pattern, which then move from clusters into voids until that changes nothing.
+    // A tenth of the texels at places without pattern, which then move from clusters into voids until that
+    // changes nothing.
     let mut state = 1u64;
     while field.set.iter().filter(|set| **set).count() < SIDE * SIDE / 10 {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -86,7 +88,8 @@ struct Field {
 
 impl Field {
     fn new() -> Self {
-        // A Gaussian of 1.9 texels as powers of a ratio in whole numbers: the ratio of exp(-1 / (2 * 1.9^2)) to 1.
+        // A Gaussian of 1.9 texels as powers of a ratio in whole numbers: the ratio of exp(-1 / (2 * 1.9^2))
+        // to 1.
         let power = |square: usize| (0..square).fold(1i64 << 40, |weight, _| weight / 1000 * 871);
         let weights = (0..=REACH).flat_map(|y| (0..=REACH).map(move |x| power(x * x + y * y))).collect();
         Self { set: vec![false; SIDE * SIDE], energy: vec![0; SIDE * SIDE], weights }
@@ -129,7 +132,8 @@ mod tests {
         sorted.sort_by(f32::total_cmp);
         let count = (SIDE * SIDE) as f32;
         assert!(sorted.iter().enumerate().all(|(i, &x)| (x - (i as f32 + 0.5) / count).abs() < 1e-6));
-        // The mean of any 4 x 4 texels is near one half: it deviates by less than half as much as that of white noise, 0.072.
+        // The mean of any 4 x 4 texels is near one half: it deviates by less than half as much as that of
+        // white noise, 0.072.
         let mean = |x: usize, y: usize| {
             (0..16).map(|i| noise.threshold([x + i % 4, y + i / 4], 0)).sum::<f32>() / 16.0
         };

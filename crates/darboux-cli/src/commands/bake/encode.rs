@@ -73,7 +73,8 @@ impl Encoding {
         signed
     }
 
-    /// A number of a channel of a file of floating-point numbers: as it is, but directions as shares, as every reader of normal maps expects.
+    /// A number of a channel of a file of floating-point numbers: as it is, but directions as shares, as
+    /// every reader of normal maps expects.
     fn float(&self, x: f32) -> f32 {
         if self.content == MapContent::Directions { 0.5 + 0.5 * x } else { x }
     }
@@ -157,8 +158,8 @@ fn dithered(signed: f32, threshold: f32) -> f32 {
     code / 127.5 - 1.0
 }
 
-/// What black and white mean: heights from as far inside to as far outside as rays can reach, positions the box around all of them, thickness and light up
-/// to the largest.
+/// What black and white mean: heights from as far inside to as far outside as rays can reach, positions the
+/// box around all of them, thickness and light up to the largest.
 fn range(map: MapKind, content: MapContent, numbers: &[f32], options: &BakeOptions) -> Vec<[f32; 2]> {
     let largest = numbers.iter().fold(0f32, |largest, x| largest.max(x.abs()));
     match (map, content) {

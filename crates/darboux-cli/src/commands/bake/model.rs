@@ -1,4 +1,5 @@
-//! `--write-model`: the low model with maps in its materials and the tangents in its vertices; `--heat-model`: painted with errors.
+//! `--write-model`: the low model with maps in its materials and the tangents in its vertices;
+//! `--heat-model`: painted with errors.
 
 use std::path::Path;
 
@@ -22,7 +23,8 @@ pub fn refuse_model(arguments: &BakeArguments, low: &LowModel<'_>) -> Result<(),
     Ok(())
 }
 
-/// Whether some primitives were baked with the tangents of the file and others, which have some too, with computed ones.
+/// Whether some primitives were baked with the tangents of the file and others, which have some too, with
+/// computed ones.
 pub fn has_mixed_tangents(low: &LowModel<'_>) -> bool {
     low.with_own_tangents > 0 && low.with_unused_tangents > 0
 }
@@ -43,8 +45,8 @@ pub fn stage_model(
     Ok(Some(path.display().to_string()))
 }
 
-/// The low model with the maps in its materials and the tangents in its vertices. `normal`: in glTF's convention; `name`: of the images. Errors are one
-/// sentence each.
+/// The low model with the maps in its materials and the tangents in its vertices. `normal`: in glTF's
+/// convention; `name`: of the images. Errors are one sentence each.
 ///
 /// The model is read again, because the bake still borrows the first one.
 pub fn baked_model(
@@ -82,7 +84,8 @@ struct BakedTexture {
     png: PngImage,
 }
 
-/// The textures that materials of glTF have, of the maps that were baked: occlusion, roughness and metalness share one.
+/// The textures that materials of glTF have, of the maps that were baked: occlusion, roughness and metalness
+/// share one.
 fn textures_of_material(images: &Images) -> Result<Vec<BakedTexture>, String> {
     let mut textures = Vec::new();
     let has = |map| images.numbers(map).is_some();
@@ -157,7 +160,8 @@ fn sentence(error: darboux_io::Error) -> String {
     error.to_string()
 }
 
-/// Stages the low model with a texture as its colour and without detail; returns the path. Errors are one sentence each.
+/// Stages the low model with a texture as its colour and without detail; returns the path. Errors are one
+/// sentence each.
 pub fn stage_painted(
     arguments: &BakeArguments,
     low: &LowModel<'_>,

@@ -19,7 +19,8 @@ const MISSED_BEHIND: [u8; 3] = [255, 160, 0];
 /// The rows of the gap between a heat map and its scale.
 const GAP: usize = 8;
 
-/// Draws the texels without a hit, if they are many, beside the map. Returns the path; none without a picture. Errors are one sentence each.
+/// Draws the texels without a hit, if they are many, beside the map. Returns the path; none without a
+/// picture. Errors are one sentence each.
 pub fn misses(
     arguments: &BakeArguments,
     baked: &Baked,
@@ -57,7 +58,8 @@ pub fn of_misses(images: &Images) -> Raster {
     Raster { size: images.size, pixels: images.states.iter().map(color).collect() }
 }
 
-/// The errors of a verification with the scale below them. `most`: the longest side of the picture without the scale.
+/// The errors of a verification with the scale below them. `most`: the longest side of the picture without
+/// the scale.
 pub fn heat_map(verification: &Verification, range: HeatRange, most: u32) -> Raster {
     let errors = Raster { size: verification.heat_size, pixels: heat_colors(verification, range) };
     let Raster { size: [width, height], mut pixels } = errors.at_most(most);
@@ -66,8 +68,8 @@ pub fn heat_map(verification: &Verification, range: HeatRange, most: u32) -> Ras
     Raster { size: [width, (pixels.len() / width as usize) as u32], pixels }
 }
 
-/// The errors of a verification without a scale, as a texture. Texels outside the charts have the colour of the texel before them, so that
-/// filters do not darken the borders.
+/// The errors of a verification without a scale, as a texture. Texels outside the charts have the colour of
+/// the texel before them, so that filters do not darken the borders.
 pub fn heat_texture(name: &str, verification: &Verification, range: HeatRange) -> Result<PngImage, String> {
     let mut texels = heat_colors(verification, range);
     for at in 1..texels.len() {

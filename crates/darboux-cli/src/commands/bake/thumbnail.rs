@@ -6,7 +6,8 @@ use crate::html_page::raster::Raster;
 /// The longest side of a map's picture in a page.
 const MAP_SIDE: u32 = 384;
 
-/// A map as its file of 8 bits would look, reduced. Transparency is left out, and two channels get a third one that is black.
+/// A map as its file of 8 bits would look, reduced. Transparency is left out, and two channels get a third
+/// one that is black.
 pub fn thumbnail(channels: &Channels<'_>) -> Raster {
     let pixel = |texel: &[u8]| match *texel {
         [red, green, blue, ..] => [red, green, blue],

@@ -15,7 +15,8 @@ pub fn has_place(path: &Path) -> bool {
     PLACES.iter().any(|place| text.contains(place))
 }
 
-/// Refuses names of images that do not go together, and results that tiles do not have. The error is one sentence.
+/// Refuses names of images that do not go together, and results that tiles do not have. The error is one
+/// sentence.
 pub fn check(arguments: &BakeArguments) -> Result<(), String> {
     let BakeArguments { output, heat_map, heat_model, write_model, report, .. } = arguments;
     if let Some(page) = report.as_deref().filter(|path| has_place(path)) {

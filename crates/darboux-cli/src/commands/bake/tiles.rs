@@ -16,8 +16,9 @@ pub struct Tile {
     pub arguments: BakeArguments,
 }
 
-/// The tiles that are baked: those that charts cover where the output's name has `%UDIM%`, or else one for all. Errors are one sentence each: charts where no
-/// tile has a number; images that exist; files that would be written twice, or over one of the inputs.
+/// The tiles that are baked: those that charts cover where the output's name has `%UDIM%`, or else one for
+/// all. Errors are one sentence each: charts where no tile has a number; images that exist; files that would
+/// be written twice, or over one of the inputs.
 pub fn tiles_of(
     arguments: &BakeArguments,
     low: &[LowSurface<'_>],

@@ -81,7 +81,8 @@ impl Verified {
         Ok(Self { errors, parts, range, heat_map, heat_model: None })
     }
 
-    /// Stages the low model with these errors as its colours, if that was asked for. Errors are one sentence each.
+    /// Stages the low model with these errors as its colours, if that was asked for. Errors are one sentence
+    /// each.
     pub fn stage_model(
         &mut self,
         arguments: &BakeArguments,

@@ -81,7 +81,8 @@ pub struct FindingOptions {
 
     /// What normal maps are where neither their texels nor the faces of the model decide it
     ///
-    /// map=opengl: green points up; map=directx: green points down; map=red-inverted: red points to the left; map=both-inverted: both, so that bumps are dents. What the texels show is not overruled.
+    /// map=opengl: green points up; map=directx: green points down; map=red-inverted: red points to the
+    /// left; map=both-inverted: both, so that bumps are dents. What the texels show is not overruled.
     #[arg(long, value_name = "WHAT", value_parser = assumption(), help_heading = "Findings")]
     pub assume: Option<AssumedMap>,
 
@@ -103,15 +104,18 @@ pub struct CheckArguments {
     #[command(flatten)]
     pub findings: FindingOptions,
 
-    /// The model that the images are normal maps of: its faces tell inverted green from inverted red, and its tangents, normals and UVs are checked, too
+    /// The model that the images are normal maps of: its faces tell inverted green from inverted red, and
+    /// its tangents, normals and UVs are checked, too
     #[arg(long, value_name = "MODEL", help_heading = "Findings")]
     pub model: Option<PathBuf>,
 
     /// Repair what is found, and write the result
     ///
-    /// Wrong tangents are corrected in the way that the others were computed, all are made again where all are wrong, vertices split, normals made or flipped, and the texels of PNG maps rewritten at their bit depth; a palette
-    /// becomes RGB, and a JPEG map a PNG. Only the findings that are reported are repaired (--only, --allow). Everything else in the file is kept, byte for
-    /// byte; a compressed model is written without compression if anything is repaired.
+    /// Wrong tangents are corrected in the way that the others were computed, all are made again where all
+    /// are wrong, vertices split, normals made or flipped, and the texels of PNG maps rewritten at their bit
+    /// depth; a palette becomes RGB, and a JPEG map a PNG. Only the findings that are reported are
+    /// repaired (--only, --allow). Everything else in the file is kept, byte for byte; a compressed
+    /// model is written without compression if anything is repaired.
     #[arg(long, help_heading = "Repair")]
     pub fix: bool,
 

@@ -226,8 +226,8 @@ fn error_line(finding: &ReportedFinding) -> Option<String> {
     is_left.then(|| format!("{place}: {code}: {text}"))
 }
 
-/// What a document holds: its JSON, the values of its accessors, its images and the bytes of other buffer views, wherever in its buffers they lie.
-/// None if it cannot be read.
+/// What a document holds: its JSON, the values of its accessors, its images and the bytes of other buffer
+/// views, wherever in its buffers they lie. None if it cannot be read.
 fn content(document: &Document) -> Option<(Value, Vec<Vec<u8>>)> {
     let glb = document.to_glb().ok()?;
     let length = u32::from_le_bytes(*glb.get(12..)?.first_chunk()?) as usize;
@@ -245,7 +245,8 @@ fn content(document: &Document) -> Option<(Value, Vec<Vec<u8>>)> {
     Some((json, all?.into_iter().chain(others).collect()))
 }
 
-/// The bytes of the buffer views that neither accessors nor images use, as those of extensions. `binary`: the binary chunk of a GLB.
+/// The bytes of the buffer views that neither accessors nor images use, as those of extensions. `binary`: the
+/// binary chunk of a GLB.
 fn other_views(json: &Value, binary: &[u8]) -> Option<Vec<Vec<u8>>> {
     let items = |name: &str| json.get(name).and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
     let number = |value: &Value, name: &str| value.get(name).and_then(Value::as_u64);
@@ -340,7 +341,8 @@ impl Repair<'_> {
         let status = self.written_before(&job.output, is_changed, is_written)?;
         let (status, files_written) = match image.filter(|_| status.is_none()) {
             Some(image) => save_image(&image, &job.output, files)?,
-            // Without a repair there is nothing to write but a copy, and copies are made of PNG images that can be written again.
+            // Without a repair there is nothing to write but a copy, and copies are made of PNG images that
+            // can be written again.
             None => (status.unwrap_or(Status::Untouched), Vec::new()),
         };
         let warnings = self.stale_output(job, is_changed).into_iter().collect();
@@ -355,15 +357,16 @@ impl Repair<'_> {
         ProcessedFile { status: Status::Untouched, files_written: Vec::new(), summary }
     }
 
-    /// A warning where an output of the name that this run would give is there, and nothing is written because nothing was repaired.
+    /// A warning where an output of the name that this run would give is there, and nothing is written
+    /// because nothing was repaired.
     fn stale_output(&self, job: &Job, is_changed: bool) -> Option<String> {
         let Output::File(path) = &job.output else { return None };
         let is_stale = !is_changed && !self.arguments.files.names_output() && path.exists();
         is_stale.then(|| format!("{} exists and was not written, because nothing was repaired; delete it if an earlier run made it", path.display()))
     }
 
-    /// The status where nothing is to be written: without a named output, nothing was changed, or an earlier run has written the same; none otherwise.
-    /// Errors: an output exists that is another.
+    /// The status where nothing is to be written: without a named output, nothing was changed, or an earlier
+    /// run has written the same; none otherwise. Errors: an output exists that is another.
     fn written_before(
         &self,
         output: &Output,

@@ -1,4 +1,5 @@
-//! What to call for images of a folder that are not checked: all where it has no model, and those that none of its models uses.
+//! What to call for images of a folder that are not checked: all where it has no model, and those that none
+//! of its models uses.
 
 use std::fs::File;
 use std::io::Read;
@@ -12,8 +13,8 @@ use crate::paths::is_image;
 use crate::regular_file::{Links, open_regular};
 use crate::text::{command_line, counted};
 
-/// Which command checks the normal maps of a folder, as a clause; none for a folder without images. A folder has colour textures, too, so images are
-/// named one by one.
+/// Which command checks the normal maps of a folder, as a clause; none for a folder without images. A folder
+/// has colour textures, too, so images are named one by one.
 pub fn maps_instead(folder: &Path) -> Option<String> {
     let images = images(folder);
     let first = images.iter().find(|path| is_named_like_normals(path)).or(images.first())?;
@@ -23,7 +24,8 @@ pub fn maps_instead(folder: &Path) -> Option<String> {
     Some(format!("it has {images} (.png, .jpg, .webp): name those that are normal maps, as in `{command}`"))
 }
 
-/// Which images of a folder are named like normal maps and are used by none of its models, as a sentence; none where there are none.
+/// Which images of a folder are named like normal maps and are used by none of its models, as a sentence;
+/// none where there are none.
 pub fn unused_maps<'a>(folder: &Path, models: impl Iterator<Item = &'a Path>) -> Option<String> {
     let mut images = images(folder);
     images.retain(|path| is_named_like_normals(path));
@@ -43,7 +45,8 @@ pub fn unused_maps<'a>(folder: &Path, models: impl Iterator<Item = &'a Path>) ->
     ))
 }
 
-/// A text with the names of the images that a model uses: the JSON of a glTF, the textures of an OBJ's libraries, or the start of another file.
+/// A text with the names of the images that a model uses: the JSON of a glTF, the textures of an OBJ's
+/// libraries, or the start of another file.
 fn names_in(model: &Path) -> String {
     if FileKind::of(model) == Some(FileKind::Obj) {
         let files = companions(model).unwrap_or_default();

@@ -1,4 +1,5 @@
-//! The findings as one HTML file that needs no network: the diagnosis first, pictures before and after the repair, findings by kind.
+//! The findings as one HTML file that needs no network: the diagnosis first, pictures before and after the
+//! repair, findings by kind.
 
 mod file;
 #[cfg(not(feature = "gpu"))]
@@ -34,7 +35,8 @@ pub const DEFAULT_PICTURES: usize = 20;
 const STYLE: &str = include_str!("html/report.css");
 const SCRIPT: &str = include_str!("html/report.js");
 
-/// Refuses an output that is no HTML file in an existing folder, and standard input, whose model cannot be read again for pictures.
+/// Refuses an output that is no HTML file in an existing folder, and standard input, whose model cannot be
+/// read again for pictures.
 pub fn refuse(output: &Path, inputs: &[PathBuf]) -> Result<(), UsageError> {
     refuse_no_page(output).map_err(UsageError)?;
     if inputs.iter().any(|input| input == Path::new("-")) {

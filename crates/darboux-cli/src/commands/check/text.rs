@@ -26,7 +26,8 @@ pub fn describe(file: &CheckedFile) -> String {
     text + &counts(file)
 }
 
-/// The findings in a file by severity and code, with the first place of each, and what is worth knowing in one line.
+/// The findings in a file by severity and code, with the first place of each, and what is worth knowing in
+/// one line.
 pub fn describe_folded(file: &CheckedFile) -> String {
     let (known, severe): (Vec<_>, Vec<_>) =
         by_kind(&file.findings).into_iter().partition(|group| group[0].severity <= Severity::Info);

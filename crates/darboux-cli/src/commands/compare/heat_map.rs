@@ -19,18 +19,21 @@ const BACKGROUND: [u8; 3] = [16, 16, 16];
 const STRIPE: [u8; 3] = [255, 255, 255];
 /// After visiting this many texels, which takes about a second, only the corners of triangles are drawn.
 const MAX_TEXELS: u64 = 1 << 26;
-/// Texels per side of a tile, which is passed over once all of its values are greater than those of a triangle.
+/// Texels per side of a tile, which is passed over once all of its values are greater than those of a
+/// triangle.
 const TILE: usize = 32;
 /// Tiles per side of the UV square.
 const TILES: usize = SIZE / TILE;
 
-/// The UV square [0, 1] with v down, as in glTF images. Triangles outside it are moved into it by whole numbers.
+/// The UV square [0, 1] with v down, as in glTF images. Triangles outside it are moved into it by whole
+/// numbers.
 ///
-/// The triangles with the greatest values are drawn first, and equal ones once, so that triangles over each other by the thousand, as those of trim
-/// sheets and tiled parts, find their tiles filled.
+/// The triangles with the greatest values are drawn first, and equal ones once, so that triangles over each
+/// other by the thousand, as those of trim sheets and tiled parts, find their tiles filled.
 pub struct HeatMap {
     triangles: Vec<Triangle>,
-    /// The largest value per texel: an angle in degrees, or infinity for an opposite sign. `None` for an empty texel.
+    /// The largest value per texel: an angle in degrees, or infinity for an opposite sign. `None` for an
+    /// empty texel.
     worst: Vec<Option<f64>>,
     /// A value per tile that none of its texels is below.
     least: Vec<Option<f64>>,
@@ -198,7 +201,8 @@ fn bounds(points: [[f64; 2]; 3]) -> [[f64; 2]; 2] {
     ]
 }
 
-/// The barycentric coordinates of a point inside the triangle or on its edges; `None` outside and for triangles without area.
+/// The barycentric coordinates of a point inside the triangle or on its edges; `None` outside and for
+/// triangles without area.
 fn weights([p, q, r]: [[f64; 2]; 3], at: [f64; 2]) -> Option<[f64; 3]> {
     let area =
         |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);

@@ -149,7 +149,8 @@ impl Comparison {
     }
 }
 
-/// Compares the corners of a primitive. `[mesh, number]`: the index of its mesh, and its index among the pairs. Appends its angles above zero.
+/// Compares the corners of a primitive. `[mesh, number]`: the index of its mesh, and its index among the
+/// pairs. Appends its angles above zero.
 fn compare(
     corners: &PairedCorners<'_>,
     (mesh, number): (usize, usize),
@@ -222,7 +223,8 @@ struct Place {
 }
 
 impl Place {
-    /// Opposite signs first, then corners without an angle, then the largest angles, then the order of the file.
+    /// Opposite signs first, then corners without an angle, then the largest angles, then the order of the
+    /// file.
     fn order(&self, other: &Self) -> Ordering {
         let rank = |place: &Self| place.difference.angle.unwrap_or(f64::INFINITY);
         let by_sign = other.difference.flips_sign.cmp(&self.difference.flips_sign);
@@ -242,7 +244,8 @@ impl Place {
 struct Worst {
     count: usize,
     places: Vec<Place>,
-    /// True once the first `count` places are sorted and have different positions: later ones must come before the last of them.
+    /// True once the first `count` places are sorted and have different positions: later ones must come
+    /// before the last of them.
     is_full: bool,
 }
 

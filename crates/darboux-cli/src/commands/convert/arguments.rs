@@ -67,7 +67,8 @@ pub struct ConvertArguments {
     #[arg(long, value_name = "LETTERS", default_value_t = Channels::RGB, help_heading = "Conversion")]
     pub layout: Channels,
 
-    /// The channels in the output; by default those of --layout. A z that is not stored is computed from x and y
+    /// The channels in the output; by default those of --layout. A z that is not stored is computed from x
+    /// and y
     #[arg(long, value_name = "LETTERS", help_heading = "Conversion")]
     pub to_layout: Option<Channels>,
 

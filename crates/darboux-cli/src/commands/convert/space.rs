@@ -9,7 +9,8 @@ use super::{SpaceSummary, space_name};
 use crate::documents::load_with_warnings;
 
 impl ConvertArguments {
-    /// Converts the vectors of an image to a space, with the frames of `--model`. Errors are one sentence each.
+    /// Converts the vectors of an image to a space, with the frames of `--model`. Errors are one sentence
+    /// each.
     pub(super) fn convert_space(
         &self,
         image: &mut PngImage,

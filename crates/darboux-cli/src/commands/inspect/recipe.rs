@@ -25,7 +25,8 @@ pub struct MadeBy {
 /// The share of close corners from which on tangents are called those of a method, as `darboux check` has it.
 const IS_KNOWN: f64 = 0.9;
 
-/// The recipe of each primitive with tangents, in the order of `infos`. None: it has no tangents, or lacks what they are computed from.
+/// The recipe of each primitive with tangents, in the order of `infos`. None: it has no tangents, or lacks
+/// what they are computed from.
 ///
 /// Errors: invalid data.
 pub fn recipes(document: &Document, infos: &[PrimitiveInfo]) -> Result<Vec<Option<MadeBy>>, Error> {

@@ -1,4 +1,5 @@
-//! The table of `darboux inspect`: numbers in columns, and below each row the primitive's name and attributes.
+//! The table of `darboux inspect`: numbers in columns, and below each row the primitive's name and
+//! attributes.
 //!
 //! The columns fit into 80 characters unless the counts are very large.
 
@@ -67,7 +68,8 @@ fn tangents(info: &PrimitiveInfo) -> &'static str {
     }
 }
 
-/// The file's name and its table. Below a row: the mesh's name, the attributes, how its tangents were made, and why the primitive cannot have tangents.
+/// The file's name and its table. Below a row: the mesh's name, the attributes, how its tangents were made,
+/// and why the primitive cannot have tangents.
 pub fn describe(file: &InspectedFile) -> String {
     let cells = |info: &PrimitiveInfo| COLUMNS.each_ref().map(|column| (column.cell)(info));
     let rows: Vec<_> = file.primitives.iter().map(|primitive| cells(&primitive.info)).collect();

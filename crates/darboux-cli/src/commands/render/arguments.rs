@@ -45,7 +45,8 @@ pub struct RenderArguments {
     #[arg(long, value_enum, value_name = "VIEW", default_value_t)]
     pub view: ViewChoice,
 
-    /// The source of the tangents: file, derivatives (as shaders without tangents derive them), or a method; `darboux methods` lists the methods
+    /// The source of the tangents: file, derivatives (as shaders without tangents derive them), or a method;
+    /// `darboux methods` lists the methods
     ///
     /// The default is the file's tangents, or MikkTSpace if the file has none.
     #[arg(long, value_name = "SOURCE", value_parser = source)]
@@ -55,7 +56,8 @@ pub struct RenderArguments {
     #[arg(long, value_name = "SOURCE", value_parser = source, required_if_eq_any([("view", "angle"), ("view", "heat")]))]
     pub against: Option<TangentSource>,
 
-    /// Divide the picture at this percentage of its width: --tangents on the left; --against, or --mistakes, on the right
+    /// Divide the picture at this percentage of its width: --tangents on the left; --against, or --mistakes,
+    /// on the right
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub split: Option<f64>,
 
@@ -87,7 +89,8 @@ pub struct RenderArguments {
     #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = size)]
     pub size: [u32; 2],
 
-    /// Degrees around the model (0 is its front), degrees above the horizon, and the magnification (1 shows the whole model)
+    /// Degrees around the model (0 is its front), degrees above the horizon, and the magnification (1 shows
+    /// the whole model)
     #[arg(
         long,
         value_name = "YAW,PITCH[,ZOOM]",
@@ -97,7 +100,8 @@ pub struct RenderArguments {
     )]
     pub camera: [f64; 3],
 
-    /// Where the camera is and what it looks at, as `view=` in a link of the viewer has it; the light comes from where the viewer has it
+    /// Where the camera is and what it looks at, as `view=` in a link of the viewer has it; the light comes
+    /// from where the viewer has it
     #[arg(
         long,
         value_name = "X,Y,Z,X,Y,Z",
@@ -142,7 +146,8 @@ pub enum ViewChoice {
     Normal,
     /// The sign w: blue for 1, orange for -1
     Sign,
-    /// The angle between --tangents and --against, from 0.01 to 180 degrees; red with stripes where the signs are opposite
+    /// The angle between --tangents and --against, from 0.01 to 180 degrees; red with stripes where the signs
+    /// are opposite
     #[value(alias = "heat")]
     Angle,
 }

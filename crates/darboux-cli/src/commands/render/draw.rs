@@ -194,7 +194,8 @@ struct LoadedModel {
     warnings: Vec<String>,
 }
 
-/// Reads the model with the tangents of a source. Triangles without normals get flat ones, as the glTF specification asks of renderers.
+/// Reads the model with the tangents of a source. Triangles without normals get flat ones, as the glTF
+/// specification asks of renderers.
 fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<LoadedModel, String> {
     let sentence = |error: darboux_io::Error| error.to_string();
     let mut document = load(&Input::File(arguments.model.clone()), &arguments.reading)?;

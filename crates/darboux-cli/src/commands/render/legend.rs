@@ -64,7 +64,8 @@ struct Caption {
 pub struct Legend {
     keys: Vec<Key>,
     has_scale: bool,
-    /// The captions of the left and the right side, and the position of the divide as a fraction of the width.
+    /// The captions of the left and the right side, and the position of the divide as a fraction of the
+    /// width.
     sides: Option<([Caption; 2], f64)>,
     /// The mistakes made in an undivided picture; empty without one.
     mistakes: String,

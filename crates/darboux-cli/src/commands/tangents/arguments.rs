@@ -64,9 +64,10 @@ pub struct TangentsArguments {
 
     /// Split the tangents of faces whose directions differ by this angle or more, in degrees
     ///
-    /// Bakers use 180, which splits tangents only where UVs are mirrored or separate. Only mikktspace has a threshold. Below 180 the faces around
-    /// a vertex are compared in pairs: a vertex with 20,000 faces takes about 2 s, one with 100,000 about a minute. At 180
-    /// only such vertices whose faces have random or nearly opposite directions take seconds.
+    /// Bakers use 180, which splits tangents only where UVs are mirrored or separate. Only mikktspace has a
+    /// threshold. Below 180 the faces around a vertex are compared in pairs: a vertex with 20,000 faces
+    /// takes about 2 s, one with 100,000 about a minute. At 180 only such vertices whose faces have
+    /// random or nearly opposite directions take seconds.
     #[arg(
         long,
         value_name = "DEGREES",
@@ -79,14 +80,16 @@ pub struct TangentsArguments {
 
     /// The device that computes the tangents; all devices give the same bits
     ///
-    /// auto is the CPU: at best a GPU halves the time of a mesh that comes from a file, and no GPU has been measured yet. If your GPU is
-    /// faster, set the environment variable DARBOUX_GPU_TRIANGLES to a number of triangles: auto then uses the GPU for meshes with at least this many, and falls
-    /// back to the CPU with a warning if the GPU fails. gpu requires --method mikktspace; the CPU still computes rare cases. `darboux devices` lists
-    /// the adapters.
+    /// auto is the CPU: at best a GPU halves the time of a mesh that comes from a file, and no GPU has been
+    /// measured yet. If your GPU is faster, set the environment variable DARBOUX_GPU_TRIANGLES to a
+    /// number of triangles: auto then uses the GPU for meshes with at least this many, and falls back to
+    /// the CPU with a warning if the GPU fails. gpu requires --method mikktspace; the CPU still computes
+    /// rare cases. `darboux devices` lists the adapters.
     #[arg(long, value_enum, value_name = "DEVICE", default_value_t, help_heading = "Tangents")]
     pub device: Device,
 
-    /// Generate missing normals first: flat, smooth or crease=DEG (smooth except at edges sharper than DEG degrees); keep generates none
+    /// Generate missing normals first: flat, smooth or crease=DEG (smooth except at edges sharper than DEG
+    /// degrees); keep generates none
     ///
     /// With --overwrite existing normals are replaced as well. `darboux normals` has more options.
     #[arg(
@@ -100,8 +103,8 @@ pub struct TangentsArguments {
 
     /// How tangents are stored: f32x4 (16 bytes), snorm16x4 (8 bytes) or snorm8x4 (4 bytes)
     ///
-    /// snorm16x4 has an error of up to 0.0016 degrees, snorm8x4 of up to 0.40 degrees. Both make the file require the extension
-    /// KHR_mesh_quantization. glTF has no other encodings.
+    /// snorm16x4 has an error of up to 0.0016 degrees, snorm8x4 of up to 0.40 degrees. Both make the file
+    /// require the extension KHR_mesh_quantization. glTF has no other encodings.
     #[arg(
         long,
         value_name = "NAME",
@@ -122,8 +125,9 @@ pub struct TangentsArguments {
 
     /// Apply KHR_texture_transform to the UVs first
     ///
-    /// The default follows the specification: tangents belong to the stored UVs. Some renderers expect tangents of the transformed UVs. The two
-    /// differ if a transform rotates or mirrors, which a warning reports.
+    /// The default follows the specification: tangents belong to the stored UVs. Some renderers expect
+    /// tangents of the transformed UVs. The two differ if a transform rotates or mirrors, which a
+    /// warning reports.
     #[arg(long, help_heading = "Tangents")]
     pub apply_texture_transform: bool,
 

@@ -41,7 +41,8 @@ impl TangentDevice {
         self.device == Device::Gpu || (self.device == Device::Auto && self.gpu_threshold < usize::MAX)
     }
 
-    /// As [`generate_tangents_with`]. Errors: the GPU fails and `device` is [`Device::Gpu`]; otherwise the CPU takes over.
+    /// As [`generate_tangents_with`]. Errors: the GPU fails and `device` is [`Device::Gpu`]; otherwise the
+    /// CPU takes over.
     pub fn generate(
         &mut self,
         mesh: &Mesh<'_>,
@@ -89,7 +90,8 @@ impl TangentDevice {
         opened.take_software_warning()
     }
 
-    /// `corners`: the number of computed corners, including those of morphed meshes, which the CPU always computes.
+    /// `corners`: the number of computed corners, including those of morphed meshes, which the CPU always
+    /// computes.
     pub fn report(&self, corners: usize) -> DeviceReport {
         match &self.opened {
             Some(Ok(opened)) => DeviceReport {

@@ -25,8 +25,8 @@ enum ModelKind {
 }
 
 impl ServedModel {
-    /// Reads the model once, so that a broken file is reported before the server starts. Errors: the file cannot be read, has another format or
-    /// is broken.
+    /// Reads the model once, so that a broken file is reported before the server starts. Errors: the file
+    /// cannot be read, has another format or is broken.
     pub fn find(path: &Path, options: LoadOptions) -> Result<Self, String> {
         resolve_input(path).map_err(|error| error.to_string())?;
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
@@ -55,8 +55,9 @@ impl ServedModel {
         [name].into_iter().chain(companions.iter().map(|companion| companion.name.clone())).collect()
     }
 
-    /// The content of the file with an index in [`ServedModel::names`]; `None` for an index past the end. An OBJ and its companions are sent
-    /// unchanged; a glTF file is sent as a GLB with its buffers and images. Errors: one sentence about the file.
+    /// The content of the file with an index in [`ServedModel::names`]; `None` for an index past the end. An
+    /// OBJ and its companions are sent unchanged; a glTF file is sent as a GLB with its buffers and
+    /// images. Errors: one sentence about the file.
     pub fn read(&self, index: usize) -> Option<Result<Vec<u8>, String>> {
         let unchanged = |path: &Path| {
             read_regular(path)

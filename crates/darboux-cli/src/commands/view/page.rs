@@ -9,13 +9,15 @@ use walkdir::WalkDir;
 
 use crate::regular_file::{Links, open_regular};
 
-/// The files of the page by their path relative to the page's folder, with `/` on every system. No other file is served.
+/// The files of the page by their path relative to the page's folder, with `/` on every system. No other file
+/// is served.
 pub struct Page {
     files: HashMap<String, PathBuf>,
 }
 
 impl Page {
-    /// Finds the page in `folder`, or beside the program and in its source folder. Errors: the page was not built.
+    /// Finds the page in `folder`, or beside the program and in its source folder. Errors: the page was not
+    /// built.
     pub fn find(folder: Option<&Path>) -> Result<Self, String> {
         let folders = folder.map_or_else(default_folders, |folder| vec![folder.to_owned()]);
         let is_page = |folder: &&PathBuf| folder.join("index.html").is_file();

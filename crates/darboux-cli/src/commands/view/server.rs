@@ -1,8 +1,9 @@
 //! The web server of the viewer: serves the page and the model to browsers on this machine.
 //!
-//! It listens on the loopback address only. A request must name that address in `Host` and begin its path with a random secret, so that pages
-//! of other origins cannot read the model. Nothing that a client sends is stored: request bodies are not read, headers have a maximum size,
-//! and every connection has a time limit and carries one request.
+//! It listens on the loopback address only. A request must name that address in `Host` and begin its path
+//! with a random secret, so that pages of other origins cannot read the model. Nothing that a client sends is
+//! stored: request bodies are not read, headers have a maximum size, and every connection has a time limit
+//! and carries one request.
 
 use std::convert::Infallible;
 use std::io;
@@ -153,7 +154,8 @@ impl ServedFiles {
         response
     }
 
-    /// Reads the files for a response on another thread, so that other connections go on; on this one where the system refuses a thread.
+    /// Reads the files for a response on another thread, so that other connections go on; on this one where
+    /// the system refuses a thread.
     async fn read(self: Arc<Self>, head: Arc<Parts>) -> ResponseParts {
         let (sender, receiver) = oneshot::channel();
         let (site, head_of_thread) = (self.clone(), head.clone());

@@ -20,7 +20,8 @@ const NAME: &str = "KHR_draco_mesh_compression";
 /// What a decoded face takes in memory: three indices of 32 bits.
 const BYTES_PER_FACE: usize = 12;
 
-/// The source of each decoded accessor: the buffer view, and Draco's identifier of the attribute, or none for indices.
+/// The source of each decoded accessor: the buffer view, and Draco's identifier of the attribute, or none for
+/// indices.
 type Sources = HashMap<usize, (usize, Option<u32>)>;
 
 impl Document {
@@ -46,7 +47,8 @@ impl Document {
         Ok(sources.into_keys().collect())
     }
 
-    /// Whether the accessors have data already: an uncompressed fallback, or the same stream decoded for another primitive.
+    /// Whether the accessors have data already: an uncompressed fallback, or the same stream decoded for
+    /// another primitive.
     fn has_data(
         &self,
         wanted: &[(usize, Option<u32>)],
@@ -88,7 +90,8 @@ impl Document {
         let mesh = decode(stream, budget.left).map_err(|problem| {
             ContentError::invalid(&at, format!("the stream {problem}; compress the file again"))
         })?;
-        // The whole stream was decoded, whichever of its accessors are new: this bounds the time of many primitives over one stream.
+        // The whole stream was decoded, whichever of its accessors are new: this bounds the time of many
+        // primitives over one stream.
         budget.spend(mesh.num_faces().saturating_mul(BYTES_PER_FACE), &at)?;
         for &(index, id) in wanted {
             let accessor = &self.root.accessors[index];

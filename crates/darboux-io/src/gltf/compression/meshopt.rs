@@ -1,13 +1,13 @@
 //! `EXT_meshopt_compression` and `KHR_meshopt_compression`: decodes compressed buffer views.
 //!
-//! The two extensions have the same JSON. The second permits version 1 of the vertex codec and the colour filter; a stream names its
-//! version, so that one decoder serves both.
+//! The two extensions have the same JSON. The second permits version 1 of the vertex codec and the colour
+//! filter; a stream names its version, so that one decoder serves both.
 //!
-//! The codecs are our own: draco-gltf 0.7, the crate that has them in Rust, takes 15 s to build and decodes attributes half as fast. The test `meshopt`
-//! compares them with meshoptimizer.
+//! The codecs are our own: draco-gltf 0.7, the crate that has them in Rust, takes 15 s to build and decodes
+//! attributes half as fast. The test `meshopt` compares them with meshoptimizer.
 //!
-//! A compressed view refers to a buffer for its decoded bytes, which usually has none. That buffer is filled, so that the offsets of
-//! views stay valid.
+//! A compressed view refers to a buffer for its decoded bytes, which usually has none. That buffer is filled,
+//! so that the offsets of views stay valid.
 
 mod attributes;
 mod byte_groups;
@@ -61,7 +61,8 @@ impl Document {
         Ok(views)
     }
 
-    /// The size of a buffer without bytes into which these views are decoded. Spends the size of the buffer and of each view.
+    /// The size of a buffer without bytes into which these views are decoded. Spends the size of the buffer
+    /// and of each view.
     fn decoded_length(
         &self,
         buffer: usize,
@@ -108,7 +109,8 @@ impl Document {
         Ok(())
     }
 
-    /// The compressed bytes of a view. Errors: they are outside their buffer, or cannot hold the length of the view.
+    /// The compressed bytes of a view. Errors: they are outside their buffer, or cannot hold the length of
+    /// the view.
     fn stream(&self, view: &BufferView, compressed: &Meshopt, at: &str) -> Result<&[u8], ContentError> {
         let Meshopt { buffer, byte_offset, byte_length, byte_stride: stride, count, .. } = *compressed;
         let broken =

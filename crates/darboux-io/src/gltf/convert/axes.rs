@@ -1,4 +1,5 @@
-//! A change of axes, applied to vectors, rotations, scales and matrices in single precision (accessors) or double precision (JSON).
+//! A change of axes, applied to vectors, rotations, scales and matrices in single precision (accessors) or
+//! double precision (JSON).
 
 use std::ops::{Add, Mul};
 
@@ -35,7 +36,8 @@ impl AxisChange {
         self.axes.map(|(axis, _)| scale[axis])
     }
 
-    /// Converts a unit quaternion, w last. Its axis is converted as a vector, and the angle is negated if the handedness changes.
+    /// Converts a unit quaternion, w last. Its axis is converted as a vector, and the angle is negated if the
+    /// handedness changes.
     pub fn rotation<N: Number>(&self, [x, y, z, w]: [N; 4]) -> [N; 4] {
         let hand = if self.changes_handedness { -1.0 } else { 1.0 };
         let [x, y, z] = self.vector([x, y, z]).map(|component| signed(hand, component));

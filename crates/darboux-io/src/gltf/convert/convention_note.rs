@@ -15,8 +15,8 @@ use crate::gltf::schema::Material;
 const MEMBER: &str = "darboux_convention";
 
 impl Document {
-    /// The convention of the vertex data: glTF's, unless [`convert_vertices`](crate::gltf::convert_vertices) has marked another one in
-    /// `asset.extras.darboux_convention`. Errors: the mark is not a convention.
+    /// The convention of the vertex data: glTF's, unless [`convert_vertices`](crate::gltf::convert_vertices)
+    /// has marked another one in `asset.extras.darboux_convention`. Errors: the mark is not a convention.
     pub fn convention(&self) -> Result<Convention, Error> {
         Ok(self.noted_convention()?.unwrap_or(Convention::GLTF))
     }
@@ -52,7 +52,8 @@ impl Document {
         }
     }
 
-    /// Marks the document with a convention, or removes the mark for glTF's. Errors: `asset.extras` is not an object.
+    /// Marks the document with a convention, or removes the mark for glTF's. Errors: `asset.extras` is not an
+    /// object.
     pub(super) fn set_convention(&mut self, convention: Convention) -> Result<(), Error> {
         let name = (convention != Convention::GLTF).then(|| Value::from(convention.to_string()));
         if name.as_ref() == self.note() {
@@ -100,7 +101,8 @@ struct NodeParts {
     extensions: BTreeMap<String, IgnoredAny>,
 }
 
-/// Extensions of nodes or of the file without vectors, or whose vectors are converted or named in other warnings.
+/// Extensions of nodes or of the file without vectors, or whose vectors are converted or named in other
+/// warnings.
 const WITHOUT_VECTORS: [&str; 9] = [
     "EXT_instance_features",
     "EXT_mesh_gpu_instancing",

@@ -34,7 +34,8 @@ impl<'a> FaceReverser<'a> {
         Self { accessors, conversion: from.to(to), reverses, made: HashMap::new() }
     }
 
-    /// Reverses the triangles of a primitive. Returns whether it has any. Strips and fans become triangle lists.
+    /// Reverses the triangles of a primitive. Returns whether it has any. Strips and fans become triangle
+    /// lists.
     pub fn convert(&mut self, document: &mut Document, mesh: usize, place: usize) -> Result<bool, Error> {
         let primitive = &document.meshes()[mesh].primitives[place];
         let Some(topology) = TriangleMode::from_mode(primitive.mode).filter(|_| self.reverses) else {

@@ -47,8 +47,8 @@ impl<'a> SceneConverter<'a> {
         Self { accessors, change, made: HashMap::new() }
     }
 
-    /// Converts all transforms. Returns whether anything changed. Errors: invalid JSON; animations of properties other than transforms
-    /// (`KHR_animation_pointer`).
+    /// Converts all transforms. Returns whether anything changed. Errors: invalid JSON; animations of
+    /// properties other than transforms (`KHR_animation_pointer`).
     pub fn convert(&mut self, document: &mut Document) -> Result<bool, Error> {
         let nodes = self.each(document, "nodes", Self::node)?;
         let skins = self.each(document, "skins", Self::skin)?;

@@ -19,10 +19,12 @@ enum Content {
 }
 
 impl Document {
-    /// Replaces the content of an image by the bytes of another file, whose media type is `image/png` or another one of glTF.
+    /// Replaces the content of an image by the bytes of another file, whose media type is `image/png` or
+    /// another one of glTF.
     ///
-    /// An embedded image stays embedded. An image in a file gets a new file, which is written with the document; the old one is kept, since other
-    /// documents may refer to it. Errors: the image does not exist, or its content cannot be read.
+    /// An embedded image stays embedded. An image in a file gets a new file, which is written with the
+    /// document; the old one is kept, since other documents may refer to it. Errors: the image does not
+    /// exist, or its content cannot be read.
     pub fn set_image(&mut self, index: usize, bytes: Vec<u8>, media_type: &str) -> Result<(), Error> {
         let replaced = self.replace_content(index, bytes, media_type);
         replaced.map_err(|error| error.in_file(self.name()))

@@ -27,7 +27,8 @@ pub enum MaterialTexture {
         /// Whether the texture has metalness.
         metalness: bool,
     },
-    /// The base colour. Its factor becomes 1, but for alpha where the texture has none. A material without a mode of alpha blends where it has.
+    /// The base colour. Its factor becomes 1, but for alpha where the texture has none. A material without a
+    /// mode of alpha blends where it has.
     BaseColor {
         /// Whether the texture has alpha.
         alpha: bool,
@@ -50,10 +51,13 @@ impl Document {
         self.set_texture(&[MaterialTexture::Normal], png, name, primitives)
     }
 
-    /// Gives the materials of primitives one new texture, embedded as a PNG, which can have several uses. Primitives without a material get a new one.
+    /// Gives the materials of primitives one new texture, embedded as a PNG, which can have several uses.
+    /// Primitives without a material get a new one.
     ///
-    /// The texture transform of the material's normal map is kept where the UV set stays. A material that other primitives have, too, changes
-    /// for all of them; primitives of one material with several UV sets get a copy of it for each set after the first. Errors: a primitive that does not exist; a material that cannot be edited.
+    /// The texture transform of the material's normal map is kept where the UV set stays. A material that
+    /// other primitives have, too, changes for all of them; primitives of one material with several UV
+    /// sets get a copy of it for each set after the first. Errors: a primitive that does not exist; a
+    /// material that cannot be edited.
     pub fn set_texture(
         &mut self,
         uses: &[MaterialTexture],
@@ -75,8 +79,8 @@ impl Document {
         Ok(())
     }
 
-    /// Gives primitives without a material a new one per UV set, and copies materials of several UV sets. Returns the materials of all
-    /// primitives, with their UV sets.
+    /// Gives primitives without a material a new one per UV set, and copies materials of several UV sets.
+    /// Returns the materials of all primitives, with their UV sets.
     fn materials_by_uv_set(&mut self, primitives: &[MappedPrimitive]) -> Result<Vec<(usize, usize)>, Error> {
         let mut material_of = BTreeMap::new();
         let mut has_one_set = BTreeSet::new();
@@ -95,11 +99,13 @@ impl Document {
         Ok(material_of.into_iter().map(|((_, uv_set), material)| (material, uv_set)).collect())
     }
 
-    /// Paints primitives: replaces their materials by unlit ones (`KHR_materials_unlit`) with a new base colour, embedded as a PNG, which uses the
-    /// UVs of the normal map. Light would change the colours, and the normal map more so.
+    /// Paints primitives: replaces their materials by unlit ones (`KHR_materials_unlit`) with a new base
+    /// colour, embedded as a PNG, which uses the UVs of the normal map. Light would change the colours,
+    /// and the normal map more so.
     ///
-    /// Primitives whose material has no normal map stay as they are. A material that other primitives have, too, changes for all of them.
-    /// Errors: a primitive that does not exist; a material that cannot be edited.
+    /// Primitives whose material has no normal map stay as they are. A material that other primitives have,
+    /// too, changes for all of them. Errors: a primitive that does not exist; a material that cannot be
+    /// edited.
     pub fn paint(&mut self, png: Vec<u8>, name: &str, primitives: &[PrimitiveName]) -> Result<(), Error> {
         let texture = self.push_texture(png, name);
         self.use_extension(UNLIT);
@@ -211,7 +217,8 @@ fn uses_set(material: &Material, uv_set: usize) -> bool {
 
 const UNLIT: &str = "KHR_materials_unlit";
 
-/// Makes a material unlit, with a texture as its colour that uses the UVs of the normal map, if it has a normal map.
+/// Makes a material unlit, with a texture as its colour that uses the UVs of the normal map, if it has a
+/// normal map.
 fn paint(material: &mut Value, texture: usize) {
     let Some(normal) = material.get("normalTexture") else { return };
     let mut color = normal.clone();

@@ -60,8 +60,8 @@ impl Document {
 
     /// Replaces the triangles of a primitive by others over the same vertices; strips and fans become lists.
     ///
-    /// `corners`: the vertices of the triangles, three per triangle. Indices after the last complete triangle are dropped. Errors: no such
-    /// primitive.
+    /// `corners`: the vertices of the triangles, three per triangle. Indices after the last complete triangle
+    /// are dropped. Errors: no such primitive.
     pub fn set_triangles(&mut self, mesh: usize, primitive: usize, corners: Vec<u32>) -> Result<(), Error> {
         let stored = self.root.meshes.get(mesh).and_then(|mesh| mesh.primitives.get(primitive));
         let old = stored.and_then(|primitive| primitive.indices);

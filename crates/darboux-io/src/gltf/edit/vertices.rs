@@ -6,7 +6,8 @@ use crate::gltf::{ComponentType, Document, ElementType, Elements, NewAccessor, P
 impl Document {
     /// Gives the vertices of primitives other positions, which all of them share.
     ///
-    /// `positions`: one per vertex. Errors: a primitive that does not exist, or whose attributes have another length.
+    /// `positions`: one per vertex. Errors: a primitive that does not exist, or whose attributes have another
+    /// length.
     pub fn set_positions(
         &mut self,
         primitives: &[PrimitiveName],
@@ -20,13 +21,14 @@ impl Document {
         self.set_attribute(primitives, "NORMAL", normals.as_flattened(), ElementType::Vec3)
     }
 
-    /// As [`Document::set_positions`], for tangents: unit xyz and the sign w. [`Document::set_corner_tangents`] splits vertices whose corners need
-    /// different ones.
+    /// As [`Document::set_positions`], for tangents: unit xyz and the sign w.
+    /// [`Document::set_corner_tangents`] splits vertices whose corners need different ones.
     pub fn set_tangents(&mut self, primitives: &[PrimitiveName], tangents: &[[f32; 4]]) -> Result<(), Error> {
         self.set_attribute(primitives, "TANGENT", tangents.as_flattened(), ElementType::Vec4)
     }
 
-    /// Puts floats in the place of an attribute's elements, in all of these primitives. The accessor keeps name, extras and extensions.
+    /// Puts floats in the place of an attribute's elements, in all of these primitives. The accessor keeps
+    /// name, extras and extensions.
     fn set_attribute(
         &mut self,
         primitives: &[PrimitiveName],

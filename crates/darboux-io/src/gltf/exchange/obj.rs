@@ -37,7 +37,8 @@ pub fn text(surfaces: &[Surface], materials: &Materials, library: &str) -> Strin
     out
 }
 
-/// The numbered positions, UVs and normals of the file. Equal ones are written once, so that surfaces stay connected at seams.
+/// The numbered positions, UVs and normals of the file. Equal ones are written once, so that surfaces stay
+/// connected at seams.
 #[derive(Default)]
 struct Lists {
     positions: Numbered<6>,
@@ -105,10 +106,12 @@ impl Lists {
     }
 }
 
-/// The most characters of a name. Names are written once for every surface, so that a long one would be written very often.
+/// The most characters of a name. Names are written once for every surface, so that a long one would be
+/// written very often.
 const LONGEST_NAME: usize = 1000;
 
-/// A name that a statement can end with: without line breaks, other control characters, and the mark of a continued line; `otherwise` for none.
+/// A name that a statement can end with: without line breaks, other control characters, and the mark of a
+/// continued line; `otherwise` for none.
 fn one_line(name: &str, otherwise: &str) -> String {
     let name: String =
         name.chars().take(LONGEST_NAME).map(|c| if c.is_control() { ' ' } else { c }).collect();
@@ -141,7 +144,8 @@ pub fn images(document: &Document) -> Result<Vec<usize>, Error> {
     Ok(images)
 }
 
-/// The materials of a document. `paths`: the path of each image in the library; none for an image without a file.
+/// The materials of a document. `paths`: the path of each image in the library; none for an image without a
+/// file.
 pub fn materials(document: &Document, paths: &[Option<String>]) -> Result<Materials, Error> {
     let materials = document.materials()?;
     let names = unique_names(document, materials.len());

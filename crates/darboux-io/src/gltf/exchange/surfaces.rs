@@ -87,7 +87,8 @@ fn drawn_primitives(document: &Document, instances: &[MeshInstance]) -> HashMap<
     meshes
 }
 
-/// The vertices that corners use, ascending; none if all of them are. Primitives may share many vertices of which each uses few.
+/// The vertices that corners use, ascending; none if all of them are. Primitives may share many vertices of
+/// which each uses few.
 fn used_vertices(corners: &[u32], count: usize) -> Option<Vec<u32>> {
     let mut used = corners.to_vec();
     used.sort_unstable();

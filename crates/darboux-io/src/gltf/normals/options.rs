@@ -2,7 +2,8 @@
 
 use darboux::NormalOptions;
 
-/// Options of [`add_normals`](super::add_normals). The default adds smooth normals to triangle primitives without normals.
+/// Options of [`add_normals`](super::add_normals). The default adds smooth normals to triangle primitives
+/// without normals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct AddNormalsOptions {

@@ -1,4 +1,5 @@
-//! Writes normals into a document. The vertices of one accessor of positions are split jointly for all its primitives.
+//! Writes normals into a document. The vertices of one accessor of positions are split jointly for all its
+//! primitives.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -102,7 +103,8 @@ impl<'a> NormalWriter<'a> {
         for (accessor, moves) in moves_of_accessor {
             let old = moves.first().and_then(|(.., moved)| moved.old);
             let mut offsets = vec![[0.0; 3]; self.split.normal_of_vertex.len()];
-            // The first corner with an offset decides for its vertex, so that corners are written in reverse order.
+            // The first corner with an offset decides for its vertex, so that corners are written in reverse
+            // order.
             for &(_, first, moved) in moves.iter().rev() {
                 for &(corner, offset) in moved.offsets.iter().rev() {
                     offsets[self.split.indices[first + corner] as usize] = offset;
@@ -187,7 +189,8 @@ impl<'a> NormalWriter<'a> {
         }
     }
 
-    /// The attributes `old` with the appended vertices, without tangents unless they are kept, and with `normals`, if given.
+    /// The attributes `old` with the appended vertices, without tangents unless they are kept, and with
+    /// `normals`, if given.
     fn attributes(
         &mut self,
         document: &mut Document,

@@ -1,4 +1,5 @@
-//! Appends vertices to the attributes of primitives. Existing accessors are never changed: longer copies take their place.
+//! Appends vertices to the attributes of primitives. Existing accessors are never changed: longer copies take
+//! their place.
 
 use std::collections::HashMap;
 
@@ -36,7 +37,8 @@ impl<'a> Appended<'a> {
         self.old_count
     }
 
-    /// An accessor with the elements of `old` and of the appended vertices, bit for bit. `at` is the JSON path that refers to `old`.
+    /// An accessor with the elements of `old` and of the appended vertices, bit for bit. `at` is the JSON
+    /// path that refers to `old`.
     ///
     /// Errors: the accessor does not exist, or does not have one element per vertex.
     pub fn accessor(
@@ -79,8 +81,8 @@ impl<'a> Appended<'a> {
     }
 }
 
-/// Appends an accessor of floats, one element per vertex, sparse if that is permitted and shorter. Returns `old` if it has the same
-/// elements.
+/// Appends an accessor of floats, one element per vertex, sparse if that is permitted and shorter. Returns
+/// `old` if it has the same elements.
 pub fn push_vectors<const N: usize>(
     document: &mut Document,
     old: Option<usize>,
@@ -112,7 +114,8 @@ pub fn set_attributes(json: Option<&mut Value>, attributes: &Attributes) {
     }
 }
 
-/// An index list of the old component type, or the next larger one that holds all indices; of at least 16 bits if there was none.
+/// An index list of the old component type, or the next larger one that holds all indices; of at least 16
+/// bits if there was none.
 ///
 /// The greatest number of a type is not a valid index: it restarts primitives (glTF 2.0, 3.7.2.1).
 pub fn index_elements(old: Option<ComponentType>, indices: Vec<u32>) -> Elements {

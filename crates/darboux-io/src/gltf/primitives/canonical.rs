@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use crate::gltf::Document;
 use crate::gltf::schema::Accessor;
 
-/// The first of all accessors that read the same bytes in the same way. Some exporters write one per primitive.
+/// The first of all accessors that read the same bytes in the same way. Some exporters write one per
+/// primitive.
 #[derive(Debug)]
 pub struct CanonicalAccessors(Vec<usize>);
 

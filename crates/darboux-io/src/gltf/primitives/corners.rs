@@ -9,7 +9,8 @@ use crate::Error;
 use crate::gltf::Document;
 use crate::gltf::schema::{self, Attributes};
 
-/// The corners of a primitive's triangles, three per triangle, in the order of the file. Strips and fans are converted to triangles.
+/// The corners of a primitive's triangles, three per triangle, in the order of the file. Strips and fans are
+/// converted to triangles.
 #[derive(Debug)]
 pub struct PrimitiveCorners<'a> {
     document: &'a Document,
@@ -62,7 +63,8 @@ impl<'a> PrimitiveCorners<'a> {
 
     /// The values of an attribute at every corner, as floats; none if the primitive does not have it.
     ///
-    /// `semantic` is the name of the attribute, such as `TEXCOORD_0`. Errors: invalid data; an index out of range.
+    /// `semantic` is the name of the attribute, such as `TEXCOORD_0`. Errors: invalid data; an index out of
+    /// range.
     pub fn vectors<const N: usize>(&self, semantic: &str) -> Result<Option<Vec<[f32; N]>>, Error> {
         self.gathered(&self.primitive.attributes, semantic)
     }
@@ -75,8 +77,8 @@ impl<'a> PrimitiveCorners<'a> {
         target.map_or(Ok(None), |target| self.gathered(target, semantic))
     }
 
-    /// The values of an attribute at every vertex, as floats, in the order of the file; none if the primitive does not have it. Every corner's
-    /// vertex is in range.
+    /// The values of an attribute at every vertex, as floats, in the order of the file; none if the primitive
+    /// does not have it. Every corner's vertex is in range.
     ///
     /// Errors: as [`PrimitiveCorners::vectors`].
     pub(in crate::gltf) fn vertex_vectors<const N: usize>(
@@ -136,7 +138,8 @@ impl Document {
         Ok(found)
     }
 
-    /// The corners of one primitive; none for points and lines, and where it does not exist. Errors: as [`Document::corners`].
+    /// The corners of one primitive; none for points and lines, and where it does not exist. Errors: as
+    /// [`Document::corners`].
     pub fn corners_of(&self, name: &PrimitiveName) -> Result<Option<PrimitiveCorners<'_>>, Error> {
         let mesh = self.meshes().get(name.mesh);
         let Some(primitive) = mesh.and_then(|mesh| mesh.primitives.get(name.primitive)) else {

@@ -9,7 +9,8 @@ use crate::gltf::Document;
 const UNAFFECTED_EXTENSIONS: [&str; 4] =
     ["KHR_materials_variants", "KHR_draco_mesh_compression", "EXT_structural_metadata", "FB_ngon_encoding"];
 
-/// The extensions of a primitive that may refer to vertices, by index or through accessors, in order of names.
+/// The extensions of a primitive that may refer to vertices, by index or through accessors, in order of
+/// names.
 fn affected_extensions(primitive: &Value) -> Vec<&str> {
     let extensions = primitive["extensions"].as_object().into_iter().flatten();
     let affected = extensions.filter(|(name, json)| match name.as_str() {
@@ -31,7 +32,8 @@ pub fn warning(document: &Document, name: &PrimitiveName) -> Option<String> {
     })
 }
 
-/// Whether a feature of `EXT_mesh_features` is identified by the vertex index: it has neither an attribute nor a texture.
+/// Whether a feature of `EXT_mesh_features` is identified by the vertex index: it has neither an attribute
+/// nor a texture.
 fn numbers_vertices(json: &Value) -> bool {
     let features = json.get("featureIds").and_then(Value::as_array).into_iter().flatten();
     features.into_iter().any(|feature| feature.get("attribute").is_none() && feature.get("texture").is_none())

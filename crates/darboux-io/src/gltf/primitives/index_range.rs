@@ -1,4 +1,5 @@
-//! Checks that indices name vertices, for operations that write primitives without computing on their triangles.
+//! Checks that indices name vertices, for operations that write primitives without computing on their
+//! triangles.
 
 use std::collections::HashSet;
 

@@ -15,7 +15,8 @@ pub fn check_triangles(document: &Document, counts: impl Iterator<Item = usize>)
     check(document, triangles.saturating_mul(3 * BYTES_PER_CORNER), "have so many corners that they need")
 }
 
-/// Checks the matrices that accessors hold, given in ascending order. Errors: they take more than the memory limit.
+/// Checks the matrices that accessors hold, given in ascending order. Errors: they take more than the memory
+/// limit.
 pub fn check_matrices(document: &Document, accessors: impl Iterator<Item = usize>) -> Result<(), Error> {
     let (mut last, mut matrices) = (None, 0usize);
     for accessor in accessors.filter(|accessor| last.replace(*accessor) != Some(*accessor)) {

@@ -7,7 +7,8 @@ use serde::{Serialize, Serializer};
 
 use crate::gltf::schema::Mesh;
 
-/// A primitive in messages and reports: `meshes[2].primitives[0] "Body"`. Names are equal if their indices are.
+/// A primitive in messages and reports: `meshes[2].primitives[0] "Body"`. Names are equal if their indices
+/// are.
 #[derive(Clone, Debug, Serialize)]
 pub struct PrimitiveName {
     /// The index of the mesh.

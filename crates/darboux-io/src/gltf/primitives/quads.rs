@@ -1,4 +1,5 @@
-//! The faces of a primitive that was cut from quads: MikkTSpace takes quads as they were, and its tangents go to the corners of their halves.
+//! The faces of a primitive that was cut from quads: MikkTSpace takes quads as they were, and its tangents go
+//! to the corners of their halves.
 
 use crate::gltf::{Document, IndexList, PrimitiveName};
 
@@ -14,8 +15,8 @@ pub struct QuadFaces {
 }
 
 impl QuadFaces {
-    /// The faces of a primitive. `triangles`: the vertices of its triangles now. None: no face was a quad, or the triangles are others than when the
-    /// document was read.
+    /// The faces of a primitive. `triangles`: the vertices of its triangles now. None: no face was a quad, or
+    /// the triangles are others than when the document was read.
     pub fn of(document: &Document, name: &PrimitiveName, triangles: &IndexList<'_>) -> Option<Self> {
         let source = document.provenance()?.primitive(name.mesh, name.primitive)?;
         if source.quads.is_empty() || 3 * source.triangles != triangles.len() {
@@ -42,7 +43,8 @@ impl QuadFaces {
         Some(faces)
     }
 
-    /// Adds the quad of two halves, in the order in which MikkTSpace has them. None: they are no halves in that order.
+    /// Adds the quad of two halves, in the order in which MikkTSpace has them. None: they are no halves in
+    /// that order.
     fn add_quad(&mut self, [a, b, c]: [u32; 3], [d, e, f]: [u32; 3]) -> Option<()> {
         if (a, c) == (d, e) {
             self.add(&[a, b, c, f], &[0, 1, 2, 0, 2, 3]);

@@ -1,4 +1,5 @@
-//! Computes the tangents of one group. Its vertices are read once; each job takes time proportional to its corners.
+//! Computes the tangents of one group. Its vertices are read once; each job takes time proportional to its
+//! corners.
 
 use std::borrow::Cow;
 use std::{fmt, mem};
@@ -50,8 +51,8 @@ impl<'a> Vertices<'a> {
         (mem::replace(&mut self.positions, positions), mem::replace(&mut self.normals, normals))
     }
 
-    /// The mesh of a job, of `quads` where its triangles were cut from these. Its texture transform is applied to the vertices that it uses only, so that many jobs over a large buffer take
-    /// linear time.
+    /// The mesh of a job, of `quads` where its triangles were cut from these. Its texture transform is
+    /// applied to the vertices that it uses only, so that many jobs over a large buffer take linear time.
     pub fn mesh<'m>(
         &'m mut self,
         document: &Document,
@@ -102,7 +103,8 @@ pub enum Generate<'a> {
     With(&'a mut GenerateFn<'a>),
 }
 
-/// A function that computes the tangents of a mesh, as [`darboux::generate_tangents_with`] does; a failure is one sentence.
+/// A function that computes the tangents of a mesh, as [`darboux::generate_tangents_with`] does; a failure is
+/// one sentence.
 pub type GenerateFn<'a> =
     dyn FnMut(&Mesh<'_>, &TangentOptions, &mut Context) -> Result<Tangents, String> + 'a;
 
@@ -136,9 +138,11 @@ impl Generate<'_> {
     }
 }
 
-/// Computes a job. `name` is that of its first primitive. With `morphs`, the result has a plan for morph targets.
+/// Computes a job. `name` is that of its first primitive. With `morphs`, the result has a plan for morph
+/// targets.
 ///
-/// Errors: indices out of range, attributes of different lengths; with [`AddTangentsOptions::strict`], unusable data.
+/// Errors: indices out of range, attributes of different lengths; with [`AddTangentsOptions::strict`],
+/// unusable data.
 pub fn compute_job<'a>(
     document: &'a Document,
     name: &PrimitiveName,

@@ -1,5 +1,5 @@
-//! Memory for the tangents of a mesh's corners. Where they are many, the system is asked for huge pages: it takes longer to provide pages
-//! of 4 KiB than to compute what is written there (docs/notes/io.md).
+//! Memory for the tangents of a mesh's corners. Where they are many, the system is asked for huge pages: it
+//! takes longer to provide pages of 4 KiB than to compute what is written there (docs/notes/io.md).
 
 use std::ops::{Deref, DerefMut};
 
@@ -26,7 +26,8 @@ impl CornerMemory {
     }
 }
 
-/// Memory in huge pages; none if it is little, or the system refuses. A system without huge pages takes small ones.
+/// Memory in huge pages; none if it is little, or the system refuses. A system without huge pages takes small
+/// ones.
 #[cfg(target_os = "linux")]
 fn map(bytes: usize) -> Option<memmap2::MmapMut> {
     if bytes < MAPPED_FROM {

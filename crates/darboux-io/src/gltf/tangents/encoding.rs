@@ -12,9 +12,11 @@ pub enum TangentEncoding {
     /// Floats: 16 bytes per vertex, exact.
     #[default]
     F32x4,
-    /// Normalised 16-bit integers: 8 bytes per vertex, directions change by up to 0.0016 degrees. Needs `KHR_mesh_quantization`.
+    /// Normalised 16-bit integers: 8 bytes per vertex, directions change by up to 0.0016 degrees. Needs
+    /// `KHR_mesh_quantization`.
     Snorm16x4,
-    /// Normalised 8-bit integers: 4 bytes per vertex, directions change by up to 0.40 degrees. Needs `KHR_mesh_quantization`.
+    /// Normalised 8-bit integers: 4 bytes per vertex, directions change by up to 0.40 degrees. Needs
+    /// `KHR_mesh_quantization`.
     Snorm8x4,
 }
 
@@ -40,8 +42,8 @@ impl Choice for TangentEncoding {
 }
 
 impl TangentEncoding {
-    /// The tangent that a reader decodes. Tangents are rounded before splitting, so that no vertex is split for differences that are not
-    /// stored.
+    /// The tangent that a reader decodes. Tangents are rounded before splitting, so that no vertex is split
+    /// for differences that are not stored.
     pub(super) fn rounded(self, tangent: [f32; 4]) -> [f32; 4] {
         match self {
             Self::F32x4 => tangent,

@@ -1,4 +1,5 @@
-//! Tangents that the caller has, one per corner: written as computed ones are, with split vertices where corners need different ones.
+//! Tangents that the caller has, one per corner: written as computed ones are, with split vertices where
+//! corners need different ones.
 
 use std::collections::HashMap;
 
@@ -11,7 +12,8 @@ use crate::gltf::PrimitiveName;
 pub struct GivenTangents<'a> {
     /// Primitives with the same triangles.
     pub primitives: &'a [PrimitiveName],
-    /// One tangent per corner of the complete triangles, those of strips and fans written as lists: unit xyz and the sign w, in glTF's convention.
+    /// One tangent per corner of the complete triangles, those of strips and fans written as lists: unit xyz
+    /// and the sign w, in glTF's convention.
     pub tangents: &'a [[f32; 4]],
 }
 

@@ -1,4 +1,5 @@
-//! Computes what is written for one group: tangents, new vertices and index lists, and offsets of morph targets.
+//! Computes what is written for one group: tangents, new vertices and index lists, and offsets of morph
+//! targets.
 
 use std::collections::HashSet;
 

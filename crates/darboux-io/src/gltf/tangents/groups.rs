@@ -7,10 +7,11 @@ use super::uv::UvTransform;
 use crate::gltf::primitives::canonical::CanonicalAccessors;
 use crate::gltf::primitives::triangles::TriangleMode;
 
-/// Primitives over the same positions, normals and UVs. They are split jointly and share one `TANGENT` accessor.
+/// Primitives over the same positions, normals and UVs. They are split jointly and share one `TANGENT`
+/// accessor.
 ///
-/// All other attributes and morph targets of the members are split in the same way. A primitive with another UV set belongs to another
-/// group, and gets its own copies.
+/// All other attributes and morph targets of the members are split in the same way. A primitive with another
+/// UV set belongs to another group, and gets its own copies.
 #[derive(Debug)]
 pub struct Group {
     pub position: usize,
@@ -44,7 +45,8 @@ pub struct GroupMember {
     pub job: usize,
 }
 
-/// Groups primitives. Groups are in the order of their first primitives. `given`: the place of a candidate's given tangents.
+/// Groups primitives. Groups are in the order of their first primitives. `given`: the place of a candidate's
+/// given tangents.
 pub fn group<'a>(
     accessors: &CanonicalAccessors,
     chosen: impl Iterator<Item = (usize, &'a TangentInput)>,
@@ -75,7 +77,8 @@ pub fn group<'a>(
     groups
 }
 
-/// Groups with at least so many triangles are computed on all threads, one after the other: the core shares meshes of this size.
+/// Groups with at least so many triangles are computed on all threads, one after the other: the core shares
+/// meshes of this size.
 const LARGE_GROUP: usize = 1 << 14;
 
 /// Small groups are computed side by side, so many triangles before they are written.

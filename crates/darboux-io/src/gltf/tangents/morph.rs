@@ -1,4 +1,5 @@
-//! Computes tangent offsets of morph targets: tangents of base + target in the groups of the base, minus the tangents of the base.
+//! Computes tangent offsets of morph targets: tangents of base + target in the groups of the base, minus the
+//! tangents of the base.
 
 use std::collections::HashMap;
 use std::ops::Add;
@@ -30,7 +31,8 @@ impl Movement {
 
     /// The movement of a morph target; none if it gets no tangent offsets.
     ///
-    /// Existing offsets are kept unless they are to be replaced. Targets without position and normal offsets need none.
+    /// Existing offsets are kept unless they are to be replaced. Targets without position and normal offsets
+    /// need none.
     pub fn of(
         accessors: &CanonicalAccessors,
         target: &Attributes,
@@ -96,7 +98,8 @@ pub struct Offsets {
 pub struct StaleCorners {
     /// Corners to which a computation without the groups of the base would give another tangent.
     pub regrouped: usize,
-    /// Corners whose offset differs from that of their vertex, which corners with the same base tangent share.
+    /// Corners whose offset differs from that of their vertex, which corners with the same base tangent
+    /// share.
     pub conflicting: usize,
 }
 
@@ -112,7 +115,8 @@ impl Add for StaleCorners {
 
 /// Evaluates a movement for its jobs.
 ///
-/// Errors: the number of offsets is not that of vertices; with [`AddTangentsOptions::strict`], offsets that are not finite.
+/// Errors: the number of offsets is not that of vertices; with [`AddTangentsOptions::strict`], offsets that
+/// are not finite.
 pub fn offsets(
     document: &Document,
     morph: &Morph,
@@ -182,7 +186,8 @@ impl OffsetField {
         Self { offsets: vec![[0.0; 3]; vertex_count], is_set: vec![false; vertex_count] }
     }
 
-    /// Sets the offset of a vertex unless it is set. Returns whether the corner's offset is that of the vertex.
+    /// Sets the offset of a vertex unless it is set. Returns whether the corner's offset is that of the
+    /// vertex.
     fn set(&mut self, vertex: u32, moved: &[f32; 4], base: &[f32; 4]) -> bool {
         let vertex = vertex as usize;
         let offset = std::array::from_fn(|i| moved[i] - base[i]);

@@ -4,7 +4,8 @@ use darboux::TangentOptions;
 
 use super::encoding::TangentEncoding;
 
-/// Options of [`add_tangents`](super::add_tangents). The default adds MikkTSpace tangents to every triangle primitive without tangents.
+/// Options of [`add_tangents`](super::add_tangents). The default adds MikkTSpace tangents to every triangle
+/// primitive without tangents.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct AddTangentsOptions {

@@ -193,7 +193,8 @@ fn missing_uv(primitive: &Primitive, uv: &UvChoice) -> String {
     }
 }
 
-/// Warnings about selected primitives. A warning about a material is given once, not for each of its primitives.
+/// Warnings about selected primitives. A warning about a material is given once, not for each of its
+/// primitives.
 #[derive(Default)]
 struct Warnings {
     sentences: Vec<String>,

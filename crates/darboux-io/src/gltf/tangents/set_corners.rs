@@ -10,12 +10,13 @@ use crate::Error;
 use crate::gltf::{Document, PrimitiveName};
 
 impl Document {
-    /// Gives the corners of primitives tangents. Vertices whose corners get different ones are split; primitives that share vertices share the new
-    /// ones. All other primitives keep what they have.
+    /// Gives the corners of primitives tangents. Vertices whose corners get different ones are split;
+    /// primitives that share vertices share the new ones. All other primitives keep what they have.
     ///
-    /// `given`: the last tangents count of a primitive that is named twice. Errors: primitives without positions, normals or the UVs of their
-    /// materials, with morph targets, or with another number of corners; more corners than the memory limit permits. After an error the document
-    /// is unspecified: drop it.
+    /// `given`: the last tangents count of a primitive that is named twice. Errors: primitives without
+    /// positions, normals or the UVs of their materials, with morph targets, or with another number of
+    /// corners; more corners than the memory limit permits. After an error the document is unspecified:
+    /// drop it.
     ///
     /// ```
     /// use darboux_io::gltf::{Document, GivenTangents, PrimitiveName};

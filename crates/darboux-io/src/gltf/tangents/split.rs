@@ -22,7 +22,8 @@ pub struct Split {
 
 /// Splits the results of a group's jobs jointly.
 ///
-/// `at` is the JSON path of the group's first primitive. Errors: more vertices than 32-bit indices can address.
+/// `at` is the JSON path of the group's first primitive. Errors: more vertices than 32-bit indices can
+/// address.
 pub fn split(
     document: &Document,
     at: &str,

@@ -1,4 +1,5 @@
-//! The report of [`add_tangents`](super::add_tangents): per primitive, in the order of the file, and in total.
+//! The report of [`add_tangents`](super::add_tangents): per primitive, in the order of the file, and in
+//! total.
 
 use darboux::Report;
 use serde::Serialize;
@@ -84,9 +85,11 @@ pub struct WrittenTangents {
     pub vertices_after: usize,
     /// The number of morph targets that got tangent offsets.
     pub morph_targets: usize,
-    /// Corners of morphed meshes to which a computation without the groups of the base would give other tangents, summed over targets.
+    /// Corners of morphed meshes to which a computation without the groups of the base would give other
+    /// tangents, summed over targets.
     pub regrouped_corners: usize,
-    /// Corners of morphed meshes whose tangent differs from that of their shared vertex, summed over targets.
+    /// Corners of morphed meshes whose tangent differs from that of their shared vertex, summed over
+    /// targets.
     pub conflicting_corners: usize,
     /// Counts of triangles and of degenerate data.
     #[serde(flatten)]
@@ -105,7 +108,8 @@ pub struct ReportCounts {
     pub uv_degenerate_triangles: usize,
     /// Corners with a NaN or an infinity in position, normal or UV.
     pub non_finite_corners: usize,
-    /// Corners whose tangent by the reference algorithm is unusable. It was replaced, except with [`darboux::Mode::Reference`].
+    /// Corners whose tangent by the reference algorithm is unusable. It was replaced, except with
+    /// [`darboux::Mode::Reference`].
     pub repaired_corners: usize,
     /// Triangles whose corners carry both signs.
     pub mixed_sign_triangles: usize,

@@ -29,8 +29,8 @@ impl Default for UvChoice {
     }
 }
 
-/// The texture whose UVs the tangents of a material follow, and its name: the normal map (glTF 2.0, 3.9.3), or else the textures of
-/// extensions.
+/// The texture whose UVs the tangents of a material follow, and its name: the normal map (glTF 2.0, 3.9.3),
+/// or else the textures of extensions.
 fn tangent_texture(material: &Material) -> Option<(&'static str, &TextureInfo)> {
     let extensions = material.extensions.as_deref();
     let clearcoat = || extensions?.clearcoat.as_ref()?.clearcoat_normal_texture.as_ref();
@@ -73,8 +73,8 @@ impl UvTransform {
 
     /// Scales, then rotates, then offsets, each in f32.
     ///
-    /// The rotation is counter-clockwise with v pointing down the image, as in the text of the extension and in renderers. The sign in the
-    /// extension's GLSL listing is wrong (KhronosGroup/glTF, issue 1563).
+    /// The rotation is counter-clockwise with v pointing down the image, as in the text of the extension and
+    /// in renderers. The sign in the extension's GLSL listing is wrong (KhronosGroup/glTF, issue 1563).
     pub fn apply(&self, uv: [f32; 2]) -> [f32; 2] {
         let (u, v) = (self.scale[0] * uv[0], self.scale[1] * uv[1]);
         let rotated = [self.cos * u + self.sin * v, self.cos * v - self.sin * u];

@@ -1,4 +1,5 @@
-//! Writes tangents into a document: new accessors, and primitives that refer to them. Existing accessors are never changed.
+//! Writes tangents into a document: new accessors, and primitives that refer to them. Existing accessors are
+//! never changed.
 
 use std::collections::HashMap;
 
@@ -17,8 +18,8 @@ use crate::gltf::primitives::triangles::TriangleMode;
 use crate::gltf::schema::Attributes;
 use crate::gltf::{Document, NewAccessor, Target};
 
-/// Appends an accessor of tangents, one per vertex, and declares the extension of its encoding. Returns `old` if it has the same
-/// elements.
+/// Appends an accessor of tangents, one per vertex, and declares the extension of its encoding. Returns `old`
+/// if it has the same elements.
 pub fn push_tangents(
     document: &mut Document,
     old: Option<usize>,
@@ -107,7 +108,8 @@ impl<'a> TangentWriter<'a> {
         Ok(morphed)
     }
 
-    /// The attributes `old` with the appended vertices, if any, and with `tangents`, if given. `at` is their JSON path.
+    /// The attributes `old` with the appended vertices, if any, and with `tangents`, if given. `at` is their
+    /// JSON path.
     fn attributes(
         &mut self,
         document: &mut Document,

@@ -1,4 +1,5 @@
-//! The hierarchy of a document. A root turns axes and units to those of glTF, so that vertices keep their bits.
+//! The hierarchy of a document. A root turns axes and units to those of glTF, so that vertices keep their
+//! bits.
 
 use darboux::Convention;
 use serde_json::{Value, json};
@@ -14,7 +15,8 @@ pub struct Nodes {
     pub skins: Vec<Value>,
 }
 
-/// Builds the hierarchy. `mesh_of_source`: the index in the document of each mesh of the scene; none for those without faces.
+/// Builds the hierarchy. `mesh_of_source`: the index in the document of each mesh of the scene; none for
+/// those without faces.
 pub fn build(scene: &SourceScene, mesh_of_source: &[Option<usize>], data: &mut DataBuilder) -> Nodes {
     let mut built = Nodes::default();
     if scene.nodes.is_empty() {

@@ -1,12 +1,16 @@
-//! Cuts a face as Blender does (its `BLI_polyfill_calc`), so that n-gons have the triangles that its exporters write.
+//! Cuts a face as Blender does (its `BLI_polyfill_calc`), so that n-gons have the triangles that its
+//! exporters write.
 //!
 //! Facts about that program, found in its source and confirmed with Blender 5.0 (docs/formats.md):
 //!
-//! - The face is seen along its normal (M. E. Newell's), with the first axis at right angles to it and to z. All of this is in single precision.
-//! - Ears are cut off as long as more than three corners remain. The search for an ear begins two corners after the last one, so that a round face
-//!   does not become a fan. Where that corner is not convex, the search begins one further, and its direction is reversed from then on.
-//! - While no corner is reflex or straight, every corner is an ear. Else an ear is convex and holds no corner that is not convex, on its border
-//!   included. If there is none, straight corners are taken, then any that is not reflex, then the corner where the search begins.
+//! - The face is seen along its normal (M. E. Newell's), with the first axis at right angles to it and to z.
+//!   All of this is in single precision.
+//! - Ears are cut off as long as more than three corners remain. The search for an ear begins two corners
+//!   after the last one, so that a round face does not become a fan. Where that corner is not convex, the
+//!   search begins one further, and its direction is reversed from then on.
+//! - While no corner is reflex or straight, every corner is an ear. Else an ear is convex and holds no corner
+//!   that is not convex, on its border included. If there is none, straight corners are taken, then any that
+//!   is not reflex, then the corner where the search begins.
 
 use super::triangle::Triangle;
 
@@ -154,7 +158,8 @@ impl Outline {
     }
 }
 
-/// The side of the line from a to b on which c lies: convex is to the right, as the projection mirrors the face.
+/// The side of the line from a to b on which c lies: convex is to the right, as the projection mirrors the
+/// face.
 fn side([a, b, c]: [[f32; 2]; 3]) -> Turn {
     let [to_b, to_a] = [b, a].map(|p| [p[0] - c[0], p[1] - c[1]]);
     let area = to_b[0] * to_a[1] - to_a[0] * to_b[1];

@@ -1,8 +1,9 @@
-//! A tree over the corners of a polygon that finds a corner in a triangle (J. L. Bentley, "Multidimensional Binary Search Trees Used for Associative
-//! Searching", 1975), with boxes. Corners can be removed.
+//! A tree over the corners of a polygon that finds a corner in a triangle (J. L. Bentley, "Multidimensional
+//! Binary Search Trees Used for Associative Searching", 1975), with boxes. Corners can be removed.
 //!
-//! A box is passed over where the test of the triangle's edges fails for every place in it. That bound is computed by the operations of the test
-//! itself at the ends of the box. Rounding is monotone, so the answer is the same as that of a test of all corners.
+//! A box is passed over where the test of the triangle's edges fails for every place in it. That bound is
+//! computed by the operations of the test itself at the ends of the box. Rounding is monotone, so the answer
+//! is the same as that of a test of all corners.
 
 /// The most corners in a leaf.
 const LEAF: usize = 8;
@@ -95,8 +96,8 @@ impl<'a> CornerTree<'a> {
         }
     }
 
-    /// A corner that lies in a triangle of corners or on its border. Corners at the places of the triangle's own are allowed: they join outlines and
-    /// holes. The outer none: the steps are used up.
+    /// A corner that lies in a triangle of corners or on its border. Corners at the places of the triangle's
+    /// own are allowed: they join outlines and holes. The outer none: the steps are used up.
     #[expect(clippy::option_option, reason = "the outer one is the limit's")]
     pub fn corner_in(&self, triangle: [usize; 3], steps: &mut u64) -> Option<Option<usize>> {
         let own = triangle.map(|corner| self.corners[corner]);

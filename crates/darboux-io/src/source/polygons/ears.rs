@@ -1,8 +1,9 @@
 //! Cuts faces into ears (G. H. Meisters, "Polygons Have Ears", 1975).
 //!
-//! The face is seen along the axis along which it looks largest, by its normal (M. E. Newell: the sum of the edges' areas per plane).
-//! Coordinates are compared without the one along the axis, not rotated: products of 32-bit numbers are then nearly exact in 64 bits. Whether a
-//! corner lies in an ear is asked of a tree of the corners ([`corner_tree`](super::corner_tree)), not of every corner.
+//! The face is seen along the axis along which it looks largest, by its normal (M. E. Newell: the sum of the
+//! edges' areas per plane). Coordinates are compared without the one along the axis, not rotated: products of
+//! 32-bit numbers are then nearly exact in 64 bits. Whether a corner lies in an ear is asked of a tree of the
+//! corners ([`corner_tree`](super::corner_tree)), not of every corner.
 
 use super::corner_tree::{CornerTree, area};
 use super::triangle::Triangle;
@@ -40,14 +41,16 @@ impl Polygon {
         triangles.iter().any(|&triangle| self.area(triangle) < 0.0)
     }
 
-    /// The fan if all its triangles face as the face does, as in convex faces; else ears, if fewer of them are folded or empty.
+    /// The fan if all its triangles face as the face does, as in convex faces; else ears, if fewer of them
+    /// are folded or empty.
     pub fn cut(&self, fan: Vec<Triangle>, steps: &mut u64) -> Vec<Triangle> {
         let faults = self.faults(&fan);
         let ears = if faults > 0 { self.ears(steps) } else { None };
         ears.filter(|ears| self.faults(ears) < faults).unwrap_or(fan)
     }
 
-    /// Cuts off ears: triangles of neighbours that contain no other corner. Corners on a straight line are kept for other ears while there are any.
+    /// Cuts off ears: triangles of neighbours that contain no other corner. Corners on a straight line are
+    /// kept for other ears while there are any.
     ///
     /// None: no ear is left, because the face crosses itself, or the steps are used up.
     pub fn ears(&self, steps: &mut u64) -> Option<Vec<Triangle>> {
@@ -246,7 +249,8 @@ mod tests {
         assert!(!doubled.is_folded && doubled.triangles == line.triangles);
     }
 
-    /// A star whose every second corner lies further inside, with radii that differ so that corners lie near ears.
+    /// A star whose every second corner lies further inside, with radii that differ so that corners lie near
+    /// ears.
     fn star(corners: usize) -> Vec<[f64; 3]> {
         let at = |i: usize| {
             let angle = std::f64::consts::TAU * i as f64 / corners as f64;

@@ -1,7 +1,8 @@
-//! The discrete Fourier transform of a square block, on separate arrays of real and imaginary parts (Cooley and Tukey 1965, radix 2).
+//! The discrete Fourier transform of a square block, on separate arrays of real and imaginary parts (Cooley
+//! and Tukey 1965, radix 2).
 //!
-//! A stage combines whole rows, so that the inner loops run along contiguous values. Columns are transformed, then the block is transposed, and its
-//! columns are transformed again: the result is left transposed.
+//! A stage combines whole rows, so that the inner loops run along contiguous values. Columns are transformed,
+//! then the block is transposed, and its columns are transformed again: the result is left transposed.
 
 /// The transform of blocks of `side` x `side` values, a power of two.
 #[derive(Debug)]

@@ -13,7 +13,8 @@ pub enum MapVerdict {
     OpenGl,
     /// Green points down, as DirectX wants it (or red is inverted).
     DirectX,
-    /// The texels are not the slope of a surface: a height or colour map, a map in object space, exchanged channels, noise.
+    /// The texels are not the slope of a surface: a height or colour map, a map in object space, exchanged
+    /// channels, noise.
     NoGradient,
     /// All texels are the same but for rounding.
     Flat,
@@ -45,29 +46,35 @@ impl MapVerdict {
 pub struct MapJudgement {
     /// The verdict.
     pub verdict: MapVerdict,
-    /// An estimate of the probability that the verdict is right, at least 0.5, as if red and green were exchanged in one of 91 maps; for
-    /// `CannotTell` that of the likelier of OpenGL and DirectX, at most 0.97; for `Flat` 1. It was fitted to blocks of real maps:
-    /// docs/notes/real-normal-maps.md compares it with the share of right verdicts.
+    /// An estimate of the probability that the verdict is right, at least 0.5, as if red and green were
+    /// exchanged in one of 91 maps; for `CannotTell` that of the likelier of OpenGL and DirectX, at most
+    /// 0.97; for `Flat` 1. It was fitted to blocks of real maps: docs/notes/real-normal-maps.md compares
+    /// it with the share of right verdicts.
     pub confidence: f32,
-    /// The mean correlation of the tiles, from -1 (DirectX) to 1 (OpenGL), of the map or of one of its halvings: of those whose mean has
-    /// the sign of `z_score`, the one whose mean is largest in units of its standard error. Each tile counts alike. Where that contradicts the verdict, and in
-    /// maps of few tiles, `relief_correlation`.
+    /// The mean correlation of the tiles, from -1 (DirectX) to 1 (OpenGL), of the map or of one of its
+    /// halvings: of those whose mean has the sign of `z_score`, the one whose mean is largest in units
+    /// of its standard error. Each tile counts alike. Where that contradicts the verdict, and in maps of
+    /// few tiles, `relief_correlation`.
     pub correlation: f32,
-    /// That mean divided by its standard error; or, where it is larger, such quotients of the map and of its halvings, added and divided by
-    /// the square root of their number. The halvings depend on each other, so large values are less certain than those of a normal
-    /// distribution. Where `correlation` is `relief_correlation`, `shift_score`.
+    /// That mean divided by its standard error; or, where it is larger, such quotients of the map and of its
+    /// halvings, added and divided by the square root of their number. The halvings depend on each
+    /// other, so large values are less certain than those of a normal distribution. Where `correlation`
+    /// is `relief_correlation`, `shift_score`.
     pub z_score: f32,
-    /// The mean correlation of the tiles of the map and of its halvings, weighted by the energy of their slopes above that of rounding.
+    /// The mean correlation of the tiles of the map and of its halvings, weighted by the energy of their
+    /// slopes above that of rounding.
     pub relief_correlation: f32,
-    /// How much better a height field explains the slopes in OpenGL's convention than in DirectX's, in units of the root mean square of the same number
-    /// over all shifts of green against red. 0 for maps with fewer than 16 texels along a side.
+    /// How much better a height field explains the slopes in OpenGL's convention than in DirectX's, in units
+    /// of the root mean square of the same number over all shifts of green against red. 0 for maps with
+    /// fewer than 16 texels along a side.
     pub shift_score: f32,
-    /// The shares of the energy of the slopes that no height field explains: in OpenGL's convention and in DirectX's. Both are 0.5 for maps with fewer than 16
-    /// texels along a side.
+    /// The shares of the energy of the slopes that no height field explains: in OpenGL's convention and in
+    /// DirectX's. Both are 0.5 for maps with fewer than 16 texels along a side.
     pub residuals: [f32; 2],
     /// Whether most tiles are in another convention than the relief: faint detail that was overlaid.
     pub has_opposed_detail: bool,
-    /// Half the natural logarithm of the energy of the unmixed derivatives over that of the mixed ones. Negative for exchanged channels.
+    /// Half the natural logarithm of the energy of the unmixed derivatives over that of the mixed ones.
+    /// Negative for exchanged channels.
     pub log_energy_ratio: f32,
     /// Whether that is certain enough.
     pub(super) is_exchanged: bool,
@@ -81,17 +88,20 @@ pub struct MapJudgement {
     pub negative_z: usize,
     /// Texels whose three channels differ by at most 3/255. 0 where the layout stores no z.
     pub grey: usize,
-    /// Texels that cannot be normals of a tangent-space map, however it was filtered: the length is not in [0.5, 1.2], or z is below -0.1.
+    /// Texels that cannot be normals of a tangent-space map, however it was filtered: the length is not in
+    /// [0.5, 1.2], or z is below -0.1.
     pub not_normal: usize,
     /// Whether the layout stores z.
     pub has_z: bool,
-    /// Texels whose z differs by more than 4/255 from that of the unit vector with their x and y. 0 where the layout stores no z.
+    /// Texels whose z differs by more than 4/255 from that of the unit vector with their x and y. 0 where
+    /// the layout stores no z.
     pub wrong_z: usize,
     /// The mean length of the texels.
     pub mean_length: f32,
     /// The mean of the texels.
     pub mean: [f32; 3],
-    /// The smallest and the largest z; where the layout stores no z, of the unit vectors with the texels' x and y.
+    /// The smallest and the largest z; where the layout stores no z, of the unit vectors with the texels' x
+    /// and y.
     pub z_range: [f32; 2],
     /// The commonest x and y, each as an 8-bit code.
     pub commonest: [u8; 2],
@@ -101,17 +111,18 @@ pub struct MapJudgement {
     pub near_flat: Option<[u8; 2]>,
 }
 
-/// The tiles of a normal map and how each of them votes between OpenGL and DirectX, at the size of the map whose mean is
-/// [`MapJudgement::correlation`].
+/// The tiles of a normal map and how each of them votes between OpenGL and DirectX, at the size of the map
+/// whose mean is [`MapJudgement::correlation`].
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MapTiles {
     /// The texels of the map along a side of a tile.
     pub side: usize,
-    /// The tiles of a row. Tile i begins `side * (i % columns)` texels from the left and `side * (i / columns)` from the top.
+    /// The tiles of a row. Tile i begins `side * (i % columns)` texels from the left and `side * (i /
+    /// columns)` from the top.
     pub columns: usize,
-    /// The correlation of each tile, from -1 (DirectX) to 1 (OpenGL), the top row first; none where a tile has no vote, because it has one
-    /// value, or mostly background or borders of charts.
+    /// The correlation of each tile, from -1 (DirectX) to 1 (OpenGL), the top row first; none where a tile
+    /// has no vote, because it has one value, or mostly background or borders of charts.
     pub correlations: Vec<Option<f32>>,
 }
 
@@ -135,16 +146,17 @@ impl MapJudgement {
         self.texels > self.background && self.share(self.grey) >= 0.99
     }
 
-    /// True for maps in object space: unit vectors, of which more than a tenth have a negative z. A steep map in tangent space can have them, too:
-    /// then the vectors still point along z on average, or against it where blue was inverted, and are slopes of a surface.
+    /// True for maps in object space: unit vectors, of which more than a tenth have a negative z. A steep map
+    /// in tangent space can have them, too: then the vectors still point along z on average, or against
+    /// it where blue was inverted, and are slopes of a surface.
     pub fn is_object_space(&self) -> bool {
         let is_steep = self.mean[2].abs() > 0.5 && self.relief_correlation.abs() >= 0.3;
         let is_turned = self.share(self.negative_z) > 0.1 && !is_steep;
         !self.is_grey() && is_turned && self.share(self.not_unit) < 0.5
     }
 
-    /// True where the layout stores z, but that channel has one value, which is wrong for more than 1 % of the texels. A map of gentle
-    /// slopes has nearly one value, too, and it is right.
+    /// True where the layout stores z, but that channel has one value, which is wrong for more than 1 % of
+    /// the texels. A map of gentle slopes has nearly one value, too, and it is right.
     pub fn is_two_channel(&self) -> bool {
         let [low, high] = self.z_range;
         let is_constant = self.has_z && high - low <= 1.0 / 255.0;
@@ -161,7 +173,8 @@ impl MapJudgement {
         self.verdict == MapVerdict::NoGradient && self.is_exchanged
     }
 
-    /// The transfer function that was applied once too often, judged by the commonest texel and by the mean: maps do not lean on average.
+    /// The transfer function that was applied once too often, judged by the commonest texel and by the mean:
+    /// maps do not lean on average.
     pub fn srgb_mistake(&self) -> Option<SrgbMistake> {
         let is_common = self.share(self.commonest_count) >= 0.01;
         let [x, y, z] = self.mean.map(|x| (x + 1.0) * 127.5);

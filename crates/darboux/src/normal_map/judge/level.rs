@@ -11,7 +11,8 @@ const MAX_STEP: f32 = 1.0;
 /// The fewest texels of a tile that has a correlation.
 const MIN_TEXELS: f32 = (TILE * TILE / 4) as f32;
 
-/// The mean square of the difference of two codes of 8 bits that were rounded: twice the variance of rounding.
+/// The mean square of the difference of two codes of 8 bits that were rounded: twice the variance of
+/// rounding.
 const ROUNDING: f64 = 2.0 / 12.0 * (2.0 / 255.0) * (2.0 / 255.0);
 
 /// The sums of a tile: dp/dv dq/du, the squares of dp/dv, dq/du, dp/du and dq/dv, and the number of texels.
@@ -44,7 +45,8 @@ pub struct TileSums {
     pub tiles: usize,
     pub correlations: f64,
     pub squared_correlations: f64,
-    /// The sum of the tiles' weights, the energies of their mixed derivatives above that of rounding, and of the correlations times these.
+    /// The sum of the tiles' weights, the energies of their mixed derivatives above that of rounding, and of
+    /// the correlations times these.
     pub weights: f64,
     pub weighted_correlations: f64,
     /// Half the logarithm of the energy of the unmixed derivatives over that of the mixed ones.
@@ -55,7 +57,8 @@ pub struct TileSums {
     pub texels: f64,
 }
 
-/// Replaces texels that are no vectors by NaN: x and y alone are longer than 1. Black and white backgrounds are such texels.
+/// Replaces texels that are no vectors by NaN: x and y alone are longer than 1. Black and white backgrounds
+/// are such texels.
 #[inline(always)]
 pub fn set_invalid_to_nan(x: &mut [f32], y: &mut [f32]) {
     for (x, y) in x.iter_mut().zip(y) {
@@ -168,8 +171,8 @@ impl Level {
 }
 
 impl TileSums {
-    /// Adds a tile and returns its correlation; none where it has too few texels or no derivatives. `rounding`: the energy of a texel's derivative that
-    /// rounding makes.
+    /// Adds a tile and returns its correlation; none where it has too few texels or no derivatives.
+    /// `rounding`: the energy of a texel's derivative that rounding makes.
     fn add(&mut self, sums: [f32; SUM_COUNT], rounding: f64) -> Option<f64> {
         let [product, p_v, q_u, p_u, q_v, count] = sums;
         let [product, p_v, q_u, p_u, q_v] = [product, p_v, q_u, p_u, q_v].map(f64::from);

@@ -1,4 +1,5 @@
-//! Combines the spectra of all halvings of a map into octaves: each wavelength counts once, from the level where it has four to eight texels.
+//! Combines the spectra of all halvings of a map into octaves: each wavelength counts once, from the level
+//! where it has four to eight texels.
 
 use super::level::Level;
 use super::spectrum::{Octave, Spectrum};

@@ -14,24 +14,28 @@ const MIN_TILES_FOR_NO_GRADIENT: usize = 256;
 /// The smallest mean square of differences that is neither rounding nor compression: eight codes of 8 bits.
 const MIN_SIGNAL: f64 = (16.0 / 255.0) * (16.0 / 255.0);
 
-/// The weights of the evidence in the logarithm of the odds of a sign: of the votes' z score, limited to [`LARGEST_VOTES`]; of the inverse hyperbolic sine
-/// of the shift score; of the relief's correlation. Fitted by logistic regression to blocks of 16 to 256 texels of real maps whose convention is known, a
+/// The weights of the evidence in the logarithm of the odds of a sign: of the votes' z score, limited to
+/// [`LARGEST_VOTES`]; of the inverse hyperbolic sine of the shift score; of the relief's correlation. Fitted
+/// by logistic regression to blocks of 16 to 256 texels of real maps whose convention is known, a
 /// tenth smaller than the likeliest ones (docs/notes/real-normal-maps.md).
 const VOTES_WEIGHT: f64 = 0.23;
 const SHIFT_WEIGHT: f64 = 1.35;
 const RELIEF_WEIGHT: f64 = 4.0;
 
-/// The limit of the votes' z score: whatever their number, they count tiles of noise like tiles of relief, and tiles that repeat like independent ones.
+/// The limit of the votes' z score: whatever their number, they count tiles of noise like tiles of relief,
+/// and tiles that repeat like independent ones.
 const LARGEST_VOTES: f64 = 5.0;
 
-/// What the logarithm of the odds is corrected by, at most: weak evidence says less than the sum of its weights, and clear evidence more, because real maps
-/// hold either little relief or much. Fitted to the share of right signs of the same blocks.
+/// What the logarithm of the odds is corrected by, at most: weak evidence says less than the sum of its
+/// weights, and clear evidence more, because real maps hold either little relief or much. Fitted to the share
+/// of right signs of the same blocks.
 const CALIBRATION: f64 = 0.6;
 
 /// The smallest probability of a sign that is a verdict.
 const MIN_PROBABILITY: f64 = 0.97;
 
-/// The relief's correlation and the shift score from which on the two contradict each other, where their signs differ.
+/// The relief's correlation and the shift score from which on the two contradict each other, where their
+/// signs differ.
 const MIN_RELIEF: f64 = 0.1;
 const MIN_SHIFT_SCORE: f64 = 1.0;
 
@@ -47,23 +51,27 @@ const OPPOSED_Z_SCORE: f64 = 6.5;
 /// The probability of the relief's sign from which votes can contradict it.
 const OPPOSED_PROBABILITY: f64 = 0.8;
 
-/// The largest log energy ratio of exchanged channels, and its largest z score. That of a gradient is not negative, so the sign of the correlation
-/// needs less certainty than otherwise: this absolute z score.
+/// The largest log energy ratio of exchanged channels, and its largest z score. That of a gradient is not
+/// negative, so the sign of the correlation needs less certainty than otherwise: this absolute z score.
 const MAX_EXCHANGED_RATIO: f64 = -0.02;
 const MAX_EXCHANGED_RATIO_Z_SCORE: f64 = -4.0;
 const MIN_EXCHANGED_Z_SCORE: f64 = 2.0;
 
-/// The largest log energy ratio of a map without a sign that is called no gradient: it is 0 for noise, whose derivatives are independent, and for
-/// pictures, whose red and green change together. Slopes of threads or grooves along u and v have little mixed energy and much more unmixed energy.
+/// The largest log energy ratio of a map without a sign that is called no gradient: it is 0 for noise, whose
+/// derivatives are independent, and for pictures, whose red and green change together. Slopes of threads or
+/// grooves along u and v have little mixed energy and much more unmixed energy.
 const MAX_RATIO_OF_NOISE: f64 = 0.3;
 
-/// The steepness of the confidence that red and green are not exchanged, over the z score of the log energy ratio.
+/// The steepness of the confidence that red and green are not exchanged, over the z score of the log energy
+/// ratio.
 const EXCHANGE_STEEPNESS: f64 = 2.0;
 
-/// The natural logarithm of the odds, before the texels are seen, that red and green are not exchanged: 90 to 1. One of 496 real maps has exchanged channels.
+/// The natural logarithm of the odds, before the texels are seen, that red and green are not exchanged: 90 to
+/// 1. One of 496 real maps has exchanged channels.
 const EXCHANGE_ODDS: f64 = 4.5;
 
-/// The confidence of verdicts that the counts of texels give: grey maps, maps in object space, and texels that are no normals.
+/// The confidence of verdicts that the counts of texels give: grey maps, maps in object space, and texels
+/// that are no normals.
 pub const CONFIDENCE_OF_COUNTS: f64 = 0.998;
 
 /// The confidence that a map without a sign is no gradient.
@@ -87,15 +95,16 @@ pub struct Evidence {
     /// The log energy ratio of the level of `correlation`, and its mean over its standard error.
     log_energy_ratio: f64,
     ratio_z_score: f64,
-    /// Whether a gradient would be visible: enough tiles, with differences that are more than rounding and compression.
+    /// Whether a gradient would be visible: enough tiles, with differences that are more than rounding and
+    /// compression.
     has_enough_signal: bool,
 }
 
-/// Combines the levels: the z score is the largest of theirs or, where it is larger, their sum over the square root of their number
-/// (Stouffer's method).
+/// Combines the levels: the z score is the largest of theirs or, where it is larger, their sum over the
+/// square root of their number (Stouffer's method).
 ///
-/// The levels are halvings of one map and depend on each other, so the combined score is not that of a standard normal variable, as it
-/// would be for independent levels.
+/// The levels are halvings of one map and depend on each other, so the combined score is not that of a
+/// standard normal variable, as it would be for independent levels.
 pub fn combine_levels(levels: &[Level]) -> Evidence {
     let weighed = Evidence { relief: relief(levels), spectrum: spectrum_of(levels), ..Evidence::default() };
     let sums: Vec<(usize, &TileSums)> = levels
@@ -152,7 +161,8 @@ impl TileSums {
         self.z_score_of(self.correlations, self.squared_correlations)
     }
 
-    /// The mean over its standard error of values with these sums. A floor of the variance keeps few equal tiles from certainty.
+    /// The mean over its standard error of values with these sums. A floor of the variance keeps few equal
+    /// tiles from certainty.
     fn z_score_of(&self, sum: f64, squares: f64) -> f64 {
         let mean = self.mean(sum);
         let variance = (self.mean(squares) - mean * mean).max(0.01);
@@ -161,8 +171,9 @@ impl TileSums {
 }
 
 impl Evidence {
-    /// Whether there is a gradient so clear that texels that are no normals belong to a background that compression has blurred, or to slopes that
-    /// were stored without being normalised. The energies of pictures, whose channels change together, are equal.
+    /// Whether there is a gradient so clear that texels that are no normals belong to a background that
+    /// compression has blurred, or to slopes that were stored without being normalised. The energies of
+    /// pictures, whose channels change together, are equal.
     pub fn is_clear_gradient(&self) -> bool {
         let are_clear_votes =
             self.z_score.abs() >= 4.0 * f64::from(MIN_Z_SCORE) && self.correlation.abs() >= 0.3;
@@ -208,8 +219,9 @@ impl Evidence {
         if self.is_contradicted() { probability.min(CONTRADICTED_PROBABILITY) } else { probability }
     }
 
-    /// Whether the relief and the second witness contradict each other. The spectrum overlooks what lies at the ends of its blocks, and the relief counts
-    /// slopes that no height field explains: neither is right more often than the other.
+    /// Whether the relief and the second witness contradict each other. The spectrum overlooks what lies at
+    /// the ends of its blocks, and the relief counts slopes that no height field explains: neither is
+    /// right more often than the other.
     fn is_contradicted(&self) -> bool {
         let shift_score = self.spectrum.shift_score();
         self.relief * shift_score < 0.0
@@ -227,8 +239,9 @@ impl Evidence {
         is_opposed && self.sign_probability() >= OPPOSED_PROBABILITY
     }
 
-    /// The correlation and the z score that are reported: those of the votes, or, where these contradict the verdict or there are none, those of the relief
-    /// and of the shifts; if the shifts contradict it, too, the logarithm of the odds.
+    /// The correlation and the z score that are reported: those of the votes, or, where these contradict the
+    /// verdict or there are none, those of the relief and of the shifts; if the shifts contradict it,
+    /// too, the logarithm of the odds.
     fn reported(&self) -> [f64; 2] {
         let sign = self.sign_score();
         if self.z_score * sign > 0.0 {
@@ -252,10 +265,12 @@ impl Evidence {
         judgement.is_exchanged = self.is_exchanged();
     }
 
-    /// An estimate of the probability that the verdict is right; without one, that the likelier sign is right. `NoGradient` without
-    /// exchanged channels has the largest confidence of maps without a verdict.
+    /// An estimate of the probability that the verdict is right; without one, that the likelier sign is
+    /// right. `NoGradient` without exchanged channels has the largest confidence of maps without a
+    /// verdict.
     ///
-    /// Logistic functions: of the sign score, and of the energy ratio for the order of the channels, fitted to generated maps (`cargo xtask maps`).
+    /// Logistic functions: of the sign score, and of the energy ratio for the order of the channels, fitted
+    /// to generated maps (`cargo xtask maps`).
     pub fn confidence(&self) -> f64 {
         let of_sign = self.sign_probability();
         let of_order = logistic(EXCHANGE_ODDS + EXCHANGE_STEEPNESS * self.ratio_z_score);
@@ -300,7 +315,8 @@ mod tests {
         }
     }
 
-    /// Maps with a signal and no sign are noise where their energies are equal, and undecided where the unmixed one is much larger.
+    /// Maps with a signal and no sign are noise where their energies are equal, and undecided where the
+    /// unmixed one is much larger.
     #[test]
     fn threads_along_the_axes_are_not_called_noise() {
         for (ratio, verdict) in [(0.0, MapVerdict::NoGradient), (1.5, MapVerdict::CannotTell)] {

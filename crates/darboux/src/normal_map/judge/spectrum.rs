@@ -1,15 +1,18 @@
 //! The second witness: the share of slope energy that no height field explains.
 //!
-//! Among all height fields, the one whose slopes are nearest to p and q in the sense of least squares solves a Poisson equation. In the
-//! Fourier domain its residual at the frequency k = (k_u, k_v) is |k_v P - k_u Q|^2 / |k|^2 (Frankot and Chellappa 1988). With green inverted, Q changes
-//! its sign. So one cross-spectrum gives both residuals: they differ by four times the sum of k_u k_v / |k|^2 Re(P conj(Q)).
+//! Among all height fields, the one whose slopes are nearest to p and q in the sense of least squares solves
+//! a Poisson equation. In the Fourier domain its residual at the frequency k = (k_u, k_v) is |k_v P - k_u
+//! Q|^2 / |k|^2 (Frankot and Chellappa 1988). With green inverted, Q changes its sign. So one cross-spectrum
+//! gives both residuals: they differ by four times the sum of k_u k_v / |k|^2 Re(P conj(Q)).
 //!
-//! That sum is also the value at shift zero of a function of the shift of q against p, whose mean square over all cyclic shifts is the sum of the
-//! squared terms (Parseval). A map is compared with all its own shifts in this way: the shift score is the value over the root of that mean. Patterns
-//! that repeat inside of a block, or from block to block, repeat in that function as well, and do not count as independent.
+//! That sum is also the value at shift zero of a function of the shift of q against p, whose mean square over
+//! all cyclic shifts is the sum of the squared terms (Parseval). A map is compared with all its own shifts in
+//! this way: the shift score is the value over the root of that mean. Patterns that repeat inside of a block,
+//! or from block to block, repeat in that function as well, and do not count as independent.
 //!
-//! Blocks of at most 64 x 64 texels of every halving are transformed, with a window against the steps at their ends. A large map is sampled: of the rows of
-//! blocks, the first eight count, then every second, fourth and so on, with weights.
+//! Blocks of at most 64 x 64 texels of every halving are transformed, with a window against the steps at
+//! their ends. A large map is sampled: of the rows of blocks, the first eight count, then every second,
+//! fourth and so on, with weights.
 
 use super::fourier::Fourier;
 
@@ -25,8 +28,8 @@ const MAX_COLUMNS: usize = 6;
 /// Rows of blocks that all count.
 const ALL_BANDS: usize = 8;
 
-/// What the overlap of shifted windows takes from the root of the mean square, for Hann's window: its fourth power has the mean 35/128, and the square
-/// of its square's mean is 9/64, per axis.
+/// What the overlap of shifted windows takes from the root of the mean square, for Hann's window: its fourth
+/// power has the mean 35/128, and the square of its square's mean is 9/64, per axis.
 const WINDOW_FACTOR: f64 = 35.0 / 18.0;
 
 /// Sums over blocks of one level.
@@ -48,12 +51,14 @@ pub struct Spectrum {
     squares: [Vec<f32>; 2],
 }
 
-/// What the frequencies of one octave say. All sums are means over blocks, in units of the squared slope of a texel.
+/// What the frequencies of one octave say. All sums are means over blocks, in units of the squared slope of a
+/// texel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Octave {
     /// The energy of p and q.
     pub energy: f64,
-    /// The part of it that no height field explains, without regard to the sign of green: the mean of both residuals.
+    /// The part of it that no height field explains, without regard to the sign of green: the mean of both
+    /// residuals.
     pub residual: f64,
     /// Half the difference of the residuals, DirectX less OpenGL.
     pub difference: f64,
@@ -127,7 +132,8 @@ impl Spectrum {
         self.add_frequencies(x, y, weight);
     }
 
-    /// Subtracts the mean, replaces texels that are no vectors by it, and applies the window. False where most texels are none.
+    /// Subtracts the mean, replaces texels that are no vectors by it, and applies the window. False where
+    /// most texels are none.
     #[inline(always)]
     fn prepare(&self, values: &mut [f32]) -> bool {
         let (mut sum, mut count) = (0.0, 0.0);
@@ -166,7 +172,8 @@ impl Spectrum {
         }
     }
 
-    /// Sums the frequencies whose distance from zero, in cycles per block, is at least `from` and below `below`.
+    /// Sums the frequencies whose distance from zero, in cycles per block, is at least `from` and below
+    /// `below`.
     pub fn octave(&self, from: f64, below: f64) -> Octave {
         let side = self.side;
         let mut octave = Octave::default();
@@ -176,7 +183,8 @@ impl Spectrum {
             if squared < (from * from).max(0.5) || squared >= below * below {
                 continue;
             }
-            // The frequencies of the other half of u have the same values, conjugated. Those of the ends have no counterpart.
+            // The frequencies of the other half of u have the same values, conjugated. Those of the ends have
+            // no counterpart.
             let count = if u == 0 || u == side / 2 { 1.0 } else { 2.0 };
             let at = u * side + v;
             let [real, imaginary] = [0, 1].map(|i| f64::from(self.cross[i][at]));
@@ -221,8 +229,8 @@ impl Octave {
             .map(|residual| if self.energy > 0.0 { (residual / self.energy).clamp(0.0, 1.0) } else { 0.5 })
     }
 
-    /// The difference in units of its root mean square over all shifts. Shifted windows overlap less, which makes that mean smaller than it would be for
-    /// unrelated slopes at the same place.
+    /// The difference in units of its root mean square over all shifts. Shifted windows overlap less, which
+    /// makes that mean smaller than it would be for unrelated slopes at the same place.
     pub fn shift_score(&self) -> f64 {
         if self.shifted > 0.0 { self.difference / (WINDOW_FACTOR * self.shifted.sqrt()) } else { 0.0 }
     }

@@ -12,7 +12,8 @@ const FLAT_TOLERANCE: usize = 2;
 /// All components of a black texel are smaller, and those of a white texel are larger than its negation.
 const BLACK: f32 = -0.7;
 
-/// The greatest difference between the z of a texel and that of the unit vector with its x and y, for rounding: two codes of 8 bits.
+/// The greatest difference between the z of a texel and that of the unit vector with its x and y, for
+/// rounding: two codes of 8 bits.
 const Z_TOLERANCE: f32 = 4.0 / 255.0;
 
 /// The length of a middle grey texel is smaller.
@@ -97,7 +98,8 @@ impl TexelCounts {
                 let length = (x[i] * x[i] + y[i] * y[i] + z[i] * z[i]).sqrt();
                 let differences = (x[i] - y[i]).abs().max((y[i] - z[i]).abs());
                 let is_grey = has_z & (differences <= 3.5 * 2.0 / 255.0);
-                // Compression blends the background with the texels beside it, so all nearly black, white and middle grey texels belong to it.
+                // Compression blends the background with the texels beside it, so all nearly black, white and
+                // middle grey texels belong to it.
                 let third = if has_z { z[i] } else { x[i] };
                 let (low, high) = (x[i].min(y[i]).min(third), x[i].max(y[i]).max(third));
                 let is_background = (high < BLACK) | (low > -BLACK) | (length < MAX_GREY_LENGTH);
@@ -142,8 +144,9 @@ impl TexelCounts {
         })
     }
 
-    /// Whether x and y of all texels but a few are within [`FLAT_TOLERANCE`] codes of the commonest ones. A few: 1 % of the texels but at most 16, or
-    /// 0.001 %, whichever is more. False for a map without texels.
+    /// Whether x and y of all texels but a few are within [`FLAT_TOLERANCE`] codes of the commonest ones. A
+    /// few: 1 % of the texels but at most 16, or 0.001 %, whichever is more. False for a map without
+    /// texels.
     pub fn is_flat(&self) -> bool {
         let ([x, y], _) = self.commonest(0..=255);
         let around = |code: u8| {

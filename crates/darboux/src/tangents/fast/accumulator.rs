@@ -13,7 +13,8 @@ use crate::tangents::fast::vertex_record::{VertexRecord, position_of};
 #[repr(C, align(64))]
 pub(crate) struct VertexAccumulator {
     pub record: VertexRecord,
-    /// The sum of the weighted tangents, and the number of wedges that hold the ray +u. In a finished vertex: the tangent and the sign.
+    /// The sum of the weighted tangents, and the number of wedges that hold the ray +u. In a finished
+    /// vertex: the tangent and the sign.
     pub sum: [f32; 4],
     /// The sum of the corners' fingerprints. In a finished vertex: [`flags`] in the first lane.
     pub fingerprint: [u32; 4],
@@ -43,8 +44,8 @@ impl VertexAccumulator {
         }
     }
 
-    /// Adds to both sums. `fingerprint`: a reference, because a copy on the stack, written in pieces and read as a whole, stalls the
-    /// processor.
+    /// Adds to both sums. `fingerprint`: a reference, because a copy on the stack, written in pieces and read
+    /// as a whole, stalls the processor.
     #[inline(always)]
     pub fn add(&mut self, term: [f32; 4], fingerprint: &[u32; 4]) {
         self.add_sum(&term);

@@ -1,8 +1,10 @@
-//! Angular thresholds: finds vertices around which all tangents, and all bitangents, are certainly within the threshold of each other.
+//! Angular thresholds: finds vertices around which all tangents, and all bitangents, are certainly within the
+//! threshold of each other.
 //!
-//! A second pass keeps two bounding boxes per vertex: of the directions of its tangents and of its bitangents, in the plane of the normal.
-//! Two unit vectors in a box of diagonal d have a dot product of at least 1 - d^2 / 2. Where this is above the cosine of the threshold,
-//! the reference joins all triangles of the vertex, so the vertex stays decided. No pairs of triangles are compared, and the order of
+//! A second pass keeps two bounding boxes per vertex: of the directions of its tangents and of its
+//! bitangents, in the plane of the normal. Two unit vectors in a box of diagonal d have a dot product of at
+//! least 1 - d^2 / 2. Where this is above the cosine of the threshold, the reference joins all triangles of
+//! the vertex, so the vertex stays decided. No pairs of triangles are compared, and the order of
 //! the triangles does not matter.
 
 use crate::tangents::fast::exceptions::Exceptions;
@@ -12,9 +14,10 @@ use crate::tangents::fast::vertex_quantity::VertexQuantity;
 
 /// An allowance for rounding, as part of a dot product.
 ///
-/// With u = 2^-24: directions are of unit length to 5 u, a dot product of two is right to 3 u, the squared diagonal, at most 4, to 5 u of
-/// itself, and the difference from 1 to 2 u. That is 25 u; the allowance is nearly seven times as much. Directions whose squares underflow
-/// have the mark `NEEDS_GENERAL_PATH`, so their vertices are undecided.
+/// With u = 2^-24: directions are of unit length to 5 u, a dot product of two is right to 3 u, the squared
+/// diagonal, at most 4, to 5 u of itself, and the difference from 1 to 2 u. That is 25 u; the allowance is
+/// nearly seven times as much. Directions whose squares underflow have the mark `NEEDS_GENERAL_PATH`, so
+/// their vertices are undecided.
 const MARGIN: f32 = 1e-5;
 
 /// The fast path does not run with thresholds of a larger cosine: it would decide hardly a vertex.
@@ -71,7 +74,8 @@ pub(crate) struct AngleBounds {
 }
 
 impl AngleBounds {
-    /// Makes those vertices undecided whose tangents or bitangents may differ by the threshold. `flat_vertices`: those without groups, which have none.
+    /// Makes those vertices undecided whose tangents or bitangents may differ by the threshold.
+    /// `flat_vertices`: those without groups, which have none.
     pub fn undecide_wide_vertices(
         &mut self,
         (pass, flat_vertices): (SecondPass<'_>, &[u32]),

@@ -1,13 +1,15 @@
 //! The reference's last edges: whether their order changes the result.
 //!
-//! The reference finds neighbours by sorting edges by the names of their two vertices. Those edges whose lower name is the largest of
-//! all, the *last edges*, stay in the order of an unstable sort. That order changes the result when the last edges are more than two
-//! and two of them join the same vertices; then the sort itself is repeated (see `vertex_names.rs` and `crate::topology::edge_sort`).
+//! The reference finds neighbours by sorting edges by the names of their two vertices. Those edges whose
+//! lower name is the largest of all, the *last edges*, stay in the order of an unstable sort. That order
+//! changes the result when the last edges are more than two and two of them join the same vertices; then the
+//! sort itself is repeated (see `vertex_names.rs` and `crate::topology::edge_sort`).
 //!
-//! Which edges are the last ones depends on names, and a vertex is named after one of its corners (see `crate::topology::weld`). Large
-//! names belong to vertices that the last triangles of the list use, the *triangle tail*. The reference finds names cell by cell,
-//! where a cell is one of 2048 slabs of the bounding box; so only cells in which the triangle tail has vertices have to be examined, and of
-//! these only the ones with a vertex whose first and last corner do not say enough (`tail_names.rs`):
+//! Which edges are the last ones depends on names, and a vertex is named after one of its corners (see
+//! `crate::topology::weld`). Large names belong to vertices that the last triangles of the list use, the
+//! *triangle tail*. The reference finds names cell by cell, where a cell is one of 2048 slabs of the bounding
+//! box; so only cells in which the triangle tail has vertices have to be examined, and of these only the ones
+//! with a vertex whose first and last corner do not say enough (`tail_names.rs`):
 //!
 //! ```text
 //! tail = the last few triangles that have edges
@@ -21,12 +23,13 @@
 //!     tail = a tail four times as long
 //! ```
 //!
-//! Proof: an edge whose lower name is a corner of the tail joins two vertices with corners in the tail, and the two largest names of its
-//! triangle are no smaller than its own.
+//! Proof: an edge whose lower name is a corner of the tail joins two vertices with corners in the tail, and
+//! the two largest names of its triangle are no smaller than its own.
 //!
-//! Bounds and names need the entries of the vertices in the tail's cells only. Those of the first tail are found in passing, unless the list
-//! is short: the pass over the triangles sets the flag `IN_TAIL` (`accumulator.rs`) of vertices in the cells when it finishes them, and
-//! lists their corners when it writes these (`exceptions.rs`).
+//! Bounds and names need the entries of the vertices in the tail's cells only. Those of the first tail are
+//! found in passing, unless the list is short: the pass over the triangles sets the flag `IN_TAIL`
+//! (`accumulator.rs`) of vertices in the cells when it finishes them, and lists their corners when it writes
+//! these (`exceptions.rs`).
 
 use crate::topology::neighbours::tail_order_matters;
 use crate::topology::weld::{Bounds, CellSet, Cells, Point};
@@ -36,9 +39,11 @@ use crate::tangents::fast::tail_names::{TailEntries, TailNames};
 use crate::tangents::fast::triangle_list::{TriangleBuffer, TriangleList};
 use crate::tangents::fast::vertex_record::{VertexRecord, position_of};
 
-/// The number of triangles of the first tail, where triangles that share vertices are near each other in the list.
+/// The number of triangles of the first tail, where triangles that share vertices are near each other in the
+/// list.
 const FIRST_TAIL: usize = if cfg!(small_limits) { 1 } else { 4 };
-/// The number of triangles of the first tail of a shuffled list, in which fewer triangles have vertices that are named after the end.
+/// The number of triangles of the first tail of a shuffled list, in which fewer triangles have vertices that
+/// are named after the end.
 const FIRST_TAIL_SHUFFLED: usize = 4 * FIRST_TAIL;
 /// The same of a short list, where a longer one costs nothing.
 const FIRST_TAIL_SHORT: usize = 8 * FIRST_TAIL;
@@ -89,18 +94,21 @@ impl SomeCells {
 /// The first triangle tail, and the cells in which it has vertices.
 #[derive(Debug)]
 pub(crate) struct TailCells {
-    /// The first triangle of the tail. It begins a face, so the corners of the tail are those from its first corner on.
+    /// The first triangle of the tail. It begins a face, so the corners of the tail are those from its first
+    /// corner on.
     start: usize,
     /// None where the list is short.
     cells: Option<SomeCells>,
-    /// The axis, and the lowest and highest coordinate along it, of the cells; no coordinate where the list is short.
+    /// The axis, and the lowest and highest coordinate along it, of the cells; no coordinate where the list
+    /// is short.
     axis: usize,
     low: f32,
     high: f32,
 }
 
 impl TailCells {
-    /// The first tail to examine: a few triangles that have edges, and the degenerate triangles between and after them.
+    /// The first tail to examine: a few triangles that have edges, and the degenerate triangles between and
+    /// after them.
     ///
     /// `bounds`: of the positions of all used vertices.
     pub fn first(list: &TriangleList<'_>, bounds: &Bounds, is_shuffled: bool) -> Self {
@@ -123,7 +131,8 @@ impl TailCells {
         Self { start, cells, axis, low, high }
     }
 
-    /// True for vertices in these cells, if the entries of the vertices in them are listed by the pass over the triangles.
+    /// True for vertices in these cells, if the entries of the vertices in them are listed by the pass over
+    /// the triangles.
     #[inline(always)]
     pub fn contain(&self, record: &VertexRecord) -> bool {
         let along = record[self.axis % record.len()];
@@ -191,7 +200,8 @@ pub(crate) struct EdgeTail<'a> {
 impl EdgeTail<'_> {
     /// The last edges. None where their order does not matter.
     ///
-    /// `points`: the entries of all vertices in the cells of the first tail, ascending; none if they were not listed.
+    /// `points`: the entries of all vertices in the cells of the first tail, ascending; none if they were not
+    /// listed.
     pub fn find(
         &self,
         first: &TailCells,
@@ -217,8 +227,8 @@ impl EdgeTail<'_> {
         last_edges(name?, buffers)
     }
 
-    /// The largest lower name of an edge, if it is a corner of the tail that begins with the triangle `start`. The edges that have it are
-    /// then those of the contenders whose second largest name it is.
+    /// The largest lower name of an edge, if it is a corner of the tail that begins with the triangle
+    /// `start`. The edges that have it are then those of the contenders whose second largest name it is.
     fn find_name(&self, start: usize, buffers: &mut TailBuffers) -> Option<u32> {
         let TailBuffers { points, cell_of_point, cell_of_vertex, names, contenders, sort_buffer, .. } =
             buffers;
@@ -241,7 +251,8 @@ impl EdgeTail<'_> {
         largest_lower_name(least, &entries, names, contenders)
     }
 
-    /// As [`Self::find_name`], for a long list: reads the triangles once, and only the entries in the cells of the tail again.
+    /// As [`Self::find_name`], for a long list: reads the triangles once, and only the entries in the cells
+    /// of the tail again.
     fn find_name_in_cells(&self, start: usize, buffers: &mut TailBuffers) -> Option<u32> {
         let cells = cells_of_tail(&self.list, self.bounds, start);
         let mut points = std::mem::take(&mut buffers.points);
@@ -252,8 +263,8 @@ impl EdgeTail<'_> {
         name
     }
 
-    /// As [`Self::find_name`]. `points`: the entries of all vertices in the cells of the tail, ascending. `cell_of_point`: their cells, if
-    /// they are known.
+    /// As [`Self::find_name`]. `points`: the entries of all vertices in the cells of the tail, ascending.
+    /// `cell_of_point`: their cells, if they are known.
     fn find_name_among(
         &self,
         points: &[Point],
@@ -295,8 +306,8 @@ impl EdgeTail<'_> {
         }
     }
 
-    /// Lists the entries of all vertices in some cells, ascending, and their cells. Positions are tested once per vertex: a test per corner
-    /// would wait for memory at each of them.
+    /// Lists the entries of all vertices in some cells, ascending, and their cells. Positions are tested once
+    /// per vertex: a test per corner would wait for memory at each of them.
     fn list_points(
         &self,
         cells: &SomeCells,
@@ -337,8 +348,8 @@ impl EdgeTail<'_> {
     }
 }
 
-/// Removes the contenders whose edges cannot have the largest lower name, and sorts the others, the highest first. Returns a lower bound of
-/// the largest lower name, `least` or more.
+/// Removes the contenders whose edges cannot have the largest lower name, and sorts the others, the highest
+/// first. Returns a lower bound of the largest lower name, `least` or more.
 fn sort_contenders(
     mut least: u32,
     names: &TailNames,

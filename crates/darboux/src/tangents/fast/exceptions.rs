@@ -1,5 +1,6 @@
-//! The faces and corners that need further work after a pass: faces with undecided vertices, for the general path, and corners in the
-//! cells of the triangle tail, for the search for the last edges. They are listed when the corners of vertices with [`flags`] are written.
+//! The faces and corners that need further work after a pass: faces with undecided vertices, for the general
+//! path, and corners in the cells of the triangle tail, for the search for the last edges. They are listed
+//! when the corners of vertices with [`flags`] are written.
 
 use crate::topology::weld::Point;
 use crate::util::radix_sort::{sort, sort_by_key};
@@ -11,7 +12,8 @@ use crate::tangents::fast::triangle_list::TriangleList;
 /// The lists of one thread, or of all threads together.
 #[derive(Debug, Default)]
 pub(crate) struct Exceptions {
-    /// Faces with an undecided vertex, in the numbering of [`Exceptions::note`]. After [`Exceptions::sort`]: their first triangles.
+    /// Faces with an undecided vertex, in the numbering of [`Exceptions::note`]. After [`Exceptions::sort`]:
+    /// their first triangles.
     pub undecided: Vec<u32>,
     /// Corners in the cells of the triangle tail. After [`Exceptions::sort`]: entries of the triangle list.
     pub in_tail: Vec<Point>,
@@ -24,7 +26,8 @@ impl Exceptions {
         self.in_tail.clear();
     }
 
-    /// Lists a face with flagged vertices. `face`: the number of the face; where faces were split, the number of one corner.
+    /// Lists a face with flagged vertices. `face`: the number of the face; where faces were split, the number
+    /// of one corner.
     #[cold]
     pub fn note<const N: usize>(&mut self, face: u32, vertices: [&VertexAccumulator; N]) {
         for (entry, vertex) in (N as u32 * face..).zip(vertices) {

@@ -1,8 +1,9 @@
 //! The groups around undecided vertices, found from the triangles around each of them alone.
 //!
-//! The reference sorts all edges by the names of their vertices, then by triangle, and matches each half-edge with the first unmatched one
-//! that runs the opposite way between the same vertices. Names only bring the half-edges between the same two vertices together; their
-//! order is that of the triangles. All of them belong to triangles around either vertex. So the triangles around one vertex, in order, are
+//! The reference sorts all edges by the names of their vertices, then by triangle, and matches each half-edge
+//! with the first unmatched one that runs the opposite way between the same vertices. Names only bring the
+//! half-edges between the same two vertices together; their order is that of the triangles. All of them
+//! belong to triangles around either vertex. So the triangles around one vertex, in order, are
 //! enough to match the edges that meet there, however many triangles an edge has:
 //!
 //! ```text
@@ -15,11 +16,12 @@
 //!         flood fill from the triangle, across matched edges at the vertex, to triangles of the same orientation
 //! ```
 //!
-//! Where the order of the reference's last edges matters, the half-edges of each of its runs are matched with each other only
-//! (see `edge_tail.rs`).
+//! Where the order of the reference's last edges matters, the half-edges of each of its runs are matched with
+//! each other only (see `edge_tail.rs`).
 //!
-//! A triangle without UV area adopts the orientation of the first group that reaches it, whichever of its three vertices that is at. Each of
-//! these is undecided or has no groups, so all groups that can reach the triangle are found here, in the reference's order.
+//! A triangle without UV area adopts the orientation of the first group that reaches it, whichever of its
+//! three vertices that is at. Each of these is undecided or has no groups, so all groups that can reach the
+//! triangle are found here, in the reference's order.
 
 use std::ops::Range;
 
@@ -52,11 +54,14 @@ impl Group {
 pub(crate) struct Fans {
     /// The end of each vertex's entries in `entries`.
     ends: Vec<u32>,
-    /// The entries of each undecided vertex, ascending. The next three arrays have one element for each of these.
+    /// The entries of each undecided vertex, ascending. The next three arrays have one element for each of
+    /// these.
     entries: Vec<u32>,
-    /// The next vertex of the entry's triangle, and the one before; [`NONE`] where the triangle is degenerate and has no edges.
+    /// The next vertex of the entry's triangle, and the one before; [`NONE`] where the triangle is
+    /// degenerate and has no edges.
     others: Vec<[u32; 2]>,
-    /// The places in `entries` across the edge to the next vertex, and across the edge to the one before; or [`NONE`].
+    /// The places in `entries` across the edge to the next vertex, and across the edge to the one before; or
+    /// [`NONE`].
     across: Vec<[u32; 2]>,
     /// For each entry its place in `entries`. Filled where a triangle has no UV area.
     place_of_entry: Vec<u32>,
@@ -68,13 +73,15 @@ pub(crate) struct Fans {
     pub first_shared: usize,
     /// The members of the latter: group and entry.
     pub shared_members: Vec<[u32; 2]>,
-    /// What the members of each group add to its frame besides the tangent. Empty where full frames are not wanted.
+    /// What the members of each group add to its frame besides the tangent. Empty where full frames are not
+    /// wanted.
     pub frame_sums: Vec<FrameTerm>,
     /// The edges between triangles of opposite orientation, both with UV area.
     pub mirrored_edges: usize,
 }
 
-/// The half-edges around one vertex that are not matched yet. Half-edge `2 p` leaves the vertex of place `p`, `2 p + 1` enters it.
+/// The half-edges around one vertex that are not matched yet. Half-edge `2 p` leaves the vertex of place `p`,
+/// `2 p + 1` enters it.
 #[derive(Debug, Default)]
 struct UnmatchedEdges {
     /// The first and the last one between the current vertex and each other; [`NONE`] between two searches.
@@ -83,12 +90,14 @@ struct UnmatchedEdges {
     later: Vec<u32>,
 }
 
-/// The most triangles around a vertex whose edges are compared in pairs, and the most of a vertex that has few.
+/// The most triangles around a vertex whose edges are compared in pairs, and the most of a vertex that has
+/// few.
 const MAX_COMPARED: usize = if cfg!(small_limits) { 3 } else { 16 };
 const FEW: usize = if cfg!(small_limits) { 2 } else { 8 };
 
 impl Fans {
-    /// Finds the groups. `tail_runs`: the runs of the last edges whose order matters, by the entries where the edges start.
+    /// Finds the groups. `tail_runs`: the runs of the last edges whose order matters, by the entries where
+    /// the edges start.
     pub fn find(&mut self, mesh: &mut UndecidedTriangles, tail_runs: &[Vec<u32>]) {
         self.list_entries(mesh);
         self.match_edges(mesh, tail_runs);
@@ -159,8 +168,9 @@ impl Fans {
         }
     }
 
-    /// Matches the half-edges of up to `N` triangles around a vertex. The first of those that leave towards one vertex is matched with the first
-    /// that comes back, the second with the second, and so on: the order in which [`UnmatchedEdges`] matches them.
+    /// Matches the half-edges of up to `N` triangles around a vertex. The first of those that leave towards
+    /// one vertex is matched with the first that comes back, the second with the second, and so on: the
+    /// order in which [`UnmatchedEdges`] matches them.
     fn match_few<const N: usize>(&mut self, places: Range<usize>) {
         let (start, others) = (places.start as u32, &self.others[places.clone()]);
         let across = &mut self.across[places];
@@ -181,7 +191,8 @@ impl Fans {
         }
     }
 
-    /// Matches the half-edges around a vertex, but for those in runs. `in_runs`: the entries where these start, ascending.
+    /// Matches the half-edges around a vertex, but for those in runs. `in_runs`: the entries where these
+    /// start, ascending.
     fn match_many(&mut self, mesh: &UndecidedTriangles, places: Range<usize>, in_runs: &[u32]) {
         let Self { entries, others, across, unmatched, .. } = self;
         unmatched.start(mesh.is_undecided.len(), across.len());
@@ -213,7 +224,8 @@ impl Fans {
         unmatched.forget(&others[places]);
     }
 
-    /// Finds the groups. Their order matters only where a triangle without UV area adopts the orientation of the first group that reaches it.
+    /// Finds the groups. Their order matters only where a triangle without UV area adopts the orientation of
+    /// the first group that reaches it.
     fn find_groups(&mut self, mesh: &mut UndecidedTriangles) {
         self.mirrored_edges = 0;
         self.groups.clear();
@@ -238,8 +250,8 @@ impl Fans {
         self.first_shared = self.groups.len();
     }
 
-    /// Makes a group of the triangle at a place, if that starts one, and all that it reaches across edges at the vertex. No triangle has more than
-    /// two neighbours there.
+    /// Makes a group of the triangle at a place, if that starts one, and all that it reaches across edges at
+    /// the vertex. No triangle has more than two neighbours there.
     fn fill_from(&mut self, mesh: &mut UndecidedTriangles, seed: usize) {
         let entry = self.entries[seed];
         let kind = mesh.kind(entry);
@@ -280,14 +292,15 @@ impl Fans {
 }
 
 impl UnmatchedEdges {
-    /// Prepares a search for a vertex. `vertex_count`: the number of all vertices. `place_count`: that of the places.
+    /// Prepares a search for a vertex. `vertex_count`: the number of all vertices. `place_count`: that of the
+    /// places.
     fn start(&mut self, vertex_count: usize, place_count: usize) {
         self.of_vertex.resize(vertex_count.max(self.of_vertex.len()), [NONE; 2]);
         self.later.resize((2 * place_count).max(self.later.len()), NONE);
     }
 
-    /// Matches a half-edge with the first unmatched one that runs the opposite way. All unmatched half-edges between the same vertices run
-    /// the same way, because opposite ones would have matched.
+    /// Matches a half-edge with the first unmatched one that runs the opposite way. All unmatched half-edges
+    /// between the same vertices run the same way, because opposite ones would have matched.
     fn match_half_edge(&mut self, half_edge: u32, other: u32, across: &mut [[u32; 2]]) {
         let [first, last] = &mut self.of_vertex[other as usize];
         if *first == NONE {

@@ -1,5 +1,5 @@
-//! Full frames: the bitangents and the derivatives' lengths that belong to the decided tangents are added up with these, or in a second pass
-//! where the first was scattered.
+//! Full frames: the bitangents and the derivatives' lengths that belong to the decided tangents are added up
+//! with these, or in a second pass where the first was scattered.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
@@ -37,7 +37,8 @@ impl FullFrames {
         pass.run(&mut self.0);
     }
 
-    /// Gives vertices the bitangent and the magnitudes of corners that nothing writes. `vertices`: those whose triangles all have no UV area.
+    /// Gives vertices the bitangent and the magnitudes of corners that nothing writes. `vertices`: those
+    /// whose triangles all have no UV area.
     pub fn set_defaults(&mut self, vertices: &[u32]) {
         let Frame { bitangent: [x, y, z], magnitude, .. } = DEFAULT_FRAME;
         for &vertex in vertices {
@@ -45,8 +46,8 @@ impl FullFrames {
         }
     }
 
-    /// Writes the bitangents and magnitudes of corners, the first of which is corner number `first`. They are unspecified at corners
-    /// whose tangent is undecided.
+    /// Writes the bitangents and magnitudes of corners, the first of which is corner number `first`. They are
+    /// unspecified at corners whose tangent is undecided.
     pub fn write(&self, list: &TriangleList<'_>, first: usize, out: &mut [Frame]) {
         let corners = first..first + out.len();
         let mut out = out.iter_mut();

@@ -117,7 +117,8 @@ fn place(hash: u32, bits: u32) -> (usize, u64) {
 pub(crate) struct SeenHashes {
     once: HashFilter,
     twice: HashFilter,
-    /// How many hashes had a bit that was set before. No fewer vertices than this have a hash of `twice`, and no more than twice as many.
+    /// How many hashes had a bit that was set before. No fewer vertices than this have a hash of `twice`,
+    /// and no more than twice as many.
     pub collisions: usize,
 }
 

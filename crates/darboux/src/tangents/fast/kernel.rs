@@ -1,7 +1,9 @@
-//! A block of triangles, evaluated lane by lane: from the vertices' values to what each corner adds to its vertex.
+//! A block of triangles, evaluated lane by lane: from the vertices' values to what each corner adds to its
+//! vertex.
 //!
-//! Every quantity is an array with one element per triangle, and every stage is one loop over these arrays without branches, which
-//! compilers turn into vector code of any width. Each lane rounds every operation as scalar code does, in the reference's order.
+//! Every quantity is an array with one element per triangle, and every stage is one loop over these arrays
+//! without branches, which compilers turn into vector code of any width. Each lane rounds every operation as
+//! scalar code does, in the reference's order.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
@@ -18,7 +20,8 @@ pub(crate) const BLOCK_SIZE: usize = if cfg!(small_limits) { 2 } else { 64 };
 /// The vertex of a corner of a triangle, the next vertex of the triangle, and the one before.
 pub(crate) type CornerVertices = [u32; 3];
 
-/// The arrays of one block, with one element per triangle. The outer arrays of three have one element per corner or per coordinate.
+/// The arrays of one block, with one element per triangle. The outer arrays of three have one element per
+/// corner or per coordinate.
 #[derive(Debug)]
 pub(crate) struct TriangleBlock {
     /// The vertices of each triangle, counted from `first` on.
@@ -42,7 +45,8 @@ pub(crate) struct TriangleBlock {
     term: [[[f32; BLOCK_SIZE]; 3]; 3],
     /// The marks of each corner.
     pub marks: [[u32; BLOCK_SIZE]; 3],
-    /// The weighted tangent as it is added to the vertex, and whether the corner's wedge holds the ray +u (0 or 1).
+    /// The weighted tangent as it is added to the vertex, and whether the corner's wedge holds the ray +u (0
+    /// or 1).
     pub sum: [[[f32; 4]; BLOCK_SIZE]; 3],
     /// What each corner adds to the lengths of its vertex's derivatives.
     pub magnitude_sum: [[[f32; 2]; BLOCK_SIZE]; 3],
@@ -50,7 +54,8 @@ pub(crate) struct TriangleBlock {
     pub fingerprint: [[[u32; 4]; BLOCK_SIZE]; 3],
     /// How many triangles without UV area have been counted.
     pub flat_triangles: usize,
-    /// True where no triangle is one that the fast path decides. Then all vertices are undecided, and only marks were computed.
+    /// True where no triangle is one that the fast path decides. Then all vertices are undecided, and only
+    /// marks were computed.
     pub has_marks_only: bool,
 }
 
@@ -83,7 +88,8 @@ impl Default for TriangleBlock {
 }
 
 impl TriangleBlock {
-    /// Sets the vertices of up to [`BLOCK_SIZE`] triangles, numbered from `first` on. Lanes beyond them keep their values.
+    /// Sets the vertices of up to [`BLOCK_SIZE`] triangles, numbered from `first` on. Lanes beyond them keep
+    /// their values.
     #[inline(always)]
     pub fn set(&mut self, triangles: &[[u32; 3]], first: u32) {
         self.first = first;
@@ -94,7 +100,8 @@ impl TriangleBlock {
         }
     }
 
-    /// Computes terms, marks and fingerprints from vertices and records; of a block that the fast path does not decide, marks alone.
+    /// Computes terms, marks and fingerprints from vertices and records; of a block that the fast path does
+    /// not decide, marks alone.
     #[inline(always)]
     pub fn evaluate(&mut self) {
         self.unpack();
@@ -144,8 +151,9 @@ impl TriangleBlock {
         self.pack::<false>();
     }
 
-    /// As [`Self::evaluate_terms`], for halves of quads. NaN, too, where a bitangent may not be finite: the reference averages the frames of both halves
-    /// unless they are equal, and NaN is not equal to itself.
+    /// As [`Self::evaluate_terms`], for halves of quads. NaN, too, where a bitangent may not be finite: the
+    /// reference averages the frames of both halves unless they are equal, and NaN is not equal to
+    /// itself.
     #[inline(always)]
     pub fn evaluate_terms_of_quads(&mut self) {
         self.unpack();
@@ -176,8 +184,9 @@ impl TriangleBlock {
         self.angles();
     }
 
-    /// Computes from derivatives the directions of tangents and bitangents in the planes of the corners' normals: six numbers in `sum` and
-    /// `magnitude_sum`. The result is unspecified for triangles with [`marks::NEEDS_GENERAL_PATH`].
+    /// Computes from derivatives the directions of tangents and bitangents in the planes of the corners'
+    /// normals: six numbers in `sum` and `magnitude_sum`. The result is unspecified for triangles with
+    /// [`marks::NEEDS_GENERAL_PATH`].
     #[inline(always)]
     pub fn directions(&mut self) {
         for k in 0..3 {
@@ -232,7 +241,8 @@ impl TriangleBlock {
         [self.record[k][6][i], self.record[k][7][i]]
     }
 
-    /// A triangle's two edges, its UV differences (du1, dv1, du2, dv2), and the products whose difference is twice its UV area.
+    /// A triangle's two edges, its UV differences (du1, dv1, du2, dv2), and the products whose difference is
+    /// twice its UV area.
     #[inline(always)]
     fn edges(&self, i: usize) -> ([V3; 2], [f32; 4], [f32; 2]) {
         let [p0, p1, p2] = [0, 1, 2].map(|k| self.position(k, i));
@@ -291,8 +301,8 @@ impl TriangleBlock {
         }
     }
 
-    /// Computes from derivatives and angles what corners add to bitangents and magnitudes: in `sum` and `magnitude_sum`. The result is
-    /// unspecified for triangles with [`marks::NEEDS_GENERAL_PATH`].
+    /// Computes from derivatives and angles what corners add to bitangents and magnitudes: in `sum` and
+    /// `magnitude_sum`. The result is unspecified for triangles with [`marks::NEEDS_GENERAL_PATH`].
     #[inline(always)]
     pub fn bitangent_terms(&mut self) {
         for k in 0..3 {
@@ -382,7 +392,8 @@ impl TriangleBlock {
         }
     }
 
-    /// Computes what each corner adds to its vertex's fingerprint: that of the next vertex of the triangle minus that of the one before.
+    /// Computes what each corner adds to its vertex's fingerprint: that of the next vertex of the triangle
+    /// minus that of the one before.
     #[inline(always)]
     pub fn fingerprints(&mut self) {
         let (key, first) = (fingerprint_key(), self.first);

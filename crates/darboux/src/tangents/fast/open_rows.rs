@@ -1,11 +1,11 @@
-//! The test of open rows: whether the fingerprint of a vertex is that of one vertex minus that of another. The head of `fast.rs` says why this proves
-//! that all triangles around the vertex are one row.
+//! The test of open rows: whether the fingerprint of a vertex is that of one vertex minus that of another.
+//! The head of `fast.rs` says why this proves that all triangles around the vertex are one row.
 
 use crate::tangents::fast::kernel::BLOCK_SIZE;
 use crate::tangents::fast::proof::{difference, fingerprint, fingerprint_key};
 
-/// Fingerprints of up to [`BLOCK_SIZE`] vertices that are tested for being the difference of two vertices, in lanes. The head of `fast.rs`
-/// says how probable it is that the test is wrongly passed.
+/// Fingerprints of up to [`BLOCK_SIZE`] vertices that are tested for being the difference of two vertices, in
+/// lanes. The head of `fast.rs` says how probable it is that the test is wrongly passed.
 #[derive(Debug)]
 pub(crate) struct OpenRows {
     fingerprint: [[u32; BLOCK_SIZE]; 4],
@@ -42,7 +42,8 @@ impl OpenRows {
         self.count += 1;
     }
 
-    /// Calls `visit` with the places of the vertices that fail the test. `vertex_count`: the number of vertices of the mesh.
+    /// Calls `visit` with the places of the vertices that fail the test. `vertex_count`: the number of
+    /// vertices of the mesh.
     #[inline(always)]
     pub fn for_each_failed(&mut self, vertex_count: u32, mut visit: impl FnMut(usize)) {
         if self.count == 0 {
@@ -70,16 +71,19 @@ impl OpenRows {
     }
 }
 
-/// The least a + b for which a fingerprint can be that of vertex a minus that of vertex b. Unspecified where a - b is zero.
+/// The least a + b for which a fingerprint can be that of vertex a minus that of vertex b. Unspecified where
+/// a - b is zero.
 ///
-/// The first lanes hold a - b and a^2 - b^2 modulo 2^32. Their quotient is a + b. A difference with factors of two leaves further candidates.
+/// The first lanes hold a - b and a^2 - b^2 modulo 2^32. Their quotient is a + b. A difference with factors
+/// of two leaves further candidates.
 #[inline(always)]
 fn first_candidate([a_minus_b, of_squares, ..]: [u32; 4]) -> u32 {
     let twos = factors_of_two(a_minus_b);
     of_squares.wrapping_mul(inverse((a_minus_b as i32 >> twos) as u32)) >> twos
 }
 
-/// How many factors of two a number has; 31 for zero. The exponent of a float, because few processors count zeros in lanes.
+/// How many factors of two a number has; 31 for zero. The exponent of a float, because few processors count
+/// zeros in lanes.
 #[inline(always)]
 fn factors_of_two(number: u32) -> u32 {
     let lowest_bit = number & number.wrapping_neg();
@@ -106,7 +110,8 @@ fn has_later_candidate(sum: [u32; 4], vertex_count: u32) -> bool {
 /// How many values of a + b are tried; a vertex with more candidates is left to the general path.
 const CANDIDATES: u64 = 64;
 
-/// The inverse of an odd number modulo 2^32, by Newton's iteration: each step doubles the number of right bits, 5 at the start.
+/// The inverse of an odd number modulo 2^32, by Newton's iteration: each step doubles the number of right
+/// bits, 5 at the start.
 #[inline(always)]
 fn inverse(odd: u32) -> u32 {
     (0..3).fold(odd.wrapping_mul(3) ^ 2, |inverse, _| {

@@ -1,4 +1,5 @@
-//! The subgroups of small groups, by comparing all pairs of members (see `crate::tangents::mikktspace::subgroups`).
+//! The subgroups of small groups, by comparing all pairs of members (see
+//! `crate::tangents::mikktspace::subgroups`).
 
 use crate::math::{V3, add, direction_in_plane, dot};
 use crate::tangents::mikktspace::derivatives::derivative;
@@ -35,7 +36,8 @@ impl Member {
 }
 
 impl PairwiseTest {
-    /// Gives the members of a group that are not one subgroup groups of their own. False where the vertex has too many triangles.
+    /// Gives the members of a group that are not one subgroup groups of their own. False where the vertex has
+    /// too many triangles.
     #[cold]
     pub fn separate(
         &mut self,

@@ -1,7 +1,9 @@
 //! The two passes over the triangles, and their steps, each compiled for every vector width.
 //!
-//! Both passes read vertices, add the weighted tangents of triangles to them, finish the vertices and write the corners:
-//! - [`Discover`] also collects marks and fingerprints, and decides from them which vertices have one tangent;
+//! Both passes read vertices, add the weighted tangents of triangles to them, finish the vertices and write
+//! the corners:
+//! - [`Discover`] also collects marks and fingerprints, and decides from them which vertices have one
+//!   tangent;
 //! - [`Replay`] belongs to a plan, whose vertices have been decided before: it takes their signs as given.
 //!
 //! `streamed.rs` and `scattered.rs` run the steps in two orders.
@@ -45,15 +47,18 @@ pub(crate) struct PassInput<'a, P> {
 /// What a corner adds to its vertex: the weighted tangent, and a fourth number that the pass defines.
 pub(crate) type Term = [f32; 4];
 
-/// What a pass over the triangles computes. The passes are types, so that a program without plans contains no code of [`Replay`].
+/// What a pass over the triangles computes. The passes are types, so that a program without plans contains no
+/// code of [`Replay`].
 pub(crate) trait Pass: Copy + Sync {
     /// What a streamed pass adds up besides the tangents.
     type Quantity: VertexQuantity;
 
-    /// Computes what the corners of a block's triangles add to their vertices. `count`: how many of the triangles are in use.
+    /// Computes what the corners of a block's triangles add to their vertices. `count`: how many of the
+    /// triangles are in use.
     fn evaluate(self, block: &mut TriangleBlock, count: usize);
 
-    /// Adds an evaluated block's first `count` triangles to `vertices`, which contain all vertices of these triangles.
+    /// Adds an evaluated block's first `count` triangles to `vertices`, which contain all vertices of these
+    /// triangles.
     fn scatter(
         self,
         block: &TriangleBlock,
@@ -65,7 +70,8 @@ pub(crate) trait Pass: Copy + Sync {
     /// What is stored of corner `k` of triangle `i` of an evaluated block, for [`Pass::scatter_stored`].
     fn stored_term(self, block: &TriangleBlock, k: usize, i: usize) -> Term;
 
-    /// Adds up to [`BLOCK_SIZE`] corners, whose terms were stored before, to their vertices, all of which are in `range`.
+    /// Adds up to [`BLOCK_SIZE`] corners, whose terms were stored before, to their vertices, all of which are
+    /// in `range`.
     fn scatter_stored(
         self,
         corners: &[CornerVertices],
@@ -74,13 +80,15 @@ pub(crate) trait Pass: Copy + Sync {
         range: &mut VertexRange<'_>,
     );
 
-    /// Marks vertices of quads that the general path handles whole (see `quads.rs`), after `triangles` have been added to `range`.
+    /// Marks vertices of quads that the general path handles whole (see `quads.rs`), after `triangles` have
+    /// been added to `range`.
     fn mark_quads(self, list: &TriangleList<'_>, triangles: Range<usize>, range: &mut VertexRange<'_>);
 
     /// False for vertices with `marks` whose sums the pass does not read when it finishes them.
     fn reads_sums(self, marks: &[u32]) -> bool;
 
-    /// Finishes up to [`BLOCK_SIZE`] vertices: `tangents` holds their normalized sums, if the pass reads these.
+    /// Finishes up to [`BLOCK_SIZE`] vertices: `tangents` holds their normalized sums, if the pass reads
+    /// these.
     fn finish(self, range: &mut VertexRange<'_>, tangents: &mut TangentBlock, findings: &mut Findings);
 }
 
@@ -192,7 +200,8 @@ impl<Q: VertexQuantity> Pass for Discover<'_, Q> {
 }
 
 impl<Q> Discover<'_, Q> {
-    /// The tangent and the sign of a vertex whose triangles all have no UV area: no group starts at it, so its corners keep the default.
+    /// The tangent and the sign of a vertex whose triangles all have no UV area: no group starts at it, so
+    /// its corners keep the default.
     #[inline(always)]
     fn flat_tangent(self, vertex: &VertexAccumulator) -> ([f32; 3], f32) {
         let Frame { tangent, sign, .. } = DEFAULT_FRAME;
@@ -201,7 +210,8 @@ impl<Q> Discover<'_, Q> {
     }
 }
 
-/// The pass of a plan, which knows the sign of every vertex: [`UNDECIDED`] where other stages compute the tangent.
+/// The pass of a plan, which knows the sign of every vertex: [`UNDECIDED`] where other stages compute the
+/// tangent.
 #[derive(Clone, Copy)]
 pub(crate) struct Replay<'a> {
     /// One sign per welded vertex.
@@ -292,7 +302,8 @@ impl Task for ReadVertices<'_> {
             VertexValues::Slices(VertexSlices { positions, normals, uvs }) => {
                 let values = positions.iter().zip(normals).zip(uvs);
                 for ((((position, normal), uv), vertex), marks) in values.zip(self.vertices).zip(self.marks) {
-                    // Written in three pieces: a record on the stack, written in pieces and read as a whole, stalls the processor.
+                    // Written in three pieces: a record on the stack, written in pieces and read as a whole,
+                    // stalls the processor.
                     vertex.record[..3].copy_from_slice(position);
                     vertex.record[3..6].copy_from_slice(normal);
                     vertex.record[6..].copy_from_slice(uv);
@@ -304,8 +315,8 @@ impl Task for ReadVertices<'_> {
     }
 }
 
-/// Loads up to [`BLOCK_SIZE`] triangles into a block and evaluates them. `first`: the number of the first of `vertices`, which contain all
-/// vertices of these triangles.
+/// Loads up to [`BLOCK_SIZE`] triangles into a block and evaluates them. `first`: the number of the first of
+/// `vertices`, which contain all vertices of these triangles.
 #[inline(always)]
 fn evaluate<P: Pass>(
     pass: P,
@@ -491,7 +502,8 @@ pub(crate) fn is_clearly_usable(tangent: V3, normal: V3) -> bool {
     (error < 1e-3) & (squared > 1e-30) & (squared < 1e30) & (along * along < 0.99 * squared)
 }
 
-/// Copies tangents from finished vertices to the corners of faces of `N` corners; with `N` = 1, to single corners.
+/// Copies tangents from finished vertices to the corners of faces of `N` corners; with `N` = 1, to single
+/// corners.
 pub(crate) struct WriteCorners<'a, const N: usize> {
     /// The vertices of each face.
     pub faces: &'a [[u32; N]],

@@ -1,5 +1,6 @@
-//! The groups around undecided vertices that a plan keeps: which corners each group adds up, and which corners take its tangent. An evaluation
-//! adds up the moved triangles again, without finding edges or comparing pairs.
+//! The groups around undecided vertices that a plan keeps: which corners each group adds up, and which
+//! corners take its tangent. An evaluation adds up the moved triangles again, without finding edges or
+//! comparing pairs.
 
 use crate::exec::simd::Width;
 use crate::math::{add, normalized_unless_zero};
@@ -28,7 +29,8 @@ pub(crate) struct PlannedGroups {
     shared_members: Vec<[u32; 2]>,
     /// The vertex of each group, or [`NONE`] where no corner takes its tangent.
     vertex_of_group: Vec<u32>,
-    /// The corners of the mesh, and the group whose tangent each takes; [`NONE`] for those that keep the default.
+    /// The corners of the mesh, and the group whose tangent each takes; [`NONE`] for those that keep the
+    /// default.
     group_of_corner: Vec<[u32; 2]>,
     /// The vertices with corners that keep the default.
     default_vertices: Vec<u32>,
@@ -97,8 +99,9 @@ impl PlannedGroups {
         self.shared_members = added.map(|(group, at, k)| [group, 3 * at + k]).collect();
     }
 
-    /// Writes the tangents of the groups for a mesh whose vertices have moved, with the signs of `base`. `list`: its triangles. Returns false where
-    /// the groups do not suffice: tangents need repair, derivatives are too small.
+    /// Writes the tangents of the groups for a mesh whose vertices have moved, with the signs of `base`.
+    /// `list`: its triangles. Returns false where the groups do not suffice: tangents need repair,
+    /// derivatives are too small.
     pub fn write(
         &self,
         list: &TriangleList<'_>,

@@ -1,11 +1,14 @@
 //! Faces split into triangles: which three of its face's corners each triangle has.
 //!
-//! Around a vertex, the halves of a quad count as two triangles. The reference treats them as one face in three places:
-//! - Halves of opposite UV orientation are given one orientation (`agree_in_quads`). Such quads are listed here as doubtful, and the
-//!   general path handles all their vertices.
-//! - The two corners on the diagonal are written twice, and the second time averaged. At a decided vertex both frames are equal, and so
-//!   is their average, unless a derivative is infinite. Quads with a half of nearly no UV area are therefore doubtful, too.
-//! - Vertices are named after corners, whose numbers differ from those of the entries of the triangle list (see `edge_tail.rs`).
+//! Around a vertex, the halves of a quad count as two triangles. The reference treats them as one face in
+//! three places:
+//! - Halves of opposite UV orientation are given one orientation (`agree_in_quads`). Such quads are listed
+//!   here as doubtful, and the general path handles all their vertices.
+//! - The two corners on the diagonal are written twice, and the second time averaged. At a decided vertex
+//!   both frames are equal, and so is their average, unless a derivative is infinite. Quads with a half of
+//!   nearly no UV area are therefore doubtful, too.
+//! - Vertices are named after corners, whose numbers differ from those of the entries of the triangle list
+//!   (see `edge_tail.rs`).
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
@@ -25,8 +28,8 @@ use crate::tangents::mikktspace::derivatives::doubled_area;
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct FaceTriangle(u32);
 
-/// The corners of a triangle or of the first half of a quad, and of the second half, where corners 0 and 2 are joined; the same for the
-/// halves of a quad where corners 1 and 3 are joined.
+/// The corners of a triangle or of the first half of a quad, and of the second half, where corners 0 and 2
+/// are joined; the same for the halves of a quad where corners 1 and 3 are joined.
 const CORNERS: [[u32; 3]; 4] = [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]];
 
 /// Corner numbers have at most this many bits.
@@ -272,12 +275,13 @@ pub(crate) fn split_vertices(
     }
 }
 
-/// True where the halves of a quad have one orientation and UV areas of at least [`MIN_AREA`]. `a`, `b`: their doubled areas.
+/// True where the halves of a quad have one orientation and UV areas of at least [`MIN_AREA`]. `a`, `b`:
+/// their doubled areas.
 #[inline(always)]
 fn have_one_orientation(a: f32, b: f32) -> bool {
     (a > MIN_AREA) & (b > MIN_AREA) | (a < -MIN_AREA) & (b < -MIN_AREA)
 }
 
-/// No derivative divided by a larger UV area is infinite: derivatives of decided triangles have squares that are finite, so lengths up to
-/// 1.9e19.
+/// No derivative divided by a larger UV area is infinite: derivatives of decided triangles have squares that
+/// are finite, so lengths up to 1.9e19.
 pub(crate) const MIN_AREA: f32 = 1e-18;

@@ -1,4 +1,5 @@
-//! A plan's run of the fast path: vertices are welded and decided before, so that only sums of weighted tangents are computed.
+//! A plan's run of the fast path: vertices are welded and decided before, so that only sums of weighted
+//! tangents are computed.
 
 use crate::Mesh;
 
@@ -81,8 +82,8 @@ impl PlannedWeld {
 }
 
 impl FastPlan {
-    /// Keeps the results of the last run of `fast`, whose mesh is `mesh`. `signs`: those of that run, by [`FastPath::signs`]. `groups`: those that
-    /// were found after it.
+    /// Keeps the results of the last run of `fast`, whose mesh is `mesh`. `signs`: those of that run, by
+    /// [`FastPath::signs`]. `groups`: those that were found after it.
     pub fn new(mesh: &Mesh<'_>, fast: FastPath, signs: Vec<f32>, groups: Option<PlannedGroups>) -> Self {
         let FastPath { weld, windows, split, .. } = fast;
         let list = triangle_list(mesh, &weld, &split);
@@ -90,17 +91,19 @@ impl FastPlan {
         Self { weld, split, largest_coordinate, windows, signs, groups }
     }
 
-    /// The triangles of a mesh whose vertices have moved. `records`: those of the welded vertices, where corners are welded.
+    /// The triangles of a mesh whose vertices have moved. `records`: those of the welded vertices, where
+    /// corners are welded.
     pub fn list<'a>(&'a self, mesh: &'a Mesh<'a>, records: &'a [VertexRecord]) -> TriangleList<'a> {
         TriangleList { mesh, weld: self.weld.map(records), split: &self.split }
     }
 }
 
-/// No derivative of a quad's half, divided by its UV area, is infinite in a mesh without larger coordinates. So the frames of both halves
-/// at a decided vertex are equal, and so is their average (see `quads.rs`). Infinite where there are no quads.
+/// No derivative of a quad's half, divided by its UV area, is infinite in a mesh without larger coordinates.
+/// So the frames of both halves at a decided vertex are equal, and so is their average (see `quads.rs`).
+/// Infinite where there are no quads.
 ///
-/// With coordinates up to P and U, components of derivatives are up to 8 P U, their squares add up to less than the largest float, and
-/// lengths over areas to less than 14 P U / 1e-18.
+/// With coordinates up to P and U, components of derivatives are up to 8 P U, their squares add up to less
+/// than the largest float, and lengths over areas to less than 14 P U / 1e-18.
 fn largest_coordinate(list: &TriangleList<'_>) -> f32 {
     if !list.is_split() {
         return f32::INFINITY;
@@ -111,7 +114,8 @@ fn largest_coordinate(list: &TriangleList<'_>) -> f32 {
 }
 
 impl FastPath {
-    /// The sign of each welded vertex of the last run, [`UNDECIDED`] where it decided none. `tangents`: those of that run.
+    /// The sign of each welded vertex of the last run, [`UNDECIDED`] where it decided none. `tangents`: those
+    /// of that run.
     pub fn signs(&self, mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Vec<f32> {
         let list = self.list(mesh);
         let mut signs = vec![UNDECIDED; self.weld.count];
@@ -121,8 +125,9 @@ impl FastPath {
         signs
     }
 
-    /// Writes the tangents of the vertices that a plan has decided, for a mesh whose vertices have moved. Returns false where the plan
-    /// does not apply: welded vertices have moved apart, tangents need repair, coordinates are too large.
+    /// Writes the tangents of the vertices that a plan has decided, for a mesh whose vertices have moved.
+    /// Returns false where the plan does not apply: welded vertices have moved apart, tangents need
+    /// repair, coordinates are too large.
     pub fn run_planned(
         &mut self,
         plan: &FastPlan,
@@ -147,8 +152,8 @@ impl FastPath {
         PlannedGroups::new(&self.resolution, mode)
     }
 
-    /// Writes the tangents of a plan's groups after [`FastPath::run_planned`], with the signs of `base`. Returns false where the groups do not
-    /// suffice: tangents need repair, derivatives are too small.
+    /// Writes the tangents of a plan's groups after [`FastPath::run_planned`], with the signs of `base`.
+    /// Returns false where the groups do not suffice: tangents need repair, derivatives are too small.
     pub fn run_planned_groups(
         &mut self,
         plan: &FastPlan,
@@ -162,7 +167,8 @@ impl FastPath {
         groups.write(&plan.list(mesh, records), (limits.width, &mut workers[0].block), base, sums, out)
     }
 
-    /// True when welded vertices are still equal, and no coordinate is too large. Reads the records of vertices welded from corners.
+    /// True when welded vertices are still equal, and no coordinate is too large. Reads the records of
+    /// vertices welded from corners.
     fn applies(&mut self, plan: &FastPlan, mesh: &Mesh<'_>, limits: RunLimits<'_>) -> bool {
         let largest = plan.largest_coordinate;
         let is_within = |position: [f32; 3]| position.iter().all(|x| x.abs() <= largest);

@@ -1,5 +1,5 @@
-//! Decides undecided vertices by the groups around each of them: several fans, mirrored halves, triangles without UV area, edges of more than
-//! two triangles.
+//! Decides undecided vertices by the groups around each of them: several fans, mirrored halves, triangles
+//! without UV area, edges of more than two triangles.
 //!
 //! ```text
 //! collect the triangles with undecided vertices, and what their corners add              undecided.rs
@@ -9,9 +9,10 @@
 //! copy the tangents of groups to corners
 //! ```
 //!
-//! A group takes the place of the vertex in the first pass: its sum is that of its triangles in their order, with the same terms. Only what
-//! needs a repair, and large groups that are not one subgroup, stay undecided, and go through the general path; with such a vertex go those
-//! that it shares a triangle without UV area or a degenerate triangle with, because the groups around these depend on each other.
+//! A group takes the place of the vertex in the first pass: its sum is that of its triangles in their order,
+//! with the same terms. Only what needs a repair, and large groups that are not one subgroup, stay undecided,
+//! and go through the general path; with such a vertex go those that it shares a triangle without UV area or
+//! a degenerate triangle with, because the groups around these depend on each other.
 
 use std::ops::Range;
 
@@ -90,9 +91,10 @@ impl Resolution {
         self.join_corners_of_quads();
     }
 
-    /// The corners on the diagonal of a quad have two entries. One that no group has reached takes the group of the other. Where the groups
-    /// differ, the reference averages two frames; so it does where a frame is not finite, and so not equal to itself, which a sum of opposite
-    /// directions can be. These vertices are left.
+    /// The corners on the diagonal of a quad have two entries. One that no group has reached takes the group
+    /// of the other. Where the groups differ, the reference averages two frames; so it does where a frame
+    /// is not finite, and so not equal to itself, which a sum of opposite directions can be. These
+    /// vertices are left.
     fn join_corners_of_quads(&mut self) {
         let Self { triangles, fans, is_left, .. } = self;
         for second in (1..triangles.kinds.len()).filter(|&at| triangles.is_second[at]) {
@@ -133,7 +135,8 @@ impl Resolution {
         self.triangles.corners[face].as_flattened().iter().map(|&corner| corner as usize)
     }
 
-    /// True for a face with a triangle whose corners can have both signs. The corners of all others have the orientation of their triangle.
+    /// True for a face with a triangle whose corners can have both signs. The corners of all others have the
+    /// orientation of their triangle.
     fn can_have_both_signs(&self, face: Range<usize>) -> bool {
         let kinds = self.triangles.kinds[face].iter();
         kinds.fold(0, |all, kind| all | kind) & (kinds::JOINS_ANY | kinds::DEGENERATE) != 0
@@ -154,8 +157,8 @@ impl Resolution {
         self.leave_dependent();
     }
 
-    /// Leaves the vertices whose groups depend on those around others that are left. Around a vertex that no group has reached there is nothing to
-    /// depend on a triangle without UV area.
+    /// Leaves the vertices whose groups depend on those around others that are left. Around a vertex that no
+    /// group has reached there is nothing to depend on a triangle without UV area.
     fn leave_dependent(&mut self) {
         if !self.leaves_any() {
             return;
@@ -211,8 +214,8 @@ impl Resolution {
 
     /// The entries of an undecided vertex with their groups, and whether the tangents need no repair.
     ///
-    /// A corner that no group has reached keeps the default; its group is a number above all. One of a degenerate triangle has what the first
-    /// other corner at the vertex has.
+    /// A corner that no group has reached keeps the default; its group is a number above all. One of a
+    /// degenerate triangle has what the first other corner at the vertex has.
     pub fn groups_at(&self, vertex: usize) -> impl Iterator<Item = (u32, usize, bool)> {
         let Self { triangles, fans, is_usable, .. } = self;
         let entries = fans.entries_and_degenerate(vertex);
@@ -226,8 +229,8 @@ impl Resolution {
         })
     }
 
-    /// Writes the tangents of all vertices that are not left. Returns the counts of all triangles, and those of corners of triangles without a
-    /// vertex that is left.
+    /// Writes the tangents of all vertices that are not left. Returns the counts of all triangles, and those
+    /// of corners of triangles without a vertex that is left.
     pub fn write(&self, out: &mut [[f32; 4]]) -> Report {
         let Self { triangles, fans, .. } = self;
         let count = |kind: u8| triangles.kinds.iter().filter(|&&other| other & kind != 0).count();
@@ -285,7 +288,8 @@ impl Resolution {
         }
     }
 
-    /// The number of vertices of the mesh whose corners have different tangents. `out`: the tangents of all corners.
+    /// The number of vertices of the mesh whose corners have different tangents. `out`: the tangents of all
+    /// corners.
     pub fn count_split(&self, mesh: &Mesh<'_>, out: &[[f32; 4]]) -> usize {
         let Self { triangles, fans, .. } = self;
         let tangent = |entry: u32| out[triangles.corner(entry) as usize];

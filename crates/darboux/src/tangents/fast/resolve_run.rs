@@ -12,8 +12,9 @@ use crate::tangents::fast::resolve::Resolution;
 use crate::tangents::fast::state::{FastPath, triangle_list};
 
 impl FastPath {
-    /// Writes the tangents of undecided vertices, but for those that the general path has to compute: `exceptions.undecided` then lists the
-    /// faces of these. Returns the counts of what was resolved; `None` where nothing was tried.
+    /// Writes the tangents of undecided vertices, but for those that the general path has to compute:
+    /// `exceptions.undecided` then lists the faces of these. Returns the counts of what was resolved;
+    /// `None` where nothing was tried.
     ///
     /// `frames`: where given, receives the corners that were resolved and their full frames.
     pub fn resolve(
@@ -54,7 +55,8 @@ impl FastPath {
         Some(report)
     }
 
-    /// The number of vertices of the mesh whose corners have different tangents. `out`: the tangents of all corners.
+    /// The number of vertices of the mesh whose corners have different tangents. `out`: the tangents of all
+    /// corners.
     pub fn count_split_vertices(&self, mesh: &Mesh<'_>, out: &[[f32; 4]]) -> usize {
         if matches!(mesh.indices(), Indices::Unindexed) { 0 } else { self.resolution.count_split(mesh, out) }
     }

@@ -1,4 +1,5 @@
-//! Resumes the fast path from the results of a GPU, which welds vertices and computes the tangents of vertices that it can decide.
+//! Resumes the fast path from the results of a GPU, which welds vertices and computes the tangents of
+//! vertices that it can decide.
 
 use crate::Mesh;
 use crate::tangents::options::Mode;
@@ -12,9 +13,9 @@ use crate::tangents::fast::state::FastPath;
 impl FastPath {
     /// Brings the state to what it is after `FastPath::run`.
     ///
-    /// `mesh`: indexed triangles. `welded`: for each vertex the first vertex that equals it. `out`: the tangents of decided vertices;
-    /// [`UNDECIDED`] signs at all corners of other vertices, among them those of UV-degenerate triangles, and at the corners of
-    /// degenerate triangles.
+    /// `mesh`: indexed triangles. `welded`: for each vertex the first vertex that equals it. `out`: the
+    /// tangents of decided vertices; [`UNDECIDED`] signs at all corners of other vertices, among them
+    /// those of UV-degenerate triangles, and at the corners of degenerate triangles.
     pub fn resume(&mut self, mesh: &Mesh<'_>, mode: Mode, welded: Vec<u32>, out: &mut [[f32; 4]]) {
         self.weld.set(mesh, welded);
         self.split = FaceSplit::default();
@@ -30,7 +31,8 @@ impl FastPath {
         self.list_copied_triangles(mesh, out);
     }
 
-    /// Lists triangles with decided corners at vertices whose tangents undecided corners of degenerate triangles copy.
+    /// Lists triangles with decided corners at vertices whose tangents undecided corners of degenerate
+    /// triangles copy.
     fn list_copied_triangles(&mut self, mesh: &Mesh<'_>, out: &[[f32; 4]]) {
         let list = self.list(mesh);
         let corners = |triangle: u32| 3 * triangle..3 * triangle + 3;

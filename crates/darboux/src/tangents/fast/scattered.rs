@@ -1,8 +1,10 @@
-//! A pass in which all threads work on all windows, for meshes whose triangles that share vertices are far apart in the list.
+//! A pass in which all threads work on all windows, for meshes whose triangles that share vertices are far
+//! apart in the list.
 //!
-//! The vertices are divided into buckets of consecutive numbers that fit into a core's cache. Threads take parts of the triangle list, and
-//! store what every corner adds to its vertex, sorted by bucket; then they take buckets, and add what all parts have stored for them. Parts
-//! are added in the order of the triangle list, so the sums do not depend on the number of threads. At last threads write the corners.
+//! The vertices are divided into buckets of consecutive numbers that fit into a core's cache. Threads take
+//! parts of the triangle list, and store what every corner adds to its vertex, sorted by bucket; then they
+//! take buckets, and add what all parts have stored for them. Parts are added in the order of the triangle
+//! list, so the sums do not depend on the number of threads. At last threads write the corners.
 
 use std::ops::Range;
 
@@ -32,7 +34,8 @@ const MOST_BUCKET_BITS: u32 = if cfg!(small_limits) { 2 } else { 14 };
 #[derive(Debug, Default)]
 pub(crate) struct ScatteredBuffers {
     parts: Vec<Part>,
-    /// The terms of all parts, where the output array does not have one element per entry of the triangle list.
+    /// The terms of all parts, where the output array does not have one element per entry of the triangle
+    /// list.
     terms: Vec<Term>,
 }
 
@@ -131,7 +134,8 @@ fn divide(windows: Range<usize>, threads: usize, parts: &mut Vec<Part>) {
     }
 }
 
-/// Stores what the corners of all parts add to their vertices. `bits`: the logarithm of the bucket size. `terms`: of all parts.
+/// Stores what the corners of all parts add to their vertices. `bits`: the logarithm of the bucket size.
+/// `terms`: of all parts.
 fn store<P: Pass>(
     input: &PassInput<'_, P>,
     bits: u32,

@@ -1,4 +1,5 @@
-//! Runs a pass on all threads: streamed where triangles that share vertices are near each other in the list, else scattered.
+//! Runs a pass on all threads: streamed where triangles that share vertices are near each other in the list,
+//! else scattered.
 
 use crate::exec::simd::{Task, Width};
 use crate::exec::threads::{self, split_range, split_slice};
@@ -19,7 +20,8 @@ pub(crate) struct Schedule {
 }
 
 impl Schedule {
-    /// Runs a pass with one thread per worker. `quantities`: one per vertex, all zero; a scattered pass leaves them. `out`: all corners.
+    /// Runs a pass with one thread per worker. `quantities`: one per vertex, all zero; a scattered pass
+    /// leaves them. `out`: all corners.
     pub fn run<P: Pass>(
         &mut self,
         input: &PassInput<'_, P>,

@@ -70,7 +70,8 @@ impl FastPath {
         self.exceptions.undecided.iter().map(move |&triangle| list.corners_of_face(triangle))
     }
 
-    /// Runs of the last edges whose order changes the result. The edges of one run are matched with each other only.
+    /// Runs of the last edges whose order changes the result. The edges of one run are matched with each
+    /// other only.
     pub fn tail_runs(&self, mesh: &Mesh<'_>) -> Vec<Vec<TriangleEdge>> {
         let list = self.list(mesh);
         let edge = |&entry: &u32| (list.corners(entry / 3), entry % 3);
@@ -85,10 +86,11 @@ impl FastPath {
         corners.iter().zip(0..).map(name).collect()
     }
 
-    /// Makes the vertices of the reference's last edges undecided, where the order of these edges changes the result.
+    /// Makes the vertices of the reference's last edges undecided, where the order of these edges changes the
+    /// result.
     ///
-    /// `bounds`: of the positions of all used vertices. `first`: the first tail to examine. `is_listed`: `exceptions.in_tail` has the entries
-    /// of all vertices in its cells.
+    /// `bounds`: of the positions of all used vertices. `first`: the first tail to examine. `is_listed`:
+    /// `exceptions.in_tail` has the entries of all vertices in its cells.
     pub fn undecide_last_edges(
         &mut self,
         mesh: &Mesh<'_>,

@@ -1,5 +1,6 @@
-//! A pass in which every thread streams its own windows: each vertex is read before the first window that uses it, finished after the last,
-//! and dropped, so that it stays in the cache in between and its memory serves others.
+//! A pass in which every thread streams its own windows: each vertex is read before the first window that
+//! uses it, finished after the last, and dropped, so that it stays in the cache in between and its memory
+//! serves others.
 
 use std::ops::Range;
 
@@ -14,9 +15,9 @@ use crate::tangents::fast::triangle_list::TriangleList;
 use crate::tangents::fast::vertex_quantity::{QuantityRange, VertexQuantity};
 use crate::tangents::fast::worker::Worker;
 
-/// Streams the windows of one partition: reads the vertices that each window needs first, adds the window's triangles, finishes vertices
-/// that no later window needs, writes the corners of windows whose vertices are finished. Windows with vertices of other partitions stay
-/// pending.
+/// Streams the windows of one partition: reads the vertices that each window needs first, adds the window's
+/// triangles, finishes vertices that no later window needs, writes the corners of windows whose vertices are
+/// finished. Windows with vertices of other partitions stay pending.
 ///
 /// `quantities`: those of the partition's vertices. `out`: the corners of its windows.
 pub(crate) fn run<P: Pass>(

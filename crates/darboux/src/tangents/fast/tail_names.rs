@@ -1,8 +1,10 @@
-//! The reference's names of the vertices of the triangle tail, as far as the search for the last edges needs them.
+//! The reference's names of the vertices of the triangle tail, as far as the search for the last edges needs
+//! them.
 //!
-//! The reference names a welded vertex after the first of its corners once it has divided the points of the vertex's cell into ranges. So
-//! a name lies between the vertex's first and last corner, and these bounds often suffice. Where they do not, the points of the cell are
-//! divided, but only down to the range of the vertex that is asked for. The ranges of a cell are a tree, which later searches divide further, so no
+//! The reference names a welded vertex after the first of its corners once it has divided the points of the
+//! vertex's cell into ranges. So a name lies between the vertex's first and last corner, and these bounds
+//! often suffice. Where they do not, the points of the cell are divided, but only down to the range of the
+//! vertex that is asked for. The ranges of a cell are a tree, which later searches divide further, so no
 //! range is divided twice.
 
 use std::ops::Range;
@@ -21,7 +23,8 @@ pub(crate) struct TailNames {
     bounded: Vec<u32>,
     /// The cell of each point, where the caller does not know it.
     cell_of_point: Vec<u16>,
-    /// The points in the order of their cells, by entry within a cell, once a cell was searched. Then divided as far as the searches needed.
+    /// The points in the order of their cells, by entry within a cell, once a cell was searched. Then
+    /// divided as far as the searches needed.
     points: Vec<Point>,
     /// The ranges of points: those of whole cells, then those into which searches have divided them.
     ranges: Vec<PointRange>,
@@ -63,8 +66,8 @@ pub(crate) struct TailEntries<'a> {
     pub cell_of_point: Option<&'a [u16]>,
 }
 
-/// The lowest and the highest name that a vertex can have. All bits are zero for a vertex without corners, so that the operating system
-/// clears the memory of a large mesh, and only where it is used.
+/// The lowest and the highest name that a vertex can have. All bits are zero for a vertex without corners, so
+/// that the operating system clears the memory of a large mesh, and only where it is used.
 #[derive(Clone, Copy, Debug, Default)]
 struct NameBounds {
     not_low: u32,
@@ -91,7 +94,8 @@ impl NameBounds {
 }
 
 impl TailNames {
-    /// Forgets all names. Gives bounds to the vertices of the triangles from `start` on; their earlier corners are not yet counted.
+    /// Forgets all names. Gives bounds to the vertices of the triangles from `start` on; their earlier
+    /// corners are not yet counted.
     pub fn start(&mut self, list: &TriangleList<'_>, vertex_count: usize, start: usize) {
         self.points.clear();
         self.bounded.drain(..).for_each(|vertex| self.bounds[vertex as usize] = NameBounds::default());
@@ -115,7 +119,8 @@ impl TailNames {
         a | b | c != 0
     }
 
-    /// Adds the corners of a triangle to the bounds of those of its vertices that have bounds. Returns the number of these.
+    /// Adds the corners of a triangle to the bounds of those of its vertices that have bounds. Returns the
+    /// number of these.
     pub fn add_to_bounded(&mut self, vertices: [u32; 3], corners: [u32; 3]) -> u32 {
         let mut bounded = 0;
         for (vertex, corner) in vertices.into_iter().zip(corners) {
@@ -134,7 +139,8 @@ impl TailNames {
         bounds.high() >= least && bounds.low() < bounds.high()
     }
 
-    /// The two vertices of a triangle whose names can be largest, and the largest names that they can have, the lower first.
+    /// The two vertices of a triangle whose names can be largest, and the largest names that they can have,
+    /// the lower first.
     pub fn largest(&self, vertices: [u32; 3]) -> [(u32, u32); 2] {
         let [a, b, c] = vertices.map(|vertex| (self.bounds[vertex as usize].high(), vertex));
         let (low, high) = if b < a { (b, a) } else { (a, b) };
@@ -147,7 +153,8 @@ impl TailNames {
         }
     }
 
-    /// The least lower name that the edge between the two vertices of a triangle with the largest names can have.
+    /// The least lower name that the edge between the two vertices of a triangle with the largest names can
+    /// have.
     pub fn least_lower(&self, vertices: [u32; 3]) -> u32 {
         let [a, b, c] = vertices.map(|vertex| self.bounds[vertex as usize].low());
         let (low, high) = if b < a { (b, a) } else { (a, b) };
@@ -171,7 +178,8 @@ impl TailNames {
         }
         let cell = self.range_of_cell[entries.cells.at(position)];
         for point in self.points_at(usize::from(cell), position).rev() {
-            // The points are visited from the last to the first, so that the corner at the first entry of each vertex remains its name.
+            // The points are visited from the last to the first, so that the corner at the first entry of
+            // each vertex remains its name.
             let Point { entry, .. } = self.points[point];
             let corner = entries.list.corner(entry);
             let bounds = &mut self.bounds[entries.list.vertex(corner) as usize];
@@ -181,8 +189,8 @@ impl TailNames {
         }
     }
 
-    /// The points at a position within a range, divided from the others as far as the reference divides them. None at the second search,
-    /// because they have names then.
+    /// The points at a position within a range, divided from the others as far as the reference divides them.
+    /// None at the second search, because they have names then.
     fn points_at(&mut self, mut range: usize, position: V3) -> Range<usize> {
         loop {
             let PointRange { start, end, division } = self.ranges[range];
@@ -230,7 +238,8 @@ impl TailNames {
             }
             ranges[usize::from(*range)].end += 1;
         }
-        // While filling, each end is the next free slot of its cell, and so grows from the cell's start to its end.
+        // While filling, each end is the next free slot of its cell, and so grows from the cell's start to
+        // its end.
         let mut start = 0;
         for range in &mut *ranges {
             let len = range.end;

@@ -1,7 +1,8 @@
 //! The mesh as a list of triangles of welded vertices, read window by window.
 //!
-//! The *entries* of the list are the corners of its triangles, three per triangle. Where all faces are triangles, entries are the
-//! corners of the mesh. Where quads were split, entry and corner have different numbers, and a corner on a diagonal has two entries.
+//! The *entries* of the list are the corners of its triangles, three per triangle. Where all faces are
+//! triangles, entries are the corners of the mesh. Where quads were split, entry and corner have different
+//! numbers, and a corner on a diagonal has two entries.
 
 use std::ops::Range;
 
@@ -226,7 +227,8 @@ impl<'a> TriangleList<'a> {
         }
     }
 
-    /// Sets [`marks::NEEDS_GENERAL_PATH`] at the vertices of doubtful quads (see `quads.rs`) among `triangles`.
+    /// Sets [`marks::NEEDS_GENERAL_PATH`] at the vertices of doubtful quads (see `quads.rs`) among
+    /// `triangles`.
     ///
     /// `first`: the vertex to which the first of `marks` belongs.
     pub fn mark_doubtful_quads(&self, triangles: Range<usize>, first: u32, marks: &mut [u32]) {

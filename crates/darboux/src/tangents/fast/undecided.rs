@@ -1,5 +1,5 @@
-//! The triangles with undecided vertices, as a mesh of their own: vertices numbered as they occur, what each triangle is to the reference,
-//! and what its corners add to their groups.
+//! The triangles with undecided vertices, as a mesh of their own: vertices numbered as they occur, what each
+//! triangle is to the reference, and what its corners add to their groups.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
@@ -20,7 +20,8 @@ use crate::tangents::fast::vertex_record::VertexRecord;
 
 /// What a triangle is, as bits.
 pub(crate) mod kinds {
-    /// The UV map preserves the orientation; on a triangle without UV area, that of the group which it has joined.
+    /// The UV map preserves the orientation; on a triangle without UV area, that of the group which it has
+    /// joined.
     pub const PRESERVES: u8 = 1;
     /// The triangle has no UV area: it joins groups of either orientation, and adds nothing to tangents.
     pub const JOINS_ANY: u8 = 2;
@@ -33,12 +34,12 @@ pub(crate) mod kinds {
 /// What a corner adds to its group: the weighted tangent, and the corner's [`marks`] as a fourth number.
 pub(crate) type MarkedTerm = [f32; 4];
 
-/// What a corner adds to the frame of its group besides the tangent: the weighted bitangent, the weight, the weighted lengths of dP/du and
-/// dP/dv.
+/// What a corner adds to the frame of its group besides the tangent: the weighted bitangent, the weight, the
+/// weighted lengths of dP/du and dP/dv.
 pub(crate) type FrameTerm = [f32; 6];
 
-/// The triangles with undecided vertices. An *entry* is a corner of one of these triangles, three per triangle. The memory is reused from
-/// mesh to mesh.
+/// The triangles with undecided vertices. An *entry* is a corner of one of these triangles, three per
+/// triangle. The memory is reused from mesh to mesh.
 #[derive(Debug, Default)]
 pub(crate) struct UndecidedTriangles {
     /// The number of each triangle in the mesh's triangle list, ascending.
@@ -59,8 +60,8 @@ pub(crate) struct UndecidedTriangles {
     pub records: Vec<VertexRecord>,
     /// True for undecided vertices. All triangles around them are here.
     pub is_undecided: Vec<bool>,
-    /// Vertices at which the terms or frames may not be the reference's: some triangle's derivatives are too small to be normalised, or a quad
-    /// is one that the general path handles.
+    /// Vertices at which the terms or frames may not be the reference's: some triangle's derivatives are too
+    /// small to be normalised, or a quad is one that the general path handles.
     pub inexact: Vec<u32>,
     /// The welded vertex of each vertex.
     pub welded: Vec<u32>,
@@ -69,8 +70,9 @@ pub(crate) struct UndecidedTriangles {
 }
 
 impl UndecidedTriangles {
-    /// Collects and evaluates the triangles. `faces`: the first triangles of the faces with undecided corners, ascending. `out`: the
-    /// tangents of all corners. `full_frames`: whether full frames are wanted.
+    /// Collects and evaluates the triangles. `faces`: the first triangles of the faces with undecided
+    /// corners, ascending. `out`: the tangents of all corners. `full_frames`: whether full frames are
+    /// wanted.
     pub fn collect(
         &mut self,
         list: &TriangleList<'_>,
@@ -144,8 +146,9 @@ impl UndecidedTriangles {
         }
     }
 
-    /// Gives both halves of each quad one orientation, as the reference does. The vertices of quads with a degenerate half, and those with a
-    /// half of nearly no UV area, whose derivatives can be infinite, are listed as inexact.
+    /// Gives both halves of each quad one orientation, as the reference does. The vertices of quads with a
+    /// degenerate half, and those with a half of nearly no UV area, whose derivatives can be infinite,
+    /// are listed as inexact.
     fn unify_quads(&mut self) {
         for second in (1..self.kinds.len()).filter(|&at| self.is_second[at]) {
             let halves = [second - 1, second];

@@ -48,9 +48,11 @@ impl Task for HashVertices<'_> {
     }
 }
 
-/// Adds the products of one attribute to the sums, and finds the largest magnitude of its components, as bits without the sign.
+/// Adds the products of one attribute to the sums, and finds the largest magnitude of its components, as bits
+/// without the sign.
 ///
-/// `L` is `N * HASH_LANES`: components lie one after the other, so that one loop over all of them is vector code for any `N`.
+/// `L` is `N * HASH_LANES`: components lie one after the other, so that one loop over all of them is vector
+/// code for any `N`.
 #[inline(always)]
 fn add_products<const N: usize, const L: usize>(
     values: &[[f32; N]],
@@ -88,7 +90,8 @@ fn multiply<const L: usize>(
     magnitudes: &mut [u32; L],
 ) {
     for j in 0..L {
-        // Adding zero turns -0 into +0. The bits of short fractions are the highest; the shift moves them down.
+        // Adding zero turns -0 into +0. The bits of short fractions are the highest; the shift moves them
+        // down.
         let bits = (components[j] + 0.0).to_bits();
         products[j] = (bits ^ bits >> 15).wrapping_mul(factors[j]);
         let magnitude = bits & !(1 << 31);
@@ -107,7 +110,8 @@ pub(crate) struct ValueRange {
     largest: u32,
 }
 
-/// The largest magnitude of a value that is welded here. The reference does not weld values above half the largest float.
+/// The largest magnitude of a value that is welded here. The reference does not weld values above half the
+/// largest float.
 const LARGEST_VALUE: f32 = 1e38;
 
 impl Default for ValueRange {
@@ -153,7 +157,8 @@ impl ValueRange {
     }
 }
 
-/// An integer in the order of floats, -0 below +0. All processors have an instruction for the minimum of integers.
+/// An integer in the order of floats, -0 below +0. All processors have an instruction for the minimum of
+/// integers.
 #[inline(always)]
 fn ordered(x: f32) -> i32 {
     let bits = x.to_bits() as i32;

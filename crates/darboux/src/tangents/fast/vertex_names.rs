@@ -1,8 +1,8 @@
 //! The reference's names of welded vertices, found on demand.
 //!
-//! The reference names a welded vertex after one of its corners: the first one after it has divided the points of the vertex's cell into
-//! ranges. So a name lies between the vertex's first and last corner, and these bounds nearly always suffice for a comparison.
-//! Where they do not, the cell is divided again.
+//! The reference names a welded vertex after one of its corners: the first one after it has divided the
+//! points of the vertex's cell into ranges. So a name lies between the vertex's first and last corner, and
+//! these bounds nearly always suffice for a comparison. Where they do not, the cell is divided again.
 
 use crate::topology::edge_sort::{Edges, tail_runs};
 use crate::topology::weld::{CELL_COUNT, Cells, Point, for_each_final_range};
@@ -16,7 +16,8 @@ use crate::tangents::fast::triangle_list::TriangleBuffer;
 pub(crate) struct VertexNames {
     /// The welded vertex of each entry of the triangle list.
     vertices: Vec<u32>,
-    /// The lowest and the highest name that each welded vertex can have. They are equal where the name is known.
+    /// The lowest and the highest name that each welded vertex can have. They are equal where the name is
+    /// known.
     bounds: Vec<[u32; 2]>,
     /// True for welded vertices whose names are being searched.
     is_wanted: Vec<bool>,
@@ -33,10 +34,11 @@ pub(crate) struct VertexNames {
 }
 
 impl VertexNames {
-    /// The last edges in runs, within which the reference matches them (see `crate::topology::edge_sort`). An edge is the entry where it
-    /// starts.
+    /// The last edges in runs, within which the reference matches them (see `crate::topology::edge_sort`). An
+    /// edge is the entry where it starts.
     ///
-    /// `vertex_count`: the number of welded vertices. `candidates`: the first triangles of all faces that can be degenerate, ascending.
+    /// `vertex_count`: the number of welded vertices. `candidates`: the first triangles of all faces that can
+    /// be degenerate, ascending.
     pub fn tail_runs(
         &mut self,
         tail: &EdgeTail<'_>,
@@ -116,8 +118,8 @@ impl VertexNames {
         self.edges.extend(next..self.vertices.len() as u32);
     }
 
-    /// Finds the names of all vertices in those ranges of a cell's points that contain a wanted vertex; at the second search in a cell,
-    /// the names of all its vertices.
+    /// Finds the names of all vertices in those ranges of a cell's points that contain a wanted vertex; at
+    /// the second search in a cell, the names of all its vertices.
     fn name_cell(&mut self, tail: &EdgeTail<'_>, cell: u32) {
         let cell = cell as usize;
         let start = if cell == 0 { 0 } else { self.cell_ends[cell - 1] };
@@ -129,7 +131,8 @@ impl VertexNames {
         let all = std::mem::replace(&mut self.was_divided[cell], true);
         let is_wanted = |point: &Point| all || self.is_wanted[vertex(point) as usize];
         for_each_final_range(&mut points, &|points| points.iter().any(is_wanted), &mut |points| {
-            // From the last point to the first, so that the corner at the first entry of each vertex remains its name.
+            // From the last point to the first, so that the corner at the first entry of each vertex remains
+            // its name.
             for point in points.iter().rev() {
                 bounds[vertex(point) as usize] = [tail.list.corner(point.entry); 2];
             }

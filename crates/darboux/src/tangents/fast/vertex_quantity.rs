@@ -1,4 +1,5 @@
-//! Quantities of vertices besides the tangent, which the corners of triangles add up to: together with the tangents, or in a second pass.
+//! Quantities of vertices besides the tangent, which the corners of triangles add up to: together with the
+//! tangents, or in a second pass.
 
 use crate::exec::simd::Width;
 use crate::tangents::fast::kernel::{BLOCK_SIZE, TriangleBlock};
@@ -8,7 +9,8 @@ pub(crate) trait VertexQuantity: Copy + Default + Send + Sync {
     /// True where [`VertexQuantity::evaluate`] reads the angles of corners.
     const NEEDS_ANGLES: bool;
 
-    /// Computes what the corners of a block's triangles add, from the derivatives of the triangles. May overwrite the terms of tangents.
+    /// Computes what the corners of a block's triangles add, from the derivatives of the triangles. May
+    /// overwrite the terms of tangents.
     fn evaluate(block: &mut TriangleBlock);
 
     /// Adds what corner `k` of triangle `i` of an evaluated block has.
@@ -37,8 +39,8 @@ pub(crate) struct QuantityRange<'a, Q> {
 }
 
 impl<Q: VertexQuantity> QuantityRange<'_, Q> {
-    /// Adds a block's first `count` triangles, in order, to those of their vertices that are in the range. `first`: the number from which
-    /// on the block counts vertices.
+    /// Adds a block's first `count` triangles, in order, to those of their vertices that are in the range.
+    /// `first`: the number from which on the block counts vertices.
     #[inline(always)]
     pub fn add(&mut self, block: &mut TriangleBlock, count: usize, first: u32) {
         Q::evaluate(block);

@@ -1,4 +1,5 @@
-//! The values of vertices as the fast path reads them: one record per vertex, or slices of the mesh's own arrays.
+//! The values of vertices as the fast path reads them: one record per vertex, or slices of the mesh's own
+//! arrays.
 //!
 //! Arrays that are packed in the mesh are borrowed; others are copied into a buffer first.
 

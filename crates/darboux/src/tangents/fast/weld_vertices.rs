@@ -1,9 +1,10 @@
-//! Welding by hashing: every vertex is replaced by the first vertex whose position, normal and UV equal its own as floats.
+//! Welding by hashing: every vertex is replaced by the first vertex whose position, normal and UV equal its
+//! own as floats.
 //!
-//! The reference welds in an order of its own, and a welded vertex takes its values from one of its corners. That order matters only
-//! where values are not finite or so large that the reference does not weld them; the fast path does not apply to such meshes. (The order
-//! also matters for the last edges: see `edge_tail.rs`.) Equal vertices can differ in the sign of a zero, which no result shows: the head
-//! of `fast.rs` says why.
+//! The reference welds in an order of its own, and a welded vertex takes its values from one of its corners.
+//! That order matters only where values are not finite or so large that the reference does not weld them; the
+//! fast path does not apply to such meshes. (The order also matters for the last edges: see `edge_tail.rs`.)
+//! Equal vertices can differ in the sign of a zero, which no result shows: the head of `fast.rs` says why.
 
 use crate::Indices;
 use crate::Mesh;
@@ -42,11 +43,13 @@ pub(crate) struct HashWeld {
     corners: Vec<CornerWeld>,
 }
 
-/// Corners are welded instead of vertices where there are more vertices per corner: most of them belong to other meshes then.
+/// Corners are welded instead of vertices where there are more vertices per corner: most of them belong to
+/// other meshes then.
 const MAX_VERTICES_PER_CORNER: usize = 2;
 
 impl HashWeld {
-    /// Welds the vertices of an indexed mesh, or the corners of an unindexed one. None where the fast path does not apply.
+    /// Welds the vertices of an indexed mesh, or the corners of an unindexed one. None where the fast path
+    /// does not apply.
     pub fn weld(&mut self, mesh: &Mesh<'_>, width: Width, workers: &mut [Worker]) -> Option<()> {
         self.welded.clear();
         self.first_equal.clear();
@@ -94,9 +97,11 @@ impl HashWeld {
         }
     }
 
-    /// Hashes all vertices, and marks hashes that occur more than once. Returns an upper bound of the number of vertices that have these.
+    /// Hashes all vertices, and marks hashes that occur more than once. Returns an upper bound of the number
+    /// of vertices that have these.
     ///
-    /// Few meshes have equal vertices: with two bits per hash, which stay in the cache, few vertices have to be compared.
+    /// Few meshes have equal vertices: with two bits per hash, which stay in the cache, few vertices have to
+    /// be compared.
     fn find_collisions(&mut self, mesh: &Mesh<'_>, width: Width, workers: &mut [Worker]) -> Option<usize> {
         self.hashes.resize(self.count, 0);
         let ranges = split_range(0..self.count, workers.len(), 1);
@@ -143,7 +148,8 @@ impl HashWeld {
         Some(())
     }
 
-    /// Welds the corners: each thread those of its own range, then all distinct vertices with those of the first range.
+    /// Welds the corners: each thread those of its own range, then all distinct vertices with those of the
+    /// first range.
     fn weld_corners(&mut self, mesh: &Mesh<'_>, width: Width, workers: &mut [Worker]) -> Option<()> {
         self.welded.resize(mesh.corner_count(), 0);
         self.corners.resize_with(workers.len(), CornerWeld::default);

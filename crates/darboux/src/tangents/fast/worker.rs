@@ -20,8 +20,8 @@ pub(crate) struct Worker {
     pub triangles: TriangleBuffer,
     /// The vertices of corners, where they are not contiguous in the mesh.
     pub corner_vertices: Vec<u32>,
-    /// The vertices from number `first` on. The first `read` of them hold values. A streamed pass drops vertices that no later window needs,
-    /// so that the others stay in the cache.
+    /// The vertices from number `first` on. The first `read` of them hold values. A streamed pass drops
+    /// vertices that no later window needs, so that the others stay in the cache.
     pub vertices: Vec<VertexAccumulator>,
     /// The marks of each vertex.
     pub marks: Vec<u32>,
@@ -64,14 +64,15 @@ impl Worker {
         self.first + self.read
     }
 
-    /// Lists a window that other threads have to finish vertices for. `end`: the end of the window's vertices.
+    /// Lists a window that other threads have to finish vertices for. `end`: the end of the window's
+    /// vertices.
     pub fn list_pending(&mut self, window: usize, end: usize) {
         self.pending.push(window);
         self.pending_end = self.pending_end.max(end);
     }
 
-    /// Makes room for the vertices up to number `end`. Where there is none, those below number `needed` are dropped; all windows that are
-    /// pending because of lower vertices have been listed by then.
+    /// Makes room for the vertices up to number `end`. Where there is none, those below number `needed` are
+    /// dropped; all windows that are pending because of lower vertices have been listed by then.
     pub fn make_room(&mut self, needed: usize, end: usize) {
         if end - self.first <= self.vertices.len() {
             return;
@@ -139,7 +140,8 @@ impl Findings {
         self.unused += 1;
     }
 
-    /// True when all unused vertices that were read lie inside the bounds of all vertices, which then are the bounds of the used ones.
+    /// True when all unused vertices that were read lie inside the bounds of all vertices, which then are the
+    /// bounds of the used ones.
     pub fn unused_are_inside(&self, all: &Bounds) -> bool {
         let inside =
             |bounds: Bounds| (0..3).all(|i| bounds.min[i] > all.min[i] && bounds.max[i] < all.max[i]);

@@ -1,5 +1,5 @@
-//! The methods angle-area and angle-edge: the groups of MikkTSpace, weighted by corner angle times triangle area, or times the lengths of the
-//! corner's edges.
+//! The methods angle-area and angle-edge: the groups of MikkTSpace, weighted by corner angle times triangle
+//! area, or times the lengths of the corner's edges.
 //!
 //! ```text
 //! weld, find neighbours and build groups as MikkTSpace does, with all edges matched and without a threshold
@@ -10,9 +10,9 @@
 //! orientation of each face; each corner has the frame of its group of that orientation
 //! ```
 //!
-//! With weights by angle alone, a sliver changes the tangent of a vertex as much as the wide triangle beside it, which shows the error over
-//! its whole area. The angle makes the result independent of the triangulation of a flat fan; the area reduces the visible error.
-//! Derivation: docs/algorithms/methods.md.
+//! With weights by angle alone, a sliver changes the tangent of a vertex as much as the wide triangle beside
+//! it, which shows the error over its whole area. The angle makes the result independent of the triangulation
+//! of a flat fan; the area reduces the visible error. Derivation: docs/algorithms/methods.md.
 
 pub(crate) mod group_sums;
 
@@ -79,7 +79,8 @@ fn plan_and_report<O: Output>(
     Some((plan, report))
 }
 
-/// The triangulation, the groups and the orientations of a mesh, to evaluate it again after its vertices moved.
+/// The triangulation, the groups and the orientations of a mesh, to evaluate it again after its vertices
+/// moved.
 #[derive(Debug)]
 pub(crate) struct AngleAreaPlan {
     weight: GroupWeight,
@@ -92,8 +93,8 @@ pub(crate) struct AngleAreaPlan {
 }
 
 impl AngleAreaPlan {
-    /// Builds the groups. Leaves the derivatives in `buffers`, and returns the counts that do not depend on evaluation. `None` after
-    /// cancellation.
+    /// Builds the groups. Leaves the derivatives in `buffers`, and returns the counts that do not depend on
+    /// evaluation. `None` after cancellation.
     pub(crate) fn new(
         mesh: &Mesh<'_>,
         weight: GroupWeight,
@@ -139,8 +140,8 @@ impl AngleAreaPlan {
         self.frames(&MeshSlices::new(mesh), &welded, limits, buffers, corners);
     }
 
-    /// Writes the frames of all corners from the derivatives in `buffers`. Returns the number of repaired corners. Both are unspecified after
-    /// cancellation.
+    /// Writes the frames of all corners from the derivatives in `buffers`. Returns the number of repaired
+    /// corners. Both are unspecified after cancellation.
     fn frames<O: Output>(
         &self,
         slices: &MeshSlices<'_>,
@@ -215,8 +216,8 @@ impl AngleAreaPlan {
         GroupFrame { frame, repaired: found.is_none() }
     }
 
-    /// The tangent of a group without one: the mean of its triangles' tangents, all weighted alike; else dP/du of its first triangle; else a
-    /// perpendicular of the normal.
+    /// The tangent of a group without one: the mean of its triangles' tangents, all weighted alike; else
+    /// dP/du of its first triangle; else a perpendicular of the normal.
     fn mean(&self, group: usize, welded: &WeldedMesh<'_>, derivatives: &[Derivative]) -> V3 {
         let normal = self.normal_of_vertex(group, welded);
         let Some(unit_normal) = direction(normal) else { return [1.0, 0.0, 0.0] };
@@ -231,8 +232,8 @@ impl AngleAreaPlan {
     }
 }
 
-/// Moves a tangent a quarter of a Jacobi step towards the fit. Larger steps overshoot where neighbouring tangents differ much; see
-/// docs/notes/methods.md.
+/// Moves a tangent a quarter of a Jacobi step towards the fit. Larger steps overshoot where neighbouring
+/// tangents differ much; see docs/notes/methods.md.
 fn fit(group: &mut GroupFrame, normal: D3, (residual, weight): (D3, f64)) {
     const STEP_SIZE: f64 = 0.25;
     let moved = add_scaled(group.frame.tangent.map(f64::from), STEP_SIZE / weight, residual);
@@ -320,10 +321,11 @@ impl CornerGroups {
     }
 }
 
-/// Writes to every corner the frame of its group that has the face's orientation. Returns the number of repaired corners.
+/// Writes to every corner the frame of its group that has the face's orientation. Returns the number of
+/// repaired corners.
 ///
-/// A face without an orientation takes the one for which more of its corners have groups; on a tie, preserved. A corner without a group
-/// gets a frame from its normal.
+/// A face without an orientation takes the one for which more of its corners have groups; on a tie,
+/// preserved. A corner without a group gets a frame from its normal.
 fn to_corners<O: Output>(
     slices: &MeshSlices<'_>,
     limits: RunLimits<'_>,

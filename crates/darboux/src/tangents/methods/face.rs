@@ -1,7 +1,8 @@
 //! The method of faces: one frame per face, from dP/du and dP/dv on the face.
 //!
-//! Both derivatives lie in the plane of the triangle, so the frame belongs to the triangle's normal, not to those of the vertices. A quad has
-//! the mean derivatives over its UV area, which do not depend on the diagonal.
+//! Both derivatives lie in the plane of the triangle, so the frame belongs to the triangle's normal, not to
+//! those of the vertices. A quad has the mean derivatives over its UV area, which do not depend on the
+//! diagonal.
 
 use crate::Frame;
 use crate::Mesh;
@@ -93,8 +94,9 @@ impl Face {
         not_zero(self.area).then_some(Frame { tangent, bitangent, magnitude, sign: 1f32.copysign(self.area) })
     }
 
-    /// The frame of faces without derivatives. The tangent is the first of these that exists: the direction in which u changes; a
-    /// perpendicular of the face's normal; a perpendicular of the vertex's normal; (1, 0, 0).
+    /// The frame of faces without derivatives. The tangent is the first of these that exists: the direction
+    /// in which u changes; a perpendicular of the face's normal; a perpendicular of the vertex's normal;
+    /// (1, 0, 0).
     fn replacement(&self, normal_of_vertex: V3) -> Frame {
         let normal = if direction(self.normal).is_some() { self.normal } else { normal_of_vertex };
         let own = direction(normal).and_then(|normal| in_plane(self.s.map(f64::from), normal));

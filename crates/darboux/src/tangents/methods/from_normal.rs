@@ -1,7 +1,8 @@
-//! The method for surfaces without UVs: the tangent is a perpendicular of the normal, a function of the normal alone.
+//! The method for surfaces without UVs: the tangent is a perpendicular of the normal, a function of the
+//! normal alone.
 //!
-//! Source: T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017, listing 3. No continuous function
-//! exists (hairy ball theorem); this one is discontinuous where z changes sign.
+//! Source: T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017, listing 3. No
+//! continuous function exists (hairy ball theorem); this one is discontinuous where z changes sign.
 
 use crate::Frame;
 use crate::Mesh;

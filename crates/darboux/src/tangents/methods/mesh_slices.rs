@@ -1,4 +1,5 @@
-//! A mesh as packed slices: positions, normals and UVs of vertices, and triangles of vertex numbers, for arithmetic loops.
+//! A mesh as packed slices: positions, normals and UVs of vertices, and triangles of vertex numbers, for
+//! arithmetic loops.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -10,8 +11,9 @@ use crate::Strided;
 use crate::math::V3;
 use crate::topology::triangulate::split_quad;
 
-/// A mesh as packed arrays. Arrays are borrowed where the caller's are packed, indices are 32-bit, faces are triangles, and most vertices
-/// are used; otherwise they are copied. Unused vertices may be dropped, which renumbers the others; corners and faces keep their numbers.
+/// A mesh as packed arrays. Arrays are borrowed where the caller's are packed, indices are 32-bit, faces are
+/// triangles, and most vertices are used; otherwise they are copied. Unused vertices may be dropped, which
+/// renumbers the others; corners and faces keep their numbers.
 pub(crate) struct MeshSlices<'a> {
     pub positions: Cow<'a, [V3]>,
     pub normals: Cow<'a, [V3]>,
@@ -114,7 +116,8 @@ impl<'a> MeshSlices<'a> {
     }
 }
 
-/// The vertex of each corner. Where the mesh uses few of its vertices, also the list of used vertices, in which the numbers are indices.
+/// The vertex of each corner. Where the mesh uses few of its vertices, also the list of used vertices, in
+/// which the numbers are indices.
 fn used_vertices<'a>(mesh: &Mesh<'a>) -> (Cow<'a, [u32]>, Option<Vec<u32>>) {
     let vertex_of_corner = vertices_of_corners(mesh);
     if mesh.vertex_count() <= 4 * mesh.corner_count() {

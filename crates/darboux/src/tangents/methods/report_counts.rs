@@ -51,7 +51,8 @@ fn all_finite(values: &[f32], limits: RunLimits<'_>) -> bool {
     found.into_iter().all(|finite| finite)
 }
 
-/// For each vertex: true when faces of both orientations meet there. `None` when the mesh has one orientation only.
+/// For each vertex: true when faces of both orientations meet there. `None` when the mesh has one orientation
+/// only.
 pub(crate) fn vertices_of_both(
     slices: &MeshSlices<'_>,
     orientation_of_face: &[Orientation],
@@ -69,7 +70,8 @@ pub(crate) fn vertices_of_both(
     Some(seen.into_iter().map(|seen| seen == 3).collect())
 }
 
-/// The number of edges between two triangles of opposite orientation. Edges connect vertices of the mesh, which are not welded.
+/// The number of edges between two triangles of opposite orientation. Edges connect vertices of the mesh,
+/// which are not welded.
 ///
 /// `of_both`: the result of [`vertices_of_both`].
 pub(crate) fn count_mirrored_edges(

@@ -4,8 +4,8 @@ use crate::math::{V3, length, not_zero, scale, sub};
 
 /// The edges of a triangle, and the derivatives of position by UV before the division by `area`.
 ///
-/// With E = [e1 e2] and the UV edges as columns of U, the derivatives are the columns of E U^-1 (E. Lengyel, "Foundations of
-/// Game Engine Development", vol. 2, 7.5; M. Mikkelsen 2008, equations 18 and 19).
+/// With E = [e1 e2] and the UV edges as columns of U, the derivatives are the columns of E U^-1 (E. Lengyel,
+/// "Foundations of Game Engine Development", vol. 2, 7.5; M. Mikkelsen 2008, equations 18 and 19).
 #[derive(Clone, Copy)]
 pub(crate) struct ScaledDerivatives {
     /// From corner 0 to 1, from 0 to 2, and from 1 to 2.

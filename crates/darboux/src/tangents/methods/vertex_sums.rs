@@ -7,7 +7,8 @@
 //! finish: frame of each vertex and orientation from its sum; repair frames without a direction; write the corners
 //! ```
 //!
-//! A new method of this kind is one file with an implementation of [`weighting::Weighting`], and a line in `methods.rs`.
+//! A new method of this kind is one file with an implementation of [`weighting::Weighting`], and a line in
+//! `methods.rs`.
 
 pub(crate) mod accumulate;
 pub(crate) mod area;

@@ -1,18 +1,21 @@
-//! Lookup of opposite directions: lists the directions whose dot product with a given unit vector is -1 or less.
+//! Lookup of opposite directions: lists the directions whose dot product with a given unit vector is -1 or
+//! less.
 //!
-//! Unit vectors are stored in the cells of a cubic grid of 1/256. Vectors opposite to `v` lie in the cells around `-v`, and are compared
-//! with it in blocks, without branches.
+//! Unit vectors are stored in the cells of a cubic grid of 1/256. Vectors opposite to `v` lie in the cells
+//! around `-v`, and are compared with it in blocks, without branches.
 
 use crate::exec::simd::{Task, Width};
 use crate::math::{V3, dot, scale};
 use crate::util::radix_sort::{first, pair, second, sort};
 
-/// An upper bound of |a + b| for unit vectors a and b (|a|^2 within 1e-6 of 1) whose rounded dot product is -1 or less.
+/// An upper bound of |a + b| for unit vectors a and b (|a|^2 within 1e-6 of 1) whose rounded dot product is
+/// -1 or less.
 ///
-/// Rounding changes the product and each square by at most 2e-7, so |a + b|^2 = |a|^2 + |b|^2 + 2 a b is at most
-/// 2 (1 + 1.2e-6) - 2 (1 - 2e-7) = 2.8e-6, which is (1.68e-3)^2.
+/// Rounding changes the product and each square by at most 2e-7, so |a + b|^2 = |a|^2 + |b|^2 + 2 a b is at
+/// most 2 (1 + 1.2e-6) - 2 (1 - 2e-7) = 2.8e-6, which is (1.68e-3)^2.
 const MAX_DISTANCE: f32 = 1.0 / 512.0;
-/// The inverse of the cell size. A cell is twice the reach, so that a search visits at most two cells along each axis.
+/// The inverse of the cell size. A cell is twice the reach, so that a search visits at most two cells along
+/// each axis.
 const CELLS_PER_UNIT: f32 = 256.0;
 
 /// The number of directions that are compared at once.
@@ -21,10 +24,12 @@ const BLOCK: usize = 16;
 /// Directions, sorted by grid cell.
 #[derive(Debug, Default)]
 pub(crate) struct AntipodeGrid {
-    /// The cells that are not empty, and the end of each in the arrays below. Neighbouring cells along z are adjacent.
+    /// The cells that are not empty, and the end of each in the arrays below. Neighbouring cells along z are
+    /// adjacent.
     cells: Vec<u32>,
     ends: Vec<u32>,
-    /// The indices and the coordinates of unit vectors, by cell. Zeros follow, so that a block can begin at each of them.
+    /// The indices and the coordinates of unit vectors, by cell. Zeros follow, so that a block can begin at
+    /// each of them.
     indices: Vec<u32>,
     axes: [Vec<f32>; 3],
     /// The directions that may be opposite to anything: long vectors and NaN.
@@ -79,9 +84,11 @@ impl AntipodeGrid {
         grid
     }
 
-    /// Appends the indices of all directions whose dot product with `direction` is not above -1 to `found`, some of them twice.
+    /// Appends the indices of all directions whose dot product with `direction` is not above -1 to `found`,
+    /// some of them twice.
     ///
-    /// `None` where comparing with every direction is needed: `direction` is long or NaN, or there are more than `limit` around its opposite.
+    /// `None` where comparing with every direction is needed: `direction` is long or NaN, or there are more
+    /// than `limit` around its opposite.
     pub fn find_opposites(
         &self,
         direction: V3,
@@ -123,7 +130,8 @@ impl AntipodeGrid {
     }
 }
 
-/// Finds the directions whose dot product with `direction` is -1 or less, from `start` to the end of the block that `end` is in.
+/// Finds the directions whose dot product with `direction` is -1 or less, from `start` to the end of the
+/// block that `end` is in.
 struct FindOpposites<'a> {
     grid: &'a AntipodeGrid,
     direction: V3,

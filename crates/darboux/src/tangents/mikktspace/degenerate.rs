@@ -1,9 +1,10 @@
 //! Frames of the corners that only degenerate triangles have: copies from good corners.
 //!
-//! A corner copies the first good corner at the same welded vertex, if there is one. The missing corner of a quad with one good half copies
-//! the first corner of that half at the same position.
+//! A corner copies the first good corner at the same welded vertex, if there is one. The missing corner of a
+//! quad with one good half copies the first corner of that half at the same position.
 //!
-//! Source: mikktspace.c, `DegenEpilogue`. We deviate: the reference searches the good corners linearly for every degenerate one.
+//! Source: mikktspace.c, `DegenEpilogue`. We deviate: the reference searches the good corners linearly for
+//! every degenerate one.
 
 use crate::math::equal;
 use crate::topology::triangles::{NONE, Triangles, Triangulation};
@@ -26,7 +27,8 @@ pub struct CornerCopy {
 pub enum CopySource {
     /// This corner: the first good one at the same welded vertex.
     Vertex(u32),
-    /// The first of these corners that lies at the same position, if any does. They are the corners of the good half of the same quad.
+    /// The first of these corners that lies at the same position, if any does. They are the corners of the
+    /// good half of the same quad.
     Half([u32; 3]),
 }
 
@@ -85,7 +87,8 @@ fn copy(raw: &mut RawFrames, source: u32, corner: u32) {
     raw.mean_of_corner[corner as usize] = raw.mean_of_corner[source as usize];
 }
 
-/// The first good corner at each welded vertex, or [`NONE`], for vertices up to the last one of degenerate triangles.
+/// The first good corner at each welded vertex, or [`NONE`], for vertices up to the last one of degenerate
+/// triangles.
 fn first_good_corners(good: &Triangles, degenerate: &Triangles) -> Vec<u32> {
     let last = degenerate.vertices.as_flattened().iter().max();
     let mut first = vec![NONE; last.map_or(0, |&last| last as usize + 1)];

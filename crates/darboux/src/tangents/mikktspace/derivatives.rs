@@ -21,7 +21,8 @@ pub struct Derivative {
     pub magnitude: [f32; 2],
     /// True when the UV map preserves the triangle's orientation.
     pub preserves: bool,
-    /// True for UV-degenerate triangles: they join groups of either orientation, and add nothing to tangents (`GROUP_WITH_ANY`).
+    /// True for UV-degenerate triangles: they join groups of either orientation, and add nothing to tangents
+    /// (`GROUP_WITH_ANY`).
     pub joins_any: bool,
 }
 
@@ -89,7 +90,8 @@ pub(crate) fn doubled_area(uvs: [[f32; 2]; 3]) -> f32 {
     du1 * dv2 - dv1 * du2
 }
 
-/// Sets one orientation for both halves of each quad: the first half's, if the second is UV-degenerate or not larger in UV space.
+/// Sets one orientation for both halves of each quad: the first half's, if the second is UV-degenerate or not
+/// larger in UV space.
 pub(crate) fn unify_quads(triangles: &Triangles, welded: &WeldedMesh<'_>, derivatives: &mut [Derivative]) {
     let mut t = 0;
     while t < triangles.len() {
@@ -106,7 +108,8 @@ pub(crate) fn unify_quads(triangles: &Triangles, welded: &WeldedMesh<'_>, deriva
     }
 }
 
-/// Computes the derivatives of every triangle, with one orientation per quad. There are fewer after cancellation.
+/// Computes the derivatives of every triangle, with one orientation per quad. There are fewer after
+/// cancellation.
 pub(crate) fn quad_derivatives(
     good: &Triangles,
     welded: &WeldedMesh<'_>,

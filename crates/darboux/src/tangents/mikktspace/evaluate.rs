@@ -8,11 +8,11 @@
 //!         frame = sum, normalised; corner = frame, or the average where the other half of a quad has written it before
 //! ```
 //!
-//! A group whose members all join, which is nearly every group, is summed once. In other groups, the subgroups share most of the work of
-//! their additions ([`crate::tangents::mikktspace::sums_without`]).
+//! A group whose members all join, which is nearly every group, is summed once. In other groups, the
+//! subgroups share most of the work of their additions ([`crate::tangents::mikktspace::sums_without`]).
 //!
-//! Source: mikktspace.c, `GenerateTSpaces`, `EvalTspace`, `AvgTSpace`. We deviate: the reference lists, sorts and compares the members of
-//! every subgroup; here a subgroup is the list of the members that it excludes.
+//! Source: mikktspace.c, `GenerateTSpaces`, `EvalTspace`, `AvgTSpace`. We deviate: the reference lists, sorts
+//! and compares the members of every subgroup; here a subgroup is the list of the members that it excludes.
 
 use std::cell::OnceCell;
 
@@ -34,7 +34,8 @@ use crate::tangents::repair::{is_usable, mean_in_plane};
 /// The size from which on the progress on a group is reported.
 const LARGE_GROUP: usize = 1 << 12;
 
-/// What evaluation reads besides the groups: the derivatives of all triangles, and the normal of each group's vertex.
+/// What evaluation reads besides the groups: the derivatives of all triangles, and the normal of each group's
+/// vertex.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GroupInputs {
     pub derivatives: Vec<Derivative>,
@@ -54,7 +55,8 @@ impl GroupInputs {
     }
 }
 
-/// The threshold, and cancellation, which is checked between groups and between the members of a group that the threshold splits.
+/// The threshold, and cancellation, which is checked between groups and between the members of a group that
+/// the threshold splits.
 pub(crate) struct EvaluateOptions<'a> {
     pub threshold_cosine: f32,
     pub limits: RunLimits<'a>,
@@ -62,8 +64,9 @@ pub(crate) struct EvaluateOptions<'a> {
 
 /// Evaluates every group, in order, and writes the frames of the groups' corners.
 ///
-/// `membership`: decides which members join; a plan passes its base. `values`: what the members add; a plan passes the moved mesh. A fresh
-/// run passes the same inputs twice. `initial`: the frames of corners without a group.
+/// `membership`: decides which members join; a plan passes its base. `values`: what the members add; a plan
+/// passes the moved mesh. A fresh run passes the same inputs twice. `initial`: the frames of corners without
+/// a group.
 pub(crate) fn evaluate(
     triangles: &Triangles,
     groups: &Groups,
@@ -114,7 +117,8 @@ struct SubgroupFrame {
 }
 
 impl Evaluator<'_> {
-    /// Where the progress on the current group is reported. Other runs may share it, so small groups leave it alone.
+    /// Where the progress on the current group is reported. Other runs may share it, so small groups leave it
+    /// alone.
     fn shown_progress(&self) -> Option<&VertexProgress> {
         self.limits.progress.filter(|_| self.tangents.len() >= LARGE_GROUP)
     }
@@ -142,8 +146,9 @@ impl SubgroupVisitor for Evaluator<'_> {
         sums.iter().map(subgroup).collect()
     }
 
-    /// Writes the frame to the member's corner. The corners of a quad's diagonal may be written twice and then have the average. The order
-    /// of the writes matters only where both frames differ in nothing but the sign of a zero.
+    /// Writes the frame to the member's corner. The corners of a quad's diagonal may be written twice and
+    /// then have the average. The order of the writes matters only where both frames differ in nothing
+    /// but the sign of a zero.
     fn write(&mut self, member: u32, subgroup: &SubgroupFrame, excluded: &[u32]) {
         let corner = self.triangles.corners.as_flattened()[member as usize];
         let slot = &mut self.raw.of_corner[corner as usize];
@@ -174,9 +179,11 @@ impl SubgroupVisitor for Evaluator<'_> {
     }
 }
 
-/// The term of corner `k` of a triangle: its derivatives in the tangent plane, times the angle of the corner in that plane.
+/// The term of corner `k` of a triangle: its derivatives in the tangent plane, times the angle of the corner
+/// in that plane.
 ///
-/// Lanes: s and the angle; t and a zero; the magnitudes and two zeros. So one addition is three additions of four lanes.
+/// Lanes: s and the angle; t and a zero; the magnitudes and two zeros. So one addition is three additions of
+/// four lanes.
 fn term(derivative: &Derivative, positions: [V3; 3], k: usize, normal: V3) -> TermLanes {
     let [before, here, after] = [(k + 2) % 3, k, (k + 1) % 3].map(|k| positions[k]);
     let to_before = direction_in_plane(normal, sub(before, here));

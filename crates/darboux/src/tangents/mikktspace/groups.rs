@@ -6,8 +6,8 @@
 //!         flood fill from the triangle, across the edges at the vertex, to triangles of the same orientation
 //! ```
 //!
-//! A UV-degenerate triangle never starts a group, and adopts the orientation of the first group that reaches it. This is the only place
-//! where the order of the triangles decides which triangles share a frame.
+//! A UV-degenerate triangle never starts a group, and adopts the orientation of the first group that reaches
+//! it. This is the only place where the order of the triangles decides which triangles share a frame.
 //!
 //! Source: mikktspace.c, `Build4RuleGroups`.
 
@@ -30,7 +30,8 @@ impl Groups {
         self.ends.len()
     }
 
-    /// The members of a group, corner `k` of triangle `t` as `3 t + k`, in the order of the flood fill, which is the order of the writes.
+    /// The members of a group, corner `k` of triangle `t` as `3 t + k`, in the order of the flood fill, which
+    /// is the order of the writes.
     pub fn members(&self, group: usize) -> &[u32] {
         let start = if group == 0 { 0 } else { self.ends[group - 1] };
         &self.members[start as usize..self.ends[group] as usize]
@@ -49,8 +50,8 @@ impl Groups {
 
 /// Builds the groups.
 ///
-/// `is_wanted`: vertices for which it returns false get no group. `derivatives`: receives the orientations that UV-degenerate triangles adopt.
-/// Groups are absent after cancellation.
+/// `is_wanted`: vertices for which it returns false get no group. `derivatives`: receives the orientations
+/// that UV-degenerate triangles adopt. Groups are absent after cancellation.
 pub(crate) fn build_groups(
     triangles: &Triangles,
     neighbours: &[[u32; 3]],
@@ -77,7 +78,8 @@ pub(crate) fn build_groups(
                 if joins(&mut derivatives[reached], grouped[reached], k, preserves) {
                     grouped[reached][k] = true;
                     groups.members.push(3 * t + k as u32);
-                    // A stack: the neighbour across the edge that starts at the corner is visited first, as in the reference.
+                    // A stack: the neighbour across the edge that starts at the corner is visited first, as
+                    // in the reference.
                     let around = [neighbours[reached][(k + 2) % 3], neighbours[reached][k]];
                     pending.extend(around.into_iter().filter(|&neighbour| neighbour != NONE));
                 }
@@ -93,7 +95,8 @@ fn corner_at(vertices: [u32; 3], vertex: u32) -> usize {
     (0..2).find(|&k| vertices[k] == vertex).unwrap_or(2)
 }
 
-/// True when a triangle joins a group of the given orientation at corner `k`. A UV-degenerate triangle without groups adopts the orientation.
+/// True when a triangle joins a group of the given orientation at corner `k`. A UV-degenerate triangle
+/// without groups adopts the orientation.
 fn joins(derivative: &mut Derivative, grouped: [bool; 3], k: usize, preserves: bool) -> bool {
     if grouped[k] {
         return false;

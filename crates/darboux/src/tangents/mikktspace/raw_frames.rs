@@ -11,7 +11,7 @@ pub(crate) const DEFAULT_FRAME: Frame =
 #[derive(Debug)]
 pub(crate) struct RawFrames {
     pub of_corner: Vec<Frame>,
-    /// For corners with an unusable tangent, the mean of their subgroup's tangents. Zero where that has no direction, and for all other
-    /// corners.
+    /// For corners with an unusable tangent, the mean of their subgroup's tangents. Zero where that has no
+    /// direction, and for all other corners.
     pub mean_of_corner: Vec<V3>,
 }

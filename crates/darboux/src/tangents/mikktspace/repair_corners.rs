@@ -1,8 +1,9 @@
 //! Replaces the unusable tangents of a MikkTSpace run.
 //!
-//! The replacement is the first of these that has a direction in the tangent plane: the mean of the subgroup's tangents; dP/du of the
-//! corner's triangle; any perpendicular of the normal. Without a normal it is (1, 0, 0). The bitangent follows, the sign stays. Corners of
-//! one vertex with equal raw tangents share one replacement, the first corner's, so that a repair never adds a split.
+//! The replacement is the first of these that has a direction in the tangent plane: the mean of the
+//! subgroup's tangents; dP/du of the corner's triangle; any perpendicular of the normal. Without a normal it
+//! is (1, 0, 0). The bitangent follows, the sign stays. Corners of one vertex with equal raw tangents share
+//! one replacement, the first corner's, so that a repair never adds a split.
 
 use crate::Mesh;
 use crate::math::distinct_bits;

@@ -1,7 +1,9 @@
-//! Faces whose corners have both signs: finds them, and unifies their signs ([`Mode::Corrected`](crate::Mode::Corrected)).
+//! Faces whose corners have both signs: finds them, and unifies their signs
+//! ([`Mode::Corrected`](crate::Mode::Corrected)).
 //!
-//! UV-degenerate faces have corners in groups of both orientations, and degenerate faces copy corners of both orientations. A shader
-//! interpolates the sign, so that the bitangent of such a face flips somewhere inside it.
+//! UV-degenerate faces have corners in groups of both orientations, and degenerate faces copy corners of both
+//! orientations. A shader interpolates the sign, so that the bitangent of such a face flips somewhere inside
+//! it.
 
 use std::ops::Range;
 
@@ -28,8 +30,9 @@ pub(crate) fn mixed_sign_faces(mesh: &Mesh<'_>, frames: &[Frame]) -> Vec<MixedSi
 
 /// Sets one sign for every face of `mixed`. Returns the corners that need a repair afterwards, ascending.
 ///
-/// The sign is that of the face's orientation; on degenerate faces it is the majority of the `copied` corners, +1 on a tie. A corner of the
-/// other sign takes the first usable frame of the right sign at its welded vertex. If there is none, it needs a repair.
+/// The sign is that of the face's orientation; on degenerate faces it is the majority of the `copied`
+/// corners, +1 on a tie. A corner of the other sign takes the first usable frame of the right sign at its
+/// welded vertex. If there is none, it needs a repair.
 pub(crate) fn unify_signs(
     mesh: &Mesh<'_>,
     triangulation: &Triangulation,

@@ -1,12 +1,14 @@
-//! Many running sums to which the same terms are added: the time is far below one addition per sum and term, and every bit is that of
-//! adding one by one.
+//! Many running sums to which the same terms are added: the time is far below one addition per sum and term,
+//! and every bit is that of adding one by one.
 //!
-//! Sums of one *binade* (sign and exponent) are multiples of one ulp. Let r be such a sum and s = r + d ulps another one. Where `r + x` and
-//! `s + x` are rounded to the same binade, both are rounded to multiples of that ulp, so the difference stays d. The exception is a tie,
-//! `r + x` halfway between two multiples: each sum is rounded to its even neighbour. After a tie all sums of the binade are even, so that
-//! the next tie rounds all of them alike.
+//! Sums of one *binade* (sign and exponent) are multiples of one ulp. Let r be such a sum and s = r + d ulps
+//! another one. Where `r + x` and `s + x` are rounded to the same binade, both are rounded to multiples of
+//! that ulp, so the difference stays d. The exception is a tie, `r + x` halfway between two multiples: each
+//! sum is rounded to its even neighbour. After a tie all sums of the binade are even, so that the next tie
+//! rounds all of them alike.
 //!
-//! Rounding is monotone, so sorted sums stay sorted. If the least and the greatest sum of a slice are in one binade, so are all between:
+//! Rounding is monotone, so sorted sums stay sorted. If the least and the greatest sum of a slice are in one
+//! binade, so are all between:
 //!
 //! ```text
 //! advance(sorted sums, terms):
@@ -26,15 +28,16 @@ use crate::util::radix_sort::sort_by_key;
 /// The longest slice whose sums are advanced one by one.
 const MAX_ONE_BY_ONE: usize = if cfg!(small_limits) { 1 } else { 16 };
 
-/// Sums that left a binade more often than this while terms were added are advanced one by one: they are about to leave again.
+/// Sums that left a binade more often than this while terms were added are advanced one by one: they are
+/// about to leave again.
 const MAX_DEPARTURES: u32 = 6;
 
 /// The fraction bits of an `f32`.
 const FRACTION: u32 = 0x7f_ffff;
 
-/// The running sums of many owners: sorted runs, whose lengths when they were made at least halve from one to the next, so that there
-/// are few of them and a sum is merged a logarithmic number of times. Sums that have become equal are merged into one; in large fans nine
-/// in ten do.
+/// The running sums of many owners: sorted runs, whose lengths when they were made at least halve from one to
+/// the next, so that there are few of them and a sum is merged a logarithmic number of times. Sums that have
+/// become equal are merged into one; in large fans nine in ten do.
 #[derive(Debug)]
 pub(crate) struct SortedSums {
     runs: Vec<Run>,
@@ -55,7 +58,8 @@ struct Run {
     sums: Vec<f32>,
     shift: u32,
     have_equal_parity: bool,
-    /// The owners of all sums, and the end of each sum's owners. The sum of an owner whose place is another one was removed.
+    /// The owners of all sums, and the end of each sum's owners. The sum of an owner whose place is another
+    /// one was removed.
     owners: Vec<u32>,
     ends: Vec<u32>,
     /// The number of owners whose sums were removed.
@@ -214,7 +218,8 @@ struct Slice<'a> {
 }
 
 impl<'a> Slice<'a> {
-    /// Adds terms to every sum, up to the first one that takes a sum to another binade. Returns the number of terms added.
+    /// Adds terms to every sum, up to the first one that takes a sum to another binade. Returns the number of
+    /// terms added.
     fn add_while_together(&mut self, terms: &[f32]) -> usize {
         let [mut least, mut greatest] =
             [0, self.sums.len() - 1].map(|at| plus_ulps(self.sums[at], self.shift));
@@ -238,7 +243,8 @@ impl<'a> Slice<'a> {
         added
     }
 
-    /// Splits the sums into those that `term` takes to a lower binade, those that stay, and those that it takes to a higher one.
+    /// Splits the sums into those that `term` takes to a lower binade, those that stay, and those that it
+    /// takes to a higher one.
     fn split(self, term: f32) -> [&'a mut [f32]; 3] {
         let binade = binade(plus_ulps(self.sums[0], self.shift));
         let after = |sum: f32| self::binade(plus_ulps(sum, self.shift) + term);
@@ -255,7 +261,8 @@ impl<'a> Slice<'a> {
     }
 }
 
-/// Adds `terms`, in order, to every value. `values` ascend, also afterwards. `departures`: how often the values left a binade before.
+/// Adds `terms`, in order, to every value. `values` ascend, also afterwards. `departures`: how often the
+/// values left a binade before.
 fn advance(mut values: &mut [f32], terms: &[f32], departures: u32, width: Width) {
     while values.len() > MAX_ONE_BY_ONE && departures <= MAX_DEPARTURES {
         let (first, last) = (values[0], values[values.len() - 1]);
@@ -292,7 +299,8 @@ fn advance_binade(values: &mut [f32], mut terms: &[f32], departures: u32, width:
     }
 }
 
-/// As [`advance`], one addition per value and term. The values of a block are added independently of each other, which vectorises.
+/// As [`advance`], one addition per value and term. The values of a block are added independently of each
+/// other, which vectorises.
 struct AddOneByOne<'a> {
     values: &'a mut [f32],
     terms: &'a [f32],
@@ -349,7 +357,8 @@ fn plus_ulps(value: f32, ulps: u32) -> f32 {
     f32::from_bits(value.to_bits().wrapping_add(ulps))
 }
 
-/// True where `before + term` lay halfway between `after`, its rounded value, and another float of the same binade.
+/// True where `before + term` lay halfway between `after`, its rounded value, and another float of the same
+/// binade.
 ///
 /// The rounding error is exact (D. E. Knuth, "The Art of Computer Programming", volume 2, theorem 4.2.2 B).
 #[inline(always)]

@@ -3,11 +3,11 @@
 //! A *member* is corner `k` of triangle `t`, as `3 t + k`. Two members join when
 //! - one of the triangles is UV-degenerate, or
 //! - the triangles are halves of one quad, or
-//! - the angle between their tangents and the angle between their bitangents, both in the tangent plane of the vertex, are below the
-//!   threshold.
+//! - the angle between their tangents and the angle between their bitangents, both in the tangent plane of
+//!   the vertex, are below the threshold.
 //!
-//! The subgroup of a member is the set of all members that it joins. [`SubgroupFinder`] stores its complement, the *excluded* members,
-//! which are few in most groups:
+//! The subgroup of a member is the set of all members that it joins. [`SubgroupFinder`] stores its
+//! complement, the *excluded* members, which are few in most groups:
 //!
 //! ```text
 //! if every direction is within half the threshold of the mean direction: nothing is excluded
@@ -37,11 +37,13 @@ use crate::tangents::mikktspace::derivatives::Derivative;
 /// In groups up to this size all pairs are compared, without the test of the mean direction.
 const SMALL_GROUP: usize = 8;
 
-/// The most distinct subgroups that are computed at once, and the most numbers in the lists of their excluded members: limits of the memory.
+/// The most distinct subgroups that are computed at once, and the most numbers in the lists of their excluded
+/// members: limits of the memory.
 const MAX_SUBGROUPS: usize = if cfg!(small_limits) { 20 } else { 1 << 18 };
 const MAX_WORDS: usize = if cfg!(small_limits) { 200 } else { 1 << 23 };
 
-/// The members whose excluded members are found between two barriers of the threads, and the most numbers in their lists.
+/// The members whose excluded members are found between two barriers of the threads, and the most numbers in
+/// their lists.
 const PART: usize = if cfg!(small_limits) { 7 } else { 1 << 12 };
 const MAX_PART_WORDS: usize = MAX_WORDS / 8;
 
@@ -53,8 +55,8 @@ pub(crate) trait SubgroupVisitor {
     /// What is computed once per subgroup.
     type Value;
 
-    /// Computes one value for each subgroup of all members but those of each key of `excluded`: the starts and ends of ranges of indices into
-    /// [`SubgroupFinder::members`], ascending and disjoint.
+    /// Computes one value for each subgroup of all members but those of each key of `excluded`: the starts
+    /// and ends of ranges of indices into [`SubgroupFinder::members`], ascending and disjoint.
     fn compute(&mut self, excluded: &KeyTable) -> Vec<Self::Value>;
 
     /// Gives a member the value of its subgroup. `excluded`: the key of the subgroup.
@@ -141,7 +143,8 @@ impl<'a> SubgroupFinder<'a> {
         &self.members
     }
 
-    /// Calls `visitor` with the subgroup of every member. `members`: the loaded members in the order of the writes.
+    /// Calls `visitor` with the subgroup of every member. `members`: the loaded members in the order of the
+    /// writes.
     pub fn visit<V: SubgroupVisitor>(&mut self, members: &[u32], visitor: &mut V) {
         let all_join = self.all_join(&*visitor);
         let mut rest = members;
@@ -159,8 +162,8 @@ impl<'a> SubgroupFinder<'a> {
         }
     }
 
-    /// The distinct subgroups of the members from `first` on, as many as the limits of the memory allow: the excluded ranges of each, and the
-    /// subgroup of each member.
+    /// The distinct subgroups of the members from `first` on, as many as the limits of the memory allow: the
+    /// excluded ranges of each, and the subgroup of each member.
     fn find_subgroups<V: SubgroupVisitor>(
         &mut self,
         members: &[u32],
@@ -187,7 +190,8 @@ impl<'a> SubgroupFinder<'a> {
         (distinct, of_member)
     }
 
-    /// The subgroups of the first of some members: all, unless their lists become too long. Without cancellation there is at least one.
+    /// The subgroups of the first of some members: all, unless their lists become too long. Without
+    /// cancellation there is at least one.
     fn subgroups_of(
         &mut self,
         members: &[u32],
@@ -214,8 +218,8 @@ impl<'a> SubgroupFinder<'a> {
         numbers.take_while(|&number| number != UNKNOWN).collect()
     }
 
-    /// Finds the excluded members of some members, on several threads. After cancellation, and where the lists become too long, there are
-    /// lists for the first ones only.
+    /// Finds the excluded members of some members, on several threads. After cancellation, and where the
+    /// lists become too long, there are lists for the first ones only.
     fn search(&mut self, wanted: &[usize]) {
         let mut searches = std::mem::take(&mut self.searches);
         let threads = self.limits.thread_count(self.members.len());
@@ -241,7 +245,8 @@ impl<'a> SubgroupFinder<'a> {
         self.searches = searches;
     }
 
-    /// True when every member joins every other. False when `visitor` has stopped the visit before that is known.
+    /// True when every member joins every other. False when `visitor` has stopped the visit before that is
+    /// known.
     fn all_join<V: SubgroupVisitor>(&mut self, visitor: &V) -> bool {
         let count = self.members.len();
         let goes_on = |at: usize| !(at + 1).is_multiple_of(MEMBERS_PER_CHECK) || !visitor.is_stopped();
@@ -268,8 +273,8 @@ impl<'a> SubgroupFinder<'a> {
         })
     }
 
-    /// Fills `representative`: members with equal directions have equal subgroups. Two kinds of members are equal only to themselves: halves
-    /// of a quad whose both halves are members, and members with NaN.
+    /// Fills `representative`: members with equal directions have equal subgroups. Two kinds of members are
+    /// equal only to themselves: halves of a quad whose both halves are members, and members with NaN.
     fn find_representatives(&mut self) {
         let count = self.members.len();
         let mut first = InsertionMap::with_capacity(count);
@@ -289,7 +294,8 @@ impl<'a> SubgroupFinder<'a> {
         if self.antipodes.is_some() { self.representative[at] as usize } else { at }
     }
 
-    /// Writes the starts and ends of the ranges of members that member `at` does not join to `scratch.excluded`, ascending.
+    /// Writes the starts and ends of the ranges of members that member `at` does not join to
+    /// `scratch.excluded`, ascending.
     fn find_excluded(&self, at: usize, scratch: &mut Scratch) {
         let Scratch { joins, opposites, excluded } = scratch;
         excluded.clear();
@@ -306,8 +312,8 @@ impl<'a> SubgroupFinder<'a> {
         }
     }
 
-    /// Writes the members whose tangent or bitangent is opposite to that of member `at` to `opposites`, ascending. `None` where comparing with all
-    /// is needed or faster.
+    /// Writes the members whose tangent or bitangent is opposite to that of member `at` to `opposites`,
+    /// ascending. `None` where comparing with all is needed or faster.
     fn find_opposites(&self, at: usize, opposites: &mut Vec<u32>) -> Option<()> {
         let [of_s, of_t] = self.antipodes.as_ref()?;
         // For more candidates than this, comparing with all is faster.
@@ -349,10 +355,12 @@ impl<'a> SubgroupFinder<'a> {
         cosine(&self.s) > self.threshold_cosine && cosine(&self.t) > self.threshold_cosine
     }
 
-    /// True when every direction is within half the threshold of the mean direction, so that any two are within the threshold.
+    /// True when every direction is within half the threshold of the mean direction, so that any two are
+    /// within the threshold.
     ///
-    /// The margin of 0.001 in the cosine of the half angle is at least 2e-6 in the cosine of the full angle (least at 180 degrees:
-    /// 1 - cos 0.002), five times the rounding error of a dot product of unit vectors.
+    /// The margin of 0.001 in the cosine of the half angle is at least 2e-6 in the cosine of the full angle
+    /// (least at 180 degrees: 1 - cos 0.002), five times the rounding error of a dot product of unit
+    /// vectors.
     fn is_near_mean(&self) -> bool {
         self.are_near_mean(&self.s) && self.are_near_mean(&self.t)
     }
@@ -379,7 +387,8 @@ impl Search {
     }
 }
 
-/// The indices below `count` that are not in `excluded`, ascending. `excluded`: the starts and ends of ranges.
+/// The indices below `count` that are not in `excluded`, ascending. `excluded`: the starts and ends of
+/// ranges.
 pub(crate) fn included(count: usize, excluded: &[u32]) -> impl Iterator<Item = usize> {
     let (gaps, _) = excluded.as_chunks();
     let starts = [0].into_iter().chain(gaps.iter().map(|[_, end]| *end as usize));

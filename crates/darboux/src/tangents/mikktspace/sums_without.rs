@@ -1,9 +1,11 @@
-//! Sums of a list of terms without some of them, for many subgroups at once: bit for bit what adding the others one by one gives.
+//! Sums of a list of terms without some of them, for many subgroups at once: bit for bit what adding the
+//! others one by one gives.
 //!
-//! The list is passed once per lane, in chunks. Subgroups that exclude terms of a chunk add its other terms one by one, many subgroups per
-//! instruction. All other subgroups add the same terms; their sums are kept in sorted runs, which advance together
-//! ([`crate::tangents::mikktspace::sorted_sums`]). Subgroups whose first excluded term comes later have the sum of all terms so far. Which
-//! subgroups are active in which chunk is the same for all lanes ([`crate::tangents::mikktspace::schedule`]).
+//! The list is passed once per lane, in chunks. Subgroups that exclude terms of a chunk add its other terms
+//! one by one, many subgroups per instruction. All other subgroups add the same terms; their sums are kept in
+//! sorted runs, which advance together ([`crate::tangents::mikktspace::sorted_sums`]). Subgroups whose first
+//! excluded term comes later have the sum of all terms so far. Which subgroups are active in which chunk is
+//! the same for all lanes ([`crate::tangents::mikktspace::schedule`]).
 //!
 //! ```text
 //! for each batch of chunks:
@@ -32,14 +34,16 @@ pub(crate) const LANES: usize = 12;
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TermLanes(pub [f32; LANES]);
 
-/// Sorted sums must not overflow. Rounding to nearest moves a sum by at most as much as the term, because the sum before the addition is a
-/// float at that distance. So every sum is below twice the total, however many terms there are.
+/// Sorted sums must not overflow. Rounding to nearest moves a sum by at most as much as the term, because the
+/// sum before the addition is a float at that distance. So every sum is below twice the total, however many
+/// terms there are.
 const MAX_TOTAL: f64 = 1e20;
 
 /// A list of terms.
 #[derive(Debug, Default)]
 pub(crate) struct TermList {
-    /// A member that adds nothing has zeros here. They change no sum, because no sum is -0: it begins with +0.
+    /// A member that adds nothing has zeros here. They change no sum, because no sum is -0: it begins with
+    /// +0.
     terms: Vec<TermLanes>,
     has_term: Vec<bool>,
 }
@@ -60,7 +64,8 @@ impl TermList {
         self.has_term[at]
     }
 
-    /// The sum of all terms but those of each key of `excluded`, which has the starts and ends of ascending, disjoint ranges.
+    /// The sum of all terms but those of each key of `excluded`, which has the starts and ends of ascending,
+    /// disjoint ranges.
     ///
     /// Sums are unspecified after cancellation.
     pub fn sums_without(&self, excluded: &KeyTable, limits: RunLimits<'_>) -> Vec<TermLanes> {
@@ -210,7 +215,8 @@ mod tests {
 
     use super::*;
 
-    /// Terms whose lanes grow, walk at random, are mostly ties, or are zero. One in seven members adds nothing.
+    /// Terms whose lanes grow, walk at random, are mostly ties, or are zero. One in seven members adds
+    /// nothing.
     fn terms(dice: &mut Dice<'_>, count: usize) -> Vec<Option<TermLanes>> {
         let number =
             |dice: &mut Dice<'_>, bits: u32| (dice.word() >> (32 - bits)) as f32 / (1 << bits) as f32;

@@ -1,7 +1,9 @@
-//! The chunks of a list of terms in which each subgroup has a sum of its own, because it excludes terms there.
+//! The chunks of a list of terms in which each subgroup has a sum of its own, because it excludes terms
+//! there.
 //!
-//! A subgroup is *active* in every chunk in which an excluded range begins or ends. Its sum does not change in chunks that an excluded range
-//! covers. In all other chunks it adds every term, so its sum is kept with those of other subgroups.
+//! A subgroup is *active* in every chunk in which an excluded range begins or ends. Its sum does not change
+//! in chunks that an excluded range covers. In all other chunks it adds every term, so its sum is kept with
+//! those of other subgroups.
 
 use crate::util::hash_map::KeyTable;
 
@@ -42,7 +44,8 @@ pub(crate) struct Activation {
 pub(crate) struct Batch {
     first_chunk: usize,
     activations: Vec<Activation>,
-    /// Which terms each block of activations excludes: bit i of term t is set where activation i excludes it.
+    /// Which terms each block of activations excludes: bit i of term t is set where activation i excludes
+    /// it.
     masks: Vec<[u32; CHUNK]>,
     /// The ends of each chunk in `activations` and `masks`.
     ends: Vec<[usize; 2]>,
@@ -79,7 +82,8 @@ pub(crate) struct Scheduler<'a> {
     place: Vec<SumPlace>,
     /// The index of each subgroup's next excluded range in its key.
     next_range: Vec<u32>,
-    /// The active subgroups of each chunk, as linked lists: the first one, and the next one in the same chunk.
+    /// The active subgroups of each chunk, as linked lists: the first one, and the next one in the same
+    /// chunk.
     first_of_chunk: Vec<u32>,
     next_of_chunk: Vec<u32>,
 }
@@ -140,7 +144,8 @@ impl<'a> Scheduler<'a> {
         }
     }
 
-    /// Sets the bit of the terms that a subgroup excludes in the next chunk, and activates the subgroup in a later one if need be.
+    /// Sets the bit of the terms that a subgroup excludes in the next chunk, and activates the subgroup in a
+    /// later one if need be.
     fn activate(&mut self, subgroup: u32, masks: &mut [u32; CHUNK], bit: u32) -> Activation {
         let first = self.next_chunk * CHUNK;
         let end = self.term_count.min(first + CHUNK);

@@ -4,7 +4,8 @@ use crate::Mesh;
 use crate::math::{V3, equal};
 use crate::topology::triangles::Triangles;
 
-/// Positions, normals and UVs of welded vertices: every corner has the values of the corner that represents it.
+/// Positions, normals and UVs of welded vertices: every corner has the values of the corner that represents
+/// it.
 #[derive(Clone, Copy)]
 pub(crate) struct WeldedMesh<'a> {
     mesh: &'a Mesh<'a>,
@@ -18,7 +19,8 @@ impl<'a> WeldedMesh<'a> {
         Self { mesh, has_moved: false }
     }
 
-    /// The mesh after its vertices moved. Corners whose position differs from their representative's keep their own position.
+    /// The mesh after its vertices moved. Corners whose position differs from their representative's keep
+    /// their own position.
     pub fn moved(mesh: &'a Mesh<'a>) -> Self {
         Self { mesh, has_moved: true }
     }

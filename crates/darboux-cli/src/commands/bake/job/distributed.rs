@@ -67,7 +67,8 @@ struct EntryReport {
 impl DistributedJob {
     /// Reads a job and opens the journal in its folder.
     ///
-    /// `options` are command-line options of `darboux bake`. Errors, one sentence each: what the command refuses; another run works on the job.
+    /// `options` are command-line options of `darboux bake`. Errors, one sentence each: what the command
+    /// refuses; another run works on the job.
     pub fn open(job: &Path, options: &[String]) -> Result<Self, String> {
         let arguments = parsed(job, options)?;
         let entries = entries_of(&arguments)?;
@@ -102,7 +103,8 @@ impl DistributedJob {
         &self.tasks
     }
 
-    /// Adds the result of a task to the journal. Errors: the result was not made by [`run_task`](crate::run_task); the journal cannot be written.
+    /// Adds the result of a task to the journal. Errors: the result was not made by
+    /// [`run_task`](crate::run_task); the journal cannot be written.
     pub fn record(&self, result: &str) -> Result<(), String> {
         record(&self.journal, result)
     }
@@ -114,7 +116,8 @@ impl DistributedJob {
     }
 }
 
-/// Bakes the entry of a task. The result of one that fails holds the reason. Errors: the result cannot be JSON.
+/// Bakes the entry of a task. The result of one that fails holds the reason. Errors: the result cannot be
+/// JSON.
 pub fn run_bake_task(task: BakeTask) -> Result<String, String> {
     let done = bake_task(&task);
     let BakeTask { low, output, .. } = task;

@@ -1,7 +1,7 @@
 //! The entries of a TOML file.
 //!
-//! Each table of `[[bake]]` is a run of the command: `low`, `high` and `output`, and any option by its name without dashes. `[defaults]` has what entries
-//! leave out. Paths are relative to the file.
+//! Each table of `[[bake]]` is a run of the command: `low`, `high` and `output`, and any option by its name
+//! without dashes. `[defaults]` has what entries leave out. Paths are relative to the file.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -145,7 +145,8 @@ fn no_key(keys: &Keys, name: &str) -> String {
     format!("{name} is no option of darboux bake{hint}")
 }
 
-/// The values of an option as the command line has them; none for an option without a value, and no element for one that is off. `at`: where its key is.
+/// The values of an option as the command line has them; none for an option without a value, and no element
+/// for one that is off. `at`: where its key is.
 fn texts(key: &Key<'_>, name: &str, at: usize, value: &DeValue<'_>) -> Result<Vec<Option<String>>, Problem> {
     let problem = |what: String| Problem { at, what };
     let one = |text: String| Ok(vec![Some(text)]);

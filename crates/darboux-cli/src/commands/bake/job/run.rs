@@ -144,8 +144,9 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Bakes all entries, several at once: their threads share one pool, and one reads or writes files while another follows rays. Those at which an
-    /// earlier run was killed come last, one by one. `tell` is called in the order of the entries.
+    /// Bakes all entries, several at once: their threads share one pool, and one reads or writes files while
+    /// another follows rays. Those at which an earlier run was killed come last, one by one. `tell` is
+    /// called in the order of the entries.
     fn bake_all(&self, entries: &[Entry], tell: &mut dyn FnMut(Done)) {
         let next = AtomicUsize::new(0);
         let (together, alone): (Vec<usize>, Vec<usize>) =
@@ -265,8 +266,8 @@ pub fn arguments_of(entry: &Entry, recorded: Option<Recorded<'_>>) -> Result<Bak
     Ok(arguments)
 }
 
-/// Bakes an entry, unless an earlier run has done it. `arguments`: of [`arguments_of`]; `recorded`: none without `--resume`. Errors are one sentence
-/// each.
+/// Bakes an entry, unless an earlier run has done it. `arguments`: of [`arguments_of`]; `recorded`: none
+/// without `--resume`. Errors are one sentence each.
 pub fn bake_entry(
     arguments: &BakeArguments,
     options: &str,

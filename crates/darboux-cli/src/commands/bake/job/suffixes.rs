@@ -1,4 +1,5 @@
-//! The pairs of a folder: NAME_low with NAME_high, NAME_high_bolts and so on, and the cage NAME_cage if there is one.
+//! The pairs of a folder: NAME_low with NAME_high, NAME_high_bolts and so on, and the cage NAME_cage if there
+//! is one.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -59,7 +60,8 @@ enum Part {
     Cage,
 }
 
-/// The entries, in the order of names: each with the options of the command line. Errors are one sentence each.
+/// The entries, in the order of names: each with the options of the command line. Errors are one sentence
+/// each.
 pub fn pairs(arguments: &BakeArguments) -> Result<Pairs, String> {
     refuse_named_models(arguments)?;
     let folder = &arguments.low;

@@ -42,7 +42,8 @@ pub fn of_models(low: &LowModel<'_>, low_name: &str, high: &[HighModel<'_>]) -> 
     of_low.chain(of_materials).chain(of_high).chain(of_maps).collect()
 }
 
-/// Warnings about rays that cross. `names`: of the surfaces; `outwards`: how far outside rays begin without a cage.
+/// Warnings about rays that cross. `names`: of the surfaces; `outwards`: how far outside rays begin without a
+/// cage.
 pub fn of_rays<'n>(
     arguments: &BakeArguments,
     low: &[LowSurface<'_>],

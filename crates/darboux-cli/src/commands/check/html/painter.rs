@@ -14,7 +14,8 @@ use crate::net;
 
 /// The width and height of a picture in the page.
 const SIZE: [u32; 2] = [640, 480];
-/// How many pixels of the whole picture are one of its reduced copy. The close picture has the whole one's pixels.
+/// How many pixels of the whole picture are one of its reduced copy. The close picture has the whole one's
+/// pixels.
 const REDUCTION: u32 = 3;
 /// The size of the pictures among which the camera is chosen.
 const TRIAL: [u32; 2] = [240, 180];

@@ -34,7 +34,8 @@ impl Channel {
     }
 }
 
-/// Decodes `count` elements of `stride` bytes. None: the stream is broken, or the stride is not one of the codec.
+/// Decodes `count` elements of `stride` bytes. None: the stream is broken, or the stride is not one of the
+/// codec.
 pub fn decode(stream: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     if stride == 0 || stride > 4 * CHANNELS || !stride.is_multiple_of(4) {
         return None;

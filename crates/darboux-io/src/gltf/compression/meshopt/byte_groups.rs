@@ -1,4 +1,5 @@
-//! The deltas of one byte of the elements of a block: groups of 16 with few bits each, and bytes where these are not enough.
+//! The deltas of one byte of the elements of a block: groups of 16 with few bits each, and bytes where these
+//! are not enough.
 
 /// The most elements of a block.
 pub const BLOCK: usize = 256;
@@ -36,8 +37,8 @@ impl Control {
     }
 }
 
-/// Decodes the deltas of `count` elements, which start at the byte `at` of the stream. Deltas after these are unspecified. Returns where the
-/// next byte's start. None: the stream ends before.
+/// Decodes the deltas of `count` elements, which start at the byte `at` of the stream. Deltas after these are
+/// unspecified. Returns where the next byte's start. None: the stream ends before.
 pub fn decode(
     stream: &[u8],
     at: usize,
@@ -86,7 +87,8 @@ pub fn decode(
     Some(at)
 }
 
-/// Decodes 16 deltas of `BITS` bits. A delta of ones only is a byte after the group. Returns the number of bytes.
+/// Decodes 16 deltas of `BITS` bits. A delta of ones only is a byte after the group. Returns the number of
+/// bytes.
 #[inline(always)]
 fn decode_group<const BITS: usize>(bytes: &[u8; MAX_GROUP_BYTES], deltas: &mut [u8; GROUP]) -> usize {
     const ONES: u64 = 0x0101_0101_0101_0101;

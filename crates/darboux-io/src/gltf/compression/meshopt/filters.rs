@@ -1,10 +1,13 @@
 //! The filters of attributes: `KHR_meshopt_compression`, appendix B.
 //!
-//! The specification permits an error of one unit in every filter but the exponential one. The order of operations and the rounding (to the
-//! nearest integer, halves to the even one) are those of meshoptimizer's SIMD code for 16 bits, so that the results are the same. For octahedral vectors
-//! and colours of 8 bits that code takes an approximate root and quotient, which differ from processor to processor; here they are exact.
+//! The specification permits an error of one unit in every filter but the exponential one. The order of
+//! operations and the rounding (to the nearest integer, halves to the even one) are those of meshoptimizer's
+//! SIMD code for 16 bits, so that the results are the same. For octahedral vectors and colours of 8 bits that
+//! code takes an approximate root and quotient, which differ from processor to processor; here they are
+//! exact.
 
-/// Undoes the filter `name` on elements of `stride` bytes. None: there is no such filter, or it does not have this stride.
+/// Undoes the filter `name` on elements of `stride` bytes. None: there is no such filter, or it does not have
+/// this stride.
 pub fn undo(name: &str, stride: usize, bytes: &mut [u8]) -> Option<()> {
     match (name, stride) {
         ("NONE", _) => {}
@@ -45,7 +48,8 @@ fn on_shorts(bytes: &mut [u8], filter: impl Fn([u16; 4]) -> [u16; 4]) {
     }
 }
 
-/// A unit vector of octahedral coordinates, times `max`, in two's complement. `one` is the 1.0 of the coordinates.
+/// A unit vector of octahedral coordinates, times `max`, in two's complement. `one` is the 1.0 of the
+/// coordinates.
 fn octahedral([x, y, one]: [f32; 3], max: f32) -> [u16; 3] {
     let z = one - x.abs() - y.abs();
     // The lower half is folded over the upper one.
@@ -56,7 +60,8 @@ fn octahedral([x, y, one]: [f32; 3], max: f32) -> [u16; 3] {
     [x, y, z].map(|value| rounded(value * scale))
 }
 
-/// A quaternion of its three smaller components; the last number has the scale, and in two bits which component the largest is.
+/// A quaternion of its three smaller components; the last number has the scale, and in two bits which
+/// component the largest is.
 fn quaternion([x, y, z, last]: [u16; 4]) -> [u16; 4] {
     const MAX: f32 = 32767.0 * std::f32::consts::FRAC_1_SQRT_2;
     let one = f32::from(last as i16 | 3);

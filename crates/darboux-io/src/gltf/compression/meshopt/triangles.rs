@@ -1,7 +1,7 @@
 //! The codec of triangle lists: `KHR_meshopt_compression`, appendix A, mode 1.
 //!
-//! A code of one byte says where the vertices of a triangle come from: an edge or a vertex of one of the triangles just before, the next
-//! vertex that no triangle had, or an index that is stored.
+//! A code of one byte says where the vertices of a triangle come from: an edge or a vertex of one of the
+//! triangles just before, the next vertex that no triangle had, or an index that is stored.
 
 use super::bytes::Bytes;
 use super::indices::{low_bytes, unzigzag};

@@ -1,5 +1,5 @@
-//! The sums of the methods angle-area and angle-edge: per group, weighted by corner angle and by the triangle's area or the corner's edges; and
-//! the residuals of the least-squares fit.
+//! The sums of the methods angle-area and angle-edge: per group, weighted by corner angle and by the
+//! triangle's area or the corner's edges; and the residuals of the least-squares fit.
 
 use crate::Frame;
 use crate::math::{V3, angle};
@@ -26,7 +26,8 @@ pub(crate) enum GroupWeight {
 pub(crate) struct GroupSum {
     /// The weighted directions of dP/du in the tangent plane.
     pub s: D3,
-    /// The weighted directions of dP/dv in the tangent plane; computed for full frames only, as are the magnitudes.
+    /// The weighted directions of dP/dv in the tangent plane; computed for full frames only, as are the
+    /// magnitudes.
     pub t: D3,
     pub magnitude: [f64; 2],
     pub weight: f64,
@@ -115,11 +116,12 @@ impl GroupedTriangles<'_> {
         sum
     }
 
-    /// Computes the residuals of the least-squares fit, which minimises the integral over the surface of |T - s|^2, where T is the
-    /// interpolated tangent and s the direction of dP/du.
+    /// Computes the residuals of the least-squares fit, which minimises the integral over the surface of |T -
+    /// s|^2, where T is the interpolated tangent and s the direction of dP/du.
     ///
-    /// With barycentric weights w_i on a triangle of area A, the integral of w_i w_j is A/12, or A/6 for i = j, and that of w_i is A/3. So
-    /// the residual of corner i is A/3 s - A/12 (t_i + t_0 + t_1 + t_2), and the Jacobi step divides it by the sum of A/6.
+    /// With barycentric weights w_i on a triangle of area A, the integral of w_i w_j is A/12, or A/6 for i =
+    /// j, and that of w_i is A/3. So the residual of corner i is A/3 s - A/12 (t_i + t_0 + t_1 + t_2),
+    /// and the Jacobi step divides it by the sum of A/6.
     pub fn fit(&self, frames: &[GroupFrame], limits: RunLimits<'_>, buffers: &mut GroupBuffers) {
         let GroupBuffers { derivatives, normals, areas, residuals, .. } = buffers;
         residuals.clear();
@@ -145,7 +147,8 @@ impl GroupedTriangles<'_> {
     }
 }
 
-/// The term of a triangle at the corner where `edges[0]` begins and `edges[1]` ends. The weight has the edges' lengths where there is no area.
+/// The term of a triangle at the corner where `edges[0]` begins and `edges[1]` ends. The weight has the
+/// edges' lengths where there is no area.
 #[inline(always)]
 fn term(s: V3, edges: [D3; 2], normal: D3, area: Option<f64>) -> [f64; 4] {
     let [leaving, [x, y, z]] = edges;
@@ -155,8 +158,8 @@ fn term(s: V3, edges: [D3; 2], normal: D3, area: Option<f64>) -> [f64; 4] {
     [weight * x, weight * y, weight * z, weight]
 }
 
-/// The angle between the projections of `a` and `b` to the plane of the normal, which is a unit vector or zero, and the product of their
-/// lengths. Both are 0 where a projection is rounding error.
+/// The angle between the projections of `a` and `b` to the plane of the normal, which is a unit vector or
+/// zero, and the product of their lengths. Both are 0 where a projection is rounding error.
 #[inline(always)]
 fn angle_in_plane(a: D3, b: D3, normal: D3) -> (f64, f64) {
     let (along_a, along_b) = (dot(a, normal), dot(b, normal));
@@ -171,8 +174,8 @@ fn angle_in_plane(a: D3, b: D3, normal: D3) -> (f64, f64) {
     }
 }
 
-/// The direction of the projection of `v` to the plane of the normal, which is a unit vector or zero. Zero where the projection is rounding
-/// error.
+/// The direction of the projection of `v` to the plane of the normal, which is a unit vector or zero. Zero
+/// where the projection is rounding error.
 #[inline(always)]
 fn direction_in_plane(v: V3, normal: D3) -> D3 {
     let v = [f64::from(v[0]), f64::from(v[1]), f64::from(v[2])];
@@ -182,5 +185,6 @@ fn direction_in_plane(v: V3, normal: D3) -> D3 {
     [inverse * rest[0], inverse * rest[1], inverse * rest[2]]
 }
 
-/// The fraction of a squared length below which a projection counts as rounding error: a millionth of the length.
+/// The fraction of a squared length below which a projection counts as rounding error: a millionth of the
+/// length.
 const ROUNDING: f64 = 1e-12;

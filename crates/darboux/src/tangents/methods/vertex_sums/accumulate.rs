@@ -14,7 +14,8 @@ use crate::tangents::methods::vertex_sums::scatter::{scatter_all, thread_ranges}
 use crate::tangents::methods::vertex_sums::side_sums::SideSums;
 use crate::tangents::methods::vertex_sums::weighting::{Weighting, term};
 
-/// Computes all sums. The bits do not depend on the number of threads. The sums are unspecified after cancellation.
+/// Computes all sums. The bits do not depend on the number of threads. The sums are unspecified after
+/// cancellation.
 pub(crate) fn accumulate<const N: usize, W: Weighting<N>>(
     slices: &MeshSlices<'_>,
     limits: RunLimits<'_>,
@@ -31,8 +32,8 @@ pub(crate) fn accumulate<const N: usize, W: Weighting<N>>(
     }
 }
 
-/// The orientation of each face. The orientation of a quad is that of its half with the larger UV area, or of the first half where both areas
-/// are equal. Skipped halves are ignored.
+/// The orientation of each face. The orientation of a quad is that of its half with the larger UV area, or of
+/// the first half where both areas are equal. Skipped halves are ignored.
 fn face_orientations<const N: usize, W: Weighting<N>>(
     slices: &MeshSlices<'_>,
     limits: RunLimits<'_>,

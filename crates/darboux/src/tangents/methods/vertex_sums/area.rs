@@ -1,7 +1,8 @@
 //! Unit tangents, bitangents and normals of the triangles around a vertex, weighted by the triangles' areas.
 //!
-//! The area vector cross(e1, e2) / 2 gives both the normal and the weight. Its sum over a fan is the "area weighted" normal of G. Thürmer and
-//! C. A. Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998 (who recommend weights by angle).
+//! The area vector cross(e1, e2) / 2 gives both the normal and the weight. Its sum over a fan is the "area
+//! weighted" normal of G. Thürmer and C. A. Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998
+//! (who recommend weights by angle).
 
 use crate::math::{V3, length, scale};
 

@@ -24,7 +24,8 @@ impl<'a> OrientationRecorder<'a> {
         Self { first, orientations, skipped: SkippedTriangles::default() }
     }
 
-    /// Records the orientations of consecutive triangles from `first` on. Triangles of other threads are ignored.
+    /// Records the orientations of consecutive triangles from `first` on. Triangles of other threads are
+    /// ignored.
     #[inline(always)]
     fn record(&mut self, inputs: &TriangleInputs<'_>, first: usize, orientations: &[Orientation]) {
         let start = first.max(self.first);
@@ -69,8 +70,9 @@ pub(crate) struct BlockOptions<'a> {
 
 /// Runs the term kernel on every block of a range of triangles. Returns early after cancellation.
 ///
-/// `add`: called per block with its first triangle, its triangles and its terms. The closure must be `#[inline(always)]`, so that it is
-/// compiled for wide vectors, and must own its slices, so that their addresses stay in registers.
+/// `add`: called per block with its first triangle, its triangles and its terms. The closure must be
+/// `#[inline(always)]`, so that it is compiled for wide vectors, and must own its slices, so that their
+/// addresses stay in registers.
 pub(crate) fn for_each_block<const N: usize, W: Weighting<N>>(
     slices: &MeshSlices<'_>,
     options: BlockOptions<'_>,

@@ -1,7 +1,8 @@
 //! From sums to frames, and from there to corners and the report.
 //!
-//! A *side* is a vertex and a UV orientation. All triangles of that orientation around the vertex share the side's frame. So all corners of
-//! a face have one sign, that of its orientation, and a vertex splits where both of its sides are used.
+//! A *side* is a vertex and a UV orientation. All triangles of that orientation around the vertex share the
+//! side's frame. So all corners of a face have one sign, that of its orientation, and a vertex splits where
+//! both of its sides are used.
 //!
 //! ```text
 //! frame of each side from its sum, in blocks; sides without a direction are listed
@@ -38,7 +39,8 @@ use crate::tangents::report::Report;
 /// A vertex, and 0 for preserved or 1 for mirrored UV orientation.
 type Side = (u32, usize);
 
-/// Computes all frames, writes the corners, and returns the report. The corners and the report are unspecified after cancellation.
+/// Computes all frames, writes the corners, and returns the report. The corners and the report are
+/// unspecified after cancellation.
 ///
 /// `frames`: reused buffers of the frames of all vertices, per orientation.
 pub(crate) fn finish<const N: usize, W: Weighting<N>, O: Output>(
@@ -225,8 +227,8 @@ fn frame<const N: usize, W: Weighting<N>, O: Output>(
     Some(Frame { tangent, bitangent, magnitude: W::magnitude(sum), sign })
 }
 
-/// Decides the orientation of faces without one: the orientation for which more of the face's corners have a used side, preserved on a tie.
-/// Appends to `missing` the sides of corners to which no triangle has added.
+/// Decides the orientation of faces without one: the orientation for which more of the face's corners have a
+/// used side, preserved on a tie. Appends to `missing` the sides of corners to which no triangle has added.
 fn decide_faces<const N: usize, W: Weighting<N>>(
     slices: &MeshSlices<'_>,
     sums: &mut SideSums<N>,
@@ -257,8 +259,9 @@ fn decide_faces<const N: usize, W: Weighting<N>>(
     }
 }
 
-/// Repairs the frames of `missing`, which ascends. The tangent is the first of these that has a direction in the tangent plane: the mean of
-/// the triangles' tangents, all weighted alike; dP/du of the first triangle; a perpendicular of the normal. Without a normal it is (1, 0, 0).
+/// Repairs the frames of `missing`, which ascends. The tangent is the first of these that has a direction in
+/// the tangent plane: the mean of the triangles' tangents, all weighted alike; dP/du of the first triangle; a
+/// perpendicular of the normal. Without a normal it is (1, 0, 0).
 fn replace<const N: usize, W: Weighting<N>, O: Output>(
     slices: &MeshSlices<'_>,
     sums: &SideSums<N>,

@@ -1,7 +1,8 @@
 //! Tangents of a block of vertices from their sums.
 //!
-//! As in [`crate::tangents::methods::vertex_sums::term_kernel`], every quantity is an array with one lane per element, and loops have no branches, so
-//! that compilers vectorise them. Lanes that are not reliable are computed again one by one.
+//! As in [`crate::tangents::methods::vertex_sums::term_kernel`], every quantity is an array with one lane per
+//! element, and loops have no branches, so that compilers vectorise them. Lanes that are not reliable are
+//! computed again one by one.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
@@ -57,14 +58,16 @@ impl FrameBlock {
         }
     }
 
-    /// True when the tangents of the first `count` vertices are reliable: equal to what [`crate::tangents::methods::vertex_sums::finish`] computes one by one.
+    /// True when the tangents of the first `count` vertices are reliable: equal to what
+    /// [`crate::tangents::methods::vertex_sums::finish`] computes one by one.
     pub fn are_sure(&self, count: usize) -> bool {
         self.sure[..count].iter().fold(1, |all, sure| all & sure) == 1
     }
 
     /// Computes the tangents of the loaded vertices.
     ///
-    /// `sign`: the sign of all tangents; ignored by methods that do not split, whose signs follow from the summed bitangents.
+    /// `sign`: the sign of all tangents; ignored by methods that do not split, whose signs follow from the
+    /// summed bitangents.
     pub fn evaluate<const N: usize, W: Weighting<N>>(&mut self, sign: f32, width: Width) {
         width.run(FrameTask::<N, W>(self, sign, PhantomData));
     }

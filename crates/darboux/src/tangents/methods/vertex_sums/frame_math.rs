@@ -1,7 +1,8 @@
-//! Directions in the tangent plane and signs, as [`crate::tangents::methods::vertex_sums::finish`] and its kernel compute them.
+//! Directions in the tangent plane and signs, as [`crate::tangents::methods::vertex_sums::finish`] and its
+//! kernel compute them.
 //!
-//! Each direction has a fast form in `f32` without branches, which also returns whether the result is reliable, and a precise form in `f64`
-//! for the rest.
+//! Each direction has a fast form in `f32` without branches, which also returns whether the result is
+//! reliable, and a precise form in `f64` for the rest.
 
 use crate::math::{V3, dot, scale, sub};
 
@@ -24,7 +25,8 @@ pub(crate) fn cancels(s: V3, size: f32) -> bool {
     dot(s, s) < least * least
 }
 
-/// The sign for which sign * cross(normal, tangent) points to the side of the bitangent. +1 where it is perpendicular.
+/// The sign for which sign * cross(normal, tangent) points to the side of the bitangent. +1 where it is
+/// perpendicular.
 #[inline(always)]
 pub(crate) fn sign_of(normal: V3, tangent: V3, bitangent: V3) -> f32 {
     let ([a, b, c], [x, y, z]) = (normal, tangent);

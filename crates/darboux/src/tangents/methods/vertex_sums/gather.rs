@@ -1,8 +1,8 @@
 //! Accumulation vertex by vertex, for meshes whose triangles around a vertex are far apart in the list.
 //!
-//! First every thread computes the terms of its triangles. Then every thread sums the terms around its vertices. The adjacency is a
-//! compressed sparse row array: the triangles of all vertices, vertex after vertex, and the end of each vertex's list. Lists ascend, so
-//! that the bits are those of scattering.
+//! First every thread computes the terms of its triangles. Then every thread sums the terms around its
+//! vertices. The adjacency is a compressed sparse row array: the triangles of all vertices, vertex after
+//! vertex, and the end of each vertex's list. Lists ascend, so that the bits are those of scattering.
 
 use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, split_range, split_slice};
@@ -30,7 +30,8 @@ pub(crate) fn gather_all<const N: usize, W: Weighting<N>>(
     gather((&terms, has_mirrored), (&triangle_of_entry, &ends), options.limits, sums);
 }
 
-/// Returns the term of each triangle with a flag for mirrored triangles, and whether any triangle is mirrored. Records orientations.
+/// Returns the term of each triangle with a flag for mirrored triangles, and whether any triangle is
+/// mirrored. Records orientations.
 fn terms<const N: usize, W: Weighting<N>>(
     slices: &MeshSlices<'_>,
     options: BlockOptions<'_>,
@@ -71,7 +72,8 @@ fn terms<const N: usize, W: Weighting<N>>(
     (terms, W::SPLITS && has_mirrored)
 }
 
-/// The adjacency: the triangles around each vertex, vertex after vertex, each list ascending; and the end of each list.
+/// The adjacency: the triangles around each vertex, vertex after vertex, each list ascending; and the end of
+/// each list.
 fn adjacency(slices: &MeshSlices<'_>) -> (Vec<u32>, Vec<u32>) {
     let vertices = slices.triangles().as_flattened();
     let mut ends = vec![0u32; slices.positions.len()];

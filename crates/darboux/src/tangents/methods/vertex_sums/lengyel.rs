@@ -1,7 +1,7 @@
 //! Lengyel's method: the sum of the derivatives of the triangles around a vertex, not normalised.
 //!
-//! Source: E. Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001; "Foundations of Game Engine
-//! Development", vol. 2, 2019, section 7.5. The derivation is in docs/algorithms/methods.md.
+//! Source: E. Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001; "Foundations of
+//! Game Engine Development", vol. 2, 2019, section 7.5. The derivation is in docs/algorithms/methods.md.
 
 use crate::math::{length, scale};
 

@@ -1,8 +1,10 @@
-//! Accumulation triangle by triangle, for meshes whose triangles around a vertex are near each other in the list.
+//! Accumulation triangle by triangle, for meshes whose triangles around a vertex are near each other in the
+//! list.
 //!
-//! Each thread owns consecutive triangles and the vertices that first occur in them. It adds, in triangle order, to its vertices only, and
-//! continues past its triangles while later ones use its vertices. So a few triangles are computed by two threads, no two threads write one
-//! sum, and the bits do not depend on the number of threads.
+//! Each thread owns consecutive triangles and the vertices that first occur in them. It adds, in triangle
+//! order, to its vertices only, and continues past its triangles while later ones use its vertices. So a few
+//! triangles are computed by two threads, no two threads write one sum, and the bits do not depend on the
+//! number of threads.
 
 use std::ops::Range;
 
@@ -29,7 +31,8 @@ pub(crate) struct ThreadWork {
     vertices: Range<usize>,
 }
 
-/// Divides the mesh among threads. `None` where so many triangles would be computed twice that gathering is faster.
+/// Divides the mesh among threads. `None` where so many triangles would be computed twice that gathering is
+/// faster.
 pub(crate) fn thread_ranges(slices: &MeshSlices<'_>, limits: RunLimits<'_>) -> Option<Vec<ThreadWork>> {
     let (triangles, vertices) = (slices.triangles(), slices.positions.len());
     let count = triangles.len();
@@ -132,7 +135,8 @@ fn scatter<const N: usize>(sums: &mut [SumRows<N>], first: u32, triangle: [u32; 
     }
 }
 
-/// Concatenates the mirrored sums of all threads. Threads without mirrored triangles have none; empty where no thread has any.
+/// Concatenates the mirrored sums of all threads. Threads without mirrored triangles have none; empty where
+/// no thread has any.
 fn concatenated<const N: usize>(
     mut of_threads: impl ExactSizeIterator<Item = Vec<SumRows<N>>>,
     list: &[ThreadWork],

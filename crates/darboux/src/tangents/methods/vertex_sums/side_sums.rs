@@ -10,7 +10,8 @@ use crate::tangents::report::are_finite;
 
 /// The result of accumulation.
 pub(crate) struct SideSums<const N: usize> {
-    /// One sum per vertex for each orientation: preserved and mirrored. The mirrored list is empty where no triangle is mirrored.
+    /// One sum per vertex for each orientation: preserved and mirrored. The mirrored list is empty where no
+    /// triangle is mirrored.
     pub sums_of_side: [Vec<SumRows<N>>; 2],
     pub orientation_of_face: Vec<Orientation>,
     pub skipped: SkippedTriangles,

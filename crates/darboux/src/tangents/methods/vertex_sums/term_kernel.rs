@@ -1,7 +1,8 @@
 //! Terms of a block of triangles: what they add to their vertices.
 //!
-//! Every quantity is an array with one lane per triangle, and loops have no branches, so that compilers vectorise them at any width. Each
-//! lane gives the bits of [`crate::tangents::methods::vertex_sums::weighting::term`], which has the same source.
+//! Every quantity is an array with one lane per triangle, and loops have no branches, so that compilers
+//! vectorise them at any width. Each lane gives the bits of
+//! [`crate::tangents::methods::vertex_sums::weighting::term`], which has the same source.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 

@@ -1,4 +1,5 @@
-//! [`Weighting`]: what defines a method of this folder, namely the term that a triangle adds to each of its vertices.
+//! [`Weighting`]: what defines a method of this folder, namely the term that a triangle adds to each of its
+//! vertices.
 //!
 //! accumulate.rs adds the terms, finish.rs computes frames from the sums.
 
@@ -7,8 +8,8 @@ use crate::math::V3;
 use crate::tangents::methods::mesh_slices::MeshSlices;
 use crate::tangents::methods::uv_derivatives::{ScaledDerivatives, size};
 
-/// A term or a sum as `N` rows of four lanes, so that one addition is `N` vector additions. Row 0 is a tangent and a weight; row 1 begins with
-/// a bitangent.
+/// A term or a sum as `N` rows of four lanes, so that one addition is `N` vector additions. Row 0 is a
+/// tangent and a weight; row 1 begins with a bitangent.
 pub(crate) type SumRows<const N: usize> = [[f32; 4]; N];
 
 /// A method in which a triangle adds the same term to each of its vertices.
@@ -16,10 +17,12 @@ pub(crate) trait Weighting<const N: usize> {
     /// False: both orientations share one sum, and the sign follows from the summed bitangent.
     const SPLITS: bool = true;
 
-    /// The term of a triangle. Triangles are skipped whose weight is not above zero, or with a lane that is not finite.
+    /// The term of a triangle. Triangles are skipped whose weight is not above zero, or with a lane that is
+    /// not finite.
     fn term(derivatives: &ScaledDerivatives) -> SumRows<N>;
 
-    /// The sum of the lengths of the added tangents, within a factor of two. A sum that is much shorter has cancelled.
+    /// The sum of the lengths of the added tangents, within a factor of two. A sum that is much shorter has
+    /// cancelled.
     fn size(sum: &SumRows<N>) -> f32;
 
     /// The lengths of dP/du and dP/dv of a sum.
