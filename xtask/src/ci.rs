@@ -9,7 +9,7 @@ use crate::run::{Outcome, program, root, run, shown, works};
 use crate::validate::WithoutNpm;
 use crate::{
     bench, comments, conformance, default_build, dist_js, dist_viewer, doc_blocks, generated, layers,
-    packages, site, validate,
+    packages, python, site, validate,
 };
 
 type Step = (&'static str, fn() -> Outcome);
