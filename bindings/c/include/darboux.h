@@ -21,8 +21,9 @@
 
 /// The result of a call. darboux_last_error returns a message for every error.
 ///
-/// Degenerate triangles and values that are not finite are not errors; reports count them. After an error other than
-/// DARBOUX_STATUS_INTERNAL and DARBOUX_STATUS_CANCELLED, nothing has been written to the caller's arrays.
+/// Degenerate triangles and values that are not finite are not errors; reports count them. After an error
+/// other than DARBOUX_STATUS_INTERNAL and DARBOUX_STATUS_CANCELLED, nothing has been written to the caller's
+/// arrays.
 enum darboux_status
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -32,7 +33,8 @@ enum darboux_status
   DARBOUX_STATUS_OK = 0,
   /// A required pointer is null.
   DARBOUX_STATUS_NULL_POINTER = 1,
-  /// The `size` of a struct is invalid, or the struct has non-zero fields that this version of the library does not support.
+  /// The `size` of a struct is invalid, or the struct has non-zero fields that this version of the library
+  /// does not support.
   DARBOUX_STATUS_STRUCT_SIZE = 2,
   /// A value is not in its enumeration, or two fields are set of which one must be null.
   DARBOUX_STATUS_UNKNOWN_VALUE = 3,
@@ -67,15 +69,18 @@ typedef uint32_t darboux_status;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// How tangents are computed. A normal map needs the method that it was baked with, nearly always the default.
+/// How tangents are computed. A normal map needs the method that it was baked with, nearly always the
+/// default.
 enum darboux_method
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// The standard of bakers and renderers: sums of unit tangents weighted by corner angles, over welded vertices.
+  /// The standard of bakers and renderers: sums of unit tangents weighted by corner angles, over welded
+  /// vertices.
   DARBOUX_METHOD_MIKKTSPACE = 0,
-  /// MikkTSpace's groups with weights of corner angle times area. The choice where no baked map requires another method.
+  /// MikkTSpace's groups with weights of corner angle times area. The choice where no baked map requires
+  /// another method.
   DARBOUX_METHOD_ANGLE_AREA = 1,
   /// The sum of dP/du per vertex and UV orientation, not normalised (Lengyel 2001).
   DARBOUX_METHOD_LENGYEL = 2,
@@ -89,7 +94,8 @@ enum darboux_method
   DARBOUX_METHOD_FACE = 6,
   /// A perpendicular of the normal. UVs are ignored.
   DARBOUX_METHOD_FROM_NORMAL = 7,
-  /// MikkTSpace's groups with weights of corner angle times the lengths of the corner's edges: meshoptimizer's default.
+  /// MikkTSpace's groups with weights of corner angle times the lengths of the corner's edges:
+  /// meshoptimizer's default.
   DARBOUX_METHOD_ANGLE_EDGE = 8,
 };
 #ifndef __cplusplus
@@ -106,9 +112,11 @@ enum darboux_mode
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// Every bit of the reference where its result is usable; elsewhere a unit tangent perpendicular to the normal.
+  /// Every bit of the reference where its result is usable; elsewhere a unit tangent perpendicular to the
+  /// normal.
   DARBOUX_MODE_REPAIRED = 0,
-  /// Every bit of the reference, its defects included: zero-length tangents, tangents along the normal, NaN.
+  /// Every bit of the reference, its defects included: zero-length tangents, tangents along the normal,
+  /// NaN.
   DARBOUX_MODE_REFERENCE = 1,
   /// As REPAIRED, with complete edge matching and one sign per face.
   DARBOUX_MODE_CORRECTED = 2,
@@ -247,7 +255,8 @@ typedef uint32_t darboux_smoothing_seams;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// Compressed formats of tangents. Each comment gives the largest error of a direction, in degrees. The sign is exact in all formats.
+/// Compressed formats of tangents. Each comment gives the largest error of a direction, in degrees. The sign
+/// is exact in all formats.
 enum darboux_tangent_encoding
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -261,7 +270,8 @@ enum darboux_tangent_encoding
   DARBOUX_TANGENT_ENCODING_SNORM16 = 2,
   /// `int16_t[2]`: octahedral map; the lowest bit of y is the sign. 0.0057 degrees.
   DARBOUX_TANGENT_ENCODING_OCTAHEDRAL = 3,
-  /// `uint16_t`: the angle around the normal; the lowest bit is the sign. The decoder needs the same normal. 0.0071 degrees.
+  /// `uint16_t`: the angle around the normal; the lowest bit is the sign. The decoder needs the same
+  /// normal. 0.0071 degrees.
   DARBOUX_TANGENT_ENCODING_DIAMOND = 4,
 };
 #ifndef __cplusplus
@@ -339,7 +349,8 @@ typedef uint32_t darboux_uv_origin;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// The direction of the tangent, as a direction in the texture image. More red tilts the normal in this direction.
+/// The direction of the tangent, as a direction in the texture image. More red tilts the normal in this
+/// direction.
 enum darboux_tangent_direction
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -358,8 +369,8 @@ typedef uint32_t darboux_tangent_direction;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// The direction of the bitangent that a shader rebuilds, as a direction in the texture image. More green tilts the normal in this
-/// direction.
+/// The direction of the bitangent that a shader rebuilds, as a direction in the texture image. More green
+/// tilts the normal in this direction.
 enum darboux_bitangent_direction
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -378,7 +389,8 @@ typedef uint32_t darboux_bitangent_direction;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// The formula by which a shader rebuilds the bitangent from normal, tangent and sign, applied to coordinates of either handedness.
+/// The formula by which a shader rebuilds the bitangent from normal, tangent and sign, applied to coordinates
+/// of either handedness.
 enum darboux_sign_rule
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -434,8 +446,8 @@ typedef uint32_t darboux_program;
 
 /// Reused memory, threads for large meshes, and a cancellation flag.
 ///
-/// Calls reuse the memory of the context, and allocate only where a mesh needs more than all meshes before it. One thread at a time may use a
-/// context, except for darboux_context_cancel, which any thread may call.
+/// Calls reuse the memory of the context, and allocate only where a mesh needs more than all meshes before
+/// it. One thread at a time may use a context, except for darboux_context_cancel, which any thread may call.
 typedef struct darboux_context darboux_context;
 
 /// The weld, groups and subgroups of one mesh, for computing its tangents again after its vertices moved.
@@ -445,8 +457,9 @@ typedef struct darboux_plan darboux_plan;
 
 /// A borrowed mesh: V vertices in strided arrays, and C corners (vertices of faces) in face order.
 ///
-/// Fields that are zero are absent. No pointer is used after the call. Positions, normals and UVs may have any values and any alignment;
-/// bytes between the elements are not read. Strides are in bytes; 0 for packed. At most 2^30 - 1 vertices and 2^30 - 1 corners.
+/// Fields that are zero are absent. No pointer is used after the call. Positions, normals and UVs may have
+/// any values and any alignment; bytes between the elements are not read. Strides are in bytes; 0 for packed.
+/// At most 2^30 - 1 vertices and 2^30 - 1 corners.
 typedef struct darboux_mesh {
   /// sizeof(darboux_mesh). 0: the size in version 0.1.
   size_t size;
@@ -456,7 +469,8 @@ typedef struct darboux_mesh {
   const float *positions;
   /// Bytes from one position to the next.
   size_t position_stride;
-  /// V by 3 floats, used as given: MikkTSpace expects unit length. Ignored by functions that generate or split normals.
+  /// V by 3 floats, used as given: MikkTSpace expects unit length. Ignored by functions that generate or
+  /// split normals.
   const float *normals;
   /// Bytes from one normal to the next.
   size_t normal_stride;
@@ -464,7 +478,8 @@ typedef struct darboux_mesh {
   const float *uvs;
   /// Bytes from one UV to the next.
   size_t uv_stride;
-  /// The vertex of each corner, 32 bits. NULL where `indices_u16` is set, and for an unindexed mesh, whose corner i is vertex i.
+  /// The vertex of each corner, 32 bits. NULL where `indices_u16` is set, and for an unindexed mesh, whose
+  /// corner i is vertex i.
   const uint32_t *indices_u32;
   /// The vertex of each corner, 16 bits; or NULL. At most one of both index arrays may be set.
   const uint16_t *indices_u16;
@@ -472,24 +487,27 @@ typedef struct darboux_mesh {
   size_t index_count;
   /// How corners are grouped into faces.
   darboux_faces faces;
-  /// The corner count of each face for DARBOUX_FACES_MIXED, otherwise ignored. Tangents of faces with other than 3 or 4 corners are
-  /// perpendiculars of the normals.
+  /// The corner count of each face for DARBOUX_FACES_MIXED, otherwise ignored. Tangents of faces with
+  /// other than 3 or 4 corners are perpendiculars of the normals.
   const uint32_t *face_sizes;
   /// The number of `face_sizes`. Ignored except for DARBOUX_FACES_MIXED.
   size_t face_count;
 } darboux_mesh;
 
-/// Options of darboux_generate_tangents. All zeros are the defaults, which are right for normal maps from today's bakers.
+/// Options of darboux_generate_tangents. All zeros are the defaults, which are right for normal maps from
+/// today's bakers.
 typedef struct darboux_tangent_options {
   /// sizeof(darboux_tangent_options). 0: the size in version 0.1.
   size_t size;
   /// The method. Default: MikkTSpace.
   darboux_method method;
-  /// How faithfully defects of the reference are kept. Default: repaired. Must be 0 for all methods but MikkTSpace.
+  /// How faithfully defects of the reference are kept. Default: repaired. Must be 0 for all methods but
+  /// MikkTSpace.
   darboux_mode mode;
-  /// The angular threshold of MikkTSpace in degrees: faces around a vertex share a tangent while their tangents and their bitangents
-  /// differ by less. 0 stands for 180, which is what bakers use; for a threshold of zero, pass 0.001, which gives the same bits. Must be
-  /// 0 for all other methods. Below 180 the faces around a vertex are compared in pairs: a vertex with 20,000 faces takes about 2 s, one
+  /// The angular threshold of MikkTSpace in degrees: faces around a vertex share a tangent while their
+  /// tangents and their bitangents differ by less. 0 stands for 180, which is what bakers use; for a
+  /// threshold of zero, pass 0.001, which gives the same bits. Must be 0 for all other methods. Below
+  /// 180 the faces around a vertex are compared in pairs: a vertex with 20,000 faces takes about 2 s, one
   /// with 100,000 about a minute.
   float threshold;
   /// Must be 0. It is space for an option of a later version.
@@ -506,7 +524,8 @@ typedef struct darboux_report {
   size_t unsupported_faces;
   /// Triangles with two equal positions.
   size_t degenerate_triangles;
-  /// Triangles whose UVs span no area, or too little area for a direction. Degenerate and non-finite triangles are not counted.
+  /// Triangles whose UVs span no area, or too little area for a direction. Degenerate and non-finite
+  /// triangles are not counted.
   size_t uv_degenerate_triangles;
   /// Corners with NaN or infinity in the position, normal or UV.
   size_t non_finite_corners;
@@ -518,7 +537,8 @@ typedef struct darboux_report {
   size_t mirrored_edges;
   /// Vertices whose corners have different tangents. darboux_split_vertices splits them.
   size_t split_vertices;
-  /// Vertices at which triangles of both UV orientations share one tangent. Zero for all methods but DARBOUX_METHOD_LENGYEL_PER_VERTEX.
+  /// Vertices at which triangles of both UV orientations share one tangent. Zero for all methods but
+  /// DARBOUX_METHOD_LENGYEL_PER_VERTEX.
   size_t merged_vertices;
 } darboux_report;
 
@@ -526,7 +546,8 @@ typedef struct darboux_report {
 typedef struct darboux_frame {
   /// The direction of increasing u, unit length, perpendicular to the normal.
   float tangent[3];
-  /// The direction of increasing v, unit length, perpendicular to the normal but not always to the tangent.
+  /// The direction of increasing v, unit length, perpendicular to the normal but not always to the
+  /// tangent.
   float bitangent[3];
   /// World units per unit of u and per unit of v.
   float magnitude[2];
@@ -534,13 +555,15 @@ typedef struct darboux_frame {
   float sign;
 } darboux_frame;
 
-/// The vertices of an indexed mesh after splitting by tangents. The old vertices come first and keep their numbers.
+/// The vertices of an indexed mesh after splitting by tangents. The old vertices come first and keep their
+/// numbers.
 typedef struct darboux_vertex_split {
   /// The number of new vertices, old ones included.
   size_t vertex_count;
   /// One tangent per new vertex: unit xyz and sign w. (1, 0, 0, 1) for vertices that no corner uses.
   const float (*tangent_of_vertex)[4];
-  /// The old vertex that each new vertex copies. All other attributes follow from it: new[v] = old[source_of_vertex[v]].
+  /// The old vertex that each new vertex copies. All other attributes follow from it: new[v] =
+  /// old[source_of_vertex[v]].
   const uint32_t *source_of_vertex;
   /// The number of corners.
   size_t index_count;
@@ -548,13 +571,15 @@ typedef struct darboux_vertex_split {
   const uint32_t *indices;
 } darboux_vertex_split;
 
-/// The vertices of an indexed mesh after splitting by normals. The old vertices come first and keep their numbers.
+/// The vertices of an indexed mesh after splitting by normals. The old vertices come first and keep their
+/// numbers.
 typedef struct darboux_normal_split {
   /// The number of new vertices, old ones included.
   size_t vertex_count;
   /// One normal per new vertex. (0, 0, 1) for vertices that no corner uses.
   const float (*normal_of_vertex)[3];
-  /// The old vertex that each new vertex copies. All other attributes follow from it: new[v] = old[source_of_vertex[v]].
+  /// The old vertex that each new vertex copies. All other attributes follow from it: new[v] =
+  /// old[source_of_vertex[v]].
   const uint32_t *source_of_vertex;
   /// The number of corners.
   size_t index_count;
@@ -570,8 +595,9 @@ typedef struct darboux_normal_options {
   darboux_shading shading;
   /// The weight of each face at a vertex, for smooth shading. Default: the angle of the face's corner.
   darboux_normal_weight weight;
-  /// The crease angle in degrees: smooth shading stops at edges whose faces' normals differ by more. 0 stands for 180: no creases. With a
-  /// negative value, smooth shading stops at every edge that is not flat.
+  /// The crease angle in degrees: smooth shading stops at edges whose faces' normals differ by more. 0
+  /// stands for 180: no creases. With a negative value, smooth shading stops at every edge that is not
+  /// flat.
   float crease;
   /// Whether vertices at equal positions are merged, for smooth shading. Default: they are merged.
   darboux_smoothing_seams seams;
@@ -585,14 +611,15 @@ typedef struct darboux_normal_report {
   size_t faces;
   /// Faces without an area or with values that are not finite. They are skipped.
   size_t degenerate_faces;
-  /// Corners whose faces' normals cancel or are missing. Their normal is that of their face, else the mean at their vertex, else (0, 0,
-  /// 1).
+  /// Corners whose faces' normals cancel or are missing. Their normal is that of their face, else the mean
+  /// at their vertex, else (0, 0, 1).
   size_t repaired_corners;
   /// Edges between two faces at which smooth shading stops because of the crease angle.
   size_t creased_edges;
 } darboux_normal_report;
 
-/// The difference of two sets of tangents of one mesh. Angles are in degrees, between the xyz of one corner in both sets.
+/// The difference of two sets of tangents of one mesh. Angles are in degrees, between the xyz of one corner
+/// in both sets.
 typedef struct darboux_tangent_difference {
   /// sizeof(darboux_tangent_difference), set by the caller. 0: the size in version 0.1.
   size_t size;
@@ -638,7 +665,8 @@ typedef struct darboux_uv_fidelity {
   size_t unmeasured_triangles;
 } darboux_uv_fidelity;
 
-/// The verdict on a normal map and the counts behind it. Counts leave out black, white and middle grey texels.
+/// The verdict on a normal map and the counts behind it. Counts leave out black, white and middle grey
+/// texels.
 typedef struct darboux_map_judgement {
   /// sizeof(darboux_map_judgement), set by the caller. 0: the size in version 0.1.
   size_t size;
@@ -650,7 +678,8 @@ typedef struct darboux_map_judgement {
   float correlation;
   /// The correlation in units of its standard error.
   float z_score;
-  /// Half the logarithm of the unmixed derivatives' energy over that of the mixed ones. Negative where red and green are exchanged.
+  /// Half the logarithm of the unmixed derivatives' energy over that of the mixed ones. Negative where red
+  /// and green are exchanged.
   float log_energy_ratio;
   /// The mean length of the vectors.
   float mean_length;
@@ -716,7 +745,8 @@ typedef struct darboux_convention {
   darboux_sign_rule sign;
 } darboux_convention;
 
-/// Input and output arrays of normals and tangents, one element per vertex. Strides are in bytes; 0 for packed.
+/// Input and output arrays of normals and tangents, one element per vertex. Strides are in bytes; 0 for
+/// packed.
 typedef struct darboux_frame_arrays {
   /// sizeof(darboux_frame_arrays). 0: the size in version 0.1.
   size_t size;
@@ -734,7 +764,8 @@ typedef struct darboux_frame_arrays {
   float *out_normals;
   /// Bytes from one output normal to the next.
   size_t out_normal_stride;
-  /// Receives `count` by 4 floats, unit length and perpendicular to the output normals. May equal `tangents`.
+  /// Receives `count` by 4 floats, unit length and perpendicular to the output normals. May equal
+  /// `tangents`.
   float *out_tangents;
   /// Bytes from one output tangent to the next.
   size_t out_tangent_stride;
@@ -764,8 +795,8 @@ typedef struct darboux_skin {
   size_t weight_stride;
 } darboux_skin;
 
-/// Allocates `size` bytes at a multiple of `alignment`, which is a power of two. `context`: the pointer that was passed to
-/// darboux_set_allocator. Where it returns NULL, the library aborts the program.
+/// Allocates `size` bytes at a multiple of `alignment`, which is a power of two. `context`: the pointer that
+/// was passed to darboux_set_allocator. Where it returns NULL, the library aborts the program.
 typedef void *(*darboux_allocate)(void *context, size_t size, size_t alignment);
 
 /// Frees memory. `size`, `alignment`: the values that the memory was allocated with.
@@ -775,10 +806,11 @@ typedef void (*darboux_deallocate)(void *context, void *memory, size_t size, siz
 extern "C" {
 #endif // __cplusplus
 
-/// Returns the message of the last error on this thread: one sentence in UTF-8. The empty string where no call has failed yet.
+/// Returns the message of the last error on this thread: one sentence in UTF-8. The empty string where no
+/// call has failed yet.
 ///
-/// The pointer is valid until the next call on this thread that fails, or until the thread ends. Calls that succeed do not change the
-/// message.
+/// The pointer is valid until the next call on this thread that fails, or until the thread ends. Calls that
+/// succeed do not change the message.
 const char *darboux_last_error(void);
 
 /// Returns the library's version, for example "0.1.0".
@@ -786,15 +818,17 @@ const char *darboux_version(void);
 
 /// Creates an empty context. Its memory grows to the requirement of the largest mesh.
 ///
-/// `threads`: the number of threads for large meshes; the results have equal bits for any number. 1: the calling thread only. 2 to 1024:
-/// the threads start now and sleep between calls. 0: the number of the machine's hardware threads. `context`: receives the context; free it
-/// with darboux_context_free. Errors: a null pointer; threads cannot be started.
-darboux_status darboux_context_create(size_t threads,
-                                      struct darboux_context **context);
+/// `threads`: the number of threads for large meshes; the results have equal bits for any number. 1: the
+/// calling thread only. 2 to 1024: the threads start now and sleep between calls. 0: the number of the
+/// machine's hardware threads. `context`: receives the context; free it with darboux_context_free. Errors: a
+/// null pointer; threads cannot be started.
+darboux_status darboux_context_create(size_t threads, struct darboux_context **context);
 
-/// Cancels the running call of a context and all later ones until darboux_context_resume. Any thread may call it.
+/// Cancels the running call of a context and all later ones until darboux_context_resume. Any thread may call
+/// it.
 ///
-/// Cancelled calls return DARBOUX_STATUS_CANCELLED, and their output arrays are unspecified. Errors: a null pointer.
+/// Cancelled calls return DARBOUX_STATUS_CANCELLED, and their output arrays are unspecified. Errors: a null
+/// pointer.
 darboux_status darboux_context_cancel(const struct darboux_context *context);
 
 /// Clears the cancellation flag of a context, so that later calls run. Errors: a null pointer.
@@ -805,12 +839,15 @@ void darboux_context_free(struct darboux_context *context);
 
 /// Computes the tangent of every corner.
 ///
-/// These are not vertex tangents: corners of one vertex can have different tangents, so do not write them through the mesh's index list.
-/// darboux_split_vertices computes vertices and new indices. In an unindexed mesh, corner i is vertex i, so the tangents can be written
-/// into the vertices. `mesh`: normals and UVs are required. `options`: NULL for the defaults. `context`: reused memory, threads and a
-/// cancellation flag; NULL for the calling thread alone, with memory of its own. `tangents`: receives C by 4 floats, unit xyz and the sign
-/// w, where bitangent = w * cross(normal, xyz). It must not overlap the mesh's elements, but may lie between them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0 for packed. `report`: receives the counts; may be NULL.
-/// Errors: those of the mesh; another count than C; see darboux_status.
+/// These are not vertex tangents: corners of one vertex can have different tangents, so do not write them
+/// through the mesh's index list. darboux_split_vertices computes vertices and new indices. In an unindexed
+/// mesh, corner i is vertex i, so the tangents can be written into the vertices. `mesh`: normals and UVs are
+/// required. `options`: NULL for the defaults. `context`: reused memory, threads and a cancellation flag;
+/// NULL for the calling thread alone, with memory of its own. `tangents`: receives C by 4 floats, unit xyz
+/// and the sign w, where bitangent = w * cross(normal, xyz). It must not overlap the mesh's elements, but may
+/// lie between them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0 for packed.
+/// `report`: receives the counts; may be NULL. Errors: those of the mesh; another count than C; see
+/// darboux_status.
 darboux_status darboux_generate_tangents(const struct darboux_mesh *mesh,
                                          const struct darboux_tangent_options *options,
                                          const struct darboux_context *context,
@@ -819,10 +856,11 @@ darboux_status darboux_generate_tangents(const struct darboux_mesh *mesh,
                                          size_t tangent_stride,
                                          struct darboux_report *report);
 
-/// Computes the whole frame of every corner: tangent, bitangent, magnitudes and sign. Slower than darboux_generate_tangents.
+/// Computes the whole frame of every corner: tangent, bitangent, magnitudes and sign. Slower than
+/// darboux_generate_tangents.
 ///
-/// `frames`: receives C frames. `frame_count`: C. `frame_stride`: bytes from one frame to the next; 0 for packed. `mesh`, `options`,
-/// `context`, `report` and errors: as for darboux_generate_tangents.
+/// `frames`: receives C frames. `frame_count`: C. `frame_stride`: bytes from one frame to the next; 0 for
+/// packed. `mesh`, `options`, `context`, `report` and errors: as for darboux_generate_tangents.
 darboux_status darboux_generate_frames(const struct darboux_mesh *mesh,
                                        const struct darboux_tangent_options *options,
                                        const struct darboux_context *context,
@@ -833,10 +871,12 @@ darboux_status darboux_generate_frames(const struct darboux_mesh *mesh,
 
 /// Splits the vertices whose corners have different tangents.
 ///
-/// Each distinct pair of old vertex and tangent (four floats, compared as bits; NaN equals NaN) becomes one vertex. `mesh`: the mesh of the tangents.
-/// `tangents`: C by 4 floats, as darboux_generate_tangents writes them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the
-/// next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `split`: receives the result;
-/// free it with darboux_vertex_split_free. Errors: those of the mesh; another number of tangents than corners.
+/// Each distinct pair of old vertex and tangent (four floats, compared as bits; NaN equals NaN) becomes one
+/// vertex. `mesh`: the mesh of the tangents. `tangents`: C by 4 floats, as darboux_generate_tangents writes
+/// them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0 for packed. `context`:
+/// threads and a cancellation flag; NULL for the calling thread alone. `split`: receives the result;
+/// free it with darboux_vertex_split_free. Errors: those of the mesh; another number of tangents than
+/// corners.
 darboux_status darboux_split_vertices(const struct darboux_mesh *mesh,
                                       const float *tangents,
                                       size_t tangent_count,
@@ -849,10 +889,11 @@ void darboux_vertex_split_free(struct darboux_vertex_split *split);
 
 /// Splits the vertices whose corners have different normals.
 ///
-/// Each distinct pair of old vertex and normal (three floats, compared as bits) becomes one vertex. `mesh`: as for
-/// darboux_generate_normals. `normals`: C by 3 floats, as darboux_generate_normals writes them. `normal_count`: C. `normal_stride`: bytes
-/// from one normal to the next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `split`: receives
-/// the result; free it with darboux_normal_split_free. Errors: those of the mesh; another number of normals than corners.
+/// Each distinct pair of old vertex and normal (three floats, compared as bits) becomes one vertex. `mesh`:
+/// as for darboux_generate_normals. `normals`: C by 3 floats, as darboux_generate_normals writes them.
+/// `normal_count`: C. `normal_stride`: bytes from one normal to the next; 0 for packed. `context`: threads
+/// and a cancellation flag; NULL for the calling thread alone. `split`: receives the result; free it with
+/// darboux_normal_split_free. Errors: those of the mesh; another number of normals than corners.
 darboux_status darboux_split_normals(const struct darboux_mesh *mesh,
                                      const float *normals,
                                      size_t normal_count,
@@ -865,8 +906,9 @@ void darboux_normal_split_free(struct darboux_normal_split *split);
 
 /// Computes the tangents of a mesh and a plan for its deformed copies.
 ///
-/// `mesh`, `options`: as for darboux_generate_tangents. `context`: threads and a cancellation flag; NULL for the calling thread alone.
-/// `plan`: receives the plan; free it with darboux_plan_free. Errors: those of darboux_generate_tangents.
+/// `mesh`, `options`: as for darboux_generate_tangents. `context`: threads and a cancellation flag; NULL for
+/// the calling thread alone. `plan`: receives the plan; free it with darboux_plan_free. Errors: those of
+/// darboux_generate_tangents.
 darboux_status darboux_plan_create(const struct darboux_mesh *mesh,
                                    const struct darboux_tangent_options *options,
                                    const struct darboux_context *context,
@@ -877,8 +919,8 @@ void darboux_plan_free(struct darboux_plan *plan);
 
 /// Writes the tangents of the mesh that the plan was created from: the result of darboux_generate_tangents.
 ///
-/// `tangents`, `tangent_count`, `tangent_stride`, `report`: as for darboux_generate_tangents. Errors: a null pointer, another count than
-/// the mesh's corners.
+/// `tangents`, `tangent_count`, `tangent_stride`, `report`: as for darboux_generate_tangents. Errors: a null
+/// pointer, another count than the mesh's corners.
 darboux_status darboux_plan_base(const struct darboux_plan *plan,
                                  float *tangents,
                                  size_t tangent_count,
@@ -887,9 +929,10 @@ darboux_status darboux_plan_base(const struct darboux_plan *plan,
 
 /// Computes the tangents of a deformed mesh, with the groups, subgroups and signs of the plan.
 ///
-/// `mesh`: the plan's faces, indices and UVs, with other positions and normals. `context`: reused memory, threads and a cancellation flag;
-/// NULL for the calling thread alone. `tangents`, `tangent_count`, `tangent_stride`: as for darboux_generate_tangents. Errors: those of the
-/// mesh; another number of corners or vertices than the plan's.
+/// `mesh`: the plan's faces, indices and UVs, with other positions and normals. `context`: reused memory,
+/// threads and a cancellation flag; NULL for the calling thread alone. `tangents`, `tangent_count`,
+/// `tangent_stride`: as for darboux_generate_tangents. Errors: those of the mesh; another number of corners
+/// or vertices than the plan's.
 darboux_status darboux_plan_evaluate(const struct darboux_plan *plan,
                                      const struct darboux_mesh *mesh,
                                      const struct darboux_context *context,
@@ -897,9 +940,11 @@ darboux_status darboux_plan_evaluate(const struct darboux_plan *plan,
                                      size_t tangent_count,
                                      size_t tangent_stride);
 
-/// Counts the corners whose tangents from darboux_plan_evaluate and from darboux_generate_tangents on the deformed mesh differ in bits.
+/// Counts the corners whose tangents from darboux_plan_evaluate and from darboux_generate_tangents on the
+/// deformed mesh differ in bits.
 ///
-/// `mesh`, `context`: as for darboux_plan_evaluate. `count`: receives the number of corners. Errors: those of darboux_plan_evaluate.
+/// `mesh`, `context`: as for darboux_plan_evaluate. `count`: receives the number of corners. Errors: those of
+/// darboux_plan_evaluate.
 darboux_status darboux_plan_count_regrouped(const struct darboux_plan *plan,
                                             const struct darboux_mesh *mesh,
                                             const struct darboux_context *context,
@@ -907,10 +952,11 @@ darboux_status darboux_plan_count_regrouped(const struct darboux_plan *plan,
 
 /// Computes a unit normal for every corner. darboux_split_normals computes vertices from them.
 ///
-/// `mesh`: positions, indices and faces of 3 or more corners, which wind counter-clockwise seen from the side that their normal points to.
-/// `options`: NULL for the defaults. `context`: threads and a cancellation flag; NULL for the calling thread alone. `normals`: receives C by
-/// 3 floats. `normal_count`: C. `normal_stride`: bytes from one normal to the next; 0 for packed. `report`: receives the counts; may be
-/// NULL. Errors: those of the mesh; another count than C; see darboux_status.
+/// `mesh`: positions, indices and faces of 3 or more corners, which wind counter-clockwise seen from the side
+/// that their normal points to. `options`: NULL for the defaults. `context`: threads and a cancellation flag;
+/// NULL for the calling thread alone. `normals`: receives C by 3 floats. `normal_count`: C. `normal_stride`:
+/// bytes from one normal to the next; 0 for packed. `report`: receives the counts; may be NULL. Errors: those
+/// of the mesh; another count than C; see darboux_status.
 darboux_status darboux_generate_normals(const struct darboux_mesh *mesh,
                                         const struct darboux_normal_options *options,
                                         const struct darboux_context *context,
@@ -921,9 +967,10 @@ darboux_status darboux_generate_normals(const struct darboux_mesh *mesh,
 
 /// Compares two sets of tangents, corner by corner.
 ///
-/// `count`: the number of corners. `a`, `b`: `count` by 4 floats, of the corners of one mesh in the same order. `a_stride`, `b_stride`: bytes
-/// from one tangent to the next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone.
-/// `difference`: receives the result. Errors: a null pointer, a stride smaller than an element.
+/// `count`: the number of corners. `a`, `b`: `count` by 4 floats, of the corners of one mesh in the same
+/// order. `a_stride`, `b_stride`: bytes from one tangent to the next; 0 for packed. `context`: threads and a
+/// cancellation flag; NULL for the calling thread alone. `difference`: receives the result. Errors: a null
+/// pointer, a stride smaller than an element.
 darboux_status darboux_measure_tangents(size_t count,
                                         const float *a,
                                         size_t a_stride,
@@ -934,9 +981,10 @@ darboux_status darboux_measure_tangents(size_t count,
 
 /// Measures tangents against the derivatives of the UV map, over the surface.
 ///
-/// `mesh`: the mesh of the tangents. `tangents`: C by 4 floats. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0
-/// for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `fidelity`: receives the
-/// result. Errors: those of the mesh; another number of tangents than corners.
+/// `mesh`: the mesh of the tangents. `tangents`: C by 4 floats. `tangent_count`: C. `tangent_stride`: bytes
+/// from one tangent to the next; 0 for packed. `context`: threads and a cancellation flag; NULL for the
+/// calling thread alone. `fidelity`: receives the result. Errors: those of the mesh; another number of
+/// tangents than corners.
 darboux_status darboux_measure_uv_fidelity(const struct darboux_mesh *mesh,
                                            const float *tangents,
                                            size_t tangent_count,
@@ -944,11 +992,13 @@ darboux_status darboux_measure_uv_fidelity(const struct darboux_mesh *mesh,
                                            const struct darboux_context *context,
                                            struct darboux_uv_fidelity *fidelity);
 
-/// Judges a normal map by its texels: whether green points up (OpenGL) or down (DirectX), and whether they are normals at all.
+/// Judges a normal map by its texels: whether green points up (OpenGL) or down (DirectX), and whether they
+/// are normals at all.
 ///
-/// `texels`: `height` rows of `width` texels, the top row first; each texel has `channels` channels of `bits` bits. `bits`: 8 or 16 (native
-/// byte order, aligned). `channels`: 2 (x, y), 3 (x, y, z) or 4 (x, y, z, ignored). `row_stride`: bytes from one row to the next; 0 for packed.
-/// `judgement`: receives the verdict. Errors: a null pointer, other `bits` or `channels`, alignment, a stride smaller than a row.
+/// `texels`: `height` rows of `width` texels, the top row first; each texel has `channels` channels of `bits`
+/// bits. `bits`: 8 or 16 (native byte order, aligned). `channels`: 2 (x, y), 3 (x, y, z) or 4 (x, y, z,
+/// ignored). `row_stride`: bytes from one row to the next; 0 for packed. `judgement`: receives the verdict.
+/// Errors: a null pointer, other `bits` or `channels`, alignment, a stride smaller than a row.
 darboux_status darboux_judge_normal_map(const uint8_t *texels,
                                         uint32_t bits,
                                         uint32_t channels,
@@ -959,10 +1009,11 @@ darboux_status darboux_judge_normal_map(const uint8_t *texels,
 
 /// Ranks the ways in which the tangents of a mesh could have been computed, the best one first.
 ///
-/// `mesh`: normals and UVs are required. `tangents`: C by 4 floats, with the sign that darboux_generate_tangents gives. `tangent_count`: C.
-/// `tangent_stride`: bytes from one tangent to the next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread
-/// alone. `matches`: receives the best matches, at most `capacity`. `match_count`: receives the number of matches that exist, which may be
-/// larger; may be NULL. Errors: those of the mesh; another number of tangents than corners.
+/// `mesh`: normals and UVs are required. `tangents`: C by 4 floats, with the sign that
+/// darboux_generate_tangents gives. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next;
+/// 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `matches`:
+/// receives the best matches, at most `capacity`. `match_count`: receives the number of matches that exist,
+/// which may be larger; may be NULL. Errors: those of the mesh; another number of tangents than corners.
 darboux_status darboux_recognise_recipe(const struct darboux_mesh *mesh,
                                         const float *tangents,
                                         size_t tangent_count,
@@ -974,11 +1025,12 @@ darboux_status darboux_recognise_recipe(const struct darboux_mesh *mesh,
 
 /// Encodes tangents in a compressed format.
 ///
-/// `encoding`: the format, which determines the type of `codes`. `count`: the number of elements of every array. `normals`: `count` by 3
-/// floats, unit length, equal bit for bit to the normals at decoding; read for DARBOUX_TANGENT_ENCODING_DIAMOND only, otherwise may be
-/// NULL. `tangents`: `count` by 4 floats, unit xyz and sign w; a w below zero counts as -1, any other value as +1. `codes`: receives
-/// `count` elements. Strides: bytes from one element to the next; 0 for packed. Errors: a null pointer, a stride smaller than an element,
-/// an unknown encoding.
+/// `encoding`: the format, which determines the type of `codes`. `count`: the number of elements of every
+/// array. `normals`: `count` by 3 floats, unit length, equal bit for bit to the normals at decoding; read for
+/// DARBOUX_TANGENT_ENCODING_DIAMOND only, otherwise may be NULL. `tangents`: `count` by 4 floats, unit xyz
+/// and sign w; a w below zero counts as -1, any other value as +1. `codes`: receives `count` elements.
+/// Strides: bytes from one element to the next; 0 for packed. Errors: a null pointer, a stride smaller than
+/// an element, an unknown encoding.
 darboux_status darboux_encode_tangents(darboux_tangent_encoding encoding,
                                        size_t count,
                                        const float *normals,
@@ -988,9 +1040,11 @@ darboux_status darboux_encode_tangents(darboux_tangent_encoding encoding,
                                        void *codes,
                                        size_t code_stride);
 
-/// Decodes the tangents that darboux_encode_tangents wrote. They have unit length, except in the SNORM formats.
+/// Decodes the tangents that darboux_encode_tangents wrote. They have unit length, except in the SNORM
+/// formats.
 ///
-/// `codes`: read. `tangents`: receives `count` by 4 floats. Other parameters and errors: as for darboux_encode_tangents.
+/// `codes`: read. `tangents`: receives `count` by 4 floats. Other parameters and errors: as for
+/// darboux_encode_tangents.
 darboux_status darboux_decode_tangents(darboux_tangent_encoding encoding,
                                        size_t count,
                                        const float *normals,
@@ -1002,26 +1056,29 @@ darboux_status darboux_decode_tangents(darboux_tangent_encoding encoding,
 
 /// Encodes normals as `int16_t[2]`, an octahedral map. The largest error is 0.0038 degrees.
 ///
-/// `count`: the number of elements. `normals`: `count` by 3 floats. `codes`: receives `count` by 2 integers. Strides: bytes from one
-/// element to the next; 0 for packed. Errors: a null pointer, a stride smaller than an element.
+/// `count`: the number of elements. `normals`: `count` by 3 floats. `codes`: receives `count` by 2 integers.
+/// Strides: bytes from one element to the next; 0 for packed. Errors: a null pointer, a stride smaller than
+/// an element.
 darboux_status darboux_encode_normals(size_t count,
                                       const float *normals,
                                       size_t normal_stride,
                                       int16_t *codes,
                                       size_t code_stride);
 
-/// Decodes the normals that darboux_encode_normals wrote, as unit vectors. Parameters and errors: as for darboux_encode_normals.
+/// Decodes the normals that darboux_encode_normals wrote, as unit vectors. Parameters and errors: as for
+/// darboux_encode_normals.
 darboux_status darboux_decode_normals(size_t count,
                                       const int16_t *codes,
                                       size_t code_stride,
                                       float *normals,
                                       size_t normal_stride);
 
-/// Encodes normals and tangents as `int16_t[4]`, one quaternion, scalar last. The largest error is 0.0047 degrees.
+/// Encodes normals and tangents as `int16_t[4]`, one quaternion, scalar last. The largest error is 0.0047
+/// degrees.
 ///
-/// `count`: the number of elements. `normals`: `count` by 3 floats, unit length. `tangents`: `count` by 4 floats, unit xyz and sign w.
-/// `codes`: receives `count` by 4 integers. Strides: bytes from one element to the next; 0 for packed. Errors: a null pointer, a stride
-/// smaller than an element.
+/// `count`: the number of elements. `normals`: `count` by 3 floats, unit length. `tangents`: `count` by 4
+/// floats, unit xyz and sign w. `codes`: receives `count` by 4 integers. Strides: bytes from one element to
+/// the next; 0 for packed. Errors: a null pointer, a stride smaller than an element.
 darboux_status darboux_encode_frames(size_t count,
                                      const float *normals,
                                      size_t normal_stride,
@@ -1030,7 +1087,8 @@ darboux_status darboux_encode_frames(size_t count,
                                      int16_t *codes,
                                      size_t code_stride);
 
-/// Decodes the unit normals and tangents that darboux_encode_frames wrote. Parameters and errors: as for darboux_encode_frames.
+/// Decodes the unit normals and tangents that darboux_encode_frames wrote. Parameters and errors: as for
+/// darboux_encode_frames.
 darboux_status darboux_decode_frames(size_t count,
                                      const int16_t *codes,
                                      size_t code_stride,
@@ -1044,20 +1102,23 @@ darboux_status darboux_decode_frames(size_t count,
 /// `program`: the program. `convention`: receives its convention. Errors: an unknown program, a null pointer.
 darboux_status darboux_convention_of(darboux_program program, struct darboux_convention *convention);
 
-/// Computes the convention of the tangents that darboux_generate_tangents writes for a mesh in a given convention.
+/// Computes the convention of the tangents that darboux_generate_tangents writes for a mesh in a given
+/// convention.
 ///
-/// Axes, winding and UV origin stay. The sign can differ, because MikkTSpace takes it from the UV area and does not consider the UV origin.
-/// For example, tangents generated for a glTF mesh become glTF tangents by darboux_convert_tangents from the result of this function to
-/// glTF, which negates w. `convention`: the mesh's convention; may be NULL for glTF. `generated`: receives the tangents' convention.
-/// Errors: those of darboux_convert_vectors.
+/// Axes, winding and UV origin stay. The sign can differ, because MikkTSpace takes it from the UV area and
+/// does not consider the UV origin. For example, tangents generated for a glTF mesh become glTF tangents by
+/// darboux_convert_tangents from the result of this function to glTF, which negates w. `convention`: the
+/// mesh's convention; may be NULL for glTF. `generated`: receives the tangents' convention. Errors: those of
+/// darboux_convert_vectors.
 darboux_status darboux_convention_generated(const struct darboux_convention *convention,
                                             struct darboux_convention *generated);
 
 /// Converts positions, normals or offsets from one convention to another. Exact.
 ///
-/// `from`, `to`: the conventions; NULL for glTF. `count`: the number of elements. `vectors`: `count` by 3 floats. `converted`: receives
-/// `count` by 3 floats; may equal `vectors`. Strides: bytes from one element to the next; 0 for packed. Errors: an unknown value in a
-/// convention, two parallel axes, a null pointer, a stride smaller than an element.
+/// `from`, `to`: the conventions; NULL for glTF. `count`: the number of elements. `vectors`: `count` by 3
+/// floats. `converted`: receives `count` by 3 floats; may equal `vectors`. Strides: bytes from one element to
+/// the next; 0 for packed. Errors: an unknown value in a convention, two parallel axes, a null pointer, a
+/// stride smaller than an element.
 darboux_status darboux_convert_vectors(const struct darboux_convention *from,
                                        const struct darboux_convention *to,
                                        size_t count,
@@ -1068,7 +1129,8 @@ darboux_status darboux_convert_vectors(const struct darboux_convention *from,
 
 /// Converts tangents from one convention to another. Exact.
 ///
-/// `tangents`: `count` by 4 floats, xyz and the sign w. Other parameters and errors: as for darboux_convert_vectors.
+/// `tangents`: `count` by 4 floats, xyz and the sign w. Other parameters and errors: as for
+/// darboux_convert_vectors.
 darboux_status darboux_convert_tangents(const struct darboux_convention *from,
                                         const struct darboux_convention *to,
                                         size_t count,
@@ -1079,8 +1141,9 @@ darboux_status darboux_convert_tangents(const struct darboux_convention *from,
 
 /// Converts UVs from one convention to another: v becomes 1 - v where the origins differ.
 ///
-/// A round trip is exact for multiples of 2^-24 in [0, 1]; its error for other values is at most one ulp of the larger of 1 and |v|. `uvs`:
-/// `count` by 2 floats. Other parameters and errors: as for darboux_convert_vectors.
+/// A round trip is exact for multiples of 2^-24 in [0, 1]; its error for other values is at most one ulp of
+/// the larger of 1 and |v|. `uvs`: `count` by 2 floats. Other parameters and errors: as for
+/// darboux_convert_vectors.
 darboux_status darboux_convert_uvs(const struct darboux_convention *from,
                                    const struct darboux_convention *to,
                                    size_t count,
@@ -1091,10 +1154,11 @@ darboux_status darboux_convert_uvs(const struct darboux_convention *from,
 
 /// Reverses the corners of every face where the winding differs. The first corner of each face stays first.
 ///
-/// A change of handedness alone reverses nothing, because the winding is defined as seen on the screen. `from`, `to`: the conventions; NULL
-/// for glTF. `faces`, `face_sizes`, `face_count`: as in darboux_mesh. `corners`: C packed elements of `corner_size` bytes, changed in
-/// place: the indices, or any other attribute of corners. `corner_count`: C. `corner_size`: bytes per element. Errors: those of
-/// darboux_convert_vectors; corners that do not make whole faces.
+/// A change of handedness alone reverses nothing, because the winding is defined as seen on the screen.
+/// `from`, `to`: the conventions; NULL for glTF. `faces`, `face_sizes`, `face_count`: as in darboux_mesh.
+/// `corners`: C packed elements of `corner_size` bytes, changed in place: the indices, or any other attribute
+/// of corners. `corner_count`: C. `corner_size`: bytes per element. Errors: those of darboux_convert_vectors;
+/// corners that do not make whole faces.
 darboux_status darboux_convert_faces(const struct darboux_convention *from,
                                      const struct darboux_convention *to,
                                      darboux_faces faces,
@@ -1106,8 +1170,8 @@ darboux_status darboux_convert_faces(const struct darboux_convention *from,
 
 /// Tells which channels of a normal map are inverted: in every texel of n bits, c becomes 2^n - 1 - c.
 ///
-/// `from`, `to`: the conventions; NULL for glTF. `red`, `green`: receive 1 where the channel is inverted, else 0. Errors: those of
-/// darboux_convert_vectors.
+/// `from`, `to`: the conventions; NULL for glTF. `red`, `green`: receive 1 where the channel is inverted,
+/// else 0. Errors: those of darboux_convert_vectors.
 darboux_status darboux_convert_channels(const struct darboux_convention *from,
                                         const struct darboux_convention *to,
                                         uint32_t *red,
@@ -1115,10 +1179,11 @@ darboux_status darboux_convert_channels(const struct darboux_convention *from,
 
 /// Transforms normals and tangents by a node's matrix, which may mirror or scale non-uniformly.
 ///
-/// A normal that the matrix maps to zero is not changed. A tangent that the matrix maps to zero becomes a perpendicular of the normal.
-/// `matrix`: column-major; of a 4 by 4 matrix only the upper left 3 by 3 is read. `column_stride`: bytes from one column to the next: 16
-/// for 4 by 4; 0 for packed, 3 by 3. `arrays`: the normals and tangents. `orientation`: receives -1 where the matrix mirrors, which
-/// reverses the winding of faces, else +1; may be NULL. Errors: a null pointer, a stride smaller than an element.
+/// A normal that the matrix maps to zero is not changed. A tangent that the matrix maps to zero becomes a
+/// perpendicular of the normal. `matrix`: column-major; of a 4 by 4 matrix only the upper left 3 by 3 is
+/// read. `column_stride`: bytes from one column to the next: 16 for 4 by 4; 0 for packed, 3 by 3. `arrays`:
+/// the normals and tangents. `orientation`: receives -1 where the matrix mirrors, which reverses the winding
+/// of faces, else +1; may be NULL. Errors: a null pointer, a stride smaller than an element.
 darboux_status darboux_transform_frames(const float *matrix,
                                         size_t column_stride,
                                         const struct darboux_frame_arrays *arrays,
@@ -1126,20 +1191,19 @@ darboux_status darboux_transform_frames(const float *matrix,
 
 /// Transforms normals and tangents by a skin: each by the weighted mean of its bones' matrices.
 ///
-/// The change of the weights over the surface is ignored, as is common practice, so normals of strongly bent skins are approximate. `skin`:
-/// bones, and joints and weights of `count` vertices. `arrays`: the normals and tangents. Errors: a null pointer, a stride smaller than an
-/// element, a joint out of range. Source: B. Merry et al., "Normal Transformations for Articulated Models", SIGGRAPH Sketches 2006.
-darboux_status darboux_skin_frames(const struct darboux_skin *skin,
-                                   const struct darboux_frame_arrays *arrays);
+/// The change of the weights over the surface is ignored, as is common practice, so normals of strongly bent
+/// skins are approximate. `skin`: bones, and joints and weights of `count` vertices. `arrays`: the normals
+/// and tangents. Errors: a null pointer, a stride smaller than an element, a joint out of range. Source: B.
+/// Merry et al., "Normal Transformations for Articulated Models", SIGGRAPH Sketches 2006.
+darboux_status darboux_skin_frames(const struct darboux_skin *skin, const struct darboux_frame_arrays *arrays);
 
 /// Makes the library allocate all of its memory with the caller's functions.
 ///
-/// It must be called before any other function of the library, because memory of the system's allocator cannot be freed with the caller's
-/// functions. `allocate`, `deallocate`: called concurrently, from all threads that call the library and from the worker threads of
-/// contexts. `context`: passed to both functions; may be NULL. Errors: a null function; the library has allocated memory already.
-darboux_status darboux_set_allocator(darboux_allocate allocate,
-                                     darboux_deallocate deallocate,
-                                     void *context);
+/// It must be called before any other function of the library, because memory of the system's allocator
+/// cannot be freed with the caller's functions. `allocate`, `deallocate`: called concurrently, from all
+/// threads that call the library and from the worker threads of contexts. `context`: passed to both
+/// functions; may be NULL. Errors: a null function; the library has allocated memory already.
+darboux_status darboux_set_allocator(darboux_allocate allocate, darboux_deallocate deallocate, void *context);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -1,9 +1,11 @@
 //! The measurements, one file each. Rules read them from [`SurfaceFacts`](crate::facts::SurfaceFacts) and
 //! [`Map`](map::Map).
 
+pub mod arrangement;
 pub mod contradiction;
 pub mod directions;
 pub mod expected;
+pub mod facet;
 pub mod facets;
 pub mod fit;
 pub mod flattening;

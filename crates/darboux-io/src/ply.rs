@@ -12,6 +12,7 @@
 mod faces;
 mod header;
 mod layout;
+mod property;
 mod read;
 mod textures;
 mod values;

@@ -98,7 +98,12 @@ impl Reader<'_> {
             }
         } else if self.is_word() {
             match (self.path(), self.peek()) {
-                (path, "!") if path.len() == 1 => self.names.macros.extend(path),
+                // Not `a != b`.
+                (path, "!")
+                    if path.len() == 1 && self.tokens.get(self.next + 1).is_none_or(|it| *it != "=") =>
+                {
+                    self.names.macros.extend(path)
+                }
                 (path, _) => self.names.paths.push(path),
             }
         } else {
@@ -186,7 +191,8 @@ mod tests {
 
     #[test]
     fn paths_are_found_in_code_and_macros() {
-        let found = names("fn f<'a>(x: &'a T) { x.len::<U>(); vec![crate::a::B::new(1)]; read!(c::d) }");
+        let found =
+            names("fn f<'a>(x: &'a T) { x.len::<U>(); vec![crate::a::B::new(1)]; read!(c::d); x != y }");
         assert_eq!(found.macros, ["vec", "read"]);
         for wanted in ["T", "U", "crate::a::B::new", "c::d"] {
             assert!(found.paths.contains(&path(wanted)), "{wanted} is not among {:?}", found.paths);

@@ -17,7 +17,7 @@ use crate::hypotheses::{self, Inverted, MapWitness, inverted, is_about_channels}
 use crate::instances::{Key, key};
 use crate::map_users::{MapSurfaces, MapUsers};
 use crate::measure::directions::{directions_by_mesh, witness};
-use crate::measure::facets::MapUse;
+use crate::measure::facet::MapUse;
 use crate::measure::map::{Map, MapDirections, Vote};
 use crate::measure::mesh_votes::MeshVotes;
 use crate::measure::texture_axes::{axes, turns_channels};

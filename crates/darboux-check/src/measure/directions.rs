@@ -5,7 +5,7 @@ use darboux::{BitangentDirection, MapJudgement, MapVerdict, TangentDirection};
 
 use crate::check_options::AssumedMap;
 use crate::hypotheses::{MapWitness, relative};
-use crate::measure::facets::Arrangement;
+use crate::measure::arrangement::Arrangement;
 use crate::measure::map::{Map, MapDirections, TwoChannels};
 use crate::measure::map_kind::{Kind, kind};
 

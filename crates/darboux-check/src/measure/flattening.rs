@@ -14,7 +14,8 @@ use std::collections::BTreeMap;
 
 use darboux_io::image::RgbaImage;
 
-use crate::measure::facets::{ARRANGEMENTS, Facet, Facets, MapUse, Means};
+use crate::measure::arrangement::ARRANGEMENTS;
+use crate::measure::facet::{Facet, Facets, MapUse, Means};
 use crate::surface::{dot, length, sub};
 
 /// More triangles of a surface are not asked.

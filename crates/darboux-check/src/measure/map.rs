@@ -8,8 +8,8 @@ use darboux::{
 use darboux_io::image::{DecodeError, DecodeLimits, RgbaImage, linear_to_srgb, srgb_to_linear};
 
 use crate::check_options::{AssumedMap, CheckOptions};
+use crate::measure::arrangement::Arrangement;
 use crate::measure::contradiction::Contradiction;
-use crate::measure::facets::Arrangement;
 use crate::measure::mesh_votes::MeshVotes;
 use crate::measure::reordered::Reordered;
 use crate::measure::storage::Storage;

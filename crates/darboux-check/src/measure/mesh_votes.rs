@@ -2,7 +2,9 @@
 
 use darboux_io::image::RgbaImage;
 
-use crate::measure::facets::{Arrangement, FacetVotes, MapUse};
+use crate::measure::arrangement::Arrangement;
+use crate::measure::facet::MapUse;
+use crate::measure::facets::FacetVotes;
 use crate::measure::seams::SeamFits;
 
 /// The votes of the facets, and how the map fits the seams.

@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use darboux::TexelLayout;
 use darboux_io::image::RgbaImage;
 
-use crate::measure::facets::{Facet, Facets, MapUse, texel_at};
+use crate::measure::facet::{Facet, Facets, MapUse, texel_at};
 use crate::surface::dot;
 
 /// How a map lies on the UVs of a mesh.

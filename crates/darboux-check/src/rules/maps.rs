@@ -8,11 +8,11 @@ use crate::defect::{
     Certainty, Defect, DirectionEvidence, FacesScore, Fault, LengthDoubt, MapFault, NoNormals, RedDoubt,
     ReliefEvidence, Texels,
 };
+use crate::measure::arrangement::Arrangement;
 use crate::measure::directions::{
     SURE_PERCENT, arrangement, candidates, directed, directions, directions_by_mesh, facets_show_exchange,
     is_assumed, with_directed_channels,
 };
-use crate::measure::facets::Arrangement;
 use crate::measure::map::{Map, TwoChannels, percent};
 use crate::measure::map_kind::{Kind, kind};
 use crate::measure::mesh_votes::MeshVotes;

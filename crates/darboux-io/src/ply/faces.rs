@@ -1,7 +1,7 @@
 //! Reads the faces of a PLY, and strips of triangles, with the UVs and textures of their corners.
 
 use super::header::{Element, Property};
-use super::read::{cut_off, next, properties};
+use super::property::{cut_off, next, properties};
 use super::values::Values;
 use crate::error::ContentError;
 use crate::source::{CornerValues, FaceSizes, SourceMesh, SourceScene, SourceUvSet};

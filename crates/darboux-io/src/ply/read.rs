@@ -1,8 +1,9 @@
 //! Reads the elements of a PLY: vertices here, faces in their file, others to skip them.
 
 use super::faces::FaceReader;
-use super::header::{self, Element, Encoding, Header, NumberType, Property};
+use super::header::{self, Element, Encoding, Header, NumberType};
 use super::layout::{VertexLayout, VertexProperty, layout};
+use super::property::{cut_off, next, properties};
 use super::textures;
 use super::values::{Values, decode};
 use crate::error::{ContentError, shortened};
@@ -39,15 +40,6 @@ pub fn read(bytes: &[u8], files: &ModelFiles) -> Result<SourceScene, ContentErro
     faces.finish(textures, &mut mesh, &mut scene);
     scene.meshes.push(mesh);
     Ok(scene)
-}
-
-pub fn cut_off(element: &Element, index: usize) -> ContentError {
-    let place = format!("{} {index}", element.name);
-    let count = element.count;
-    ContentError::invalid(
-        place,
-        format!("is missing or no number, of {count}; export or download the file again"),
-    )
 }
 
 /// The program of a comment such as `Created in Blender version 5.0.1`.
@@ -105,19 +97,6 @@ fn read_vertices(
     Ok(())
 }
 
-/// A noun phrase for properties that are not carried over; none for none.
-pub fn properties<'a>(element: &str, names: impl Iterator<Item = &'a str>) -> Option<String> {
-    const MOST: usize = 20;
-    let names: Vec<String> = names.map(shortened).collect();
-    let (shown, others) = names.split_at(names.len().min(MOST));
-    Some(match (shown, others.len()) {
-        ([], _) => return None,
-        ([name], _) => format!("the {element} property {name}"),
-        (_, 0) => format!("the {element} properties {}", shown.join(", ")),
-        (_, others) => format!("the {element} properties {} and {others} others", shown.join(", ")),
-    })
-}
-
 /// The number of bytes of a binary row; none if it has lists.
 fn row_size(element: &Element) -> Option<usize> {
     element
@@ -125,17 +104,6 @@ fn row_size(element: &Element) -> Option<usize> {
         .iter()
         .map(|property| property.length.is_none().then_some(property.number.size()))
         .sum()
-}
-
-/// The value of a property; the last one of a list, which is 0 for an empty list.
-pub fn next(property: &Property, values: &mut Values<'_>) -> Option<f64> {
-    let Some(length) = property.length else { return values.next(property.number) };
-    let count = values.next(length)?;
-    let mut last = 0.0;
-    for _ in 0..count as usize {
-        last = values.next(property.number)?;
-    }
-    Some(last)
 }
 
 impl VertexLists {

@@ -6,7 +6,7 @@ use std::io;
 use darboux_io::RunId;
 use serde::{Deserialize, Serialize};
 
-use super::Record;
+use super::record::Record;
 
 /// After this many killed runs at work on an output, its file is skipped.
 pub const MOST_ATTEMPTS: usize = 2;

@@ -18,7 +18,7 @@ mod suffixes;
 use std::path::Path;
 
 use super::arguments::BakeArguments;
-use entry::Entry;
+use entry::{Entry, Job};
 use keys::Keys;
 use suffixes::Pairs;
 
@@ -29,12 +29,6 @@ pub enum Work {
     /// One low model.
     Single,
     Job(Job),
-}
-
-/// The bakes of a job, and what is unusual about it.
-pub struct Job {
-    pub entries: Vec<Entry>,
-    pub warnings: Vec<String>,
 }
 
 /// The entries of a job, if LOW is a TOML file or a folder. Errors are one sentence each.

@@ -1,4 +1,4 @@
-//! A bake of a job.
+//! A job: its bakes.
 
 use crate::commands::bake::arguments::BakeArguments;
 
@@ -9,4 +9,9 @@ pub struct Entry {
     pub options: String,
     /// Where the job has it; none in a folder of pairs.
     pub place: Option<String>,
+}
+/// The bakes of a job, and what is unusual about it.
+pub struct Job {
+    pub entries: Vec<Entry>,
+    pub warnings: Vec<String>,
 }

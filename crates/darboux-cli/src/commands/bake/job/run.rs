@@ -11,8 +11,7 @@ use std::thread;
 use darboux_io::RunId;
 use serde::Serialize;
 
-use super::Job;
-use super::entry::Entry;
+use super::entry::{Entry, Job};
 use crate::batch::journal::{Earlier, Journal, OutputInputs, Record, skipped};
 use crate::commands::bake::arguments::{BakeArguments, OwnOutputs};
 use crate::commands::bake::conflicts::{InputFile, all_inputs, files_of, outputs_of, refuse_twice};
