@@ -179,7 +179,7 @@ fn image_names(random: &mut Random) -> Case {
         "images": vec![json!({ "bufferView": view, "mimeType": "image/png", "name": name }); 1 + random.below(3)],
     });
     let file = builder.glb(vec![primitive], members);
-    Case::new(["convert", "in.glb", "--from", "gltf", "--to", "gltf", "-o", "folder/out.obj"])
+    Case::new(["convert", "in.glb", "--from", "gltf", "--to", "gltf", "-o", "out.obj"])
         .file("in.glb", file)
         .expects(&[0], "")
 }
