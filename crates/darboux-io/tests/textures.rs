@@ -1,8 +1,8 @@
 //! Texture files decode to the texels that were encoded.
 #![cfg(feature = "textures")]
 
-use darboux_io::LoadOptions;
 use darboux_io::image::{DecodeError, DecodeLimits, PngImage, RgbaImage};
+use darboux_io::{LoadOptions, MemoryLimit};
 
 /// A PNG of 8 or 16 bits per channel.
 fn png(color: png::ColorType, depth: png::BitDepth, [width, height]: [u32; 2], data: &[u8]) -> Vec<u8> {
@@ -97,4 +97,16 @@ fn broken_palettes_are_refused() {
         let map = PngImage::from_bytes("map.png", file, &LoadOptions::default()).unwrap_err().to_string();
         assert!(broken.contains(part) && map.contains(part), "{broken} {map}");
     }
+}
+
+/// Four channels of 16 bits take twelve bytes per texel until they have 8 bits.
+#[test]
+fn wide_channels_count_against_the_memory_limit() {
+    let texels = vec![[0u16; 4]; 64 * 64];
+    let image = PngImage::from_rgba("map", [64, 64], &texels).expect("an image");
+    let file = image.to_bytes().expect("a file");
+    let decoded =
+        |bytes| RgbaImage::decode(&file, &DecodeLimits::of_file(file.len(), MemoryLimit::bytes(bytes)));
+    assert!(matches!(decoded(8 * 64 * 64), Err(DecodeError::TooLarge { width: 64, height: 64 })));
+    assert!(decoded(12 * 64 * 64).is_ok());
 }

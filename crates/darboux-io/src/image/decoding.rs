@@ -81,6 +81,18 @@ pub(super) fn texel_count(width: usize, height: usize, limits: &DecodeLimits) ->
     }
 }
 
+/// Checks the bytes that decoding takes, where a decoder needs more than eight per texel. Errors: they are more than the limit permits.
+pub(super) fn check_memory(
+    [width, height]: [usize; 2],
+    bytes: u64,
+    limits: &DecodeLimits,
+) -> Result<(), DecodeError> {
+    if bytes > limits.max_texels.saturating_mul(BYTES_PER_TEXEL) {
+        return Err(DecodeError::TooLarge { width, height });
+    }
+    Ok(())
+}
+
 pub(super) fn rgba<const N: usize>(channels: &[u8], texel: impl Fn([u8; N]) -> [u8; 4]) -> Vec<[u8; 4]> {
     channels.as_chunks().0.iter().map(|&channels| texel(channels)).collect()
 }

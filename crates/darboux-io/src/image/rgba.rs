@@ -11,7 +11,7 @@ use zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
 
 use super::chunks::SIGNATURE as PNG;
-use super::decoding::{DecodeError, DecodeLimits, broken, rgba, texel_count, to_byte};
+use super::decoding::{DecodeError, DecodeLimits, broken, check_memory, rgba, texel_count, to_byte};
 use super::palette::check_palette;
 use super::reasons;
 
@@ -100,6 +100,9 @@ fn decode_png(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeErr
     texel_count(width as usize, height as usize, limits)?;
     let (color, depth) = reader.output_color_type();
     let length = reader.output_buffer_size().ok_or_else(|| broken("it is too large"))?;
+    // The channels of 16 bits are there until those of 8 bits are.
+    let peak = if depth == png::BitDepth::Sixteen { length as u64 * 3 / 2 } else { length as u64 };
+    check_memory([width as usize, height as usize], peak, limits)?;
     let mut bytes = vec![0; length];
     reader.next_frame(&mut bytes).map_err(|error| broken(reasons::of_png(&error)))?;
     if depth == png::BitDepth::Sixteen {
