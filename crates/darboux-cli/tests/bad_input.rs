@@ -259,6 +259,7 @@ fn pipes_with_names_and_folders_are_no_files() {
     for pipe in [&image, &model] {
         assert!(std::process::Command::new("mkfifo").arg(pipe).status().expect("mkfifo runs").success());
     }
+    let (plane, shield) = (asset("TwoSidedPlane/TwoSidedPlane_Normal.png"), asset("made/shield.glb"));
     let convert = |path| ["convert", path, "--from", "gltf", "--to", "directx"];
     for arguments in [
         &convert(text(&image))[..],
@@ -266,12 +267,26 @@ fn pipes_with_names_and_folders_are_no_files() {
         &["tangents", text(&model)],
         &["inspect", text(&model)],
         &["compare", text(&model), text(&model)],
+        &["check", text(&image)],
+        &["check", text(&model)],
+        &["check", text(&plane), "--model", text(&model)],
+        &[
+            "bake",
+            text(&shield),
+            "--high",
+            text(&shield),
+            "--size",
+            "8",
+            "--skew",
+            text(&image),
+            "-o",
+            "never.png",
+        ],
     ] {
         let run = darboux(arguments).exits(1);
         assert!(run.stderr.contains("not a regular file"), "{arguments:?}: {}", run.stderr);
         assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
     }
-    let plane = asset("TwoSidedPlane/TwoSidedPlane_Normal.png");
     let arguments = ["--from", "gltf", "--to", "directx", "--force", "-o", text(&image)];
     let run = darboux(&[&["convert", text(&plane)], &arguments[..]].concat()).exits(1);
     assert!(run.stderr.contains("not a regular file"), "{}", run.stderr);
