@@ -3,7 +3,7 @@
 // For each written file: the Khronos validator finds no kind of error that the input did not have, and no more objects without a
 // use; glTF-Transform reads the same content from input and output: every corner of every primitive, morph targets included, apart from tangents;
 // animations, skins and images; and the JSON apart from where vertex data lies. A file may fail only where the validator
-// finds errors in its input too.
+// finds errors in its input too. A file that became glTF has no error and nothing without a use.
 import { readFileSync } from 'node:fs';
 import { basename, dirname, resolve } from 'node:path';
 import { isDeepStrictEqual } from 'node:util';
@@ -24,7 +24,7 @@ const io = new NodeIO()
 	});
 
 const reports = process.argv.slice(2).map((path) => JSON.parse(readFileSync(path, 'utf8')));
-const counts = { same: 0, refused: 0, primitives: 0, corners: 0 };
+const counts = { same: 0, imported: 0, refused: 0, primitives: 0, corners: 0 };
 const faults = [];
 for (const file of reports.flatMap((report) => report.files)) {
 	try {
@@ -35,12 +35,17 @@ for (const file of reports.flatMap((report) => report.files)) {
 }
 console.log(
 	`${counts.same} outputs equal to their inputs apart from tangents and as valid ` +
-		`(${counts.primitives} primitives, ${counts.corners} corners), ${counts.refused} bad inputs refused`
+		`(${counts.primitives} primitives, ${counts.corners} corners), ` +
+		`${counts.imported} valid outputs of other formats, ${counts.refused} bad inputs refused`
 );
 for (const fault of faults) console.error(fault);
 process.exit(faults.length ? 1 : 0);
 
 async function check(file) {
+	if (!/\.(gltf|glb|vrm)$/i.test(file.input)) {
+		await checkImported(file);
+		return;
+	}
 	const input = load(file.input);
 	const { errors: inputErrors, unused: unusedBefore } = await findingsOf(input);
 	if (!file.output) {
@@ -59,6 +64,15 @@ async function check(file) {
 	compareJson(input.json, output.json);
 	expectTangents(file, after);
 	counts.same++;
+}
+
+async function checkImported(file) {
+	expect(file.output, `refused: ${file.error}`);
+	const output = load(file.output);
+	const { errors, unused } = await findingsOf(output);
+	expect(!errors.size && !unused, `${[...errors].join('; ')}; ${unused} objects have no use`);
+	expectTangents(file, await read(output));
+	counts.imported++;
 }
 
 function expect(condition, message) {
