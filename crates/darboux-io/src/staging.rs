@@ -10,9 +10,9 @@
 //! without a lock, and the next process that writes into the folder deletes them.
 
 use std::collections::HashSet;
-use std::ffi::OsStr;
 use std::fmt;
 use std::fs::{self, File};
+use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::{self, ErrorKind, Write};
 use std::num::ParseIntError;
 use std::path::{Path, PathBuf};
@@ -295,8 +295,12 @@ fn new_temporary(folder: &Path, run: Option<RunId>) -> io::Result<Temporary> {
     Temporary::new(folder, &prefix_of(run), |path| File::create_new(path))
 }
 
+/// The prefix for a run, or for this process. Always with a number, so that no file of a user has such a
+/// name.
 fn prefix_of(run: Option<RunId>) -> String {
-    run.map_or(PREFIX.into(), RunId::temporary_prefix)
+    // The hashers of the standard library start with random keys.
+    static OF_PROCESS: LazyLock<RunId> = LazyLock::new(|| RunId(RandomState::new().build_hasher().finish()));
+    run.unwrap_or(*OF_PROCESS).temporary_prefix()
 }
 
 /// Deletes the temporary files of processes that were killed, the first time that this process writes into a
@@ -309,14 +313,6 @@ fn remove_abandoned_files_once(folder: &Path) {
     }
 }
 
-/// Whether a name is one that [`new_temporary`] gives: the prefix, a run if there is one, and six random
-/// characters.
-fn is_temporary(path: &Path) -> bool {
-    let name = path.file_name().and_then(OsStr::to_str);
-    let Some(rest) = name.and_then(|name| name.strip_prefix(PREFIX)) else { return false };
-    is_random(rest) || RunId::of_temporary_file(path).is_some()
-}
-
 /// Whether a text is the end of the name of a temporary file.
 fn is_random(text: &str) -> bool {
     text.len() == RANDOM_CHARACTERS && text.bytes().all(|byte| byte.is_ascii_alphanumeric())
@@ -326,7 +322,7 @@ fn remove_abandoned_files(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for path in entries.flatten().map(|entry| entry.path()) {
         let is_regular = || path.symlink_metadata().is_ok_and(|metadata| metadata.is_file());
-        if is_temporary(&path) && is_regular() {
+        if RunId::of_temporary_file(&path).is_some() && is_regular() {
             let Ok(file) = paths::open_at_once(&path) else { continue };
             // The lock is held until the file is removed, so that its writer cannot lock the file in between.
             if file.try_lock().is_ok() {
@@ -345,13 +341,16 @@ mod tests {
     #[test]
     fn temporary_files_of_killed_processes_are_removed_and_those_of_running_ones_stay() {
         let folder = tempfile::tempdir().unwrap();
-        let abandoned = folder.path().join(".darboux-a1B2c3");
-        let other = folder.path().join(".darboux-mine");
+        let abandoned = folder.path().join(".darboux-00000000000000fe-a1B2c3");
+        // Names of six letters or digits, as a user may give them.
+        let others =
+            [".darboux-mine", ".darboux-ignore", ".darboux-config"].map(|name| folder.path().join(name));
         fs::write(&abandoned, "half").unwrap();
-        fs::write(&other, "whole").unwrap();
+        others.iter().for_each(|other| fs::write(other, "whole").unwrap());
         let running = new_temporary(folder.path(), Some(RunId(7))).unwrap();
         remove_abandoned_files(folder.path());
-        assert!(!abandoned.exists() && other.exists() && running.path().exists());
+        assert!(!abandoned.exists() && running.path().exists());
+        assert!(others.iter().all(|other| other.exists()));
     }
 
     #[test]
@@ -359,7 +358,8 @@ mod tests {
         let run = RunId(0xfe);
         let name = new_temporary(tempfile::tempdir().unwrap().path(), Some(run)).unwrap().path().to_owned();
         assert_eq!(RunId::of_temporary_file(&name), Some(run));
-        assert!(is_temporary(&name) && is_temporary(Path::new("a/.darboux-a1B2c3")));
+        let name = new_temporary(tempfile::tempdir().unwrap().path(), None).unwrap().path().to_owned();
+        assert!(RunId::of_temporary_file(&name).is_some());
         for name in [
             ".darboux-00000000000000fe-notes.txt",
             ".darboux-00000000000000fe-a1B2c3d",
@@ -372,11 +372,11 @@ mod tests {
             ".darboux-a1B2c3-a1B2c3",
             "darboux-00000000000000fe-a1B2c3",
             ".darboux-notes",
+            ".darboux-a1B2c3",
             ".darboux-a1B2c3.png",
             ".darboux-journal.jsonl",
         ] {
             assert_eq!(RunId::of_temporary_file(Path::new(name)), None, "{name}");
-            assert!(!is_temporary(Path::new(name)) || name == ".darboux-a1B2c3", "{name}");
         }
     }
 

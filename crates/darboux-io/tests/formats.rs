@@ -188,6 +188,20 @@ fn cut_off_and_untrue_counts_are_errors() {
     assert!(refusal(huge).contains("vertex 0: is missing or no number, of 4000000000"));
     let outside = String::from_utf8(square("ascii")).unwrap().replace("4 0 1 2 3", "4 0 1 2 9");
     assert!(refusal(outside).contains("a face refers to position 9, but there are 4"));
+    // Elements that could each be there, but not all.
+    let faces = "element face 20\nproperty list uchar int vertex_indices\n".repeat(300);
+    let many =
+        String::from_utf8(square("ascii")).unwrap().replace("end_header", &format!("{faces}end_header"));
+    assert!(refusal(many).contains("face 0: is missing or no number, of 20"));
+}
+
+/// A million of them would otherwise take a second each, and memory as faces.
+#[test]
+fn elements_without_properties_have_no_data() {
+    let empty = "element face 4000000000\nelement other 4000000000\n".repeat(1000);
+    let ply =
+        String::from_utf8(square("ascii")).unwrap().replace("end_header", &format!("{empty}end_header"));
+    assert_eq!(read(ply).provenance().unwrap().faces.quads, 1);
 }
 
 #[test]

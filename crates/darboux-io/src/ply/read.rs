@@ -18,10 +18,13 @@ pub fn read(bytes: &[u8], files: &ModelFiles) -> Result<SourceScene, ContentErro
     let mut values = Values::new(header.encoding, &bytes[header.end..]);
     let mut mesh = SourceMesh { path: "the PLY".to_owned(), ..SourceMesh::default() };
     let mut faces = FaceReader::default();
-    for element in &header.elements {
-        // So that no memory is taken for elements that cannot be there.
+    // The bytes that all elements so far have at least, so that no memory or time is taken for elements that
+    // cannot be there.
+    let (mut needed, present) = (0_usize, values.left() + 1);
+    for element in header.elements.iter().filter(|element| !element.properties.is_empty()) {
         let least = element.least_bytes(header.encoding).max(1);
-        if element.count.checked_mul(least).is_none_or(|least| least > values.left() + 1) {
+        needed = needed.saturating_add(element.count.saturating_mul(least));
+        if needed > present {
             return Err(cut_off(element, 0));
         }
         match &*element.name {
