@@ -6,7 +6,7 @@ use darboux::UvOrigin;
 use serde_json::{Value, json};
 
 use super::data::DataBuilder;
-use crate::error::ContentError;
+use crate::error::{ContentError, shortened};
 use crate::memory_limit::Budget;
 use crate::source::polygons::{Cutter, Triangle};
 use crate::source::provenance::{FaceCounts, PrimitiveSource};
@@ -56,7 +56,9 @@ pub fn build(
         let index = meshes.json.len();
         meshes.of_source.push(Some(index));
         let mut finder = VertexFinder::new(mesh);
-        let mut builder = PrimitiveBuilder { scene, mesh, cutter: &mut *cutter, data: &mut *data };
+        // Each primitive has a copy of it.
+        let path = shortened(&mesh.path);
+        let mut builder = PrimitiveBuilder { scene, mesh, path, cutter: &mut *cutter, data: &mut *data };
         let mut list = Vec::with_capacity(parts.len());
         let is_single = parts.len() == 1;
         for part in parts {
@@ -238,6 +240,7 @@ enum Coverage {
 struct PrimitiveBuilder<'a> {
     scene: &'a SourceScene,
     mesh: &'a SourceMesh,
+    path: String,
     cutter: &'a mut Cutter,
     data: &'a mut DataBuilder,
 }
@@ -253,7 +256,7 @@ impl<'a> PrimitiveBuilder<'a> {
         counts: &mut FaceCounts,
     ) -> (Value, PrimitiveSource) {
         let mesh = self.mesh;
-        let mut source = PrimitiveSource { path: mesh.path.clone(), ..PrimitiveSource::default() };
+        let mut source = PrimitiveSource { path: self.path.clone(), ..PrimitiveSource::default() };
         let found = if is_single && used.is_by_position(mesh) {
             None
         } else {
