@@ -56,7 +56,7 @@ pub fn skin(mesh: &Mesh, lacks: &mut Vec<String>) -> Option<(SourceSkin, Vec<Ver
         add_influences(&mut sets, influences(vertex));
     }
     let skin = SourceSkin {
-        name: skin.element.name.to_string(),
+        name: shortened(&skin.element.name),
         joints: bones.iter().map(|(bone, _)| bone.element.typed_id as usize).collect(),
         inverse_bind_matrices: bones
             .iter()
@@ -104,7 +104,7 @@ pub fn morphs(mesh: &Mesh, lacks: &mut Vec<String>) -> Vec<SourceMorph> {
             let has_normals = shape.normal_offsets.iter().any(|offset| vector(offset) != [0.0; 3]);
             let normals = || CornerValues::of_positions(offsets(mesh, shape, &shape.normal_offsets));
             Some(SourceMorph {
-                name: if of_channel.is_empty() { of_shape } else { of_channel }.to_owned(),
+                name: shortened(if of_channel.is_empty() { of_shape } else { of_channel }),
                 positions: offsets(mesh, shape, &shape.position_offsets),
                 normals: has_normals.then(normals),
                 weight: weight as f32,

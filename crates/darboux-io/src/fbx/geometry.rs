@@ -2,6 +2,7 @@
 
 use ufbx::{List, Mesh, SubdivisionDisplayMode, UvSet, Vec2, Vec3, VertexVec2, VertexVec3, VertexVec4};
 
+use crate::error::shortened;
 use crate::source::{CornerValues, FaceSizes, SourceMesh, SourceUvSet};
 
 /// An estimate of the bytes that [`fill`] and the document made of it take.
@@ -68,7 +69,7 @@ pub fn material_slots(mesh: &Mesh) -> Vec<u32> {
 
 fn uv_set(set: &UvSet, places: &[usize]) -> Option<SourceUvSet> {
     let uvs = corner_values(&set.vertex_uv, places, |uv: &Vec2| [uv.x as f32, uv.y as f32])?;
-    Some(SourceUvSet { name: set.name.to_string(), uvs })
+    Some(SourceUvSet { name: shortened(&set.name), uvs })
 }
 
 fn colors(attribute: &VertexVec4, places: &[usize]) -> Option<CornerValues<4>> {

@@ -166,7 +166,8 @@ impl<'a> MaterialReader<'a> {
         let texture: &Texture = map.texture.as_deref().filter(|_| map.texture_enabled)?;
         let with_file = if texture.has_file { texture } else { texture.file_textures.into_iter().next()? };
         let image = self.image(with_file.file_index)?;
-        let uv_set = uv_sets.iter().position(|name| *name == *texture.uv_set).unwrap_or(0);
+        let wanted = shortened(&texture.uv_set);
+        let uv_set = uv_sets.iter().position(|name| *name == wanted).unwrap_or(0);
         let name = &self.images[image].name;
         let layers = texture.file_textures.count;
         let losses = [
