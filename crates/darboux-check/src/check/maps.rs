@@ -271,6 +271,16 @@ impl DecodedMaps {
         (self.texels, self.bytes) = (self.texels.saturating_add(texels), self.bytes.saturating_add(bytes));
     }
 
+    /// Adds a map that could not be decoded to its end, whose texels are not known: what its bytes hold at
+    /// most, and not more than 2048 x 2048.
+    fn add_broken(&mut self, bytes: &[u8]) {
+        /// The most bytes that DEFLATE makes of one.
+        const DEFLATE: usize = 1032;
+        if RgbaImage::is_format_known(bytes) {
+            self.add((bytes.len().saturating_mul(DEFLATE)).min(1 << 22), bytes.len());
+        }
+    }
+
     fn are_many(&self) -> bool {
         self.texels > Self::MOST_TEXELS.saturating_add(self.bytes.saturating_mul(Self::TEXELS_PER_BYTE))
     }
@@ -324,8 +334,31 @@ fn defects_of_image(
         ));
     }
     let checked = map_defects_on_surfaces(&bytes, &users.of(image)?, options);
-    decoded.add(checked.judgement.as_ref().map_or(0, |judgement| judgement.texels), bytes.len());
+    match &checked.judgement {
+        Some(judgement) => decoded.add(judgement.texels, bytes.len()),
+        None => decoded.add_broken(&bytes),
+    }
     let obstacle = document.normal_map_obstacle(image).map(str::to_owned).map(Obstacle::NotRewritable);
     let defects = checked.defects.into_iter().map(|defect| defect.with_obstacle(obstacle.clone()));
     Ok((defects.collect(), checked.witness))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A PNG that is cut at its end costs the time of a whole one.
+    #[test]
+    fn broken_maps_count_against_the_limit() {
+        let cut = [&b"\x89PNG\r\n\x1a\n"[..], &[0; 5000]].concat();
+        let mut decoded = DecodedMaps::default();
+        let broken = (0..1000).take_while(|_| {
+            decoded.add_broken(&cut);
+            !decoded.are_many()
+        });
+        assert!((50..100).contains(&broken.count()));
+        let mut decoded = DecodedMaps::default();
+        decoded.add_broken(b"no image");
+        assert_eq!(decoded.texels, 0);
+    }
 }

@@ -2,9 +2,9 @@
 
 use std::fs::OpenOptions;
 use std::io;
-use std::path::Path;
 #[cfg(feature = "bake")]
 use std::path::PathBuf;
+use std::path::{Component, Path};
 
 use darboux_io::source::PolygonRule;
 use darboux_io::system_reason;
@@ -116,7 +116,8 @@ impl Record {
     /// Whether the inputs are the recorded ones and every written file still has its recorded content.
     pub fn is_up_to_date(&self, inputs: &OutputInputs, folder: &Path) -> bool {
         let is_unchanged = |(path, hash): &(String, String)| {
-            let is_inside = Path::new(path).is_relative();
+            let mut parts = Path::new(path).components();
+            let is_inside = parts.all(|part| matches!(part, Component::Normal(_)));
             is_inside
                 && hash_of(&folder.join(path), Links::Follow)
                     .is_ok_and(|found| found.to_hex().as_str() == hash)
@@ -131,4 +132,36 @@ pub(super) fn relative_to(folder: &Path, path: &Path) -> Option<String> {
     let relative = path.strip_prefix(canonical(folder)).ok()?;
     let names: Vec<_> = relative.iter().map(|name| name.to_string_lossy()).collect();
     Some(names.join("/"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A journal may come from a stranger, and names files to read.
+    #[test]
+    fn files_outside_of_the_folder_are_not_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let inside = folder.path().join("out");
+        std::fs::create_dir(&inside).expect("a folder");
+        let content = blake3::hash(b"x").to_hex().to_string();
+        for path in [folder.path().join("a"), inside.join("a")] {
+            std::fs::write(path, b"x").expect("a file");
+        }
+        let inputs = OutputInputs {
+            command: "tangents".into(),
+            version: VERSION.into(),
+            options: String::new(),
+            content: content.clone(),
+            common_content: None,
+        };
+        let of = |name: &str| {
+            let files = vec![(name.to_owned(), content.clone())];
+            let summary = Map::new();
+            let record = Record { output: "a".into(), inputs: inputs.clone(), files, summary };
+            record.is_up_to_date(&inputs, &inside)
+        };
+        assert!(of("a"));
+        assert!(!of("../a") && !of("b/../../a"));
+    }
 }
