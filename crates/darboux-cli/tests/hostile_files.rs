@@ -282,7 +282,7 @@ fn a_batch_goes_on_beside_a_file_that_needs_too_much_memory() {
         let arguments = [&fixed[..], &[text(out.path())], options].concat();
         darboux_with_addresses(256 << 20, &arguments).exits(1).stderr
     };
-    let said = run(&["--force"]);
+    let said = run(&["--resume"]);
     assert!(said.contains("deadly.glb: ") && said.contains("in 2 files, 1 file failed"), "{said}");
     let raised = ["--resume", "--memory-limit", "1000000"];
     for _ in 0..2 {
