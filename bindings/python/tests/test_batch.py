@@ -151,6 +151,11 @@ def test_outputs_that_were_changed_are_made_again(tmp_path: Path) -> None:
     assert (out / "a.glb").read_bytes() == whole
 
 
+def records(out: Path) -> int:
+    """The number of finished outputs in a journal. Other lines say what runs planned and began."""
+    return sum('"content"' in line for line in (out / JOURNAL).read_text().splitlines())
+
+
 def test_an_error_of_the_callback_ends_the_batch_and_loses_nothing(tmp_path: Path) -> None:
     models, out = library(tmp_path, copies=4), tmp_path / "out"
 
@@ -159,8 +164,7 @@ def test_an_error_of_the_callback_ends_the_batch_and_loses_nothing(tmp_path: Pat
 
     with pytest.raises(KeyboardInterrupt) as kept:
         darboux.batch(models, out, workers=2, progress=stop)
-    # The run, and what it did.
-    assert len((out / JOURNAL).read_text().splitlines()) == 2
+    assert records(out) == 1
     # The traceback is still there, the batch's hold on the folder is not.
     assert kept.traceback
     report = darboux.batch(models, out, progress=False)
@@ -255,7 +259,7 @@ def test_a_killed_batch_goes_on(tmp_path: Path) -> None:
         while True:
             # Before the journal: a machine that pauses here must not make it seem that nothing was journalled.
             has_ended = driver.poll() is not None
-            if journal.exists() and len(journal.read_bytes().splitlines()) > 1:
+            if journal.exists() and records(out):
                 break
             assert not has_ended
         driver.kill()
