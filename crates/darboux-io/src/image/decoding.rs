@@ -81,7 +81,8 @@ pub(super) fn texel_count(width: usize, height: usize, limits: &DecodeLimits) ->
     }
 }
 
-/// Checks the bytes that decoding takes, where a decoder needs more than eight per texel. Errors: they are more than the limit permits.
+/// Checks the bytes that decoding takes, where a decoder needs more than eight per texel. Errors: they are
+/// more than the limit permits.
 pub(super) fn check_memory(
     [width, height]: [usize; 2],
     bytes: u64,
