@@ -396,16 +396,22 @@ mod tests {
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "nothing else is left");
     }
 
+    /// New contents for files that exist.
+    fn staged_over(targets: &[PathBuf]) -> Staging {
+        let mut staging = Staging::new(None);
+        for target in targets {
+            fs::write(target, "before").unwrap();
+            staging.stage(target, true, |file| file.write_all(b"after")).unwrap();
+        }
+        staging
+    }
+
     /// Its lock says nothing about the right to replace it, and waiting for it could take forever.
     #[test]
     fn a_file_that_another_process_has_locked_is_replaced() {
         let folder = tempfile::tempdir().unwrap();
         let targets = ["a.png", "b.png"].map(|name| folder.path().join(name));
-        let mut staging = Staging::new(None);
-        for target in &targets {
-            fs::write(target, "before").unwrap();
-            staging.stage(target, true, |file| file.write_all(b"after")).unwrap();
-        }
+        let staging = staged_over(&targets);
         // Locks belong to open files: this one is not shared with the code below.
         let held = File::open(&targets[0]).unwrap();
         held.lock().unwrap();
@@ -434,11 +440,7 @@ mod tests {
     fn all_files_are_replaced_together() {
         let folder = tempfile::tempdir().unwrap();
         let targets = ["a.png", "b.png"].map(|name| folder.path().join(name));
-        let mut staging = Staging::new(None);
-        for target in &targets {
-            fs::write(target, "before").unwrap();
-            staging.stage(target, true, |file| file.write_all(b"after")).unwrap();
-        }
+        let staging = staged_over(&targets);
         assert_eq!(staging.commit().unwrap(), targets);
         assert!(targets.iter().all(|target| fs::read(target).unwrap() == b"after"));
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no second name is left");
