@@ -7,15 +7,11 @@
 mod common;
 
 use std::fs;
-use std::path::Path;
-use std::process::Command;
 
+use common::limited::ends_in_time;
 use common::text;
 use darboux_io::image::PngImage;
 use serde_json::{Value, json};
-
-/// Seconds of the processor. A release build takes 0.1 to 2; tests are built without optimisation.
-const SECONDS: usize = 60;
 
 /// The buffer of a model and what describes it.
 #[derive(Default)]
@@ -84,43 +80,6 @@ impl Builder {
         let chunks =
             [chunk(b"JSON", json.to_string().as_bytes(), b' '), chunk(b"BIN\0", &self.data, 0)].concat();
         [b"glTF", &2u32.to_le_bytes()[..], &(12 + chunks.len() as u32).to_le_bytes(), &chunks].concat()
-    }
-}
-
-/// The bytes of all files below a folder.
-fn size(folder: &Path) -> u64 {
-    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
-    entries.map(|path| if path.is_dir() { size(&path) } else { path.metadata().expect("a file").len() }).sum()
-}
-
-/// Runs command lines on a file `m.glb` or `m.gltf` of its own. Each must end within the limits, by itself,
-/// with code 0 or one sentence.
-#[track_caller]
-fn ends_in_time(name: &str, file: &[u8], lines: &[&str]) {
-    for line in lines {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join(name);
-        fs::write(&path, file).expect("a file");
-        let addresses = (512 << 10) + 10 * file.len() / 1024;
-        let limits = format!("ulimit -t {SECONDS} && ulimit -v {addresses} && exec \"$0\" \"$@\"");
-        let output = Command::new("sh")
-            .env("MALLOC_ARENA_MAX", "1")
-            .args(["-c", &limits, env!("CARGO_BIN_EXE_darboux")])
-            .args(line.split(' ').map(|word| if word == "IN" { text(&path) } else { word }))
-            .current_dir(folder.path())
-            .output()
-            .expect("a shell");
-        let stderr = String::from_utf8_lossy(&output.stderr);
-        let shown: String = stderr.chars().take(2000).collect();
-        let is_check = line.starts_with("check");
-        let errors = stderr.lines().filter(|line| line.starts_with("error: ")).count();
-        match output.status.code() {
-            Some(0) => assert!(errors == 0 || is_check, "{line}: {shown}"),
-            Some(1) => assert!(errors == 1 || is_check, "{line}: {shown}"),
-            other => panic!("{line}: {other:?} ({}): {shown}", output.status),
-        }
-        let written = size(folder.path()) + (output.stdout.len() + output.stderr.len()) as u64;
-        assert!(written < (16 << 20) + 30 * file.len() as u64, "{line}: {written} bytes for {}", file.len());
     }
 }
 
