@@ -294,6 +294,27 @@ codes! {
         "None needed. For a bake, move all but one of the parts by a whole tile."
         Leave "it is no mistake"
     }
+    UvStretched "uv-stretched" Info {
+        "UVs stretch the normal map on some faces far more than on the others."
+        "Bumps are drawn out to grooves there, and details are smeared along one direction."
+        "Faces were moved or scaled after they were unwrapped, or the unwrapping projected them at a flat angle."
+        "Unwrap these faces again, or relax their UVs."
+        Leave "UVs are made in a modelling program"
+    }
+    UvCoarse "uv-coarse" Info {
+        "Faces get far fewer texels than the others."
+        "The normal map is blurred there from close up, beside faces on which it is sharp."
+        "Charts were scaled by hand, to save space on what is seldom seen or by mistake."
+        "Give these faces larger charts if they are seen from close up."
+        Leave "UVs are made in a modelling program"
+    }
+    UvHardEdge "uv-hard-edge" Info {
+        "Hard edges have no UV seam."
+        "With a map that was baked for the mesh, a thin line along these edges, and a wider one from afar; with one that tiles, nothing."
+        "Normals were made hard after the mesh was unwrapped, or edges were marked as sharp and not as seams."
+        "Cut the UVs at these edges and leave a gap of some texels, or make the edges smooth and let the map do the rest; then bake again."
+        Leave "UVs are made in a modelling program"
+    }
     [Maps]
     MapGreenFlipped "map-green-flipped" Error {
         "The normal map's green points the wrong way for the format."
@@ -478,6 +499,9 @@ impl Code {
                 | Self::UvDegenerate
                 | Self::UvMirrored
                 | Self::UvOverlapping
+                | Self::UvStretched
+                | Self::UvCoarse
+                | Self::UvHardEdge
         )
     }
 }

@@ -9,9 +9,11 @@ use darboux::Recipe;
 use crate::code::{Code, Family};
 use crate::indices::{Indices, Part};
 use crate::measure::fit::Difference;
+use crate::measure::hard_edges::HardEdges;
 use crate::measure::other_axes::OtherAxes;
 use crate::measure::recipe::Recognised;
 use crate::measure::reversal::Reversal;
+use crate::measure::uv_scale::Outliers;
 use crate::place::Place;
 use crate::severity::Severity;
 
@@ -93,6 +95,12 @@ pub enum Fault {
         /// The share of the UV area.
         area_share: f64,
     },
+    /// Faces whose UVs are stretched more than those of the others.
+    UvStretched(Outliers),
+    /// Faces with fewer texels than the others.
+    UvCoarse(Outliers),
+    /// Hard edges at which the UVs go on.
+    UvHardEdge(HardEdges),
     /// The number of vertices without tangents.
     TangentMissing(usize),
     /// Tangents that nothing reads.
@@ -205,6 +213,9 @@ impl Fault {
             Self::UvDegenerate { .. } => Code::UvDegenerate,
             Self::UvMirrored(_) => Code::UvMirrored,
             Self::UvOverlapping { .. } => Code::UvOverlapping,
+            Self::UvStretched(_) => Code::UvStretched,
+            Self::UvCoarse(_) => Code::UvCoarse,
+            Self::UvHardEdge(_) => Code::UvHardEdge,
             Self::TangentMissing(_) => Code::TangentMissing,
             Self::TangentUnused { .. } => Code::TangentUnused,
             Self::TangentNotFinite(_) => Code::TangentNotFinite,
@@ -245,6 +256,8 @@ impl Fault {
             Self::UvOverlapping { triangles: items, .. } | Self::TangentLeaning { vertices: items, .. } => {
                 Some(items)
             }
+            Self::UvStretched(faces) | Self::UvCoarse(faces) => Some(&faces.triangles),
+            Self::UvHardEdge(edges) => Some(&edges.triangles),
             Self::TangentDiffers(difference) => Some(&difference.items).filter(|items| !items.is_empty()),
             _ => None,
         }

@@ -121,7 +121,10 @@ fn said(fault: &Fault, severity: crate::severity::Severity) -> Said {
         | Fault::UvNotFinite { .. }
         | Fault::UvDegenerate { .. }
         | Fault::UvMirrored(_)
-        | Fault::UvOverlapping { .. } => uvs::said(fault),
+        | Fault::UvOverlapping { .. }
+        | Fault::UvStretched(_)
+        | Fault::UvCoarse(_)
+        | Fault::UvHardEdge(_) => uvs::said(fault),
         Fault::Map(fault) => maps::said(fault),
         Fault::TransformMirrors { .. }
         | Fault::MapScaleNegative(_)

@@ -202,6 +202,9 @@ const SAID: &[(Code, &str)] = &[
         Code::UvOverlapping,
         "a strange line runs through the normal map, until the overlapping UVs are moved apart (supertuxkart/stk-code 2243)",
     ),
+    (Code::UvStretched, "the texture is smeared on the sides of the model, and the normal map with it"),
+    (Code::UvCoarse, "one part of the model is blurred, and the part beside it is sharp"),
+    (Code::UvHardEdge, "a line runs along every hard edge of the bake, until the edges are UV seams, too"),
     (
         Code::MapGreenFlipped,
         "bumps are dents; hours went into debugging the shader (KhronosGroup/glTF-Sample-Models PR 336, BabylonJS/Exporters 940)",
@@ -291,6 +294,15 @@ const SAID: &[(Code, &str)] = &[
 
 /// Why a code has no picture.
 const NO_PICTURE: &[(Code, &str)] = &[
+    (
+        Code::UvStretched,
+        "this mistake moves all details of the map, so that the pictures could not be compared",
+    ),
+    (Code::UvCoarse, "this mistake moves all details of the map, so that the pictures could not be compared"),
+    (
+        Code::UvHardEdge,
+        "faces have to be flat for it, so that the pictures would differ by more than these lines",
+    ),
     (
         Code::NormalMissing,
         "renderers shade it flat, which is hardly seen on faces as small as those of the model in these pictures",

@@ -3,15 +3,17 @@
 use super::rule::SurfaceRule;
 use crate::defect::{Defect, Fault};
 use crate::facts::SurfaceFacts;
+use crate::measure::hard_edges::HardEdges;
 use crate::measure::overlap::overlapping;
+use crate::measure::uv_scale::UvScale;
 use crate::measure::values::is_finite;
 use crate::severity::Severity;
 use crate::surface::{Surface, uv_area};
 
 pub const RULES: &[SurfaceRule] = &[missing, not_finite, degenerate];
 
-/// Rules about what is no mistake.
-pub const REMARKS: &[SurfaceRule] = &[mirrored, overlaps];
+/// Rules about what is no mistake, or seldom one.
+pub const REMARKS: &[SurfaceRule] = &[scale, hard_edges, mirrored, overlaps];
 
 fn missing(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let Surface { needs_tangents, uv_sets, uv_set, .. } = facts.surface;
@@ -46,6 +48,19 @@ fn degenerate(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let triangles = surface.part_of_triangles(is_degenerate);
     let fault = triangles.map(|triangles| Fault::UvDegenerate { set: surface.uv_set, triangles });
     fault.map(Defect::new).into_iter().collect()
+}
+
+/// Faces whose UVs are unlike those of the others. The poles of every sphere with rings are so: it is worth knowing, and often meant.
+fn scale(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
+    let Some(uvs) = needed_uvs(facts.surface) else { return Vec::new() };
+    let UvScale { stretched, coarse } = UvScale::of(facts.surface, uvs);
+    let faults = stretched.map(Fault::UvStretched).into_iter().chain(coarse.map(Fault::UvCoarse));
+    faults.map(Defect::new).collect()
+}
+
+fn hard_edges(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
+    let found = needed_uvs(facts.surface).and_then(|uvs| HardEdges::of(facts.surface, uvs));
+    found.map(Fault::UvHardEdge).map(Defect::new).into_iter().collect()
 }
 
 /// Triangles whose UVs turn the other way than glTF's images do.

@@ -3,6 +3,7 @@
 use super::counts::counted;
 use super::said::Said;
 use crate::defect::Fault;
+use crate::measure::hard_edges::HardEdges;
 
 pub fn said(fault: &Fault) -> Said {
     match fault {
@@ -30,6 +31,30 @@ pub fn said(fault: &Fault) -> Said {
                 100.0 * area_share,
                 "%",
             )
+        }
+        Fault::UvStretched(faces) => {
+            let what = counted(faces.triangles.len(), "triangle is", "triangles are");
+            // A face that is nearly a line in UV space has a stretch of millions.
+            let times = match faces.largest {
+                ..1000.0 => format!("up to {:.0}", faces.largest),
+                _ => "more than 1000".to_owned(),
+            };
+            Said::new(format!("{what} stretched {times} times as far in one direction as across it"))
+            .with("median of the primitive", faces.median, "times")
+            .with("part of the primitive's area", 100.0 * faces.share, "%")
+        }
+        Fault::UvCoarse(faces) => {
+            let what = counted(faces.triangles.len(), "triangle has", "triangles have");
+            Said::new(format!(
+                "{what} texels that are up to {:.0} times as long as those of most others",
+                faces.largest / faces.median
+            ))
+            .with("part of the primitive's area", 100.0 * faces.share, "%")
+        }
+        Fault::UvHardEdge(HardEdges { edges, all, largest, .. }) => {
+            Said::new(format!("{} no UV seam", counted(*edges, "hard edge has", "hard edges have")))
+                .with("all hard edges", *all as f64, "edges")
+                .with("largest angle between the normals of both sides", *largest, "degrees")
         }
         _ => unreachable!("a fault of UVs"),
     }

@@ -293,6 +293,67 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
+        code: Code::UvStretched,
+        how: "a quarter of the u range pressed together to an eighth",
+        make: |model| {
+            let uvs = &mut model.uvs[model.uv_set];
+            let [low, high] = [f32::min, f32::max]
+                .map(|choose| uvs.iter().map(|uv| uv[0]).reduce(choose).expect("vertices"));
+            let limit = low + 0.3 * (high - low);
+            for uv in uvs {
+                uv[0] = if uv[0] < limit { 0.08 * (uv[0] - limit) } else { uv[0] - limit };
+            }
+            model.tangents = Some(model.computed(Method::default(), model.uv_set));
+            // On a coarse model too few faces lie within that part.
+            model.positions.len() > 150
+        },
+    },
+    Mistake {
+        code: Code::UvCoarse,
+        how: "UVs bent by the fourth power of complex numbers, which stretches nothing",
+        make: |model| {
+            let uvs = &mut model.uvs[model.uv_set];
+            let [low, high] = [f32::min, f32::max].map(|choose| {
+                let all = uvs.iter().copied();
+                all.reduce(|a, b| [choose(a[0], b[0]), choose(a[1], b[1])]).expect("vertices")
+            });
+            let size = (high[0] - low[0]).max(high[1] - low[1]);
+            let square = |[x, y]: [f32; 2]| [x * x - y * y, 2.0 * x * y];
+            for uv in uvs {
+                *uv = square(square([0, 1].map(|i| 0.3 + (uv[i] - low[i]) / size)));
+            }
+            model.tangents = Some(model.computed(Method::default(), model.uv_set));
+            // Sheared UVs reach farther than their range, so that less of them lies where texels are long.
+            model.positions.len() > 150 && !model.name.contains("sheared sphere")
+        },
+    },
+    Mistake {
+        code: Code::UvHardEdge,
+        how: "faces made flat on a model that is coarse or made steep",
+        make: |model| {
+            let at: Vec<usize> = model.indices.iter().map(|&vertex| vertex as usize).collect();
+            let steep = if model.name.contains("wavy grid") { 8.0 } else { 1.0 };
+            model.positions = at.iter().map(|&vertex| model.positions[vertex]).collect();
+            model.positions.iter_mut().for_each(|position| position[2] *= steep);
+            for uvs in &mut model.uvs {
+                *uvs = at.iter().map(|&vertex| uvs[vertex]).collect();
+            }
+            model.indices = (0..at.len() as u32).collect();
+            let normal = |corners: &[[f32; 3]; 3]| {
+                let [a, b, c] = *corners;
+                let [e, f] = [b, c].map(|end| [end[0] - a[0], end[1] - a[1], end[2] - a[2]]);
+                let normal =
+                    [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]];
+                let length = normal.iter().map(|x| x * x).sum::<f32>().sqrt();
+                [normal.map(|x| x / length); 3]
+            };
+            model.normals = Some(model.positions.as_chunks::<3>().0.iter().flat_map(normal).collect());
+            model.tangents = Some(vec![[1.0, 0.0, 0.0, 1.0]; at.len()]);
+            model.tangents = Some(model.computed(Method::default(), model.uv_set));
+            steep > 1.0 || model.name == "coarse sphere"
+        },
+    },
+    Mistake {
         code: Code::MapScaleNegative,
         how: "normalTexture.scale of -1",
         make: |model| {
