@@ -1,7 +1,10 @@
-//! How UVs stretch a map over the faces of a surface, and how many texels they give each, compared with the surface's own median.
+//! How UVs stretch a map over the faces of a surface, and how many texels they give each, compared with the
+//! surface's own median.
 //!
-//! The derivatives of the position along u and v have a largest and a smallest length over all directions of the plane, the singular values. Their ratio is
-//! the stretch (Sander, Snyder, Gortler, Hoppe, "Texture Mapping Progressive Meshes", 2001), and the root of their product the length that one unit of UV covers.
+//! The derivatives of the position along u and v have a largest and a smallest length over all directions of
+//! the plane, the singular values. Their ratio is
+//! the stretch (Sander, Snyder, Gortler, Hoppe, "Texture Mapping Progressive Meshes", 2001), and the root of
+//! their product the length that one unit of UV covers.
 
 use crate::indices::Indices;
 use crate::model_area::area_of;
@@ -14,19 +17,22 @@ pub struct Outliers {
     pub triangles: Indices,
     /// Their part of the surface's area, from 0 to 1.
     pub share: f64,
-    /// The median over the surface's area, and the largest value of these faces: of the stretch, or of the length that a unit of UV covers.
+    /// The median over the surface's area, and the largest value of these faces: of the stretch, or of the
+    /// length that a unit of UV covers.
     pub median: f64,
     pub largest: f64,
 }
 
-/// Faces that are stretched more than the others, and faces with fewer texels than the others; none where they are too small a part.
+/// Faces that are stretched more than the others, and faces with fewer texels than the others; none where
+/// they are too small a part.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UvScale {
     pub stretched: Option<Outliers>,
     pub coarse: Option<Outliers>,
 }
 
-/// How many times the median a stretch is, from which on it stands out, and the smallest stretch that is seen at all.
+/// How many times the median a stretch is, from which on it stands out, and the smallest stretch that is seen
+/// at all.
 const STRETCHED: f64 = 4.0;
 const SEEN_STRETCH: f64 = 6.0;
 
@@ -85,7 +91,8 @@ impl Face {
         let (uu, uv, vv) = (product(along_u, along_u), product(along_u, along_v), product(along_v, along_v));
         let (sum, difference) = (uu + vv, (uu - vv).hypot(2.0 * uv));
         let (large, small) = ((sum + difference) / 2.0, (sum - difference) / 2.0);
-        // The product of the squared singular values is that of the areas, which loses fewer digits than the difference above.
+        // The product of the squared singular values is that of the areas, which loses fewer digits than the
+        // difference above.
         let exact = (2.0 * area * twice_uv_area.abs()).powi(2) / large;
         let small = if small > 1e-6 * large { small } else { exact };
         let (stretch, length) = ((large / small).sqrt(), (2.0 * area / twice_uv_area.abs()).sqrt());

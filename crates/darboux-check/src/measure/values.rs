@@ -1,5 +1,7 @@
 //! What single vectors tell, and how far they may be off.
 
+use std::collections::HashMap;
+
 use crate::surface::{length, xyz};
 
 /// How far lengths of normals and of tangents may be from 1: 8-bit vectors are up to 0.007 off.
@@ -14,6 +16,14 @@ pub const MIN_SIGN: f32 = 0.1;
 /// Whether all components are numbers.
 pub fn is_finite<const N: usize>(vector: [f32; N]) -> bool {
     vector.iter().all(|x| x.is_finite())
+}
+
+/// Per vector the number of the first one that equals it.
+pub fn first_equal<const N: usize>(vectors: &[[f32; N]]) -> Vec<u32> {
+    let mut first = HashMap::with_capacity(vectors.len());
+    // Adding 0.0 makes both zeros one.
+    let key = |vector: &[f32; N]| vector.map(|x| (x + 0.0).to_bits());
+    (0u32..).zip(vectors).map(|(number, vector)| *first.entry(key(vector)).or_insert(number)).collect()
 }
 
 /// Whether a tangent has a direction.

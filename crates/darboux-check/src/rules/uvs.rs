@@ -50,7 +50,8 @@ fn degenerate(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     fault.map(Defect::new).into_iter().collect()
 }
 
-/// Faces whose UVs are unlike those of the others. The poles of every sphere with rings are so: it is worth knowing, and often meant.
+/// Faces whose UVs are unlike those of the others. The poles of every sphere with rings are so: it is worth
+/// knowing, and often meant.
 fn scale(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let Some(uvs) = needed_uvs(facts.surface) else { return Vec::new() };
     let UvScale { stretched, coarse } = UvScale::of(facts.surface, uvs);

@@ -40,8 +40,8 @@ pub fn said(fault: &Fault) -> Said {
                 _ => "more than 1000".to_owned(),
             };
             Said::new(format!("{what} stretched {times} times as far in one direction as across it"))
-            .with("median of the primitive", faces.median, "times")
-            .with("part of the primitive's area", 100.0 * faces.share, "%")
+                .with("median of the primitive", faces.median, "times")
+                .with("part of the primitive's area", 100.0 * faces.share, "%")
         }
         Fault::UvCoarse(faces) => {
             let what = counted(faces.triangles.len(), "triangle has", "triangles have");

@@ -17,9 +17,8 @@
 //! products of 32-bit floats in 64 bits. Places in the grid are rounded, and marks reach half a row and a
 //! column further than the boundary.
 
-use std::collections::HashMap;
-
 use super::layout::{Layout, bounds, doubled_area};
+use crate::measure::values::first_equal;
 
 /// The cells that may be marked per triangle. Thousands of long thin triangles beside each other need more;
 /// then all triangles may overlap.
@@ -66,7 +65,7 @@ struct Edge {
 /// The edges of triangles, all turned to have a positive area, that do not cancel. Vertices with the same UV
 /// are one.
 fn boundary(layout: &Layout<'_>, triangles: &[u32]) -> Vec<Edge> {
-    let place_of_vertex = places(layout.uvs);
+    let place_of_vertex = first_equal(layout.uvs);
     let edges = || {
         triangles.iter().flat_map(|&number| {
             let vertices = layout.vertices(number as usize);
@@ -102,14 +101,6 @@ fn boundary(layout: &Layout<'_>, triangles: &[u32]) -> Vec<Edge> {
         start = end;
     }
     boundary
-}
-
-/// Per vertex the first one with the same UV.
-fn places(uvs: &[[f32; 2]]) -> Vec<u32> {
-    let mut first = HashMap::with_capacity(uvs.len());
-    // Adding 0.0 makes both zeros one.
-    let key = |uv: &[f32; 2]| [(uv[0] + 0.0).to_bits(), (uv[1] + 0.0).to_bits()];
-    (0u32..).zip(uvs).map(|(vertex, uv)| *first.entry(key(uv)).or_insert(vertex)).collect()
 }
 
 /// Cells over the bounding box of all triangles.
