@@ -1,19 +1,15 @@
 //! [`Defect`]: one thing that is wrong, with all its indices and numbers. Repairs read it; `words` says it.
 
 mod maps;
+mod materials;
+mod normals;
 mod obstacle;
 mod pair;
-
-use darboux::Recipe;
+mod tangents;
+mod uvs;
 
 use crate::code::{Code, Family};
 use crate::indices::{Indices, Part};
-use crate::measure::fit::Difference;
-use crate::measure::hard_edges::HardEdges;
-use crate::measure::other_axes::OtherAxes;
-use crate::measure::recipe::Recognised;
-use crate::measure::reversal::Reversal;
-use crate::measure::uv_scale::Outliers;
 use crate::place::Place;
 use crate::severity::Severity;
 
@@ -21,8 +17,12 @@ pub use maps::{
     Certainty, DirectionEvidence, FacesScore, LengthDoubt, MapFault, NoNormals, RedDoubt, ReliefEvidence,
     Texels,
 };
+pub use materials::MaterialFault;
+pub use normals::NormalFault;
 pub use obstacle::Obstacle;
 pub use pair::{Cancelled, PAIRS, Pair};
+pub use tangents::{TangentDifference, TangentFault};
+pub use uvs::UvFault;
 
 /// One thing that is wrong.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,162 +40,16 @@ pub struct Defect {
     pub spoiled: Option<f64>,
 }
 
-/// What is wrong.
+/// What is wrong, by what it is about.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fault {
     /// Positions contain NaN or infinity.
     PositionNotFinite(Part),
-    /// The number of vertices without normals.
-    NormalMissing(usize),
-    NormalNotFinite(Part),
-    NormalNotUnit {
-        vertices: Part,
-        /// The smallest length.
-        smallest: f64,
-    },
-    NormalOtherAxes {
-        axes: OtherAxes,
-        vertices: usize,
-    },
-    /// Most triangles are wound against their normals.
-    NormalsReversed {
-        reversal: Reversal,
-        triangles: Part,
-    },
-    /// The normals of some vertices point to the back of all faces around them.
-    NormalsPartlyReversed {
-        /// All triangles with such vertices.
-        triangles: Part,
-        /// The number of these whose normals all point to the back, and of those with normals on both sides.
-        whole: usize,
-        mixed: usize,
-        vertices: usize,
-        /// The number of connected parts with such vertices, and of all parts.
-        parts: [usize; 2],
-    },
-    UvMissing {
-        set: usize,
-        /// The number of sets that are there.
-        present: usize,
-    },
-    UvNotFinite {
-        set: usize,
-        vertices: Part,
-    },
-    UvDegenerate {
-        set: usize,
-        triangles: Part,
-    },
-    UvMirrored(Part),
-    UvOverlapping {
-        set: usize,
-        triangles: Indices,
-        /// Whether all pairs of triangles were compared.
-        is_complete: bool,
-        /// The share of the UV area.
-        area_share: f64,
-    },
-    /// Faces whose UVs are stretched more than those of the others.
-    UvStretched(Outliers),
-    /// Faces with fewer texels than the others.
-    UvCoarse(Outliers),
-    /// Hard edges at which the UVs go on.
-    UvHardEdge(HardEdges),
-    /// The number of vertices without tangents.
-    TangentMissing(usize),
-    /// Tangents that nothing reads.
-    TangentUnused {
-        /// Their size.
-        bytes: usize,
-        /// What is wrong with them, each code once.
-        also: Vec<Code>,
-    },
-    TangentNotFinite(Part),
-    TangentZero(Part),
-    TangentNotUnit(Part),
-    TangentLeaning {
-        vertices: Indices,
-        /// The largest angle to the plane of the normal, in degrees.
-        worst: f64,
-    },
-    TangentSignNotOne(Part),
-    TangentSharedAcrossMirror(Part),
-    /// Triangles with both signs.
-    TangentSignMixed(Part),
-    /// Directions or signs differ from MikkTSpace's in a known way.
-    TangentDiffers(TangentDifference),
-    /// Some tangents are not those of the method that made the others.
-    TangentOutliers {
-        recipe: Recipe,
-        vertices: Part,
-    },
-    TangentOtherRecipe {
-        recognised: Recognised,
-        /// Where no known method made them: the percentage of corners that are far from MikkTSpace.
-        far: f64,
-    },
+    Normal(NormalFault),
+    Uv(UvFault),
+    Tangent(TangentFault),
     Map(MapFault),
-    TransformMirrors {
-        /// Where the directions u and v of the texture go.
-        axes: [[f64; 2]; 2],
-        determinant: f64,
-        /// Degrees.
-        rotation: f64,
-    },
-    /// The negative scale of the normal texture.
-    MapScaleNegative(f64),
-    /// The scale of the normal texture is 0.
-    MapScaleZero(f64),
-    /// The large scale of the normal texture.
-    MapScaleExtreme(f64),
-}
-
-/// A known difference from MikkTSpace's tangents.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TangentDifference {
-    pub difference: Difference,
-    /// The number of corners, vertices or triangles that support it, of those that were measured.
-    pub supporting: usize,
-    pub measured: usize,
-    /// These triangles or vertices, where it is about a part of the surface.
-    pub items: Indices,
-    /// Where most tangents are negated: the vertices whose tangents are not.
-    pub exceptions: Indices,
-    /// The UV set that the tangents should follow.
-    pub uv_set: usize,
-    /// Whether it follows from reversed normals.
-    pub follows_from_normals: bool,
-}
-
-impl TangentDifference {
-    pub fn percent(&self) -> f64 {
-        100.0 * self.supporting as f64 / self.measured.max(1) as f64
-    }
-
-    /// Whether all corners that can be judged show it.
-    pub fn is_on_all_corners(&self) -> bool {
-        self.supporting == self.measured && !self.is_partial()
-    }
-
-    /// Whether it is about a part of the surface.
-    pub fn is_partial(&self) -> bool {
-        matches!(
-            self.difference,
-            Difference::SignPartlyFlipped | Difference::PartlyNegated | Difference::PartlyRotated
-        )
-    }
-
-    fn code(&self) -> Code {
-        match self.difference {
-            Difference::SignFlipped => Code::TangentSignFlipped,
-            Difference::SignFlippedWhereMirrored => Code::TangentSignFlippedWhereMirrored,
-            Difference::SignPartlyFlipped => Code::TangentSignPartlyFlipped,
-            Difference::PartlyRotated | Difference::Rotated => Code::TangentRotated,
-            Difference::PartlyNegated | Difference::Negated => Code::TangentNegated,
-            Difference::OtherUvSet(_) => Code::TangentOtherUvSet,
-            Difference::None | Difference::Unknown => unreachable!("no difference is no defect"),
-        }
-    }
+    Material(MaterialFault),
 }
 
 impl Fault {
@@ -203,72 +57,31 @@ impl Fault {
     pub fn code(&self) -> Code {
         match self {
             Self::PositionNotFinite(_) => Code::PositionNotFinite,
-            Self::NormalMissing(_) => Code::NormalMissing,
-            Self::NormalNotFinite(_) => Code::NormalNotFinite,
-            Self::NormalNotUnit { .. } => Code::NormalNotUnit,
-            Self::NormalOtherAxes { .. } => Code::NormalOtherAxes,
-            Self::NormalsReversed { .. } | Self::NormalsPartlyReversed { .. } => Code::NormalAgainstWinding,
-            Self::UvMissing { .. } => Code::UvMissing,
-            Self::UvNotFinite { .. } => Code::UvNotFinite,
-            Self::UvDegenerate { .. } => Code::UvDegenerate,
-            Self::UvMirrored(_) => Code::UvMirrored,
-            Self::UvOverlapping { .. } => Code::UvOverlapping,
-            Self::UvStretched(_) => Code::UvStretched,
-            Self::UvCoarse(_) => Code::UvCoarse,
-            Self::UvHardEdge(_) => Code::UvHardEdge,
-            Self::TangentMissing(_) => Code::TangentMissing,
-            Self::TangentUnused { .. } => Code::TangentUnused,
-            Self::TangentNotFinite(_) => Code::TangentNotFinite,
-            Self::TangentZero(_) => Code::TangentZero,
-            Self::TangentNotUnit(_) => Code::TangentNotUnit,
-            Self::TangentLeaning { .. } => Code::TangentNotPerpendicular,
-            Self::TangentSignNotOne(_) => Code::TangentSignNotOne,
-            Self::TangentSharedAcrossMirror(_) => Code::TangentSharedAcrossMirror,
-            Self::TangentSignMixed(_) => Code::TangentSignMixed,
-            Self::TangentDiffers(difference) => difference.code(),
-            Self::TangentOutliers { .. } | Self::TangentOtherRecipe { .. } => Code::TangentOtherRecipe,
+            Self::Normal(fault) => fault.code(),
+            Self::Uv(fault) => fault.code(),
+            Self::Tangent(fault) => fault.code(),
             Self::Map(fault) => fault.code(),
-            Self::TransformMirrors { .. } => Code::TransformMirrors,
-            Self::MapScaleNegative(_) => Code::MapScaleNegative,
-            Self::MapScaleZero(_) => Code::MapScaleZero,
-            Self::MapScaleExtreme(_) => Code::MapScaleExtreme,
+            Self::Material(fault) => fault.code(),
         }
     }
 
     /// The vertices or triangles that show it; none for a property of the whole.
     pub fn items(&self) -> Option<&Indices> {
         match self {
-            Self::PositionNotFinite(part)
-            | Self::NormalNotFinite(part)
-            | Self::NormalNotUnit { vertices: part, .. }
-            | Self::NormalsReversed { triangles: part, .. }
-            | Self::NormalsPartlyReversed { triangles: part, .. }
-            | Self::UvNotFinite { vertices: part, .. }
-            | Self::UvDegenerate { triangles: part, .. }
-            | Self::UvMirrored(part)
-            | Self::TangentNotFinite(part)
-            | Self::TangentZero(part)
-            | Self::TangentNotUnit(part)
-            | Self::TangentSignNotOne(part)
-            | Self::TangentSharedAcrossMirror(part)
-            | Self::TangentSignMixed(part)
-            | Self::TangentOutliers { vertices: part, .. } => Some(&part.items),
-            Self::UvOverlapping { triangles: items, .. } | Self::TangentLeaning { vertices: items, .. } => {
-                Some(items)
-            }
-            Self::UvStretched(faces) | Self::UvCoarse(faces) => Some(&faces.triangles),
-            Self::UvHardEdge(edges) => Some(&edges.triangles),
-            Self::TangentDiffers(difference) => Some(&difference.items).filter(|items| !items.is_empty()),
-            _ => None,
+            Self::PositionNotFinite(part) => Some(&part.items),
+            Self::Normal(fault) => fault.items(),
+            Self::Uv(fault) => fault.items(),
+            Self::Tangent(fault) => fault.items(),
+            Self::Map(_) | Self::Material(_) => None,
         }
     }
 
     /// The number of vertices, corners, faces or texels that show it; 1 for a property of the whole.
     pub fn count(&self) -> usize {
         match self {
-            Self::NormalOtherAxes { vertices, .. } => *vertices,
-            Self::TangentDiffers(difference) => difference.supporting,
-            Self::TangentOtherRecipe { recognised, .. } => {
+            Self::Normal(NormalFault::OtherAxes { vertices, .. }) => *vertices,
+            Self::Tangent(TangentFault::Differs(difference)) => difference.supporting,
+            Self::Tangent(TangentFault::OtherRecipe { recognised, .. }) => {
                 recognised.mikktspace.corners - recognised.mikktspace.close
             }
             Self::Map(fault) => fault.count(),
@@ -277,12 +90,26 @@ impl Fault {
     }
 }
 
+/// Implements conversions from the faults of each kind.
+macro_rules! from_faults {
+    ($($kind:ident($fault:ident))*) => {$(
+        impl From<$fault> for Fault {
+            fn from(fault: $fault) -> Self {
+                Self::$kind(fault)
+            }
+        }
+    )*};
+}
+
+from_faults! { Normal(NormalFault) Uv(UvFault) Tangent(TangentFault) Map(MapFault) Material(MaterialFault) }
+
 /// Whether a defect is one of outliers, its code, and its place: primitive, material and image.
 pub type Sameness = (bool, Code, (Option<(usize, usize)>, Option<usize>, Option<usize>));
 
 impl Defect {
     /// A defect at no place yet, with the code's usual severity.
-    pub fn new(fault: Fault) -> Self {
+    pub fn new(fault: impl Into<Fault>) -> Self {
+        let fault = fault.into();
         let code = fault.code();
         let obstacle = code.left_because().map(|_| Obstacle::NoRepair(code));
         let (place, severity) = (Place::default(), code.severity());
@@ -344,6 +171,6 @@ impl Defect {
     pub fn sameness(&self) -> Sameness {
         let primitive = self.place.primitive.as_ref().map(|name| (name.mesh, name.primitive));
         let place = (primitive, self.place.material, self.place.image);
-        (matches!(self.fault, Fault::TangentOutliers { .. }), self.code(), place)
+        (matches!(self.fault, Fault::Tangent(TangentFault::Outliers { .. })), self.code(), place)
     }
 }

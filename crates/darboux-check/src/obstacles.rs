@@ -3,7 +3,7 @@
 use darboux_io::image::PngImage;
 
 use crate::code::Family;
-use crate::defect::{Defect, Fault, Obstacle};
+use crate::defect::{Defect, Fault, NormalFault, Obstacle};
 use crate::facts::SurfaceFacts;
 use crate::measure::reversal::{Reversal, Undecided};
 use crate::surface::Surface;
@@ -13,17 +13,23 @@ pub fn of_surface(defect: &Defect, facts: &SurfaceFacts<'_>) -> Option<Obstacle>
     let surface = facts.surface;
     let moves_normals = || surface.moves_normals.then_some(Obstacle::MorphTargetsMoveNormals);
     match &defect.fault {
-        Fault::NormalMissing(_) if !surface.needs_tangents => Some(Obstacle::FlatShadingMayBeWanted),
-        Fault::NormalNotFinite(_) | Fault::NormalNotUnit { .. } if facts.other_axes.is_some() => {
+        Fault::Normal(NormalFault::Missing(_)) if !surface.needs_tangents => {
+            Some(Obstacle::FlatShadingMayBeWanted)
+        }
+        Fault::Normal(NormalFault::NotFinite(_) | NormalFault::NotUnit { .. })
+            if facts.other_axes.is_some() =>
+        {
             Some(Obstacle::NormalsInOtherAxes)
         }
-        Fault::NormalNotFinite(_) | Fault::NormalNotUnit { .. } => moves_normals(),
-        Fault::NormalsReversed { reversal, .. } => match reversal {
+        Fault::Normal(NormalFault::NotFinite(_) | NormalFault::NotUnit { .. }) => moves_normals(),
+        Fault::Normal(NormalFault::Reversed { reversal, .. }) => match reversal {
             Reversal::Faces => None,
             Reversal::Normals | Reversal::NormalsByTangents => moves_normals(),
             Reversal::Unknown(reason) => Some(Obstacle::UndecidedReversal(*reason)),
         },
-        Fault::NormalsPartlyReversed { .. } => Some(Obstacle::UndecidedReversal(Undecided::OnlyAPart)),
+        Fault::Normal(NormalFault::PartlyReversed { .. }) => {
+            Some(Obstacle::UndecidedReversal(Undecided::OnlyAPart))
+        }
         _ if defect.family() != Family::Tangents => None,
         _ if facts.other_axes.is_some() => Some(Obstacle::NormalsInOtherAxes),
         _ => no_tangents(surface).or_else(|| undecided_side(facts.reversal?)),

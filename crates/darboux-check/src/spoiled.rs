@@ -5,7 +5,7 @@
 //! turned less counts by its angle over 90 degrees, and one that is turned by less than [`SEEN`] does not
 //! count.
 
-use crate::defect::{Fault, TangentDifference};
+use crate::defect::{Fault, NormalFault, TangentDifference, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::indices::Indices;
 use crate::measure::fit::Difference;
@@ -23,21 +23,29 @@ pub const NO_LENGTH: f64 = 0.1;
 /// that.
 pub fn spoiled(fault: &Fault, facts: &SurfaceFacts<'_>) -> Option<f64> {
     let surface = facts.surface;
-    let at = |vertices: &Indices| Some(area_at(surface, vertices, |_| 1.0));
     match fault {
-        Fault::NormalNotUnit { vertices, smallest } if *smallest < NO_LENGTH => {
+        Fault::Normal(NormalFault::NotUnit { vertices, smallest }) if *smallest < NO_LENGTH => {
             let normals = surface.normals.as_ref()?;
             let has_none = |vertex: usize| if length(normals[vertex]) < NO_LENGTH { 1.0 } else { 0.0 };
             Some(area_at(surface, &vertices.items, has_none))
         }
-        Fault::NormalsReversed { triangles, .. } | Fault::NormalsPartlyReversed { triangles, .. } => {
-            Some(area_of_triangles(surface, &triangles.items))
-        }
-        Fault::TangentSignMixed(triangles) => Some(area_of_triangles(surface, &triangles.items)),
-        Fault::TangentSharedAcrossMirror(_) => Some(area_with_other_sign(facts)),
-        Fault::TangentSignNotOne(part) | Fault::TangentNotUnit(part) => at(&part.items),
-        Fault::TangentOutliers { vertices, .. } => at(&vertices.items),
-        Fault::TangentLeaning { .. } => {
+        Fault::Normal(
+            NormalFault::Reversed { triangles, .. } | NormalFault::PartlyReversed { triangles, .. },
+        ) => Some(area_of_triangles(surface, &triangles.items)),
+        Fault::Tangent(fault) => of_tangents(fault, facts),
+        _ => None,
+    }
+}
+
+fn of_tangents(fault: &TangentFault, facts: &SurfaceFacts<'_>) -> Option<f64> {
+    let surface = facts.surface;
+    let at = |vertices: &Indices| Some(area_at(surface, vertices, |_| 1.0));
+    match fault {
+        TangentFault::SignMixed(triangles) => Some(area_of_triangles(surface, &triangles.items)),
+        TangentFault::SharedAcrossMirror(_) => Some(area_with_other_sign(facts)),
+        TangentFault::SignNotOne(part) | TangentFault::NotUnit(part) => at(&part.items),
+        TangentFault::Outliers { vertices, .. } => at(&vertices.items),
+        TangentFault::Leaning { .. } => {
             let leaning = leaning(facts);
             let vertices: Vec<usize> = leaning.iter().map(|(vertex, _)| *vertex).collect();
             let weight = |vertex: usize| {
@@ -47,7 +55,7 @@ pub fn spoiled(fault: &Fault, facts: &SurfaceFacts<'_>) -> Option<f64> {
             };
             Some(area_at(surface, &vertices.as_slice().into(), weight))
         }
-        Fault::TangentDiffers(found) => Some(of_difference(surface, found)),
+        TangentFault::Differs(found) => Some(of_difference(surface, found)),
         _ => None,
     }
 }

@@ -18,6 +18,7 @@ use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Fault, Obstacle};
 use crate::finding::Finding;
 use crate::indices::Indices;
+use crate::severity::Severity;
 use said::Said;
 
 /// The most indices in [`Finding::first`].
@@ -108,29 +109,14 @@ pub fn grouped<T, K: Eq + Hash>(elements: Vec<T>, key: impl Fn(&T) -> Option<K>)
     groups
 }
 
-fn said(fault: &Fault, severity: crate::severity::Severity) -> Said {
+fn said(fault: &Fault, severity: Severity) -> Said {
     match fault {
-        Fault::PositionNotFinite(_)
-        | Fault::NormalMissing(_)
-        | Fault::NormalNotFinite(_)
-        | Fault::NormalNotUnit { .. }
-        | Fault::NormalOtherAxes { .. }
-        | Fault::NormalsReversed { .. }
-        | Fault::NormalsPartlyReversed { .. } => normals::said(fault),
-        Fault::UvMissing { .. }
-        | Fault::UvNotFinite { .. }
-        | Fault::UvDegenerate { .. }
-        | Fault::UvMirrored(_)
-        | Fault::UvOverlapping { .. }
-        | Fault::UvStretched(_)
-        | Fault::UvCoarse(_)
-        | Fault::UvHardEdge(_) => uvs::said(fault),
+        Fault::PositionNotFinite(part) => normals::positions_not_finite(part),
+        Fault::Normal(fault) => normals::said(fault),
+        Fault::Uv(fault) => uvs::said(fault),
+        Fault::Tangent(fault) => tangents::said(fault, severity),
         Fault::Map(fault) => maps::said(fault),
-        Fault::TransformMirrors { .. }
-        | Fault::MapScaleNegative(_)
-        | Fault::MapScaleZero(_)
-        | Fault::MapScaleExtreme(_) => materials::said(fault),
-        _ => tangents::said(fault, severity),
+        Fault::Material(fault) => materials::said(fault),
     }
 }
 

@@ -11,7 +11,7 @@ use super::surfaces::{defects_of_surface, for_each_surface, weigh};
 use crate::cancelling;
 use crate::check_options::CheckOptions;
 use crate::code::Code;
-use crate::defect::{Defect, Fault, Obstacle};
+use crate::defect::{Defect, Fault, Obstacle, UvFault};
 use crate::finding::Finding;
 use crate::hypotheses::{self, Inverted, MapWitness, inverted, is_about_channels};
 use crate::instances::{Key, key};
@@ -228,7 +228,7 @@ pub fn defects_of_materials(
 /// texel per triangle and no bumps.
 fn primitive_without_uv_area(defect: &Defect) -> Option<Key> {
     match &defect.fault {
-        Fault::UvDegenerate { triangles, .. } if triangles.len() == triangles.of => {
+        Fault::Uv(UvFault::Degenerate { triangles, .. }) if triangles.len() == triangles.of => {
             defect.place.primitive.as_ref().map(key)
         }
         _ => None,

@@ -6,7 +6,7 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveInfo, PrimitiveName, inspect};
 
 use crate::code::{Code, Family};
-use crate::defect::{Defect, Fault};
+use crate::defect::{Defect, Fault, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::instances::{Key, distinct, key};
 use crate::measure::texture_axes::followed;
@@ -87,13 +87,13 @@ pub fn defects_of_surface(surface: &Surface, area: &ModelArea) -> Vec<Defect> {
 
 /// Tangents that nothing reads make no picture wrong: one remark says all about them.
 fn without_unread(defects: Vec<Defect>) -> Vec<Defect> {
-    let is_remark = |defect: &Defect| matches!(defect.fault, Fault::TangentUnused { .. });
+    let is_remark = |defect: &Defect| matches!(defect.fault, Fault::Tangent(TangentFault::Unused { .. }));
     let is_unread = |defect: &&Defect| defect.family() == Family::Tangents && !is_remark(defect);
     let mut codes: Vec<Code> = defects.iter().filter(is_unread).map(Defect::code).collect();
     codes.dedup();
     let mut kept: Vec<Defect> = defects.into_iter().filter(|defect| !is_unread(&defect)).collect();
     for defect in &mut kept {
-        if let Fault::TangentUnused { also, .. } = &mut defect.fault {
+        if let Fault::Tangent(TangentFault::Unused { also, .. }) = &mut defect.fault {
             also.clone_from(&codes);
         }
     }
@@ -109,11 +109,11 @@ mod tests {
     #[test]
     fn what_primitives_spoil_adds_up() {
         let part = || Part::new(&[1], 100).expect("one triangle");
-        let defect = |fault, percent| Defect { spoiled: Some(percent), ..Defect::new(fault) };
+        let defect = |fault: TangentFault, percent| Defect { spoiled: Some(percent), ..Defect::new(fault) };
         let severities = |percent: f64| {
             let mut defects: Vec<Defect> =
-                (0..5).map(|_| defect(Fault::TangentSharedAcrossMirror(part()), percent)).collect();
-            defects.push(defect(Fault::TangentSignNotOne(part()), percent));
+                (0..5).map(|_| defect(TangentFault::SharedAcrossMirror(part()), percent)).collect();
+            defects.push(defect(TangentFault::SignNotOne(part()), percent));
             weigh(&mut defects);
             defects.iter().map(|defect| defect.severity).collect::<Vec<Severity>>()
         };

@@ -14,8 +14,6 @@ use crate::surface::{Surface, cross, dot, indices_where, xyz};
 /// How the tangents of a file differ from MikkTSpace's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Difference {
-    /// They point the same way, up to the differences between methods.
-    None,
     /// The signs of all corners are flipped.
     SignFlipped,
     /// The signs are flipped on mirrored parts only, or on unmirrored parts only.
@@ -32,13 +30,12 @@ pub enum Difference {
     PartlyRotated,
     /// They follow another UV set.
     OtherUvSet(usize),
-    /// None of these.
-    Unknown,
 }
 
 /// The measurement.
 pub struct Fit {
-    pub difference: Difference,
+    /// None where they point the same way, up to the differences between methods, or in no known way.
+    pub difference: Option<Difference>,
     /// What was measured: corners with usable tangents whose vertices do not lie on mirrored seams;
     /// triangles or vertices for a difference of a part of the surface.
     pub measured: usize,
@@ -94,27 +91,27 @@ pub fn measure(
         exceptions: Vec::new(),
     };
     let signs = by_signs(&own);
-    let of_signs = || (signs != Difference::None).then(|| fit(signs, own.signs[0][1] + own.signs[1][1]));
+    let of_signs = || signs.map(|signs| fit(Some(signs), own.signs[0][1] + own.signs[1][1]));
     if own.corners == 0 {
-        return vec![fit(Difference::Unknown, 0)];
+        return vec![fit(None, 0)];
     }
     if let Some((set, other)) = other_uv_set(surface, &own, winding) {
-        let of_signs = of_signs().filter(|_| by_signs(&other) != Difference::None);
-        return [fit(Difference::OtherUvSet(set), other.near)].into_iter().chain(of_signs).collect();
+        let of_signs = of_signs().filter(|_| by_signs(&other).is_some());
+        return [fit(Some(Difference::OtherUvSet(set)), other.near)].into_iter().chain(of_signs).collect();
     }
     if share(own.along) >= MIN_SHARE {
         return match of_signs() {
             Some(signs) => [signs].into_iter().chain(partly_turned(surface, expected)).collect(),
-            None => or_else(partly(surface, expected, &own), || fit(Difference::None, own.along)),
+            None => or_else(partly(surface, expected, &own), || fit(None, own.along)),
         };
     }
     let turned = if share(own.against) >= MIN_SHARE {
         let exceptions = along(surface, expected);
-        Fit { exceptions, ..fit(Difference::Negated, own.against) }
+        Fit { exceptions, ..fit(Some(Difference::Negated), own.against) }
     } else if share(own.across) >= MIN_SHARE {
-        fit(Difference::Rotated, own.across)
+        fit(Some(Difference::Rotated), own.across)
     } else {
-        return or_else(partly(surface, expected, &own), || fit(Difference::Unknown, 0));
+        return or_else(partly(surface, expected, &own), || fit(None, 0));
     };
     [turned].into_iter().chain(of_signs()).collect()
 }
@@ -180,26 +177,26 @@ fn along(surface: &Surface, expected: &[[f32; 4]]) -> Vec<usize> {
 impl Fit {
     /// Whether the tangent of a vertex is one of those that are turned by a right angle, where most are not.
     pub fn is_rotated(&self, vertex: usize) -> bool {
-        self.difference == Difference::PartlyRotated && self.items.binary_search(&vertex).is_ok()
+        self.difference == Some(Difference::PartlyRotated) && self.items.binary_search(&vertex).is_ok()
     }
 
     /// Whether the tangent of a vertex is negated.
     pub fn is_negated(&self, vertex: usize) -> bool {
         match self.difference {
-            Difference::Negated => self.exceptions.binary_search(&vertex).is_err(),
-            Difference::PartlyNegated => self.items.binary_search(&vertex).is_ok(),
+            Some(Difference::Negated) => self.exceptions.binary_search(&vertex).is_err(),
+            Some(Difference::PartlyNegated) => self.items.binary_search(&vertex).is_ok(),
             _ => false,
         }
     }
 
     /// None without items.
     fn of_part(difference: Difference, items: Vec<usize>, measured: usize) -> Option<Self> {
-        let supporting = items.len();
+        let (difference, supporting) = (Some(difference), items.len());
         (supporting > 0).then_some(Self { difference, measured, supporting, items, exceptions: Vec::new() })
     }
 }
 
-fn by_signs(counts: &Counts) -> Difference {
+fn by_signs(counts: &Counts) -> Option<Difference> {
     let all = counts.signs[0][0] + counts.signs[1][0];
     // An orientation with no more corners than may contradict the others decides nothing.
     let is_few = |[corners, _]: [usize; 2]| corners as f64 <= MAX_SIGN_ERRORS * all as f64;
@@ -208,14 +205,14 @@ fn by_signs(counts: &Counts) -> Difference {
     let [unmirrored, mirrored] = counts.signs;
     let is_flipped_or_few = |of: [usize; 2]| is_flipped(of) || is_few(of);
     if all == 0 {
-        return Difference::None;
+        return None;
     }
     if is_flipped_or_few(unmirrored) && is_flipped_or_few(mirrored) {
-        return Difference::SignFlipped;
+        return Some(Difference::SignFlipped);
     }
     let is_flipped_on_one_side =
         is_kept(unmirrored) && is_flipped(mirrored) || is_flipped(unmirrored) && is_kept(mirrored);
-    if is_flipped_on_one_side { Difference::SignFlippedWhereMirrored } else { Difference::None }
+    is_flipped_on_one_side.then_some(Difference::SignFlippedWhereMirrored)
 }
 
 /// Whether no more than a part of a surface is wound against its normals.

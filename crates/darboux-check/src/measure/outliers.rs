@@ -125,8 +125,7 @@ pub fn tangents_without_other_mistakes(facts: &SurfaceFacts<'_>) -> Option<Vec<[
             }
         }
     }
-    let single =
-        [Difference::None, Difference::Unknown, Difference::PartlyNegated, Difference::PartlyRotated];
+    let single = [None, Some(Difference::PartlyNegated), Some(Difference::PartlyRotated)];
     let is_about_all = |fit: &Fit| !single.contains(&fit.difference);
     let all_signs = facts.reversal.is_some() || facts.fits.iter().any(is_about_all);
     let is_no_sign = |vertex: usize| !is_sign(of_vertex[vertex][3]);

@@ -35,7 +35,8 @@ pub struct Recipes {
 impl Recipes {
     /// None where the tangents are MikkTSpace's bit for bit, follow other axes or UVs, or cannot be compared.
     pub fn of(facts: &SurfaceFacts<'_>) -> Option<Self> {
-        let is_turned = |fit: &Fit| matches!(fit.difference, Difference::Rotated | Difference::OtherUvSet(_));
+        let is_turned =
+            |fit: &Fit| matches!(fit.difference, Some(Difference::Rotated | Difference::OtherUvSet(_)));
         let has_measured = facts.fits.iter().any(|fit| fit.measured > 0);
         // No recipe explains tangents better than one that gives all their bits.
         if !has_measured || facts.fits.iter().any(is_turned) || facts.is_mikktspace {
@@ -72,8 +73,9 @@ impl Recipes {
         let mut is_other = facts.is_on_mirrored_seam.clone();
         let outliers = self.outliers.iter().flat_map(|outliers| &outliers.vertices);
         outliers.for_each(|&vertex| is_other[vertex] = true);
-        let is_turned =
-            |fit: &&Fit| matches!(fit.difference, Difference::PartlyNegated | Difference::PartlyRotated);
+        let is_turned = |fit: &&Fit| {
+            matches!(fit.difference, Some(Difference::PartlyNegated | Difference::PartlyRotated))
+        };
         for fit in facts.fits.iter().filter(is_turned) {
             fit.items.iter().for_each(|&vertex| is_other[vertex] = true);
         }

@@ -6,7 +6,7 @@ use darboux::{Method, NormalOptions, TangentOptions};
 
 use crate::check_options::CheckOptions;
 use crate::code::Code;
-use crate::defect::{Defect, Fault};
+use crate::defect::{Defect, Fault, TangentFault};
 use crate::measure::recipe::Recognised;
 
 /// What is repaired, and how.
@@ -52,7 +52,7 @@ impl FixOptions {
     /// again.
     pub(super) fn repairs(&self, defect: &Defect) -> bool {
         let is_wanted_method = || match &defect.fault {
-            Fault::TangentOtherRecipe { recognised, .. } => self.is_other_method(recognised),
+            Fault::Tangent(TangentFault::OtherRecipe { recognised, .. }) => self.is_other_method(recognised),
             _ => false,
         };
         self.chooses(defect.reported_code()) && defect.is_fixable() && !is_wanted_method()

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::options::FixOptions;
 use crate::code::{Code, Family};
-use crate::defect::{Defect, Fault};
+use crate::defect::{Defect, Fault, NormalFault, TangentFault};
 use crate::indices::Indices;
 use crate::instances::{Key, key};
 use crate::measure::fit::Difference;
@@ -168,10 +168,11 @@ fn next_action(defects: &[&Defect], options: &FixOptions, stage: Stage) -> Optio
 fn repair_of_normals(defects: &[&Defect]) -> Action {
     let has = |code: Code| defects.iter().any(|defect| defect.code() == code);
     let flip = defects.iter().find_map(|defect| match defect.fault {
-        Fault::NormalsReversed { reversal: Reversal::Faces, .. } => Some(Flip::Faces),
-        Fault::NormalsReversed { reversal: Reversal::Normals | Reversal::NormalsByTangents, .. } => {
-            Some(Flip::Normals)
-        }
+        Fault::Normal(NormalFault::Reversed { reversal, .. }) => match reversal {
+            Reversal::Faces => Some(Flip::Faces),
+            Reversal::Normals | Reversal::NormalsByTangents => Some(Flip::Normals),
+            Reversal::Unknown(_) => None,
+        },
         _ => None,
     });
     let make_unit = has(Code::NormalNotFinite) || has(Code::NormalNotUnit);
@@ -181,7 +182,7 @@ fn repair_of_normals(defects: &[&Defect]) -> Action {
 /// Whether a defect says that all signs w of a primitive are flipped.
 fn is_about_all_signs(defect: &Defect) -> bool {
     match &defect.fault {
-        Fault::TangentDiffers(found) => {
+        Fault::Tangent(TangentFault::Differs(found)) => {
             found.difference == Difference::SignFlipped && found.is_on_all_corners()
         }
         _ => false,
@@ -190,19 +191,20 @@ fn is_about_all_signs(defect: &Defect) -> bool {
 
 /// Whether a defect is about single tangents, which can be corrected without changing others.
 fn is_about_single_tangents(defect: &Defect) -> bool {
-    match &defect.fault {
-        Fault::TangentNotFinite(_)
-        | Fault::TangentZero(_)
-        | Fault::TangentNotUnit(_)
-        | Fault::TangentLeaning { .. }
-        | Fault::TangentSignNotOne(_)
-        | Fault::TangentSignMixed(_)
-        | Fault::TangentSharedAcrossMirror(_)
-        | Fault::TangentOutliers { .. } => true,
-        Fault::TangentDiffers(found) => {
+    let Fault::Tangent(fault) = &defect.fault else { return false };
+    match fault {
+        TangentFault::NotFinite(_)
+        | TangentFault::Zero(_)
+        | TangentFault::NotUnit(_)
+        | TangentFault::Leaning { .. }
+        | TangentFault::SignNotOne(_)
+        | TangentFault::SignMixed(_)
+        | TangentFault::SharedAcrossMirror(_)
+        | TangentFault::Outliers { .. } => true,
+        TangentFault::Differs(found) => {
             !matches!(found.difference, Difference::Rotated | Difference::OtherUvSet(_))
         }
-        _ => false,
+        TangentFault::Missing(_) | TangentFault::Unused { .. } | TangentFault::OtherRecipe { .. } => false,
     }
 }
 
@@ -219,11 +221,13 @@ fn wrong_tangents(defects: &[&Defect], wanted: &[&Defect]) -> WrongTangents {
         WrongTangents { codes: wanted.iter().map(|defect| defect.code()).collect(), ..Default::default() };
     for defect in defects {
         match &defect.fault {
-            Fault::TangentLeaning { vertices, .. } => wrong.leaning = vertices.clone(),
-            Fault::TangentOutliers { vertices, .. } => wrong.outliers = vertices.items.clone(),
-            Fault::TangentSignMixed(triangles) => wrong.mixed = triangles.items.clone(),
-            Fault::NormalsReversed { reversal, .. } => wrong.reversal = Some(*reversal),
-            Fault::TangentDiffers(found) => match found.difference {
+            Fault::Tangent(TangentFault::Leaning { vertices, .. }) => wrong.leaning = vertices.clone(),
+            Fault::Tangent(TangentFault::Outliers { vertices, .. }) => {
+                wrong.outliers = vertices.items.clone()
+            }
+            Fault::Tangent(TangentFault::SignMixed(triangles)) => wrong.mixed = triangles.items.clone(),
+            Fault::Normal(NormalFault::Reversed { reversal, .. }) => wrong.reversal = Some(*reversal),
+            Fault::Tangent(TangentFault::Differs(found)) => match found.difference {
                 Difference::PartlyRotated => wrong.rotated = found.items.clone(),
                 Difference::PartlyNegated => wrong.negated = Negated::Only(found.items.clone()),
                 Difference::Negated => wrong.negated = Negated::AllBut(found.exceptions.clone()),

@@ -5,7 +5,7 @@ use darboux::{MapJudgement, MapVerdict, SrgbMistake, TangentDirection};
 use super::rule::MapRule;
 use crate::defect::Obstacle;
 use crate::defect::{
-    Certainty, Defect, DirectionEvidence, FacesScore, Fault, LengthDoubt, MapFault, NoNormals, RedDoubt,
+    Certainty, Defect, DirectionEvidence, FacesScore, LengthDoubt, MapFault, NoNormals, RedDoubt,
     ReliefEvidence, Texels,
 };
 use crate::measure::arrangement::Arrangement;
@@ -45,10 +45,6 @@ pub const RULES: &[MapRule] = &[
 /// The share of texels, in percent, above which vectors are worth a warning.
 const MAX_PERCENT: f64 = 5.0;
 
-fn defect(fault: MapFault) -> Defect {
-    Defect::new(Fault::Map(fault))
-}
-
 fn texels(judgement: &MapJudgement, count: usize) -> Texels {
     Texels { count, percent: percent(judgement, count) }
 }
@@ -61,18 +57,18 @@ fn of_kind(map: &Map, wanted: Kind) -> Option<&MapJudgement> {
 fn unreadable(map: &Map) -> Option<Defect> {
     let problem = map.judgement.as_ref().err()?.clone();
     let is_other_format = map.is_other_format;
-    let found = defect(MapFault::Unreadable { problem, bytes: map.file_size, is_other_format });
+    let found = Defect::new(MapFault::Unreadable { problem, bytes: map.file_size, is_other_format });
     Some(if is_other_format { found.with_severity(Severity::NotChecked) } else { found })
 }
 
 fn height(map: &Map) -> Option<Defect> {
     let judgement = of_kind(map, Kind::Grey)?;
-    Some(defect(MapFault::Height(texels(judgement, judgement.grey))))
+    Some(Defect::new(MapFault::Height(texels(judgement, judgement.grey))))
 }
 
 fn object_space(map: &Map) -> Option<Defect> {
     let judgement = of_kind(map, Kind::ObjectSpace)?;
-    Some(defect(MapFault::ObjectSpace(texels(judgement, judgement.negative_z))))
+    Some(Defect::new(MapFault::ObjectSpace(texels(judgement, judgement.negative_z))))
 }
 
 /// The vectors of a tangent-space map point along z on average. Vectors of a flat surface in object space may
@@ -81,7 +77,7 @@ fn reordered(map: &Map) -> Option<Defect> {
     let judgement = of_kind(map, Kind::Reordered)?;
     let reordered = map.reordered.clone()?;
     let (is_z, mean) = (reordered.is_z(), judgement.mean[reordered.channel]);
-    let found = defect(MapFault::Reordered { reordered, mean }).with_severity(Severity::Error);
+    let found = Defect::new(MapFault::Reordered { reordered, mean }).with_severity(Severity::Error);
     Some(Defect { obstacle: Some(Obstacle::UndecidedOrder { is_z }), ..found })
 }
 
@@ -94,12 +90,12 @@ fn srgb(map: &Map) -> Option<Defect> {
     let before = map.before_srgb.filter(|_| judgement.srgb_mistake().is_none());
     if let (Some(mistake), Some(before)) = (mistake, before) {
         let (not_unit, undone) = (texels(judgement, judgement.not_unit), percent(&before, before.not_unit));
-        return Some(defect(MapFault::SrgbByLength { mistake, not_unit, undone }));
+        return Some(Defect::new(MapFault::SrgbByLength { mistake, not_unit, undone }));
     }
     let commonest = judgement.commonest;
     let found = MapFault::Srgb { mistake, commonest, texels: texels(judgement, judgement.commonest_count) };
     let obstacle = mistake.is_none().then_some(Obstacle::EncodedAndInverted);
-    Some(defect(found).with_obstacle(obstacle))
+    Some(Defect::new(found).with_obstacle(obstacle))
 }
 
 fn not_normal(map: &Map) -> Option<Defect> {
@@ -115,7 +111,7 @@ fn not_normal(map: &Map) -> Option<Defect> {
     } else {
         NoNormals::NoSlopes
     };
-    Some(defect(MapFault::NotNormal { kind, texels: texels(judgement, judgement.not_normal) }))
+    Some(Defect::new(MapFault::NotNormal { kind, texels: texels(judgement, judgement.not_normal) }))
 }
 
 /// The commonest red and green, and the mean blue, as 8-bit codes.
@@ -133,7 +129,7 @@ fn two_channel(map: &Map) -> Option<Defect> {
     let obstacle = if is_x_in_alpha { Some(Obstacle::XInAlpha) } else { None };
     let obstacle = obstacle.or(is_unclear.then_some(Obstacle::UnclearChannels));
     let certainty = certainty(&judgement, map);
-    Some(defect(MapFault::TwoChannel { is_x_in_alpha, certainty }).with_obstacle(obstacle))
+    Some(Defect::new(MapFault::TwoChannel { is_x_in_alpha, certainty }).with_obstacle(obstacle))
 }
 
 fn certainty(judgement: &MapJudgement, map: &Map) -> Certainty {
@@ -170,7 +166,8 @@ fn with_confidence(found: Defect, judgement: &MapJudgement) -> Defect {
 /// One part of the map is in OpenGL's convention and another one in DirectX's.
 fn contradiction(map: &Map) -> Option<Defect> {
     with_directed_channels(map)?;
-    let found = defect(MapFault::Contradiction { contradiction: map.contradiction?, wanted: map.wanted });
+    let found =
+        Defect::new(MapFault::Contradiction { contradiction: map.contradiction?, wanted: map.wanted });
     Some(found.with_severity(Severity::Warning).with_obstacle(Some(Obstacle::OnlyAPartOfMap)))
 }
 
@@ -199,7 +196,7 @@ fn green_flipped(map: &Map) -> Option<Defect> {
     };
     let obstacle = obstacle.or(judgement.has_opposed_detail.then_some(Obstacle::DetailIsOpposed));
     let evidence = direction_evidence(judgement, map);
-    let found = defect(MapFault::GreenFlipped { wanted: map.wanted, doubt, evidence });
+    let found = Defect::new(MapFault::GreenFlipped { wanted: map.wanted, doubt, evidence });
     Some(with_confidence(found.with_obstacle(obstacle), judgement))
 }
 
@@ -207,13 +204,13 @@ fn green_flipped(map: &Map) -> Option<Defect> {
 fn detail_flipped(map: &Map) -> Option<Defect> {
     let judgement = directed(map).filter(|judgement| judgement.has_opposed_detail)?;
     let evidence = ReliefEvidence::of(judgement);
-    Some(defect(MapFault::DetailFlipped { is_relief_up: judgement.z_score > 0.0, evidence }))
+    Some(Defect::new(MapFault::DetailFlipped { is_relief_up: judgement.z_score > 0.0, evidence }))
 }
 
 fn red_flipped(map: &Map) -> Option<Defect> {
     let judgement = directed(map)?;
     let is_left = directions(judgement, map)?.red == TangentDirection::Left;
-    let found = || defect(MapFault::RedFlipped(direction_evidence(judgement, map)));
+    let found = || Defect::new(MapFault::RedFlipped(direction_evidence(judgement, map)));
     is_left.then(|| with_confidence(found(), judgement))
 }
 
@@ -225,7 +222,7 @@ fn may_be_dents(map: &Map) -> Option<Defect> {
     let directions = directions(judgement, map)?;
     let seems_right = directions.red == TangentDirection::Right && directions.green == map.wanted;
     let leans_against = seems_right && map.decide(shown).is_none() && map.facet_score(shown) <= LEANS_TO_RED;
-    leans_against.then(|| defect(MapFault::MayBeDents(faces_score(map, shown))))
+    leans_against.then(|| Defect::new(MapFault::MayBeDents(faces_score(map, shown))))
 }
 
 fn other_layout(map: &Map) -> Option<Defect> {
@@ -233,7 +230,7 @@ fn other_layout(map: &Map) -> Option<Defect> {
     let seams = map.facets.as_ref()?.seams?;
     let (layout, fit) = seams.other_layout()?;
     let fits = [fit, seams.as_it_is()];
-    Some(defect(MapFault::OtherLayout { layout, fits, points: seams.points }))
+    Some(Defect::new(MapFault::OtherLayout { layout, fits, points: seams.points }))
 }
 
 fn channels_swapped(map: &Map) -> Option<Defect> {
@@ -244,7 +241,7 @@ fn channels_swapped(map: &Map) -> Option<Defect> {
         return None;
     }
     let is_undecided = judgement.z_score < 0.0 && map.decide(Arrangement::ExchangedAndInverted).is_none();
-    let found = defect(MapFault::ChannelsSwapped {
+    let found = Defect::new(MapFault::ChannelsSwapped {
         by_derivatives,
         log_energy_ratio: judgement.log_energy_ratio,
         certainty: certainty(judgement, map),
@@ -283,7 +280,7 @@ fn not_unit(map: &Map) -> Option<Defect> {
     let fault = MapFault::NotUnit { texels: found, mean_length: judgement.mean_length, doubt };
     let shrinks = !MEAN_LENGTHS.contains(&judgement.mean_length);
     let severity = if found.percent > 50.0 || shrinks { Severity::Warning } else { Severity::Info };
-    (found.percent > MAX_PERCENT).then(|| defect(fault).with_obstacle(obstacle).with_severity(severity))
+    (found.percent > MAX_PERCENT).then(|| Defect::new(fault).with_obstacle(obstacle).with_severity(severity))
 }
 
 /// The share of texels below the surface, in percent, that is worth a warning.
@@ -292,7 +289,7 @@ const MAX_PERCENT_BELOW: f64 = 0.01;
 fn negative_z(map: &Map) -> Option<Defect> {
     let judgement = of_kind(map, Kind::Normals)?;
     let found = texels(judgement, judgement.negative_z);
-    (found.percent > MAX_PERCENT_BELOW).then(|| defect(MapFault::NegativeZ(found)))
+    (found.percent > MAX_PERCENT_BELOW).then(|| Defect::new(MapFault::NegativeZ(found)))
 }
 
 /// Whether a code is about that of a texel that does not lean.
@@ -315,7 +312,7 @@ fn flat_off(map: &Map) -> Option<Defect> {
     let lean = commonest.map(|code| (f64::from(code) - 127.5) / 127.5);
     let is_one_colour = judgement.verdict == MapVerdict::Flat;
     let is_error = is_one_colour && !commonest.iter().all(is_near_zero);
-    let found = defect(MapFault::FlatOff {
+    let found = Defect::new(MapFault::FlatOff {
         commonest,
         colour: is_one_colour.then(|| colour(judgement)),
         degrees: lean[0].hypot(lean[1]).min(1.0).asin().to_degrees(),
@@ -327,7 +324,7 @@ fn flat_off(map: &Map) -> Option<Defect> {
 fn flat(map: &Map) -> Option<Defect> {
     let judgement = of_kind(map, Kind::Normals)?;
     let is_plain = judgement.verdict == MapVerdict::Flat && !leans_where_flat(judgement);
-    is_plain.then(|| defect(MapFault::Flat(percent(judgement, judgement.commonest_count))))
+    is_plain.then(|| Defect::new(MapFault::Flat(percent(judgement, judgement.commonest_count))))
 }
 
 /// Steps from which on storage is worth a warning, in degrees.
@@ -355,7 +352,7 @@ fn blocks(map: &Map) -> Option<Defect> {
 
 /// The defect with the severity of the steps that it adds: information where they are smaller than `visible`.
 fn of_step(fault: MapFault, step: f64, visible: f64) -> Defect {
-    defect(fault).with_severity(if step >= visible { Severity::Warning } else { Severity::Info })
+    Defect::new(fault).with_severity(if step >= visible { Severity::Warning } else { Severity::Info })
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use darboux::RecipeMatch;
 
 use super::rule::SurfaceRule;
 use crate::defect::Obstacle;
-use crate::defect::{Defect, Fault};
+use crate::defect::{Defect, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::indices::Part;
 use crate::measure::recipe::{IS_KNOWN, Recipes, close, is_mikktspace};
@@ -23,7 +23,7 @@ fn other_recipe(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let Some(recipes) = Recipes::of(facts) else { return Vec::new() };
     let outliers = recipes.outliers.as_ref().and_then(|outliers| {
         let vertices = Part::new(&outliers.vertices, facts.surface.used_count())?;
-        let fault = Fault::TangentOutliers { recipe: outliers.recipe, vertices };
+        let fault = TangentFault::Outliers { recipe: outliers.recipe, vertices };
         Some(Defect::new(fault).with_severity(Severity::Error))
     });
     outliers.into_iter().chain(of_all(facts, &recipes)).collect()
@@ -42,7 +42,7 @@ fn of_all(facts: &SurfaceFacts<'_>, recipes: &Recipes) -> Option<Defect> {
     } else {
         Severity::Info
     };
-    let defect = Defect::new(Fault::TangentOtherRecipe { recognised, far }).with_severity(severity);
+    let defect = Defect::new(TangentFault::OtherRecipe { recognised, far }).with_severity(severity);
     Some(defect.with_obstacle(obstacle(best, severity)))
 }
 

@@ -1,7 +1,7 @@
 //! Rules about tangents: values, signs and directions.
 
 use super::rule::SurfaceRule;
-use crate::defect::{Defect, Fault, TangentDifference};
+use crate::defect::{Defect, TangentDifference, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::indices::Part;
 use crate::measure::fit::{Difference, Fit};
@@ -28,7 +28,7 @@ pub const RULES: &[SurfaceRule] = &[
 fn missing(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let surface = facts.surface;
     let is_missing = surface.needs_tangents && surface.tangents.is_none();
-    let defect = || Defect::new(Fault::TangentMissing(surface.used_count()));
+    let defect = || Defect::new(TangentFault::Missing(surface.used_count()));
     is_missing.then(defect).into_iter().collect()
 }
 
@@ -36,14 +36,14 @@ fn unused(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let Surface { needs_tangents, tangents, tangent_size, positions, .. } = facts.surface;
     let is_unused = !needs_tangents && tangents.is_some();
     let bytes = tangent_size * positions.len();
-    let defect = || Defect::new(Fault::TangentUnused { bytes, also: Vec::new() });
+    let defect = || Defect::new(TangentFault::Unused { bytes, also: Vec::new() });
     is_unused.then(defect).into_iter().collect()
 }
 
 /// A defect of the vertices whose tangents fulfil a condition.
 fn vertices(
     facts: &SurfaceFacts<'_>,
-    fault: fn(Part) -> Fault,
+    fault: fn(Part) -> TangentFault,
     condition: impl Fn([f32; 4]) -> bool,
 ) -> Vec<Defect> {
     let Some(tangents) = &facts.surface.tangents else { return Vec::new() };
@@ -52,19 +52,19 @@ fn vertices(
 }
 
 fn not_finite(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
-    vertices(facts, Fault::TangentNotFinite, |tangent| !is_finite(tangent))
+    vertices(facts, TangentFault::NotFinite, |tangent| !is_finite(tangent))
 }
 
 fn zero(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
-    vertices(facts, Fault::TangentZero, |tangent| is_finite(tangent) && !has_length(tangent))
+    vertices(facts, TangentFault::Zero, |tangent| is_finite(tangent) && !has_length(tangent))
 }
 
 fn not_unit(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
-    vertices(facts, Fault::TangentNotUnit, |tangent| has_length(tangent) && !is_unit(xyz(tangent)))
+    vertices(facts, TangentFault::NotUnit, |tangent| has_length(tangent) && !is_unit(xyz(tangent)))
 }
 
 fn sign_not_one(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
-    vertices(facts, Fault::TangentSignNotOne, |tangent| is_finite(tangent) && !is_sign(tangent[3]))
+    vertices(facts, TangentFault::SignNotOne, |tangent| is_finite(tangent) && !is_sign(tangent[3]))
 }
 
 fn not_perpendicular(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
@@ -74,14 +74,14 @@ fn not_perpendicular(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     }
     let worst = angles.into_iter().fold(0.0, f64::max);
     let severity = if worst > SEEN { Severity::Error } else { Severity::Warning };
-    let fault = Fault::TangentLeaning { vertices: found.as_slice().into(), worst };
+    let fault = TangentFault::Leaning { vertices: found.as_slice().into(), worst };
     vec![Defect::new(fault).with_severity(severity)]
 }
 
 fn shared_across_mirror(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let found = indices_where(&facts.is_on_mirrored_seam, |is_on_seam| *is_on_seam);
     let part = Part::new(&found, facts.surface.used_count());
-    part.map(Fault::TangentSharedAcrossMirror).map(Defect::new).into_iter().collect()
+    part.map(TangentFault::SharedAcrossMirror).map(Defect::new).into_iter().collect()
 }
 
 fn sign_mixed(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
@@ -95,7 +95,7 @@ fn sign_mixed(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     // Where MikkTSpace itself gives both signs, computing the tangents again does not help.
     found.retain(|&triangle| !facts.has_expected_tangents(triangle));
     let part = Part::new(&found, facts.surface.vertex_of_corner.len() / 3);
-    part.map(Fault::TangentSignMixed).map(Defect::new).into_iter().collect()
+    part.map(TangentFault::SignMixed).map(Defect::new).into_iter().collect()
 }
 
 /// The rules that one measurement decides: at most one about all directions, or a part of them, and one about
@@ -106,20 +106,18 @@ fn direction_or_sign(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
 
 fn different(facts: &SurfaceFacts<'_>, fit: &Fit) -> Option<Defect> {
     let Fit { difference, supporting, measured, items, exceptions } = fit;
-    if matches!(difference, Difference::None | Difference::Unknown) {
-        return None;
-    }
+    let difference = (*difference)?;
     let difference = TangentDifference {
-        difference: *difference,
+        difference,
         supporting: *supporting,
         measured: *measured,
         items: items.as_slice().into(),
         exceptions: exceptions.as_slice().into(),
         uv_set: facts.surface.uv_set,
-        follows_from_normals: *difference == Difference::SignFlipped
+        follows_from_normals: difference == Difference::SignFlipped
             && facts.reversal == Some(Reversal::NormalsByTangents),
     };
     let is_warning = difference.follows_from_normals;
-    let defect = Defect::new(Fault::TangentDiffers(difference));
+    let defect = Defect::new(TangentFault::Differs(difference));
     Some(if is_warning { defect.with_severity(Severity::Warning) } else { defect })
 }

@@ -1,7 +1,7 @@
 //! Rules about UVs: the set that the tangents follow.
 
 use super::rule::SurfaceRule;
-use crate::defect::{Defect, Fault};
+use crate::defect::{Defect, UvFault};
 use crate::facts::SurfaceFacts;
 use crate::measure::hard_edges::HardEdges;
 use crate::measure::overlap::overlapping;
@@ -20,7 +20,7 @@ fn missing(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     if !needs_tangents || uv_sets.contains_key(uv_set) {
         return Vec::new();
     }
-    vec![Defect::new(Fault::UvMissing { set: *uv_set, present: uv_sets.len() })]
+    vec![Defect::new(UvFault::Missing { set: *uv_set, present: uv_sets.len() })]
 }
 
 /// UVs of any set: every texture may use it. The UV set of the normal texture also decides the tangents.
@@ -30,7 +30,7 @@ fn not_finite(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
         let vertices = surface.vertices_where(uvs, |uv| !is_finite(*uv))?;
         let decides = surface.needs_tangents && set == surface.uv_set;
         let severity = if decides { Severity::Error } else { Severity::Warning };
-        Some(Defect::new(Fault::UvNotFinite { set, vertices }).with_severity(severity))
+        Some(Defect::new(UvFault::NotFinite { set, vertices }).with_severity(severity))
     };
     surface.uv_sets.iter().filter_map(of_set).collect()
 }
@@ -46,7 +46,7 @@ fn degenerate(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let Some(uvs) = needed_uvs(surface) else { return Vec::new() };
     let is_degenerate = |triangle| uv_area(uvs, triangle) == 0.0 && surface.has_area(triangle);
     let triangles = surface.part_of_triangles(is_degenerate);
-    let fault = triangles.map(|triangles| Fault::UvDegenerate { set: surface.uv_set, triangles });
+    let fault = triangles.map(|triangles| UvFault::Degenerate { set: surface.uv_set, triangles });
     fault.map(Defect::new).into_iter().collect()
 }
 
@@ -55,13 +55,13 @@ fn degenerate(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
 fn scale(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let Some(uvs) = needed_uvs(facts.surface) else { return Vec::new() };
     let UvScale { stretched, coarse } = UvScale::of(facts.surface, uvs);
-    let faults = stretched.map(Fault::UvStretched).into_iter().chain(coarse.map(Fault::UvCoarse));
+    let faults = stretched.map(UvFault::Stretched).into_iter().chain(coarse.map(UvFault::Coarse));
     faults.map(Defect::new).collect()
 }
 
 fn hard_edges(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let found = needed_uvs(facts.surface).and_then(|uvs| HardEdges::of(facts.surface, uvs));
-    found.map(Fault::UvHardEdge).map(Defect::new).into_iter().collect()
+    found.map(UvFault::HardEdge).map(Defect::new).into_iter().collect()
 }
 
 /// Triangles whose UVs turn the other way than glTF's images do.
@@ -69,7 +69,7 @@ fn mirrored(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let Some(uvs) = needed_uvs(facts.surface) else { return Vec::new() };
     // glTF's v points down, so an unmirrored triangle has a negative area.
     let triangles = facts.surface.part_of_triangles(|triangle| uv_area(uvs, triangle) > 0.0);
-    triangles.map(Fault::UvMirrored).map(Defect::new).into_iter().collect()
+    triangles.map(UvFault::Mirrored).map(Defect::new).into_iter().collect()
 }
 
 /// Triangles that share UV space with others.
@@ -80,7 +80,7 @@ fn overlaps(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     if found.triangles.is_empty() {
         return Vec::new();
     }
-    vec![Defect::new(Fault::UvOverlapping {
+    vec![Defect::new(UvFault::Overlapping {
         set: surface.uv_set,
         triangles: found.triangles.as_slice().into(),
         is_complete: found.is_complete,

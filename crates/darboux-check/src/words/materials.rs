@@ -1,11 +1,11 @@
 //! The words of defects of materials.
 
 use super::said::Said;
-use crate::defect::Fault;
+use crate::defect::MaterialFault;
 
-pub fn said(fault: &Fault) -> Said {
+pub fn said(fault: &MaterialFault) -> Said {
     match fault {
-        Fault::TransformMirrors { axes: [u, v], determinant, rotation } => {
+        MaterialFault::TransformMirrors { axes: [u, v], determinant, rotation } => {
             let what = if *determinant < 0.0 { "mirrors" } else { "rotates" };
             Said::new(format!(
                 "KHR_texture_transform {what} its normal texture: u goes to ({:.3}, {:.3}) and v to ({:.3}, {:.3})",
@@ -14,19 +14,18 @@ pub fn said(fault: &Fault) -> Said {
             .with("determinant of the transform (negative if mirrored)", *determinant, "")
             .with("direction of u", *rotation, "degrees")
         }
-        Fault::MapScaleNegative(scale) => Said::new(
+        MaterialFault::ScaleNegative(scale) => Said::new(
             "normalTexture.scale is negative, so that red and green of its normal map are both inverted",
         )
         .with("scale", *scale, ""),
-        Fault::MapScaleZero(scale) => {
+        MaterialFault::ScaleZero(scale) => {
             Said::new("normalTexture.scale hides the bumps of its normal map").with("scale", *scale, "")
         }
-        Fault::MapScaleExtreme(scale) => Said::new(
+        MaterialFault::ScaleExtreme(scale) => Said::new(
             "normalTexture.scale makes the slopes of its normal map far steeper than they are in the map",
         )
         .with("scale", *scale, "")
         .with("what a slope of 10 degrees becomes", steepened(10.0, *scale), "degrees"),
-        _ => unreachable!("a fault of a material"),
     }
 }
 

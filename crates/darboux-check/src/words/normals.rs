@@ -2,39 +2,40 @@
 
 use super::counts::counted;
 use super::said::Said;
-use crate::defect::Fault;
+use crate::defect::NormalFault;
 use crate::indices::Part;
 use crate::measure::other_axes::OtherAxes;
 use crate::measure::reversal::Reversal;
 
-pub fn said(fault: &Fault) -> Said {
+/// What is said of positions that are no numbers.
+pub fn positions_not_finite(part: &Part) -> Said {
+    not_finite(part, ["position contains NaN or infinity", "positions contain NaN or infinity"])
+}
+
+pub fn said(fault: &NormalFault) -> Said {
     match fault {
-        Fault::PositionNotFinite(part) => {
-            not_finite(part, ["position contains NaN or infinity", "positions contain NaN or infinity"])
-        }
-        Fault::NormalNotFinite(part) => {
+        NormalFault::NotFinite(part) => {
             not_finite(part, ["normal contains NaN or infinity", "normals contain NaN or infinity"])
         }
-        Fault::NormalMissing(vertices) => {
+        NormalFault::Missing(vertices) => {
             Said::new("it has no normals").with("without normals", *vertices as f64, "vertices")
         }
-        Fault::NormalNotUnit { vertices, smallest } => {
+        NormalFault::NotUnit { vertices, smallest } => {
             let words = ["normal has another length than 1", "normals have another length than 1"];
             not_finite(vertices, words).with("smallest length", *smallest, "")
         }
-        Fault::NormalOtherAxes { axes, .. } => other_axes(axes),
-        Fault::NormalsReversed { reversal, triangles } => {
+        NormalFault::OtherAxes { axes, .. } => other_axes(axes),
+        NormalFault::Reversed { reversal, triangles } => {
             let what =
                 counted(triangles.len(), "triangle points to its back", "triangles point to their back");
             let why = explanation(*reversal).map_or(String::new(), |clause| format!(": {clause}"));
             Said::of_triangles(format!("the normals of {what}{why}"), triangles)
         }
-        Fault::NormalsPartlyReversed { triangles, whole, mixed, vertices, parts } => {
+        NormalFault::PartlyReversed { triangles, whole, mixed, vertices, parts } => {
             let text = partly_reversed(*whole, *mixed, *parts);
             let what = "normals that point to the back of all their faces";
             Said::of_triangles(text, triangles).with(what, *vertices as f64, "vertices")
         }
-        _ => unreachable!("a fault of positions or normals"),
     }
 }
 

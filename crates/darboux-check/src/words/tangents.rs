@@ -4,18 +4,18 @@ use darboux::{Choice, Method, Recipe, RecipeMatch, RecipeRounding};
 
 use super::counts::counted;
 use super::said::Said;
-use crate::defect::{Fault, TangentDifference};
+use crate::defect::{TangentDifference, TangentFault};
 use crate::indices::Part;
 use crate::measure::fit::Difference;
 use crate::measure::outliers::FAR;
 use crate::measure::recipe::{IS_KNOWN, Recognised, close, is_mikktspace};
 use crate::severity::Severity;
 
-pub fn said(fault: &Fault, severity: Severity) -> Said {
+pub fn said(fault: &TangentFault, severity: Severity) -> Said {
     match fault {
-        Fault::TangentMissing(vertices) => Said::new("its material has a normal map, and it has no tangents")
+        TangentFault::Missing(vertices) => Said::new("its material has a normal map, and it has no tangents")
             .with("without tangents", *vertices as f64, "vertices"),
-        Fault::TangentUnused { bytes, also } => {
+        TangentFault::Unused { bytes, also } => {
             let also: Vec<&str> = also.iter().map(|code| code.name()).collect();
             let also = if also.is_empty() {
                 String::new()
@@ -28,21 +28,21 @@ pub fn said(fault: &Fault, severity: Severity) -> Said {
                 "bytes",
             )
         }
-        Fault::TangentNotFinite(part) => {
+        TangentFault::NotFinite(part) => {
             vertices(part, ["tangent contains NaN or infinity", "tangents contain NaN or infinity"])
         }
-        Fault::TangentZero(part) => vertices(part, ["tangent has length zero", "tangents have length zero"]),
-        Fault::TangentNotUnit(part) => {
+        TangentFault::Zero(part) => vertices(part, ["tangent has length zero", "tangents have length zero"]),
+        TangentFault::NotUnit(part) => {
             vertices(part, ["tangent has another length than 1", "tangents have another length than 1"])
         }
-        Fault::TangentSignNotOne(part) => vertices(
+        TangentFault::SignNotOne(part) => vertices(
             part,
             [
                 "tangent has a sign w that is neither 1 nor -1",
                 "tangents have a sign w that is neither 1 nor -1",
             ],
         ),
-        Fault::TangentLeaning { vertices, worst } => {
+        TangentFault::Leaning { vertices, worst } => {
             let what = counted(
                 vertices.len(),
                 "tangent is not perpendicular to its normal",
@@ -50,18 +50,17 @@ pub fn said(fault: &Fault, severity: Severity) -> Said {
             );
             Said::new(format!("{what}, by up to {worst:.1} degrees")).with("largest angle", *worst, "degrees")
         }
-        Fault::TangentSharedAcrossMirror(part) => {
+        TangentFault::SharedAcrossMirror(part) => {
             let what = counted(part.len(), "vertex serves", "vertices serve");
             Said::of_vertices(format!("{what} both sides of mirrored UV seams"), part)
         }
-        Fault::TangentSignMixed(part) => {
+        TangentFault::SignMixed(part) => {
             let what = counted(part.len(), "triangle has", "triangles have");
             Said::of_triangles(format!("{what} corners with both signs"), part)
         }
-        Fault::TangentDiffers(difference) => differing(difference),
-        Fault::TangentOutliers { recipe, vertices } => outliers(recipe, vertices),
-        Fault::TangentOtherRecipe { recognised, far } => other_recipe(recognised, *far, severity),
-        _ => unreachable!("a fault of tangents"),
+        TangentFault::Differs(difference) => differing(difference),
+        TangentFault::Outliers { recipe, vertices } => outliers(recipe, vertices),
+        TangentFault::OtherRecipe { recognised, far } => other_recipe(recognised, *far, severity),
     }
 }
 
@@ -96,7 +95,6 @@ fn differing(found: &TangentDifference) -> Said {
         Difference::OtherUvSet(other) => {
             format!("the tangents follow TEXCOORD_{other} instead of TEXCOORD_{uv_set}")
         }
-        Difference::None | Difference::Unknown => unreachable!("no difference is no defect"),
     };
     let part = match difference {
         Difference::SignPartlyFlipped => "part of all triangles",

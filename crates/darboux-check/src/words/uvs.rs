@@ -2,28 +2,28 @@
 
 use super::counts::counted;
 use super::said::Said;
-use crate::defect::Fault;
+use crate::defect::UvFault;
 use crate::measure::hard_edges::HardEdges;
 
-pub fn said(fault: &Fault) -> Said {
+pub fn said(fault: &UvFault) -> Said {
     match fault {
-        Fault::UvMissing { set, present } => Said::new(format!(
+        UvFault::Missing { set, present } => Said::new(format!(
             "its normal texture uses TEXCOORD_{set}, which it does not have"
         ))
         .with("present", *present as f64, "UV sets"),
-        Fault::UvNotFinite { set, vertices } => {
+        UvFault::NotFinite { set, vertices } => {
             let what = counted(vertices.len(), "vertex has", "vertices have");
             Said::of_vertices(format!("{what} NaN or infinity in TEXCOORD_{set}"), vertices)
         }
-        Fault::UvDegenerate { set, triangles } => {
+        UvFault::Degenerate { set, triangles } => {
             let what = counted(triangles.len(), "triangle has", "triangles have");
             Said::of_triangles(format!("{what} no area in TEXCOORD_{set}"), triangles)
         }
-        Fault::UvMirrored(part) => {
+        UvFault::Mirrored(part) => {
             let text = counted(part.len(), "triangle has mirrored UVs", "triangles have mirrored UVs");
             Said::of_triangles(text, part)
         }
-        Fault::UvOverlapping { set, triangles, is_complete, area_share } => {
+        UvFault::Overlapping { set, triangles, is_complete, area_share } => {
             let at_least = if *is_complete { "" } else { "at least " };
             let count = triangles.len();
             Said::new(format!("{at_least}{count} triangles share area in TEXCOORD_{set} with others")).with(
@@ -32,7 +32,7 @@ pub fn said(fault: &Fault) -> Said {
                 "%",
             )
         }
-        Fault::UvStretched(faces) => {
+        UvFault::Stretched(faces) => {
             let what = counted(faces.triangles.len(), "triangle is", "triangles are");
             // A face that is nearly a line in UV space has a stretch of millions.
             let times = match faces.largest {
@@ -43,7 +43,7 @@ pub fn said(fault: &Fault) -> Said {
                 .with("median of the primitive", faces.median, "times")
                 .with("part of the primitive's area", 100.0 * faces.share, "%")
         }
-        Fault::UvCoarse(faces) => {
+        UvFault::Coarse(faces) => {
             let what = counted(faces.triangles.len(), "triangle has", "triangles have");
             Said::new(format!(
                 "{what} texels that are up to {:.0} times as long as those of most others",
@@ -51,11 +51,10 @@ pub fn said(fault: &Fault) -> Said {
             ))
             .with("part of the primitive's area", 100.0 * faces.share, "%")
         }
-        Fault::UvHardEdge(HardEdges { edges, all, largest, .. }) => {
+        UvFault::HardEdge(HardEdges { edges, all, largest, .. }) => {
             Said::new(format!("{} no UV seam", counted(*edges, "hard edge has", "hard edges have")))
                 .with("all hard edges", *all as f64, "edges")
                 .with("largest angle between the normals of both sides", *largest, "degrees")
         }
-        _ => unreachable!("a fault of UVs"),
     }
 }

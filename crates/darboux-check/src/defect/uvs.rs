@@ -1,0 +1,66 @@
+//! [`UvFault`]: what is wrong with the UVs of a primitive, or worth knowing.
+
+use crate::code::Code;
+use crate::indices::{Indices, Part};
+use crate::measure::hard_edges::HardEdges;
+use crate::measure::uv_scale::Outliers;
+
+/// What is wrong with UVs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum UvFault {
+    Missing {
+        set: usize,
+        /// The number of sets that are there.
+        present: usize,
+    },
+    NotFinite {
+        set: usize,
+        vertices: Part,
+    },
+    Degenerate {
+        set: usize,
+        triangles: Part,
+    },
+    Mirrored(Part),
+    Overlapping {
+        set: usize,
+        triangles: Indices,
+        /// Whether all pairs of triangles were compared.
+        is_complete: bool,
+        /// The share of the UV area.
+        area_share: f64,
+    },
+    /// Faces whose UVs are stretched more than those of the others.
+    Stretched(Outliers),
+    /// Faces with fewer texels than the others.
+    Coarse(Outliers),
+    /// Hard edges at which the UVs go on.
+    HardEdge(HardEdges),
+}
+
+impl UvFault {
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Missing { .. } => Code::UvMissing,
+            Self::NotFinite { .. } => Code::UvNotFinite,
+            Self::Degenerate { .. } => Code::UvDegenerate,
+            Self::Mirrored(_) => Code::UvMirrored,
+            Self::Overlapping { .. } => Code::UvOverlapping,
+            Self::Stretched(_) => Code::UvStretched,
+            Self::Coarse(_) => Code::UvCoarse,
+            Self::HardEdge(_) => Code::UvHardEdge,
+        }
+    }
+
+    pub fn items(&self) -> Option<&Indices> {
+        match self {
+            Self::NotFinite { vertices: part, .. }
+            | Self::Degenerate { triangles: part, .. }
+            | Self::Mirrored(part) => Some(&part.items),
+            Self::Overlapping { triangles, .. } => Some(triangles),
+            Self::Stretched(faces) | Self::Coarse(faces) => Some(&faces.triangles),
+            Self::HardEdge(edges) => Some(&edges.triangles),
+            Self::Missing { .. } => None,
+        }
+    }
+}
