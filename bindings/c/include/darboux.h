@@ -709,8 +709,9 @@ typedef struct darboux_recipe_match {
   darboux_recipe_writing writing;
   /// Bits per component: 32 (floats), 16 or 8 (signed normalised integers).
   uint32_t bits;
-  /// Space for a field of a later version.
-  uint32_t reserved;
+  /// 1 where the tangents were computed before quads were cut into triangles, as Unity and other importers
+  /// do, else 0. Which triangles were quads is an estimate from their shapes.
+  uint32_t from_quads;
   /// The number of corners.
   size_t corners;
   /// Corners whose four components are equal after rounding.

@@ -86,8 +86,9 @@ pub struct darboux_recipe_match {
     pub writing: darboux_recipe_writing,
     /// Bits per component: 32 (floats), 16 or 8 (signed normalised integers).
     pub bits: u32,
-    /// Space for a field of a later version.
-    pub reserved: u32,
+    /// 1 where the tangents were computed before quads were cut into triangles, as Unity and other importers
+    /// do, else 0. Which triangles were quads is an estimate from their shapes.
+    pub from_quads: u32,
     /// The number of corners.
     pub corners: usize,
     /// Corners whose four components are equal after rounding.
@@ -108,7 +109,7 @@ impl From<&RecipeMatch> for darboux_recipe_match {
             flips_v: found.recipe.flips_v.into(),
             writing: found.recipe.writing.code(),
             bits: found.recipe.rounding.bits(),
-            reserved: 0,
+            from_quads: found.recipe.from_quads.into(),
             corners: found.corners,
             identical: found.identical,
             close: found.close,

@@ -112,6 +112,8 @@ export interface RecipeMatch {
   mode: Mode | null;
   /** Whether the tangents were computed with 1 - v. */
   flipsV: boolean;
+  /** Whether they were computed before quads were cut into triangles, as Unity does; which were quads is an estimate. */
+  fromQuads: boolean;
   /** 'corners': every corner has its own; otherwise the last or the first corner of each vertex decides. */
   writing: 'corners' | 'last-corner' | 'first-corner';
   /** Bits per component: 32 (floats), 16 or 8. */

@@ -92,7 +92,10 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
     const mesh = grid(12, 9);
     for (const method of ['mikktspace', 'angle-edge', 'area', 'face']) {
       const tangents = darboux.generateTangents(...mesh, { method });
-      const [best] = recogniseRecipe(...mesh, tangents);
+      const found = recogniseRecipe(...mesh, tangents);
+      const recipes = found.map(({ method, mode, flipsV, fromQuads, writing, bits }) => `${[method, mode, flipsV, fromQuads, writing, bits]}`);
+      assert.equal(new Set(recipes).size, found.length);
+      const [best] = found;
       assert.equal(best.method, method);
       assert.equal(best.identical, best.corners);
     }

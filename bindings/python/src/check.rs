@@ -323,6 +323,7 @@ fn recipe<'py>(py: Python<'py>, found: &RecipeMatch) -> PyResult<Bound<'py, PyAn
         recipe.method.name(),
         recipe.mode().map(Choice::name),
         recipe.flips_v,
+        recipe.from_quads,
         recipe.writing.name(),
         recipe.rounding.bits(),
         found.corners,

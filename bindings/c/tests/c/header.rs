@@ -59,7 +59,7 @@ facts_of_structs! {
         negative_z, grey, not_normal,
     }
     darboux_recipe_match {
-        method, mode, flips_v, writing, bits, reserved, corners, identical, close, sign_flips, worst,
+        method, mode, flips_v, writing, bits, from_quads, corners, identical, close, sign_flips, worst,
     }
     darboux_convention { size, right, up, front, winding, uv_origin, tangent, bitangent, sign }
     darboux_frame_arrays {

@@ -102,8 +102,14 @@ fn recipes_are_recognised_as_in_rust() {
         for (found, expected) in matches.iter().zip(&expected).take(count.min(40)) {
             let expected = darboux_recipe_match::from(expected);
             assert_eq!(
-                (found.method, found.writing, found.identical, found.worst.to_bits()),
-                (expected.method, expected.writing, expected.identical, expected.worst.to_bits())
+                (found.method, found.from_quads, found.writing, found.identical, found.worst.to_bits()),
+                (
+                    expected.method,
+                    expected.from_quads,
+                    expected.writing,
+                    expected.identical,
+                    expected.worst.to_bits()
+                )
             );
         }
         // SAFETY: as above; the number of tangents is wrong, and nothing is written.

@@ -230,6 +230,8 @@ class RecipeMatch(NamedTuple):
     """The mode of 'mikktspace'."""
     flips_v: bool
     """Whether they were computed with 1 - v."""
+    from_quads: bool
+    """Whether they were computed before quads were cut into triangles, as Unity does; which were quads is an estimate."""
     writing: str
     """'corners': every corner has its own; 'last-corner' or 'first-corner' of each vertex decides."""
     bits: int
