@@ -99,6 +99,45 @@ def test_ray(ray: None, tmp_path: Path) -> None:
     check("ray", ray_workers, tmp_path)
 
 
+def dying_beside_seven(roll: Path) -> Callable[[str], str]:
+    """What a pool runs in which seven processes work, and each further one dies at its first file."""
+
+    def run_task_on_one_thread(task: str) -> str:
+        import fcntl
+        import os
+
+        from darboux._darboux import run_task
+
+        if os.environ.get("HEALTHY") != str(os.getpid()):
+            with open(roll, "a+") as file:
+                fcntl.flock(file, fcntl.LOCK_EX)
+                file.seek(0)
+                is_healthy = file.read().count("works") < 7
+                file.write("works\n" if is_healthy else "dies\n")
+            if not is_healthy:
+                os._exit(9)
+            os.environ["HEALTHY"] = str(os.getpid())
+        return run_task(task, 1)
+
+    return run_task_on_one_thread
+
+
+def test_one_of_eight_workers_always_dies(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    os.environ["RAY_AUTH_MODE"] = "disabled"
+    module = pytest.importorskip("ray")
+    module.init(num_cpus=8, include_dashboard=False, log_to_driver=False)
+    try:
+        models, out, roll = library(tmp_path, copies=200), tmp_path / "out", tmp_path / "roll"
+        monkeypatch.setattr(_engines, "run_task_on_one_thread", dying_beside_seven(roll))
+        report = darboux.batch(models, out, engine="ray", retries=5, progress=False)
+    finally:
+        module.shutdown()
+    assert (report["totals"]["written"], report["totals"]["failed"]) == (201, 0)
+    assert contents(out) == by_command(models, tmp_path / "expected")
+    tries = sum(file["tries"] - 1 for file in report["files"])
+    assert tries == roll.read_text().count("dies") > 0
+
+
 def test_dask(dask: None, tmp_path: Path) -> None:
     check("dask", dask_workers, tmp_path)
 
