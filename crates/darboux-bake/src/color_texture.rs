@@ -4,7 +4,7 @@
 //! longer side of the footprint by up to [`MOST_TAPS`] places, as GPUs filter anisotropically (L. Williams,
 //! "Pyramidal Parametrics", 1983; EXT_texture_filter_anisotropic).
 
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use darboux_io::gltf::Wrap;
 use darboux_io::image::srgb_to_linear;
@@ -31,11 +31,12 @@ static LINEAR_OF_CODE: LazyLock<[f32; 256]> =
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColorTexture {
     size: [usize; 2],
-    texels: Vec<[u8; 4]>,
+    /// Copies share them.
+    texels: Arc<Vec<[u8; 4]>>,
     is_srgb: bool,
     wrap: [Wrap; 2],
     /// The levels above the texels, in linear light, each with its size.
-    levels: Vec<Level>,
+    levels: Arc<Vec<Level>>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -55,8 +56,9 @@ impl ColorTexture {
             let expected = size[0].saturating_mul(size[1]);
             return Err(BakeError::Texels { expected, found: texels.len() });
         }
-        let mut texture = Self { size, texels, is_srgb, wrap: [Wrap::Repeat; 2], levels: Vec::new() };
-        texture.levels = texture.all_levels();
+        let (texels, wrap) = (Arc::new(texels), [Wrap::Repeat; 2]);
+        let mut texture = Self { size, texels, is_srgb, wrap, levels: Arc::default() };
+        texture.levels = Arc::new(texture.all_levels());
         Ok(texture)
     }
 

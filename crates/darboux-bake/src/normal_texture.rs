@@ -1,5 +1,7 @@
 //! [`NormalTexture`]: a normal map as a renderer reads it.
 
+use std::sync::Arc;
+
 use darboux::{Convention, UvOrigin};
 use darboux_io::gltf::Wrap;
 
@@ -11,8 +13,8 @@ use crate::vector::{Place, Vector};
 #[derive(Clone, Debug, PartialEq)]
 pub struct NormalTexture {
     size: [usize; 2],
-    /// In frames of the surface: as its generated tangents have them.
-    texels: Vec<[f32; 3]>,
+    /// In frames of the surface: as its generated tangents have them. Copies share them.
+    texels: Arc<Vec<[f32; 3]>>,
     wrap: [Wrap; 2],
     scale: f32,
     flips_v: bool,
@@ -40,7 +42,7 @@ impl NormalTexture {
         let [red, green] = [conversion.inverts_red(), conversion.inverts_green()].map(sign);
         texels.iter_mut().for_each(|[x, y, _]| (*x, *y) = (red * *x, green * *y));
         let flips_v = surface_convention.uv_origin == UvOrigin::BottomLeft;
-        Ok(Self { size, texels, wrap: [Wrap::Repeat; 2], scale: 1.0, flips_v })
+        Ok(Self { size, texels: Arc::new(texels), wrap: [Wrap::Repeat; 2], scale: 1.0, flips_v })
     }
 
     /// This texture with other modes outside [0, 1], along u and v.

@@ -76,6 +76,20 @@ impl Fault {
         }
     }
 
+    /// The same, with vertices by their indices in the file. `in_file`: of each vertex.
+    #[must_use]
+    pub fn with_vertices(mut self, in_file: &[u32]) -> Self {
+        let vertices = match &mut self {
+            Self::PositionNotFinite(part) => [Some(&mut part.items), None],
+            Self::Normal(fault) => [fault.vertices_mut(), None],
+            Self::Uv(fault) => [fault.vertices_mut(), None],
+            Self::Tangent(fault) => fault.vertices_mut(),
+            Self::Map(_) | Self::Material(_) => [None, None],
+        };
+        vertices.into_iter().flatten().for_each(|indices| *indices = indices.numbered(in_file));
+        self
+    }
+
     /// The number of vertices, corners, faces or texels that show it; 1 for a property of the whole.
     pub fn count(&self) -> usize {
         match self {

@@ -21,6 +21,17 @@ impl Indices {
         self.runs.iter().flat_map(|&[first, count]| first as usize..first as usize + count as usize)
     }
 
+    /// The numbers at these indices, ascending as they are.
+    pub fn numbered(&self, numbers: &[u32]) -> Self {
+        self.iter().map(|index| numbers[index] as usize).collect::<Vec<_>>().as_slice().into()
+    }
+
+    /// The indices of those of ascending numbers that are among these.
+    pub fn places_in(&self, numbers: &[u32]) -> Self {
+        let places = numbers.iter().enumerate().filter(|(_, number)| self.contains(**number as usize));
+        places.map(|(place, _)| place).collect::<Vec<_>>().as_slice().into()
+    }
+
     pub fn contains(&self, index: usize) -> bool {
         let next = self.runs.partition_point(|[first, _]| *first as usize <= index);
         let run = next.checked_sub(1).map(|run| self.runs[run]);
@@ -76,6 +87,10 @@ mod tests {
             assert_eq!(kept.iter().collect::<Vec<usize>>(), indices);
             assert_eq!(kept.len(), indices.len());
             assert!((0..20).all(|index| kept.contains(index) == indices.contains(&index)));
+            let numbers: Vec<u32> = (0..20).map(|index| 3 * index).collect();
+            let numbered = kept.numbered(&numbers);
+            assert!((0..60).all(|number| numbered.contains(number) == (number % 3 == 0 && kept.contains(number / 3))));
+            assert_eq!(numbered.places_in(&numbers), kept);
         }
     }
 }

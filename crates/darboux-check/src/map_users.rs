@@ -1,6 +1,8 @@
 //! The surfaces on which the images of a document are normal maps.
 
-use std::collections::BTreeMap;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
 
 use darboux_io::Error;
 use darboux_io::gltf::{Document, Material, PrimitiveCorners, PrimitiveName, TextureUse};
@@ -16,7 +18,20 @@ pub struct MapUsers<'a> {
     primitives: Vec<PrimitiveCorners<'a>>,
     /// Per image the indices of primitives, each with the textures that use the image.
     users: BTreeMap<usize, BTreeMap<usize, Vec<TextureUse>>>,
+    /// Why the texels of images cannot be changed.
+    obstacles: HashMap<usize, &'static str>,
+    read: RefCell<ReadSurfaces>,
 }
+
+/// Surfaces that were read, for other images on them, and the number of their corners.
+#[derive(Default)]
+struct ReadSurfaces {
+    by_primitive: HashMap<usize, Arc<Surface>>,
+    corners: usize,
+}
+
+/// Surfaces with more corners are read again for each image.
+const MOST_KEPT_CORNERS: usize = 1 << 20;
 
 impl<'a> MapUsers<'a> {
     /// Finds the users of all images; primitives with the same data once. `materials`: of the document.
@@ -37,7 +52,13 @@ impl<'a> MapUsers<'a> {
             }
             primitives.push(corners);
         }
-        Ok(Self { document, primitives, users })
+        let obstacles = document.normal_map_obstacles();
+        Ok(Self { document, primitives, users, obstacles, read: RefCell::default() })
+    }
+
+    /// Why the texels of an image cannot be changed, as a clause; none if they can.
+    pub fn obstacle(&self, image: usize) -> Option<&'static str> {
+        self.obstacles.get(&image).copied()
     }
 
     /// The names of the primitives that use an image.
@@ -46,27 +67,69 @@ impl<'a> MapUsers<'a> {
         users.map(|&primitive| self.primitives[primitive].name())
     }
 
+    /// Whether two images are used on the same surfaces in the same way.
+    pub fn are_same(&self, a: usize, b: usize) -> bool {
+        let (Some(of_a), Some(of_b)) = (self.users.get(&a), self.users.get(&b)) else { return false };
+        let is_same = |(a, b): (&TextureUse, &TextureUse)| {
+            let mut b = b.clone();
+            b.image = a.image;
+            *a == b
+        };
+        let are_same =
+            |a: &[TextureUse], b: &[TextureUse]| a.len() == b.len() && a.iter().zip(b).all(is_same);
+        let mut pairs = of_a.iter().zip(of_b);
+        of_a.len() == of_b.len() && pairs.all(|((a, of_a), (b, of_b))| a == b && are_same(of_a, of_b))
+    }
+
+    /// The number of triangles on which an image is used.
+    pub fn triangle_count(&self, image: usize) -> usize {
+        let users = self.users.get(&image).into_iter().flatten();
+        users.map(|(&primitive, textures)| self.primitives[primitive].len() / 3 * textures.len()).sum()
+    }
+
+    /// The number of triangles of all primitives.
+    pub fn all_triangles(&self) -> usize {
+        self.primitives.iter().map(|primitive| primitive.len() / 3).sum()
+    }
+
     /// Reads the surfaces that use an image. Errors: invalid data of primitives.
     pub fn of(&self, image: usize) -> Result<MapSurfaces, Error> {
         let mut surfaces = Vec::new();
         for (&primitive, textures) in self.users.get(&image).into_iter().flatten() {
-            if let Some(surface) = Surface::read(self.document, &self.primitives[primitive], None)? {
+            if let Some(surface) = self.surface(primitive)? {
                 surfaces.push((surface, textures.clone()));
             }
         }
         Ok(MapSurfaces(surfaces))
     }
+
+    /// The surface of a primitive; none without positions.
+    fn surface(&self, primitive: usize) -> Result<Option<Arc<Surface>>, Error> {
+        if let Some(known) = self.read.borrow().by_primitive.get(&primitive) {
+            return Ok(Some(Arc::clone(known)));
+        }
+        let corners = &self.primitives[primitive];
+        let Some(surface) = Surface::read(self.document, corners, None)?.map(Arc::new) else {
+            return Ok(None);
+        };
+        let mut read = self.read.borrow_mut();
+        if read.corners + corners.len() <= MOST_KEPT_CORNERS {
+            read.corners += corners.len();
+            read.by_primitive.insert(primitive, Arc::clone(&surface));
+        }
+        Ok(Some(surface))
+    }
 }
 
 /// The surfaces that use one image.
-pub struct MapSurfaces(Vec<(Surface, Vec<TextureUse>)>);
+pub struct MapSurfaces(Vec<(Arc<Surface>, Vec<TextureUse>)>);
 
 impl MapSurfaces {
     /// What their facets say about the image.
     pub fn votes(&self, image: &RgbaImage) -> MeshVotes {
         let mut uses = Vec::new();
         for (surface, textures) in &self.0 {
-            uses.extend(textures.iter().map(|texture| (surface, Some(texture))));
+            uses.extend(textures.iter().map(|texture| (&**surface, Some(texture))));
         }
         MeshVotes::of(&uses, image)
     }

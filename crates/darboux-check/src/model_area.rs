@@ -26,15 +26,12 @@ impl ModelArea {
         let instances = document.mesh_instances().unwrap_or_default();
         let mut area = Self { total: 0.0, scale_of_mesh: scales(&instances) };
         for corners in document.corners()? {
-            let name = corners.name();
-            let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
-            let Some(&accessor) = attributes.get("POSITION") else { continue };
-            let positions = document.vectors::<3>(accessor)?;
-            let at = |vertex: u32| positions.get(vertex as usize).copied().unwrap_or_default();
-            let triangles = corners.vertices().as_chunks::<3>().0.iter();
+            let Some(positions) = corners.own_vectors::<3>("POSITION")? else { continue };
+            let at = |vertex: u32| positions[vertex as usize];
+            let triangles = corners.own_vertices().as_chunks::<3>().0.iter();
             let own: f64 =
                 triangles.map(|triangle| area_of(triangle.map(at))).filter(|area| area.is_finite()).sum();
-            area.total += own * area.scale(name.mesh);
+            area.total += own * area.scale(corners.name().mesh);
         }
         Ok(area)
     }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::hash::Hash;
+use std::sync::OnceLock;
 
 use darboux::{Convention, Mesh, TangentOptions, generate_tangents};
 use darboux_io::Error;
@@ -25,6 +26,11 @@ pub struct Surface {
     pub uv_set: usize,
     /// The vertex of every corner, three corners per triangle.
     pub vertex_of_corner: Vec<u32>,
+    /// The index of every vertex in the file, ascending, where the primitive shares more vertices than it
+    /// uses with others; none where all vertices of its accessors were read.
+    pub vertices_in_file: Option<Vec<u32>>,
+    /// The number of vertices in the file.
+    pub vertices_of_file: usize,
     pub positions: Vec<[f32; 3]>,
     pub normals: Option<Vec<[f32; 3]>>,
     pub tangents: Option<Vec<[f32; 4]>>,
@@ -32,6 +38,8 @@ pub struct Surface {
     pub tangent_size: usize,
     /// The UV sets by the n of `TEXCOORD_n`.
     pub uv_sets: BTreeMap<usize, Vec<[f32; 2]>>,
+    /// Whether its faces say nothing about maps, once that was asked.
+    pub has_no_votes: OnceLock<bool>,
 }
 
 impl Surface {
@@ -43,7 +51,7 @@ impl Surface {
         corners: &PrimitiveCorners<'_>,
         info: Option<&PrimitiveInfo>,
     ) -> Result<Option<Self>, Error> {
-        let Some(positions) = vertices(document, corners, "POSITION")? else { return Ok(None) };
+        let Some(positions) = vertices(corners, "POSITION")? else { return Ok(None) };
         let name = corners.name();
         let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
         let attributes = &primitive.attributes;
@@ -53,19 +61,29 @@ impl Surface {
             ineligible: info.and_then(|info| info.ineligible.clone()),
             moves_normals: primitive.targets.iter().any(|target| target.contains_key("NORMAL")),
             uv_set: info.map_or(0, |info| info.uv_set),
-            vertex_of_corner: corners.vertices().to_vec(),
+            vertex_of_corner: corners.own_vertices().to_vec(),
+            vertices_in_file: corners.vertices_of_own().map(<[u32]>::to_vec),
+            vertices_of_file: attributes
+                .get("POSITION")
+                .map_or(0, |&index| document.accessors()[index].count),
             positions,
-            normals: vertices(document, corners, "NORMAL")?,
-            tangents: vertices(document, corners, "TANGENT")?,
+            normals: vertices(corners, "NORMAL")?,
+            tangents: vertices(corners, "TANGENT")?,
             tangent_size: attributes.get("TANGENT").map_or(0, |&accessor| element_size(document, accessor)),
             uv_sets: BTreeMap::new(),
+            has_no_votes: OnceLock::new(),
         };
         for semantic in attributes.keys() {
             if let Some(set) = semantic.strip_prefix("TEXCOORD_").and_then(|set| set.parse().ok()) {
-                surface.uv_sets.extend(vertices(document, corners, semantic)?.map(|uvs| (set, uvs)));
+                surface.uv_sets.extend(vertices(corners, semantic)?.map(|uvs| (set, uvs)));
             }
         }
         Ok(Some(surface))
+    }
+
+    /// The index in the file of a vertex.
+    pub fn vertex_in_file(&self, vertex: usize) -> usize {
+        self.vertices_in_file.as_ref().map_or(vertex, |in_file| in_file[vertex] as usize)
     }
 
     /// The mesh with one of its UV sets; none where it has no normals or not that set.
@@ -159,21 +177,13 @@ fn root(parents: &mut [usize], mut vertex: usize) -> usize {
     vertex
 }
 
-/// The values of an attribute at all vertices. Errors: invalid data; an index of a corner that is out of
-/// range.
+/// The values of an attribute at the vertices of a primitive. Errors: invalid data; an index of a corner that
+/// is out of range.
 fn vertices<const N: usize>(
-    document: &Document,
     corners: &PrimitiveCorners<'_>,
     semantic: &str,
 ) -> Result<Option<Vec<[f32; N]>>, Error> {
-    let name = corners.name();
-    let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
-    let Some(&accessor) = attributes.get(semantic) else { return Ok(None) };
-    let vectors = document.vectors(accessor)?;
-    if corners.vertices().iter().any(|&vertex| vertex as usize >= vectors.len()) {
-        corners.vectors::<N>(semantic)?;
-    }
-    Ok(Some(vectors.into_owned()))
+    Ok(corners.own_vectors(semantic)?.map(|vectors| vectors.into_owned()))
 }
 
 /// Twice the signed area of a triangle in UV space, with v as stored.

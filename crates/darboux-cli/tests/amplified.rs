@@ -8,7 +8,7 @@ mod common;
 
 use std::fs;
 
-use common::limited::ends_in_time;
+use common::limited::{ends_beside, ends_in_time, is_refused};
 use common::text;
 use darboux_io::image::PngImage;
 use serde_json::{Value, json};
@@ -221,6 +221,247 @@ fn shared_vertices_are_written_where_they_are_used() {
             "tangents IN -o out.glb",
         ],
     );
+}
+
+/// Vertices in four bytes each, which are position, normal, tangent and UV, and triangles of a primitive
+/// each.
+struct SharedBytes {
+    vertices: usize,
+    primitives: usize,
+    /// Whether each primitive has UVs of its own, which begin one vertex later.
+    own_uvs: bool,
+    /// Whether positions are stored apart for one vertex.
+    is_sparse: bool,
+    nodes: usize,
+}
+
+impl SharedBytes {
+    fn file(&self) -> Vec<u8> {
+        let Self { vertices, primitives, .. } = *self;
+        let mut builder = Builder::default();
+        let mut random = 1u32;
+        let mut byte = || {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (random >> 24) as u8
+        };
+        let bytes: Vec<u8> = (0..4 * (vertices + primitives)).map(|_| byte()).collect();
+        let view = builder.view(&bytes);
+        builder.views[view]["byteStride"] = json!(4);
+        let (one, other) = (builder.view(&7u32.to_le_bytes()), builder.view(&[9, 9, 9, 0]));
+        let mut accessor = |kind: &str, component: u32, first: usize| {
+            let mut accessor = json!({ "bufferView": view, "byteOffset": 4 * first, "componentType": component,
+                "normalized": true, "count": vertices, "type": kind });
+            if self.is_sparse && kind == "VEC3" && component == 5121 {
+                accessor["sparse"] = json!({ "count": 1, "indices": { "bufferView": one, "componentType": 5125 },
+                    "values": { "bufferView": other } });
+            }
+            builder.accessor(accessor)
+        };
+        let (position, normal) = (accessor("VEC3", 5121, 0), accessor("VEC3", 5120, 0));
+        let tangent = accessor("VEC4", 5120, 0);
+        let sets = if self.own_uvs { primitives } else { 1 };
+        let uvs: Vec<usize> = (0..sets).map(|first| accessor("VEC2", 5121, first)).collect();
+        let primitive = |i: usize| {
+            let first = (5 * i) as u32;
+            json!({
+                "attributes": { "POSITION": position, "NORMAL": normal, "TANGENT": tangent, "TEXCOORD_0": uvs[i % sets] },
+                "indices": builder.indices(&[first, first + 1, vertices as u32 - 1]),
+            })
+        };
+        let primitives: Vec<Value> = (0..primitives).map(primitive).collect();
+        builder.glb(json!({
+            "extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"],
+            "meshes": [{ "primitives": primitives }],
+            "nodes": vec![json!({ "mesh": 0 }); self.nodes],
+        }))
+    }
+}
+
+/// Where each of many primitives or nodes reads vertices that must be decoded, it reads those that it uses.
+#[test]
+fn shared_vertices_are_decoded_where_they_are_used() {
+    let shared =
+        SharedBytes { vertices: 300_000, primitives: 400, own_uvs: false, is_sparse: false, nodes: 1 };
+    let lines = [
+        "compare IN IN",
+        "check IN",
+        "inspect IN --quiet",
+        "bake IN --high IN -o out.png --size 64",
+        "convert IN --from gltf --to gltf -o out.obj",
+    ];
+    ends_in_time("m.glb", &shared.file(), &lines);
+    ends_in_time("m.glb", &SharedBytes { is_sparse: true, ..shared }.file(), &lines);
+    ends_in_time("m.glb", &SharedBytes { own_uvs: true, ..shared }.file(), &lines);
+    let nodes = SharedBytes { primitives: 1, nodes: 400, ..shared };
+    ends_in_time("m.glb", &nodes.file(), &lines);
+    ends_in_time("m.glb", &shared.file(), &["tangents IN --overwrite -o out.glb"]);
+    let file = SharedBytes { own_uvs: true, ..shared }.file();
+    ends_in_time("m.glb", &file, &["normals IN --overwrite -o out.glb"]);
+    // Each primitive gets tangents for all vertices of its own.
+    is_refused("m.glb", &file, "tangents IN --overwrite -o out.glb", "share bytes so often");
+}
+
+/// Morph targets whose offsets are the same bytes, each one vertex later.
+#[test]
+fn offsets_of_morph_targets_are_read_where_they_are_used() {
+    let (vertices, targets) = (300_000, 1500);
+    let mut builder = Builder::default();
+    let bytes: Vec<u8> = (0..4 * (vertices + targets)).map(|i| (i * 37 % 251) as u8).collect();
+    let view = builder.view(&bytes);
+    builder.views[view]["byteStride"] = json!(4);
+    let positions =
+        builder.floats(&(0..3 * vertices).map(|i| (i % 7) as f32).collect::<Vec<_>>(), "VEC3", vertices);
+    let offsets = |first: usize| json!({ "bufferView": view, "byteOffset": 4 * first, "componentType": 5120, "count": vertices, "type": "VEC3" });
+    let targets: Vec<Value> =
+        (0..targets).map(|first| json!({ "POSITION": builder.accessor(offsets(first)) })).collect();
+    let indices = builder.indices(&[0, 1, 2]);
+    let file = builder.glb(json!({
+        "extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": positions }, "indices": indices, "targets": targets }] }],
+    }));
+    ends_in_time("m.glb", &file, &["normals IN -o out.glb"]);
+}
+
+/// Materials for the variants of one primitive, each with an image of its own over the same bytes: judged
+/// once by `check`, decoded once by `bake`, and written once beside an OBJ.
+#[test]
+fn images_over_the_same_bytes_are_read_once() {
+    let (triangles, count) = (10_000, 1500);
+    let mut builder = Builder::default();
+    let mut primitive = builder.square();
+    primitive["indices"] = json!(builder.indices(&[0, 1, 2].repeat(triangles)));
+    primitive["material"] = json!(0);
+    let mappings: Vec<Value> = (0..count).map(|i| json!({ "material": i, "variants": [0] })).collect();
+    primitive["extensions"] = json!({ "KHR_materials_variants": { "mappings": mappings } });
+    let texels: Vec<[u8; 3]> =
+        (0..200 * 200).map(|i| [(100 + i % 57) as u8, (100 + i % 53) as u8, 240]).collect();
+    let png = PngImage::from_rgb("i", [200, 200], &texels).and_then(|image| image.to_bytes());
+    let view = builder.view(&png.expect("an image"));
+    let all = |value: &dyn Fn(usize) -> Value| (0..count).map(value).collect::<Vec<Value>>();
+    let members = json!({
+        "extensions": { "KHR_materials_variants": { "variants": [{ "name": "v" }] } },
+        "images": all(&|i| json!({ "bufferView": view, "mimeType": "image/png", "name": format!("{i}") })),
+        "textures": all(&|i| json!({ "source": i })),
+        "materials": all(&|i| json!({ "normalTexture": { "index": i } })),
+        "meshes": [{ "primitives": [primitive.clone()] }],
+    });
+    let file = builder.glb(members);
+    ends_in_time("m.glb", &file, &["check IN", "convert IN --from gltf --to gltf -o out.obj"]);
+
+    let mut builder = Builder::default();
+    let square = builder.square();
+    let view = builder.view(
+        &PngImage::from_rgb("i", [200, 200], &texels).and_then(|image| image.to_bytes()).expect("an image"),
+    );
+    let with_material = |i: usize| {
+        let mut primitive = square.clone();
+        primitive["material"] = json!(i);
+        primitive
+    };
+    let members = json!({
+        "images": all(&|_| json!({ "bufferView": view, "mimeType": "image/png" })),
+        "textures": all(&|i| json!({ "source": i })),
+        "materials": all(&|i| json!({ "normalTexture": { "index": i }, "pbrMetallicRoughness": { "baseColorTexture": { "index": i } } })),
+        "meshes": [{ "primitives": all(&with_material) }],
+    });
+    let file = builder.glb(members);
+    let lines = [
+        "bake low.glb --high IN -o out.png --map normal --size 8",
+        "bake low.glb --high IN -o out.png --map base-color --size 8",
+    ];
+    let mut builder = Builder::default();
+    let square = builder.square();
+    let low = builder.glb(json!({ "meshes": [{ "primitives": [square] }] }));
+    ends_beside("m.glb", &file, &[("low.glb", &low)], &lines);
+}
+
+/// A scene of points has nothing that a PLY or an OBJ holds.
+#[test]
+fn a_scene_without_faces_is_not_written_as_one_of_faces() {
+    let mut builder = Builder::default();
+    let mut points = builder.square();
+    points["mode"] = json!(0);
+    let file = builder.glb(json!({ "meshes": [{ "primitives": [points] }] }));
+    for output in ["out.obj", "out.ply"] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("m.glb");
+        fs::write(&path, &file).expect("a file");
+        let output = folder.path().join(output);
+        let run =
+            common::darboux(&["convert", text(&path), "--from", "gltf", "--to", "gltf", "-o", text(&output)]);
+        assert!(run.stderr.contains("has no faces"), "{}", run.stderr);
+        run.exits(1);
+        assert_eq!(common::names_in(folder.path()), ["m.glb"]);
+    }
+}
+
+/// Two meshes in turn, whose names are written each time.
+#[test]
+fn names_of_objects_are_not_repeated_at_length() {
+    let mut builder = Builder::default();
+    let square = builder.square();
+    let mesh = |letter: &str| json!({ "name": letter.repeat(1000), "primitives": [square] });
+    let file = builder.glb(json!({
+        "meshes": [mesh("a"), mesh("b")],
+        "nodes": (0..6000).map(|i| json!({ "mesh": i % 2 })).collect::<Vec<_>>(),
+    }));
+    let folder = tempfile::tempdir().expect("a folder");
+    let (path, output) = (folder.path().join("m.glb"), folder.path().join("out.obj"));
+    fs::write(&path, file).expect("a file");
+    common::darboux(&["convert", text(&path), "--from", "gltf", "--to", "gltf", "-o", text(&output)])
+        .exits(0);
+    let obj = fs::read_to_string(&output).expect("a text");
+    assert!(obj.len() < 1 << 20, "{} bytes", obj.len());
+    let mut names: Vec<&str> = obj.lines().filter(|line| line.starts_with("o ")).collect();
+    assert_eq!(names.len(), 6000);
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), 2);
+}
+
+/// Buffers over one file, each of another length.
+#[test]
+fn a_file_of_many_buffers_is_written_once() {
+    let length = 1_000_000;
+    for extra in [json!({}), json!({ "extras": 0 })] {
+        let buffer = |i: usize| {
+            let mut buffer = json!({ "uri": "a.bin", "byteLength": length - i });
+            buffer.as_object_mut().expect("an object").extend(extra.as_object().expect("members").clone());
+            buffer
+        };
+        let view = |i: usize| json!({ "buffer": i, "byteOffset": 4 * i, "byteLength": 36 });
+        let accessor =
+            |i: usize| json!({ "bufferView": i, "componentType": 5126, "count": 3, "type": "VEC3" });
+        let of = |value: &dyn Fn(usize) -> Value| (0..60).map(value).collect::<Vec<Value>>();
+        let json = json!({
+            "asset": { "version": "2.0" },
+            "buffers": of(&buffer),
+            "bufferViews": of(&view),
+            "accessors": of(&accessor),
+            "meshes": [{ "primitives": of(&|i| json!({ "attributes": { "POSITION": i } })) }],
+        });
+        let model = json.to_string();
+        let bytes: Vec<u8> = (0..length / 4).flat_map(|i| (i as f32).to_le_bytes()).collect();
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("m.gltf");
+        fs::write(&path, &model).expect("a file");
+        fs::write(folder.path().join("a.bin"), &bytes).expect("a file");
+        let glb = folder.path().join("out.glb");
+        common::darboux(&["convert", text(&path), "--from", "gltf", "--to", "gltf", "-o", text(&glb)])
+            .exits(0);
+        let written = fs::metadata(&glb).expect("a file").len();
+        assert!(written < 3 * length as u64, "{written} bytes");
+        let options = darboux_io::LoadOptions::default();
+        let document = darboux_io::gltf::Document::open(&glb, &options).expect("a model");
+        for i in 0..60 {
+            let first = document.vectors::<3>(i).expect("positions")[0];
+            assert_eq!(first, [i, i + 1, i + 2].map(|x| x as f32));
+            assert_eq!(
+                document.json()["buffers"].as_array().map_or(0, Vec::len),
+                if extra["extras"] == 0 { 60 } else { 1 }
+            );
+        }
+    }
 }
 
 #[test]

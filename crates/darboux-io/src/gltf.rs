@@ -7,7 +7,7 @@
 //! accessors, stored_elements, elements                 accessors as arrays, and arrays as accessors
 //! tangents/, normals/, convert/                        operations on documents; primitives/ is what they share
 //! edit/                                                edits, which all operations write through
-//! inspect, compare, scene, materials, image_uses       descriptions of documents
+//! inspect, compare, scene, materials, image_*          descriptions of documents
 //! unused_data, output, save                            writing: what is left out, where the rest goes, files
 //! exchange/                                            writing PLY and OBJ
 //! ```
@@ -24,6 +24,7 @@ mod element_type;
 mod elements;
 mod exchange;
 mod file_bytes;
+mod image_source;
 mod image_uses;
 mod inspect;
 mod load;
@@ -51,6 +52,7 @@ pub use edit::Checkpoint;
 pub use edit::materials::MaterialTexture;
 pub use element_type::{ComponentType, ElementType};
 pub use elements::{Elements, NewAccessor, Target};
+pub use image_source::ImageSource;
 pub use inspect::{PrimitiveInfo, inspect};
 pub use materials::{Alpha, Material, TextureUse, Wrap};
 pub use normals::{

@@ -2,13 +2,13 @@
 //! of what they belong to.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners, TextureUse};
 use darboux_io::image::{DecodeLimits, RgbaImage};
 
-use super::placed::vertices;
+use super::decoded_image::DecodedImage;
 use crate::{BakeError, ColorTexture, HighSurface, MapKind, MapSet, MaterialProperty};
 
 /// The colours and properties of a primitive.
@@ -35,7 +35,11 @@ pub struct ColorTextures {
     /// By the image and whether it is in sRGB, with the modes in which it is wrapped; none where it cannot
     /// be used.
     known: HashMap<(Option<usize>, bool, String), Option<usize>>,
+    /// By the source of the bytes and whether it is in sRGB; the error is a clause.
+    decoded: HashMap<(DecodedImage, bool), Result<ColorTexture, String>>,
     pub warnings: Vec<String>,
+    /// The same, to give each once.
+    warned: HashSet<String>,
 }
 
 /// Whether the texture of a material holds colours in sRGB, judged by its name in the material, as
@@ -138,7 +142,7 @@ impl<'a> Stored<'a> {
         let Some(used) = self.document.texture_of_material(self.material, member)? else { return Ok(None) };
         let at = format!("{} of materials[{}]", member, self.material);
         let set = format!("TEXCOORD_{}", used.uv_set);
-        let Some(mut uvs) = vertices(self.document, self.corners.name(), &set)? else {
+        let Some(mut uvs) = self.corners.own_vectors(&set)? else {
             let path = self.corners.name().path();
             textures.warn(self.document, format!("{at} is not used, because {path} has no {set}"));
             return Ok(None);
@@ -154,7 +158,7 @@ impl<'a> Stored<'a> {
 impl ColorTextures {
     fn warn(&mut self, document: &Document, clause: String) {
         let sentence = format!("{}: {clause}", document.name());
-        if !self.warnings.contains(&sentence) {
+        if self.warned.insert(sentence.clone()) {
             self.warnings.push(sentence);
         }
     }
@@ -164,7 +168,9 @@ impl ColorTextures {
         if let Some(&known) = self.known.get(&key) {
             return known;
         }
-        let index = match decode(document, used, is_srgb) {
+        let source = (DecodedImage::of(document, used), is_srgb);
+        let decoded = self.decoded.entry(source).or_insert_with(|| decode(document, used, is_srgb));
+        let index = match decoded.clone() {
             Ok(texture) => {
                 self.list.push(texture.with_wrap(used.wrap));
                 Some(self.list.len() - 1)
@@ -192,15 +198,15 @@ fn decode(document: &Document, used: &TextureUse, is_srgb: bool) -> Result<Color
 /// The colours of a primitive's vertices, opaque where they have no alpha. Errors: invalid data.
 pub fn colors<'a>(
     document: &'a Document,
-    corners: &PrimitiveCorners<'_>,
+    corners: &PrimitiveCorners<'a>,
 ) -> Result<Option<Cow<'a, [[f32; 4]]>>, Error> {
     let name = corners.name();
     let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
     let accessor = attributes.get("COLOR_0").and_then(|&index| document.accessors().get(index));
     if accessor.is_some_and(|accessor| accessor.element_type.components() == 3) {
-        let colors = vertices::<3>(document, name, "COLOR_0")?.unwrap_or_default();
+        let colors = corners.own_vectors::<3>("COLOR_0")?.unwrap_or_default();
         let opaque = colors.iter().map(|&[red, green, blue]| [red, green, blue, 1.0]).collect();
         return Ok(Some(Cow::Owned(opaque)));
     }
-    vertices::<4>(document, name, "COLOR_0")
+    corners.own_vectors::<4>("COLOR_0")
 }

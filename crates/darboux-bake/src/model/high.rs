@@ -84,6 +84,9 @@ impl<'a> HighModel<'a> {
         options: &HighModelOptions,
     ) -> Result<Self, Error> {
         let places = places(document)?;
+        let places_of = |corners: &PrimitiveCorners<'_>| places.get(corners.name().mesh).map_or(0, Vec::len);
+        let triangles = corners.iter().map(|corners| (corners.len() / 3).saturating_mul(places_of(corners)));
+        document.check_triangle_count(triangles.fold(0, usize::saturating_add))?;
         let (mut textures, mut color_textures) = (Textures::default(), ColorTextures::default());
         let needed = (options.maps, options.texture.as_deref());
         let material_names = material_names(document);
@@ -96,7 +99,7 @@ impl<'a> HighModel<'a> {
                 false => None,
             };
             for place in places.get(corners.name().mesh).into_iter().flatten() {
-                let Some(primitive) = PlacedPrimitive::read(document, corners, place)? else { continue };
+                let Some(primitive) = PlacedPrimitive::read(corners, place)? else { continue };
                 let map = texture.map(|texture| textures.on_part(document, corners, texture, &primitive));
                 let map = map.transpose()?.flatten();
                 part_names[place.number].clone_from(&primitive.part_name);

@@ -1,14 +1,14 @@
 //! [`LowModel`]: the surfaces of a document that receive the detail, with their tangents.
 
 use std::borrow::Cow;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 use darboux::{Indices, Mesh, TangentOptions};
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 
 use super::content::colors;
-use super::placed::{PlacedPrimitive, places, vertices};
+use super::placed::{PlacedPrimitive, places};
 use super::stored::StoredPrimitive;
 use crate::LowSurface;
 use crate::text::listed;
@@ -104,24 +104,25 @@ impl<'a> LowModel<'a> {
         if let (Some(material), []) = (options.material, &chosen[..]) {
             return Err(without_material(document, material, with_triangles()));
         }
+        let mut known_materials = HashSet::new();
         for &corners in &chosen {
             let name = corners.name();
             let Some(place) = places.get(name.mesh).and_then(|places| places.first()) else { continue };
-            let Some(primitive) = PlacedPrimitive::read(document, corners, place)? else { continue };
+            let Some(primitive) = PlacedPrimitive::read(corners, place)? else { continue };
             let material = corners.material().and_then(|material| materials.get(material));
             let of_map = material.map_or(0, |material| material.tangent_uv_set);
             let uv_set = options.uv_set.unwrap_or(of_map);
-            let Some(mut uvs) = vertices(document, name, &format!("TEXCOORD_{uv_set}"))? else {
+            let Some(mut uvs) = corners.own_vectors(&format!("TEXCOORD_{uv_set}"))? else {
                 model.without_uvs += 1;
                 continue;
             };
             let Some(normals) = primitive.normals.clone() else {
                 return Err(without_normals(document, name));
             };
-            let has_own = vertices::<4>(document, name, "TANGENT")?.is_some();
+            let has_own = corners.own_vectors::<4>("TANGENT")?.is_some();
             let is_own = has_own && options.tangents.is_none() && uv_set == of_map;
             model.with_unused_tangents += usize::from(has_own && !is_own);
-            if !model.materials.contains(&corners.material()) {
+            if known_materials.insert(corners.material()) {
                 model.materials.push(corners.material());
             }
             model.with_own_tangents += usize::from(is_own);

@@ -8,7 +8,8 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, Material, PrimitiveCorners, TextureUse};
 use darboux_io::image::{Channels, DecodeLimits, PngImage, RgbaImage, normal_vectors};
 
-use super::placed::{PlacedPrimitive, vertices};
+use super::decoded_image::DecodedImage;
+use super::placed::PlacedPrimitive;
 use super::stored::StoredPrimitive;
 use crate::NormalTexture;
 
@@ -29,6 +30,10 @@ pub struct Textures {
     list: Vec<NormalTexture>,
     /// By the index of the material; none where the map cannot be used.
     of_material: HashMap<usize, Option<(usize, Material)>>,
+    /// All materials, once they were read.
+    materials: Option<Vec<Material>>,
+    /// By the image, or the source of its bytes; the error is a clause.
+    decoded: HashMap<DecodedImage, Result<NormalTexture, String>>,
     pub warnings: Vec<String>,
 }
 
@@ -53,13 +58,18 @@ impl Textures {
     }
 
     fn read(&mut self, document: &Document, index: usize) -> Result<Option<(usize, Material)>, Error> {
-        let Some(material) = document.materials()?.into_iter().nth(index) else { return Ok(None) };
+        let materials = match &mut self.materials {
+            Some(materials) => materials,
+            none => none.insert(document.materials()?),
+        };
+        let Some(material) = materials.get(index).cloned() else { return Ok(None) };
         let Some(used) = &material.normal_texture else { return Ok(None) };
-        let texture = decode(document, used).and_then(|(size, texels)| {
+        let texture = self.decoded.entry(DecodedImage::of(document, used)).or_insert_with(|| {
+            let (size, texels) = decode(document, used)?;
             NormalTexture::new(size, texels, Convention::GLTF, Convention::GLTF)
                 .map_err(|error| error.to_string())
         });
-        match texture {
+        match texture.clone() {
             Ok(texture) => {
                 let texture = texture.with_wrap(used.wrap).with_scale(material.normal_scale);
                 self.list.push(texture);
@@ -86,7 +96,7 @@ impl Textures {
         let Some((texture, material)) = &self.of_material[&material] else { return Ok(None) };
         let Some(used) = &material.normal_texture else { return Ok(None) };
         let (name, set) = (corners.name(), used.uv_set);
-        let uvs = vertices(document, name, &format!("TEXCOORD_{set}"))?;
+        let uvs = corners.own_vectors(&format!("TEXCOORD_{set}"))?;
         let Some(mut uvs) = uvs.filter(|_| primitive.normals.is_some()) else {
             self.warnings.push(format!(
                 "{}: {}: the normal map is not used, because the primitive has no {}",
@@ -97,7 +107,7 @@ impl Textures {
             return Ok(None);
         };
         let computed = TangentOptions::default();
-        let has_own = vertices::<4>(document, name, "TANGENT")?.is_some();
+        let has_own = corners.own_vectors::<4>("TANGENT")?.is_some();
         let stored = StoredPrimitive { document, corners, uvs: &uvs };
         let tangents = stored.tangents((!has_own).then_some(&computed), primitive.transform.as_ref())?;
         uvs.to_mut().iter_mut().for_each(|uv| *uv = used.transform_uv(*uv));

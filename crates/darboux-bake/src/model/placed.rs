@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use darboux::Transform;
 use darboux_io::Error;
-use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
+use darboux_io::gltf::{Document, PrimitiveCorners};
 
 /// A matrix for column vectors, in columns.
 pub type Matrix = [[f64; 4]; 4];
@@ -36,17 +36,6 @@ pub fn places(document: &Document) -> Result<Vec<Vec<Place>>, Error> {
     Ok(places)
 }
 
-/// The values of an attribute at every vertex of a primitive; none if it does not have it. Errors: invalid
-/// data.
-pub fn vertices<'a, const N: usize>(
-    document: &'a Document,
-    name: &PrimitiveName,
-    semantic: &str,
-) -> Result<Option<Cow<'a, [[f32; N]]>>, Error> {
-    let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
-    attributes.get(semantic).map(|&accessor| document.vectors(accessor)).transpose()
-}
-
 /// Positions and normals of a primitive at a place, and the vertices of its triangles.
 #[derive(Clone, Debug)]
 pub struct PlacedPrimitive<'a> {
@@ -62,14 +51,10 @@ pub struct PlacedPrimitive<'a> {
 impl<'a> PlacedPrimitive<'a> {
     /// Reads a primitive; none where it has no positions. A mirroring matrix reverses the triangles. Errors:
     /// invalid data.
-    pub fn read(
-        document: &'a Document,
-        corners: &'a PrimitiveCorners<'a>,
-        place: &Place,
-    ) -> Result<Option<Self>, Error> {
-        let Some(positions) = vertices(document, corners.name(), "POSITION")? else { return Ok(None) };
-        let normals = vertices(document, corners.name(), "NORMAL")?;
-        let indices = Cow::Borrowed(corners.vertices());
+    pub fn read(corners: &'a PrimitiveCorners<'a>, place: &Place) -> Result<Option<Self>, Error> {
+        let Some(positions) = corners.own_vectors("POSITION")? else { return Ok(None) };
+        let normals = corners.own_vectors("NORMAL")?;
+        let indices = Cow::Borrowed(corners.own_vertices());
         let part_name = place.node_name.as_ref().or(corners.name().mesh_name.as_ref());
         let part_name = part_name.cloned().unwrap_or_default();
         let primitive = Self { part_name, positions, normals, indices, transform: None };

@@ -4,7 +4,7 @@ use darboux::{Convention, Indices, Mesh, TangentOptions, Transform, generate_tan
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners};
 
-use super::placed::{reverse, vertices};
+use super::placed::reverse;
 
 /// A primitive as the file has it, before it is placed.
 pub struct StoredPrimitive<'a> {
@@ -25,7 +25,7 @@ impl StoredPrimitive<'_> {
             Some(options) => self.computed_tangents(options)?,
         };
         if let Some(transform) = transform {
-            let normals = vertices(self.document, self.corners.name(), "NORMAL")?.unwrap_or_default();
+            let normals = self.corners.own_vectors("NORMAL")?.unwrap_or_default();
             move_tangents(&mut tangents, self.corners, &normals, transform);
         }
         Ok(tangents)
@@ -40,23 +40,24 @@ impl StoredPrimitive<'_> {
 
     fn computed_tangents(&self, options: &TangentOptions) -> Result<Vec<[f32; 4]>, Error> {
         let (document, name) = (self.document, self.corners.name());
-        let positions = vertices::<3>(document, name, "POSITION")?.unwrap_or_default();
-        let normals = vertices::<3>(document, name, "NORMAL")?.unwrap_or_default();
-        let mesh = Mesh::triangles(&*positions, &*normals, self.uvs, Indices::U32(self.corners.vertices()));
+        let positions = self.corners.own_vectors::<3>("POSITION")?.unwrap_or_default();
+        let normals = self.corners.own_vectors::<3>("NORMAL")?.unwrap_or_default();
+        let mesh =
+            Mesh::triangles(&*positions, &*normals, self.uvs, Indices::U32(self.corners.own_vertices()));
         let mesh =
             mesh.map_err(|source| Error::Mesh { file: document.name().to_owned(), at: name.path(), source })?;
         Ok(generate_tangents(&mesh, options).corners.into_per_corner())
     }
 }
 
-/// Moves tangents to the place of their primitive. `normals`: of the vertices, as the file has them.
+/// Moves tangents to the place of their primitive. `normals`: of its own vertices, as the file has them.
 fn move_tangents(
     tangents: &mut [[f32; 4]],
     corners: &PrimitiveCorners<'_>,
     normals: &[[f32; 3]],
     transform: &Transform,
 ) {
-    for (tangent, &vertex) in tangents.iter_mut().zip(corners.vertices()) {
+    for (tangent, &vertex) in tangents.iter_mut().zip(corners.own_vertices()) {
         let normal = normals.get(vertex as usize).copied().unwrap_or_default();
         (_, *tangent) = transform.frame(normal, *tangent);
     }

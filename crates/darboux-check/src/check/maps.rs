@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use darboux::{MapJudgement, SrgbMistake};
 use darboux_io::Error;
-use darboux_io::gltf::{Document, Material};
+use darboux_io::gltf::{Document, ImageSource, Material};
 use darboux_io::image::RgbaImage;
 
 use super::surfaces::{defects_of_surface, for_each_surface, weigh};
@@ -189,7 +189,8 @@ pub fn defects_of_materials(
     let inverted_images: HashSet<usize> = materials.iter().filter_map(image_inverted_by).collect();
     let turned_images: HashSet<usize> = materials.iter().flat_map(images_turned_by).collect();
     let mut judged = Vec::new();
-    let mut decoded = DecodedMaps::default();
+    let mut decoded =
+        DecodedMaps { most_triangles: DecodedMaps::most_triangles(&users), ..Default::default() };
     for (image, material) in images {
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
         let (mut found, witness) = defects_of_image(document, &users, image, options, &mut decoded)?;
@@ -259,6 +260,11 @@ fn images_turned_by(material: &Material) -> impl Iterator<Item = usize> {
 struct DecodedMaps {
     texels: usize,
     bytes: usize,
+    /// The triangles that they were compared with, and the most of them.
+    triangles: usize,
+    most_triangles: usize,
+    /// By the source of their bytes the last image, and what was found.
+    of_source: HashMap<ImageSource, (usize, Vec<Defect>, MapWitness)>,
 }
 
 impl DecodedMaps {
@@ -279,6 +285,12 @@ impl DecodedMaps {
         if RgbaImage::is_format_known(bytes) {
             self.add((bytes.len().saturating_mul(DEFLATE)).min(1 << 22), bytes.len());
         }
+    }
+
+    /// Four times those of the model, and two million: a model has few maps per primitive, but its materials
+    /// may have thousands of variants.
+    fn most_triangles(users: &MapUsers<'_>) -> usize {
+        users.all_triangles().saturating_mul(4).saturating_add(1 << 21)
     }
 
     fn are_many(&self) -> bool {
@@ -327,20 +339,36 @@ fn defects_of_image(
         Ok(bytes) => bytes,
         Err(error) => return unread(format!("cannot be read ({error})")),
     };
+    let source = document.image_source(image);
+    let same = source.as_ref().and_then(|source| decoded.of_source.get(source));
+    let obstacle = users.obstacle(image).map(str::to_owned).map(Obstacle::NotRewritable);
+    let with_obstacle = |found: &[Defect]| {
+        found.iter().map(|defect| defect.clone().with_obstacle(obstacle.clone())).collect()
+    };
+    if let Some((_, found, witness)) = same.filter(|(other, ..)| users.are_same(*other, image)) {
+        return Ok((with_obstacle(found), *witness));
+    }
     if decoded.are_many() {
         let texels = decoded.texels;
         return unread(format!(
             "was not decoded, because the maps before it have {texels} texels; check its file alone"
         ));
     }
+    if decoded.triangles > decoded.most_triangles {
+        let triangles = decoded.triangles;
+        return unread(format!(
+            "was not decoded, because the maps before it were compared with {triangles} triangles; check its file alone"
+        ));
+    }
+    decoded.triangles = decoded.triangles.saturating_add(users.triangle_count(image));
     let checked = map_defects_on_surfaces(&bytes, &users.of(image)?, options);
     match &checked.judgement {
         Some(judgement) => decoded.add(judgement.texels, bytes.len()),
         None => decoded.add_broken(&bytes),
     }
-    let obstacle = document.normal_map_obstacle(image).map(str::to_owned).map(Obstacle::NotRewritable);
-    let defects = checked.defects.into_iter().map(|defect| defect.with_obstacle(obstacle.clone()));
-    Ok((defects.collect(), checked.witness))
+    let (found, witness) = (with_obstacle(&checked.defects), checked.witness);
+    decoded.of_source.extend(source.map(|source| (source, (image, checked.defects, witness))));
+    Ok((found, witness))
 }
 
 #[cfg(test)]

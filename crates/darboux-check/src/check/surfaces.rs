@@ -79,7 +79,11 @@ pub fn defects_of_surface(surface: &Surface, area: &ModelArea) -> Vec<Defect> {
     let placed = |defect: Defect| {
         let spoiled = spoiled(&defect.fault, &facts).and_then(|own| area.percent(&surface.place, own));
         let obstacle = obstacles::of_surface(&defect, &facts);
-        Defect { place: surface.place.clone(), spoiled, ..defect }.with_obstacle(obstacle)
+        let fault = match &surface.vertices_in_file {
+            Some(in_file) => defect.fault.with_vertices(in_file),
+            None => defect.fault,
+        };
+        Defect { place: surface.place.clone(), spoiled, fault, ..defect }.with_obstacle(obstacle)
     };
     let defects = rules.flat_map(|rule| rule(&facts)).map(placed).collect();
     if surface.needs_tangents { defects } else { without_unread(defects) }

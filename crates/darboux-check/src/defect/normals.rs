@@ -58,4 +58,14 @@ impl NormalFault {
             Self::Missing(_) | Self::OtherAxes { .. } => None,
         }
     }
+    /// The indices that are those of vertices.
+    pub fn vertices_mut(&mut self) -> Option<&mut Indices> {
+        match self {
+            Self::NotFinite(part) | Self::NotUnit { vertices: part, .. } => Some(&mut part.items),
+            Self::Missing(_)
+            | Self::OtherAxes { .. }
+            | Self::Reversed { .. }
+            | Self::PartlyReversed { .. } => None,
+        }
+    }
 }

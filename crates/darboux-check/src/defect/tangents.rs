@@ -93,6 +93,27 @@ impl TangentFault {
             Self::Missing(_) | Self::Unused { .. } | Self::OtherRecipe { .. } => None,
         }
     }
+    /// The indices that are those of vertices.
+    pub fn vertices_mut(&mut self) -> [Option<&mut Indices>; 2] {
+        match self {
+            Self::NotFinite(part)
+            | Self::Zero(part)
+            | Self::NotUnit(part)
+            | Self::SignNotOne(part)
+            | Self::SharedAcrossMirror(part)
+            | Self::Outliers { vertices: part, .. } => [Some(&mut part.items), None],
+            Self::Leaning { vertices, .. } => [Some(vertices), None],
+            Self::Differs(TangentDifference { difference, items, exceptions, .. }) => {
+                // The items of the others are triangles, or there are none.
+                let are_vertices =
+                    matches!(difference, Difference::PartlyNegated | Difference::PartlyRotated);
+                [Some(items).filter(|_| are_vertices), Some(exceptions)]
+            }
+            Self::Missing(_) | Self::Unused { .. } | Self::SignMixed(_) | Self::OtherRecipe { .. } => {
+                [None, None]
+            }
+        }
+    }
 }
 
 impl TangentDifference {

@@ -63,4 +63,17 @@ impl UvFault {
             Self::Missing { .. } => None,
         }
     }
+    /// The indices that are those of vertices.
+    pub fn vertices_mut(&mut self) -> Option<&mut Indices> {
+        match self {
+            Self::NotFinite { vertices, .. } => Some(&mut vertices.items),
+            Self::Missing { .. }
+            | Self::Degenerate { .. }
+            | Self::Mirrored(_)
+            | Self::Overlapping { .. }
+            | Self::Stretched(_)
+            | Self::Coarse(_)
+            | Self::HardEdge(_) => None,
+        }
+    }
 }

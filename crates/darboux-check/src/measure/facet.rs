@@ -30,7 +30,8 @@ impl<'a> Facets<'a> {
     /// None where the surface has no votes: reversed normals lean the other way in both directions, as those
     /// of a map with red and green inverted.
     pub fn new((surface, texture): MapUse<'a>) -> Option<Self> {
-        if Sides::of(surface).are_mostly_against() || OtherAxes::of(surface).is_some() {
+        let has_none = || Sides::of(surface).are_mostly_against() || OtherAxes::of(surface).is_some();
+        if *surface.has_no_votes.get_or_init(has_none) {
             return None;
         }
         let uv_set = texture.map_or(surface.uv_set, |texture| texture.uv_set);

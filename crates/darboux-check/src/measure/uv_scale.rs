@@ -119,6 +119,7 @@ fn median(faces: &[Face], value: fn(&Face) -> f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeMap;
+    use std::sync::OnceLock;
 
     use super::*;
     use crate::place::Place;
@@ -140,6 +141,9 @@ mod tests {
             ineligible: None,
             moves_normals: false,
             uv_set: 0,
+            vertices_in_file: None,
+            vertices_of_file: 0,
+            has_no_votes: OnceLock::new(),
             vertex_of_corner: indices,
             positions,
             normals: None,

@@ -78,6 +78,23 @@ pub struct WrongTangents {
     pub reversal: Option<Reversal>,
 }
 
+impl WrongTangents {
+    /// The same with vertices by their places among some of the file, given by their ascending indices.
+    pub fn among(&self, vertices: &[u32]) -> Self {
+        Self {
+            leaning: self.leaning.places_in(vertices),
+            outliers: self.outliers.places_in(vertices),
+            rotated: self.rotated.places_in(vertices),
+            negated: match &self.negated {
+                Negated::None => Negated::None,
+                Negated::Only(negated) => Negated::Only(negated.places_in(vertices)),
+                Negated::AllBut(others) => Negated::AllBut(others.places_in(vertices)),
+            },
+            ..self.clone()
+        }
+    }
+}
+
 /// The vertices whose tangents are negated.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Negated {

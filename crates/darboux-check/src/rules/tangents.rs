@@ -33,9 +33,9 @@ fn missing(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
 }
 
 fn unused(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
-    let Surface { needs_tangents, tangents, tangent_size, positions, .. } = facts.surface;
+    let Surface { needs_tangents, tangents, tangent_size, vertices_of_file, .. } = facts.surface;
     let is_unused = !needs_tangents && tangents.is_some();
-    let bytes = tangent_size * positions.len();
+    let bytes = tangent_size * vertices_of_file;
     let defect = || Defect::new(TangentFault::Unused { bytes, also: Vec::new() });
     is_unused.then(defect).into_iter().collect()
 }

@@ -16,21 +16,40 @@ const SECONDS: u32 = 2 * 10;
 /// The output that follows -o is there.
 #[track_caller]
 pub fn ends_in_time(name: &str, file: &[u8], lines: &[&str]) {
+    ends_beside(name, file, &[], lines);
+}
+
+/// As [`ends_in_time`], with other files in the folder.
+#[track_caller]
+pub fn ends_beside(name: &str, file: &[u8], others: &[(&str, &[u8])], lines: &[&str]) {
     for line in lines {
         let is_check = line.starts_with("check ");
-        let (code, said) = run(name, file, line);
+        let (code, said) = run(name, file, others, line);
         assert!(code == 0 || is_check && code == 1, "{line}: exit code {code}: {said}");
         assert!(!said.lines().any(|line| line.starts_with("error: ")), "{line}: {said}");
     }
 }
 
+/// Runs a command line as [`ends_in_time`] does, which must end with one error that has these words.
+#[track_caller]
+pub fn is_refused(name: &str, file: &[u8], line: &str, words: &str) {
+    let (code, said) = run(name, file, &[], line);
+    let mut errors = said.lines().filter(|line| line.starts_with("error: "));
+    assert!(code == 1 && errors.next().is_some_and(|error| error.contains(words)), "{line}: {said}");
+    assert_eq!(errors.next(), None, "{line}: {said}");
+}
+
 /// The exit code and the start of standard error of a run within the limits.
 #[track_caller]
-fn run(name: &str, file: &[u8], line: &str) -> (i32, String) {
+fn run(name: &str, file: &[u8], others: &[(&str, &[u8])], line: &str) -> (i32, String) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join(name);
     fs::write(&path, file).expect("a file");
-    let addresses = (512 << 10) + 10 * file.len() / 1024;
+    for (other, bytes) in others {
+        fs::write(folder.path().join(other), bytes).expect("a file");
+    }
+    let length = file.len() + others.iter().map(|(_, bytes)| bytes.len()).sum::<usize>();
+    let addresses = (512 << 10) + 10 * length / 1024;
     let times = tempfile::NamedTempFile::new().expect("a file");
     // The shell tells the processor time of the command alone: tests run beside each other, and the system
     // counts the children of a process together.
@@ -51,7 +70,7 @@ fn run(name: &str, file: &[u8], line: &str) -> (i32, String) {
     let seconds = seconds(&fs::read_to_string(times.path()).expect("the times"));
     assert!(seconds < f64::from(SECONDS), "{line}: {seconds} s of the processor: {said}");
     let written = size(folder.path()) + (output.stdout.len() + output.stderr.len()) as u64;
-    assert!(written < (16 << 20) + 30 * file.len() as u64, "{line}: {written} bytes for {}", file.len());
+    assert!(written < (16 << 20) + 30 * length as u64, "{line}: {written} bytes for {length}");
     let code = output.status.code().expect("the command ends by itself");
     let mut words = line.split(' ').skip_while(|&word| word != "-o");
     if let Some(out) = words.nth(1) {

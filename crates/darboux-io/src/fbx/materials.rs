@@ -1,6 +1,6 @@
 //! Materials with their textures, as metallic-roughness shading.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use darboux::BitangentDirection;
 use ufbx::{Exporter, MaterialMap, Scene, ShaderType, Texture, TextureFile, WrapMode};
@@ -120,7 +120,7 @@ impl<'a> MaterialReader<'a> {
             ("coat normal", &pbr.coat_normal),
         ];
         // Some maps are one texture under several names: it is listed once.
-        let mut known: Vec<(bool, u32)> = [
+        let mut known: HashSet<(bool, u32)> = [
             &pbr.base_color,
             &pbr.emission_color,
             &pbr.ambient_occlusion,
@@ -135,15 +135,13 @@ impl<'a> MaterialReader<'a> {
             // The base colour's texture has opacity in its alpha.
             if let Some(id) = identity_of_map(map).filter(|id| map_name != "opacity" || !known.contains(id)) {
                 self.not_carried.push(format!("the {map_name} texture of material {name:?}"));
-                known.push(id);
+                known.insert(id);
             }
         }
         for other in &material.textures {
-            let id = identity(&other.texture);
-            if !known.contains(&id) {
+            if known.insert(identity(&other.texture)) {
                 let property = shortened(&other.material_prop);
                 self.not_carried.push(format!("the texture of {property} of material {name:?}"));
-                known.push(id);
             }
         }
         let layers = [

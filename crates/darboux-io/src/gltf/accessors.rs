@@ -1,9 +1,11 @@
 //! Reads the values behind accessors. Every number from the file is checked before it is used.
 
 use std::borrow::Cow;
+use std::cmp::Ordering;
+use std::sync::PoisonError;
 
 use super::document::{Document, outside_buffer};
-use super::element_type::ElementType;
+use super::element_type::{ComponentType, ElementType};
 use super::elements::Elements;
 use super::schema::{Accessor, Sparse};
 use super::stored_elements::{self, IndexList, StoredElements};
@@ -35,15 +37,79 @@ impl Document {
         self.find_elements(accessor).map_err(|error| error.in_file(self.name()))
     }
 
+    /// The elements of an accessor at some places, as [`Document::vectors`] has them. The time depends on the
+    /// number of places only, so that many primitives can share an accessor.
+    ///
+    /// Errors: as of [`Document::vectors`]; a place without an element.
+    pub(super) fn vectors_at<const N: usize>(
+        &self,
+        accessor: usize,
+        places: &[u32],
+    ) -> Result<Vec<[f32; N]>, Error> {
+        self.find_vectors_at(accessor, places).map_err(|error| error.in_file(self.name()))
+    }
+
     fn find_vectors<const N: usize>(&self, index: usize) -> Result<Cow<'_, [[f32; N]]>, ContentError> {
+        let accessor = self.vector_accessor::<N>(index)?;
+        let stored = self.stored(index)?;
+        Ok(stored_elements::vectors(stored, accessor.component_type, accessor.normalized))
+    }
+
+    fn find_vectors_at<const N: usize>(
+        &self,
+        index: usize,
+        places: &[u32],
+    ) -> Result<Vec<[f32; N]>, ContentError> {
+        let accessor = self.vector_accessor::<N>(index)?;
+        let Accessor { component_type, element_type, count, normalized, .. } = *accessor;
+        if let Some(place) = places.iter().find(|&&place| place as usize >= count) {
+            let problem = format!("has {count} elements, but element {place} is used; export the file again");
+            return Err(ContentError::invalid(format!("accessors[{index}]"), problem));
+        }
+        let size = element_type.size(component_type);
+        let mut bytes = match self.without_sparse(index)? {
+            Some(stored) => stored.packed_at(places),
+            None => vec![0; places.len() * size],
+        };
+        if let Some(sparse) = &accessor.sparse {
+            let at = format!("accessors[{index}].sparse");
+            let (indices, values) = self.sparse_elements(sparse, count, size, &at)?;
+            self.check_sparse_once(index, &indices, count, &at)?;
+            for (place, element) in places.iter().zip(bytes.chunks_exact_mut(size)) {
+                if let Some(found) = indices.binary_search(*place) {
+                    element.copy_from_slice(&values[found * size..(found + 1) * size]);
+                }
+            }
+        }
+        let stored = StoredElements { bytes: bytes.into(), size, stride: size };
+        Ok(stored_elements::vectors(stored, component_type, normalized).into_owned())
+    }
+
+    /// As [`check_sparse_indices`] for an accessor, whose indices are looked through once.
+    fn check_sparse_once(
+        &self,
+        accessor: usize,
+        indices: &SparseIndices<'_>,
+        count: usize,
+        at: &str,
+    ) -> Result<(), ContentError> {
+        let checked = || self.checked_sparse.lock().unwrap_or_else(PoisonError::into_inner);
+        if !checked().contains(&accessor) {
+            check_sparse_indices(indices, count, at)?;
+            checked().insert(accessor);
+        }
+        Ok(())
+    }
+
+    /// An accessor of vectors of `N` components.
+    fn vector_accessor<const N: usize>(&self, index: usize) -> Result<&Accessor, ContentError> {
         let accessor = self.accessor(index)?;
         let kind = accessor.element_type;
         if kind.components() != N || kind == ElementType::Mat2 {
             let problem = format!("is {}; it must have {N} components here", kind.name());
             return Err(ContentError::invalid(format!("accessors[{index}].type"), problem));
         }
-        let stored = self.stored(index)?;
-        Ok(stored_elements::vectors(stored, accessor.component_type, accessor.normalized))
+        Ok(accessor)
     }
 
     fn find_indices(&self, index: usize) -> Result<IndexList<'_>, ContentError> {
@@ -82,39 +148,51 @@ impl Document {
         let accessor = self.accessor(index)?;
         let Accessor { component_type, element_type, count, .. } = *accessor;
         let size = element_type.size(component_type);
-        let at = format!("accessors[{index}]");
-        let stored = match accessor.buffer_view {
-            Some(view) => {
-                let (bytes, stride) = self.view(view, &format!("{at}.bufferView"))?;
-                elements_in_view(
-                    bytes,
-                    ElementLayout { offset: accessor.byte_offset, count, size, stride },
-                    &at,
-                )?
-            }
-            None if count <= self.most_zeros() => {
-                StoredElements { bytes: vec![0; count.saturating_mul(size)].into(), size, stride: size }
-            }
-            None => {
-                let problem =
-                    format!("{count} elements are too many without a buffer view; export the file again");
-                return Err(ContentError::invalid(format!("{at}.count"), problem));
-            }
-        };
+        let stored = self.without_sparse(index)?.unwrap_or_else(|| StoredElements {
+            bytes: vec![0; count.saturating_mul(size)].into(),
+            size,
+            stride: size,
+        });
         let Some(sparse) = &accessor.sparse else { return Ok(stored) };
         let mut bytes = stored.packed().into_owned();
-        self.apply_sparse(sparse, &mut bytes, count, size, &format!("{at}.sparse"))?;
+        let at = format!("accessors[{index}].sparse");
+        let (indices, values) = self.sparse_elements(sparse, count, size, &at)?;
+        check_sparse_indices(&indices, count, &at)?;
+        for (place, value) in indices.iter().zip(values.chunks_exact(size)) {
+            bytes[place as usize * size..(place as usize + 1) * size].copy_from_slice(value);
+        }
         Ok(StoredElements { bytes: bytes.into(), size, stride: size })
     }
 
-    fn apply_sparse(
+    /// The elements of an accessor without its sparse ones; none if all are zero.
+    fn without_sparse(&self, index: usize) -> Result<Option<StoredElements<'_>>, ContentError> {
+        let accessor = self.accessor(index)?;
+        let Accessor { component_type, element_type, count, .. } = *accessor;
+        let size = element_type.size(component_type);
+        let at = format!("accessors[{index}]");
+        match accessor.buffer_view {
+            Some(view) => {
+                let (bytes, stride) = self.view(view, &format!("{at}.bufferView"))?;
+                let layout = ElementLayout { offset: accessor.byte_offset, count, size, stride };
+                elements_in_view(bytes, layout, &at).map(Some)
+            }
+            None if count <= self.most_zeros() => Ok(None),
+            None => {
+                let problem =
+                    format!("{count} elements are too many without a buffer view; export the file again");
+                Err(ContentError::invalid(format!("{at}.count"), problem))
+            }
+        }
+    }
+
+    /// The indices of sparse elements and their values of `size` bytes each.
+    fn sparse_elements(
         &self,
         sparse: &Sparse,
-        bytes: &mut [u8],
         count: usize,
         size: usize,
         at: &str,
-    ) -> Result<(), ContentError> {
+    ) -> Result<(SparseIndices<'_>, Cow<'_, [u8]>), ContentError> {
         if sparse.count > count {
             let problem = format!(
                 "{} is more than the accessor's count of {count}; export the file again",
@@ -122,39 +200,28 @@ impl Document {
             );
             return Err(ContentError::invalid(format!("{at}.count"), problem));
         }
-        let places = self.sparse_indices(sparse, at)?;
+        let indices = self.sparse_indices(sparse, at)?;
         let at_values = format!("{at}.values");
         let (values, _) = self.view(sparse.values.buffer_view, &format!("{at_values}.bufferView"))?;
         let layout =
             ElementLayout { offset: sparse.values.byte_offset, count: sparse.count, size, stride: None };
-        let values = elements_in_view(values, layout, &at_values)?.packed();
-        let mut next = 0;
-        for (i, (place, value)) in places.into_u32().into_iter().zip(values.chunks_exact(size)).enumerate() {
-            let place = place as usize;
-            if place < next || place >= count {
-                let problem = format!(
-                    "index {place} at place {i} is not greater than the one before, or not below {count}; export the file again"
-                );
-                return Err(ContentError::invalid(format!("{at}.indices"), problem));
-            }
-            bytes[place * size..(place + 1) * size].copy_from_slice(value);
-            next = place + 1;
-        }
-        Ok(())
+        Ok((indices, elements_in_view(values, layout, &at_values)?.packed()))
     }
 
-    fn sparse_indices(&self, sparse: &Sparse, at: &str) -> Result<IndexList<'_>, ContentError> {
+    fn sparse_indices(&self, sparse: &Sparse, at: &str) -> Result<SparseIndices<'_>, ContentError> {
         let at = format!("{at}.indices");
         let indices = &sparse.indices;
         let (bytes, _) = self.view(indices.buffer_view, &format!("{at}.bufferView"))?;
         let size = indices.component_type.size();
         let layout = ElementLayout { offset: indices.byte_offset, count: sparse.count, size, stride: None };
-        IndexList::new(elements_in_view(bytes, layout, &at)?, indices.component_type).ok_or_else(|| {
-            ContentError::invalid(
-                format!("{at}.componentType"),
-                "is signed or float; indices must be unsigned: export the file again",
-            )
-        })
+        let bytes = elements_in_view(bytes, layout, &at)?.packed();
+        if matches!(indices.component_type, ComponentType::U8 | ComponentType::U16 | ComponentType::U32) {
+            return Ok(SparseIndices { bytes, size });
+        }
+        Err(ContentError::invalid(
+            format!("{at}.componentType"),
+            "is signed or float; indices must be unsigned: export the file again",
+        ))
     }
 
     /// Checks by the sizes in the JSON that every buffer view lies in its buffer, the elements of every
@@ -227,6 +294,54 @@ impl Document {
         let layout = ElementLayout { offset: accessor.byte_offset, count: accessor.count, size, stride };
         layout.end().is_some_and(|end| end <= bytes.len())
     }
+}
+
+/// The indices of sparse elements, as they are stored.
+struct SparseIndices<'a> {
+    bytes: Cow<'a, [u8]>,
+    /// Bytes per index.
+    size: usize,
+}
+
+impl SparseIndices<'_> {
+    fn iter(&self) -> impl Iterator<Item = u32> {
+        self.bytes.chunks_exact(self.size).map(index_of)
+    }
+
+    /// The place of an index among ascending ones.
+    fn binary_search(&self, index: u32) -> Option<usize> {
+        let (mut from, mut to) = (0, self.bytes.len() / self.size);
+        while from < to {
+            let middle = from.midpoint(to);
+            match index_of(&self.bytes[middle * self.size..(middle + 1) * self.size]).cmp(&index) {
+                Ordering::Equal => return Some(middle),
+                Ordering::Less => from = middle + 1,
+                Ordering::Greater => to = middle,
+            }
+        }
+        None
+    }
+}
+
+/// The number of some little-endian bytes.
+fn index_of(bytes: &[u8]) -> u32 {
+    bytes.iter().rev().fold(0, |index, &byte| index << 8 | u32::from(byte))
+}
+
+/// Checks that the indices of sparse elements ascend and are below `count`. `at` is the JSON path.
+fn check_sparse_indices(indices: &SparseIndices<'_>, count: usize, at: &str) -> Result<(), ContentError> {
+    let mut next = 0;
+    for (i, place) in indices.iter().enumerate() {
+        let place = place as usize;
+        if place < next || place >= count {
+            let problem = format!(
+                "index {place} at place {i} is not greater than the one before, or not below {count}; export the file again"
+            );
+            return Err(ContentError::invalid(format!("{at}.indices"), problem));
+        }
+        next = place + 1;
+    }
+    Ok(())
 }
 
 /// The layout of elements in a buffer view.

@@ -29,7 +29,8 @@ pub struct Unpaired {
 }
 
 /// The corners of a primitive, three per triangle, in the order of the files. Values are stored per vertex,
-/// borrowed from the files if their layout permits.
+/// borrowed from the files if their layout permits; of vertices that many primitives share, only those are
+/// stored that this primitive uses.
 #[derive(Clone, Debug, Default)]
 pub struct PairedCorners<'a> {
     /// The vertex of each corner in the first document. It is a vertex of all arrays of that document.
@@ -123,19 +124,20 @@ fn pair<'a>(a: &'a Document, b: &'a Document, candidate: &TangentCandidate) -> R
         );
         return Err(b.invalid(name.path(), problem));
     }
-    let positions = corners.vertex_vectors("POSITION")?.unwrap_or_default();
-    let moved = others.vertex_vectors::<3>("POSITION")?.unwrap_or_default();
+    let positions = corners.own_vectors("POSITION")?.unwrap_or_default();
+    let moved = others.own_vectors::<3>("POSITION")?.unwrap_or_default();
     let tangents = [
-        corners.vertex_vectors("TANGENT")?.unwrap_or_default(),
-        others.vertex_vectors("TANGENT")?.unwrap_or_default(),
+        corners.own_vectors("TANGENT")?.unwrap_or_default(),
+        others.own_vectors("TANGENT")?.unwrap_or_default(),
     ];
-    let uvs = corners.vertex_vectors(&format!("TEXCOORD_{}", candidate.uv.set))?;
-    let both = corners.vertices().iter().zip(others.vertices());
+    let uvs = corners.own_vectors(&format!("TEXCOORD_{}", candidate.uv.set))?;
+    let both = corners.own_vertices().iter().zip(others.own_vertices());
     let positions_of =
         |(first, second): (&u32, &u32)| Some((positions.get(*first as usize)?, moved.get(*second as usize)?));
     let moved = both.filter_map(positions_of).filter(|(position, moved)| position != moved).count();
-    let other_vertices = (corners.vertices() != others.vertices()).then(|| others.into_vertices());
-    let vertices = corners.into_vertices();
+    let other_vertices =
+        (corners.own_vertices() != others.own_vertices()).then(|| others.into_own_vertices());
+    let vertices = corners.into_own_vertices();
     let corners = PairedCorners { vertices, other_vertices, positions, uvs, tangents, moved };
     Ok(Pair { name: name.clone(), corners: Ok(corners) })
 }

@@ -1,9 +1,9 @@
 //! A glTF document: its JSON and its buffers, which reading fills, edits change, and writing stores.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 use std::path::PathBuf;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
 
 use crate::json::Value;
 use serde::de::DeserializeOwned;
@@ -56,6 +56,8 @@ pub struct Document {
     pub(super) options: LoadOptions,
     /// The most elements of an accessor with a buffer view.
     pub(super) backed_count: OnceLock<usize>,
+    /// The accessors whose sparse indices were found to ascend.
+    pub(super) checked_sparse: Mutex<HashSet<usize>>,
     /// Whether a warning about unused data that stays has been given.
     pub(super) is_unused_data_reported: bool,
     pub(super) warnings: Vec<String>,

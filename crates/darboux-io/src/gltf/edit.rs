@@ -22,8 +22,8 @@ use crate::json::{Map, Value, object};
 
 use super::buffers::{BufferSource, NewBytes};
 use super::document::Document;
-use super::element_type::ComponentType;
-use super::elements::{Elements, NewAccessor, Target};
+use super::element_type::{ComponentType, ElementType};
+use super::elements::{NewAccessor, Target};
 use super::schema::{self, Root};
 use crate::error::ContentError;
 use crate::json;
@@ -67,8 +67,12 @@ impl Document {
         assert_eq!(elements.bytes.len(), elements.count * size, "bytes are not whole elements");
         let places = new.sparse.then(|| elements.sparse_indices()).flatten();
         let (buffer_view, sparse) = match places {
-            Some(places) if places.is_empty() => (None, None),
-            Some(places) => (None, Some(Box::new(self.push_sparse(&elements, &places)))),
+            Some(places) => {
+                let values = places.iter().flat_map(|&place| {
+                    elements.bytes[place as usize * size..(place as usize + 1) * size].iter().copied()
+                });
+                (None, self.push_sparse(&places, values.collect(), size))
+            }
             None => {
                 let stride = new.target.stride(size);
                 (Some(self.push_view(elements.bytes, size, stride, Some(new.target))), None)
@@ -85,14 +89,32 @@ impl Document {
         }
     }
 
-    fn push_sparse(&mut self, elements: &Elements, places: &[u32]) -> schema::Sparse {
-        let size = elements.element_size();
+    /// Appends an accessor of vectors that are zero but for those at some places, ascending. Returns its
+    /// index. The time does not depend on `count`.
+    pub(super) fn push_few_vectors(&mut self, count: usize, vectors: &[(u32, [f32; 3])]) -> usize {
+        let places: Vec<u32> = vectors.iter().map(|(place, _)| *place).collect();
+        let values = vectors.iter().flat_map(|(_, vector)| vector.iter().flat_map(|x| x.to_le_bytes()));
+        let sparse = self.push_sparse(&places, values.collect(), size_of::<[f32; 3]>());
+        let stored = schema::Accessor {
+            buffer_view: None,
+            byte_offset: 0,
+            component_type: ComponentType::F32,
+            normalized: false,
+            count,
+            element_type: ElementType::Vec3,
+            sparse,
+        };
+        let element = stored.to_json(None);
+        self.root.accessors.push(stored);
+        self.push_element("accessors", Value::Object(element))
+    }
+
+    /// The sparse elements of an accessor without others; none where there are none.
+    fn push_sparse(&mut self, places: &[u32], values: Vec<u8>, size: usize) -> Option<Box<schema::Sparse>> {
+        if places.is_empty() {
+            return None;
+        }
         let indices: Vec<_> = places.iter().flat_map(|place| place.to_le_bytes()).collect();
-        let values: Vec<_> = places
-            .iter()
-            .flat_map(|&place| &elements.bytes[place as usize * size..(place as usize + 1) * size])
-            .copied()
-            .collect();
         let indices = schema::SparseIndices {
             buffer_view: self.push_view(indices, 4, 4, None),
             byte_offset: 0,
@@ -100,7 +122,7 @@ impl Document {
         };
         let values =
             schema::SparseValues { buffer_view: self.push_view(values, size, size, None), byte_offset: 0 };
-        schema::Sparse { count: places.len(), indices, values }
+        Some(Box::new(schema::Sparse { count: places.len(), indices, values }))
     }
 
     /// Appends a buffer view of elements of `size` bytes, `stride` bytes apart. Returns its index.

@@ -1,5 +1,7 @@
 //! Finds the materials' textures that use an image.
 
+use std::collections::HashMap;
+
 use crate::json::{self, Value};
 
 use super::Document;
@@ -15,31 +17,35 @@ impl Document {
     /// They cannot where a material also uses the image as another texture, and where its texture refers to
     /// the same picture in several formats.
     pub fn normal_map_obstacle(&self, image: usize) -> Option<&'static str> {
+        self.normal_map_obstacles().remove(&image)
+    }
+
+    /// The images whose texels cannot be changed as those of a normal map, with the clause of
+    /// [`Document::normal_map_obstacle`].
+    pub fn normal_map_obstacles(&self) -> HashMap<usize, &'static str> {
         let textures: Vec<Texture> = json::read(&self.json["textures"], "textures").unwrap_or_default();
-        let is_texture = |index: u64| {
+        let in_several_formats = textures.iter().filter(|texture| texture.formats() > 1);
+        let images = in_several_formats.filter_map(Texture::image);
+        let mut obstacles: HashMap<usize, &str> =
+            images.map(|image| (image, "is one of several formats of its texture")).collect();
+        for_each_other_use(&self.json["materials"], "", &mut |index| {
             let texture = usize::try_from(index).ok().and_then(|index| textures.get(index));
-            texture.is_some_and(|texture| texture.image() == Some(image))
-        };
-        if has_other_use(&self.json["materials"], "", &is_texture) {
-            return Some("is used as another texture, too");
-        }
-        let is_in_several_formats =
-            |texture: &Texture| texture.image() == Some(image) && texture.formats() > 1;
-        let is_alternative = textures.iter().any(is_in_several_formats);
-        is_alternative.then_some("is one of several formats of its texture")
+            let image = texture.and_then(Texture::image);
+            obstacles.extend(image.map(|image| (image, "is used as another texture, too")));
+        });
+        obstacles
     }
 }
 
-/// Whether a part of a material, which is the member `key`, has a texture that is no normal map and fulfils a
-/// condition.
-fn has_other_use(value: &Value, key: &str, is_texture: &dyn Fn(u64) -> bool) -> bool {
+/// Visits the textures of a part of a material, which is the member `key`, that are no normal maps.
+fn for_each_other_use(value: &Value, key: &str, visit: &mut dyn FnMut(u64)) {
     match value {
         Value::Object(members) => {
             let index = members.get("index").and_then(Value::as_u64);
-            let is_other = !NORMAL_MAPS.contains(&key) && index.is_some_and(is_texture);
-            is_other || members.iter().any(|(key, value)| has_other_use(value, key, is_texture))
+            index.filter(|_| !NORMAL_MAPS.contains(&key)).into_iter().for_each(&mut *visit);
+            members.iter().for_each(|(key, value)| for_each_other_use(value, key, visit));
         }
-        Value::Array(elements) => elements.iter().any(|value| has_other_use(value, key, is_texture)),
-        _ => false,
+        Value::Array(elements) => elements.iter().for_each(|value| for_each_other_use(value, key, visit)),
+        _ => {}
     }
 }

@@ -57,7 +57,7 @@ pub fn inspect(document: &Document) -> Result<Vec<PrimitiveInfo>, Error> {
     let mut infos: Vec<_> =
         selection.candidates.iter().map(|candidate| describe(document, candidate)).collect();
     for group in &groups {
-        let mut vertices = Vertices::read(document, group)?;
+        let mut vertices = Vertices::read_used(document, group)?;
         let mut found = Vec::with_capacity(group.jobs.len());
         for job in &group.jobs {
             let name = infos[job.first].name.clone();

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use crate::json::Value;
 
@@ -154,6 +154,7 @@ impl Document {
             decompressed_bytes: 0,
             options,
             backed_count: OnceLock::new(),
+            checked_sparse: Mutex::default(),
             is_unused_data_reported: false,
             provenance: None,
         };

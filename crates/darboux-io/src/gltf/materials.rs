@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use serde::Deserialize;
-use serde::de::IgnoredAny;
+use serde::de::{DeserializeOwned, IgnoredAny};
 
 use super::Document;
 use super::objects_only::read_from_objects;
@@ -299,9 +299,28 @@ impl Document {
             }
             let at = format!("materials[{material}].{member}");
             let used: StoredTextureUse = json::read(stored, &at)?;
-            self.texture_use(&self.read()?, &used, &at).map(Some)
+            // Only what it names is read, since callers ask for each of many materials.
+            let texture: Option<Texture> = self.optional_element("textures", used.index)?;
+            let sampler = match texture.as_ref().and_then(|texture| texture.sampler) {
+                Some(index) => self.optional_element("samplers", index)?,
+                None => None,
+            };
+            self.texture_use((texture.as_ref(), sampler.as_ref()), &used, &at).map(Some)
         };
         read().map_err(|error| error.in_file(self.name()))
+    }
+
+    /// An element of an array of the root object; none if it does not exist.
+    fn optional_element<T: DeserializeOwned>(
+        &self,
+        array: &str,
+        index: usize,
+    ) -> Result<Option<T>, ContentError> {
+        let stored = self.element(array, index);
+        if stored.is_null() {
+            return Ok(None);
+        }
+        json::read(stored, &format!("{array}[{index}]")).map(Some)
     }
 
     fn material(
@@ -312,7 +331,12 @@ impl Document {
     ) -> Result<Material, ContentError> {
         let at = format!("materials[{index}]");
         let texture = |used: Option<&StoredTextureUse>, member: &str| {
-            used.map(|used| self.texture_use(all, used, &format!("{at}.{member}"))).transpose()
+            let found = used.map(|used| {
+                let texture = all.textures.get(used.index);
+                let sampler = texture.and_then(|texture| all.samplers.get(texture.sampler?));
+                self.texture_use((texture, sampler), used, &format!("{at}.{member}"))
+            });
+            found.transpose()
         };
         let metallic = &stored.pbr_metallic_roughness;
         let coat =
@@ -357,19 +381,20 @@ impl Document {
         })
     }
 
+    /// The use of a texture and its sampler; none if the document does not have them.
     fn texture_use(
         &self,
-        all: &StoredMaterials,
+        (texture, sampler): (Option<&Texture>, Option<&Sampler>),
         used: &StoredTextureUse,
         at: &str,
     ) -> Result<TextureUse, ContentError> {
         let missing = |what: &str, index: usize| {
             ContentError::invalid(at, format!("{what} {index} does not exist; export the file again"))
         };
-        let texture = all.textures.get(used.index).ok_or_else(|| missing("texture", used.index))?;
+        let texture = texture.ok_or_else(|| missing("texture", used.index))?;
         let none = Sampler::default();
         let sampler = match texture.sampler {
-            Some(index) => all.samplers.get(index).ok_or_else(|| missing("sampler", index))?,
+            Some(index) => sampler.ok_or_else(|| missing("sampler", index))?,
             None => &none,
         };
         let image = texture.image();

@@ -15,7 +15,7 @@ mod write;
 pub use options::AddNormalsOptions;
 pub use summary::{NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals};
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use darboux::Context;
 
@@ -26,7 +26,7 @@ use super::primitives::canonical::CanonicalAccessors;
 use super::primitives::limits;
 use crate::Error;
 use compute::ShadedPrimitive;
-use select::select;
+use select::{NormalSelection, select};
 
 /// Adds normals to every triangle primitive. The primitives of one mesh are shaded as one surface.
 ///
@@ -63,6 +63,7 @@ pub fn add_normals_to(
     let selection = select(document, options, is_wanted)?;
     let accessors = CanonicalAccessors::new(document);
     limits::check_triangles(document, selection.chosen().map(|(_, chosen)| chosen.triangle_count()))?;
+    check_vertices(document, &accessors, &selection)?;
     let parts = compute::shade(document, &accessors, &selection, (&options.normals, context), progress)?;
     let mut parts_of_position: BTreeMap<usize, Vec<&ShadedPrimitive>> = BTreeMap::new();
     for part in &parts {
@@ -79,4 +80,28 @@ pub fn add_normals_to(
             .push(candidate.name, candidate.verdict.outcome(|| written.remove(&place).unwrap_or_default()));
     });
     Ok(summary)
+}
+
+/// Checks the vertices that get normals, which primitives may share, at rest and for morph targets with
+/// normals. Errors: their normals take more than the memory limit.
+fn check_vertices(
+    document: &Document,
+    accessors: &CanonicalAccessors,
+    selection: &NormalSelection,
+) -> Result<(), Error> {
+    let mut written = BTreeSet::new();
+    for (candidate, chosen) in selection.chosen() {
+        let name = &selection.candidates[candidate].name;
+        let targets = &document.meshes()[name.mesh].primitives[name.primitive].targets;
+        let moves = targets
+            .iter()
+            .filter(|target| target.contains_key("NORMAL"))
+            .filter_map(|target| target.get("POSITION"))
+            .map(|&moved| Some(accessors.of(moved)));
+        let position = accessors.of(chosen.position);
+        written.extend([None].into_iter().chain(moves).map(|moved| (position, moved)));
+    }
+    let count = |position: usize| document.accessors().get(position).map_or(0, |accessor| accessor.count);
+    let vertices = written.into_iter().map(|(position, _)| count(position)).fold(0, usize::saturating_add);
+    limits::check_more_output(document, vertices.saturating_mul(size_of::<[f32; 3]>()))
 }

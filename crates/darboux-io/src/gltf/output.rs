@@ -6,7 +6,9 @@
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
+use std::ops::Range;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use crate::json::{Value, object};
 
@@ -15,7 +17,7 @@ use super::document::Document;
 use super::resources::{UriTarget, encode_data_uri, image_type};
 use super::schema::{Buffer, BufferView};
 use super::segments::Segment;
-use super::unused_data::UnusedData;
+use super::unused_data::{UnusedData, merged};
 use crate::error::{ContentError, system_reason};
 use crate::json::{Part, TextLayout};
 
@@ -61,8 +63,55 @@ enum BufferContent {
     Kept,
     /// The binary output with this index.
     Binary(usize),
-    /// A `data:` URI.
-    DataUri,
+    /// A `data:` URI of the bytes of a buffer, which begin with those of the source.
+    DataUri { of: usize },
+    /// One byte, which keeps the JSON of a buffer whose bytes are in another one over the same file.
+    Mark,
+}
+
+/// The files that buffers read. Many buffers may read the same one, which is written once.
+struct SharedFiles<'a> {
+    document: &'a Document,
+    by_path: HashMap<&'a PathBuf, SharedFile>,
+}
+
+struct SharedFile {
+    /// The buffer that has most bytes of it.
+    longest: usize,
+    /// What is kept of it for all its buffers, ascending.
+    ranges: Vec<Range<usize>>,
+    place: SharedPlace,
+}
+
+/// Where the bytes of a file were written.
+enum SharedPlace {
+    None,
+    Binary(Arc<[MovedRange]>),
+    /// With this index among the buffers that follow the binary chunk.
+    Aside(usize),
+}
+
+impl<'a> SharedFiles<'a> {
+    fn of(document: &'a Document, unused_data: &UnusedData) -> Self {
+        let mut by_path: HashMap<&PathBuf, SharedFile> = HashMap::new();
+        let length = |buffer: usize| document.buffer(buffer, String::new).map_or(0, <[u8]>::len);
+        for (buffer, store) in document.buffers.iter().enumerate() {
+            let BufferSource::File(file) = store else { continue };
+            let new = || SharedFile { longest: buffer, ranges: Vec::new(), place: SharedPlace::None };
+            let shared = by_path.entry(&file.located.path).or_insert_with(new);
+            shared.ranges.extend(unused_data.kept_ranges(buffer, length(buffer)));
+            if length(buffer) > length(shared.longest) {
+                shared.longest = buffer;
+            }
+        }
+        by_path.values_mut().for_each(|file| file.ranges = merged(std::mem::take(&mut file.ranges)));
+        Self { document, by_path }
+    }
+
+    fn of_buffer(&mut self, buffer: usize) -> Option<&mut SharedFile> {
+        let Some(BufferSource::File(file)) = self.document.buffers.get(buffer) else { return None };
+        self.by_path.get_mut(&file.located.path)
+    }
 }
 
 /// The place of a range of an input buffer in an output buffer.
@@ -99,7 +148,7 @@ pub struct OutputLayout<'a> {
     pub binaries: Vec<BinaryOutput<'a>>,
     output_buffers: Vec<OutputBuffer>,
     /// The places of the kept ranges of each input buffer, in ascending order.
-    moves: Vec<Vec<MovedRange>>,
+    moves: Vec<Arc<[MovedRange]>>,
     /// The data that is not written.
     pub unused_data: UnusedData,
     /// The buffer views of embedded images.
@@ -117,7 +166,7 @@ impl<'a> OutputLayout<'a> {
         let mut binary = BinaryOutput::default();
         let mut source = None;
         let mut aside = Vec::new();
-        let mut merged: HashMap<(&PathBuf, usize), usize> = HashMap::new();
+        let (mut files, mut shared) = (SharedFiles::of(document, &layout.unused_data), Vec::new());
         for (i, buffer) in document.root.buffers.iter().enumerate() {
             let store = &document.buffers[i];
             if let BufferSource::Absent(_) | BufferSource::New(_) = store {
@@ -126,22 +175,42 @@ impl<'a> OutputLayout<'a> {
                 }
                 continue;
             }
-            let kept = layout.unused_data.kept_ranges(i, buffer.byte_length);
-            if source.is_some() && !kept.is_empty() && !is_plain(document.element("buffers", i)) {
-                aside.push(OutputBuffer { source: Some(i), content: BufferContent::DataUri });
+            let is_kept = !layout.unused_data.kept_ranges(i, buffer.byte_length).is_empty();
+            let is_plain = is_plain(document.element("buffers", i));
+            let file = files.of_buffer(i).filter(|_| is_kept);
+            match file.as_ref().map(|file| &file.place) {
+                Some(SharedPlace::Binary(moves)) => {
+                    layout.moves[i] = Arc::clone(moves);
+                    if !is_plain {
+                        aside.push(OutputBuffer { source: Some(i), content: BufferContent::Mark });
+                    }
+                    continue;
+                }
+                Some(SharedPlace::Aside(place)) => {
+                    shared.push((i, *place));
+                    if !is_plain {
+                        aside.push(OutputBuffer { source: Some(i), content: BufferContent::Mark });
+                    }
+                    continue;
+                }
+                Some(SharedPlace::None) | None => {}
+            }
+            if source.is_some() && is_kept && !is_plain {
+                let longest = file.map_or(i, |file| {
+                    file.place = SharedPlace::Aside(aside.len());
+                    file.longest
+                });
+                aside.push(OutputBuffer { source: Some(i), content: BufferContent::DataUri { of: longest } });
                 continue;
             }
             source.get_or_insert(i);
-            let is_whole = kept.len() == 1 && kept[0].len() == buffer.byte_length;
-            let file = match store {
-                BufferSource::File(file) if is_whole => Some(&file.located.path),
-                _ => None,
-            };
-            match file.and_then(|path| merged.get(&(path, buffer.byte_length))) {
-                Some(&same) => layout.moves[i] = layout.moves[same].clone(),
+            match file {
+                Some(file) => {
+                    layout.moves[i] = layout.push_ranges(file.longest, &file.ranges, &mut binary, 0)?;
+                    file.place = SharedPlace::Binary(Arc::clone(&layout.moves[i]));
+                }
                 None => layout.push_buffer(i, &mut binary, 0)?,
             }
-            merged.extend(file.map(|path| ((path, buffer.byte_length), i)));
         }
         layout.push_new_bytes(&mut binary, 0);
         layout.push_images(&mut binary)?;
@@ -149,8 +218,12 @@ impl<'a> OutputLayout<'a> {
             layout.output_buffers.push(OutputBuffer { source, content: BufferContent::Binary(0) });
             layout.binaries.push(binary);
         }
+        let first_aside = layout.output_buffers.len();
         for output_buffer in aside {
             layout.push_unmoved(output_buffer);
+        }
+        for (i, place) in shared {
+            layout.moves[i] = [MovedRange { start: 0, output_buffer: first_aside + place, offset: 0 }].into();
         }
         Ok(layout)
     }
@@ -159,6 +232,7 @@ impl<'a> OutputLayout<'a> {
     /// earlier run made, get new files. New bytes are appended to the first of these.
     pub fn gltf(document: &'a Document) -> Result<Self, ContentError> {
         let mut layout = Self::empty(document);
+        let mut files = SharedFiles::of(document, &layout.unused_data);
         for (i, store) in document.buffers.iter().enumerate() {
             if layout.unused_data.has_buffer(i) || matches!(store, BufferSource::New(_)) {
                 continue;
@@ -170,7 +244,19 @@ impl<'a> OutputLayout<'a> {
                 continue;
             }
             let mut binary = BinaryOutput::default();
-            layout.push_buffer(i, &mut binary, layout.output_buffers.len())?;
+            match files.of_buffer(i) {
+                Some(SharedFile { place: SharedPlace::Binary(moves), .. }) => {
+                    layout.moves[i] = Arc::clone(moves);
+                    continue;
+                }
+                Some(file) => {
+                    let output_buffer = layout.output_buffers.len();
+                    layout.moves[i] =
+                        layout.push_ranges(file.longest, &file.ranges, &mut binary, output_buffer)?;
+                    file.place = SharedPlace::Binary(Arc::clone(&layout.moves[i]));
+                }
+                None => layout.push_buffer(i, &mut binary, layout.output_buffers.len())?,
+            }
             let content = BufferContent::Binary(layout.binaries.len());
             layout.output_buffers.push(OutputBuffer { source: Some(i), content });
             layout.binaries.push(binary);
@@ -196,7 +282,7 @@ impl<'a> OutputLayout<'a> {
 
     fn empty(document: &'a Document) -> Self {
         let unused_data = UnusedData::of(document);
-        let moves = vec![Vec::new(); document.root.buffers.len()];
+        let moves = vec![Arc::default(); document.root.buffers.len()];
         let (binaries, output_buffers, image_views, images) = Default::default();
         Self { document, binaries, output_buffers, moves, unused_data, image_views, images }
     }
@@ -208,19 +294,37 @@ impl<'a> OutputLayout<'a> {
         binary: &mut BinaryOutput<'a>,
         output_buffer: usize,
     ) -> Result<(), ContentError> {
-        let bytes = self.document.buffer(index, || "buffers".to_owned())?;
-        binary.align();
-        for range in self.unused_data.kept_ranges(index, bytes.len()) {
-            self.moves[index].push(MovedRange { start: range.start, output_buffer, offset: binary.length });
-            binary.append(Segment::Borrowed(&bytes[range]));
-        }
+        let length = self.document.buffer(index, || "buffers".to_owned())?.len();
+        let ranges = self.unused_data.kept_ranges(index, length);
+        self.moves[index] = self.push_ranges(index, &ranges, binary, output_buffer)?;
         Ok(())
+    }
+
+    /// Appends ranges of a buffer of the input, each at a multiple of four. Returns their places.
+    fn push_ranges(
+        &self,
+        index: usize,
+        ranges: &[Range<usize>],
+        binary: &mut BinaryOutput<'a>,
+        output_buffer: usize,
+    ) -> Result<Arc<[MovedRange]>, ContentError> {
+        let bytes = self.document.buffer(index, || "buffers".to_owned())?;
+        let mut moves = Vec::with_capacity(ranges.len());
+        for range in ranges {
+            let offset = binary.align();
+            moves.push(MovedRange { start: range.start, output_buffer, offset });
+            binary.append(Segment::Borrowed(&bytes[range.clone()]));
+        }
+        Ok(moves.into())
     }
 
     /// Appends an output buffer whose views keep their offsets.
     fn push_unmoved(&mut self, output_buffer: OutputBuffer) {
         let place = MovedRange { start: 0, output_buffer: self.output_buffers.len(), offset: 0 };
-        self.moves[output_buffer.source.unwrap_or_default()] = vec![place];
+        // The views of a buffer that is only marked are elsewhere.
+        if !matches!(output_buffer.content, BufferContent::Mark) {
+            self.moves[output_buffer.source.unwrap_or_default()] = [place].into();
+        }
         self.output_buffers.push(output_buffer);
     }
 
@@ -240,7 +344,7 @@ impl<'a> OutputLayout<'a> {
             moves.push(MovedRange { start, output_buffer, offset: binary.push(Segment::Borrowed(piece)) });
         }
         if let Some(last) = self.moves.last_mut() {
-            *last = moves;
+            *last = moves.into();
         }
     }
 
@@ -328,7 +432,7 @@ impl<'a> OutputLayout<'a> {
         let number = |key| range.get(key).and_then(Value::as_u64).map(|number| number as usize);
         let Some(buffer) = number("buffer") else { return moved };
         let start = number("byteOffset").unwrap_or(0);
-        let moves = self.moves.get(buffer).map_or(&[][..], Vec::as_slice);
+        let moves = self.moves.get(buffer).map_or(&[][..], |moves| &**moves);
         let after = moves.partition_point(|moved| moved.start <= start);
         let Some(place) = after.checked_sub(1).and_then(|at| moves.get(at)) else { return moved };
         if place.output_buffer != buffer {
@@ -363,10 +467,11 @@ impl<'a> OutputLayout<'a> {
                     None => {}
                 }
             }
-            (BufferContent::DataUri, Some(source)) => {
-                let bytes = self.document.buffer(source, String::new).unwrap_or_default();
-                set_text(&mut buffer, "uri", &encode_data_uri("application/octet-stream", bytes));
+            (BufferContent::DataUri { of }, _) => {
+                let bytes = self.document.buffer(*of, String::new).unwrap_or_default();
+                set_bytes(&mut buffer, bytes);
             }
+            (BufferContent::Mark, _) => set_bytes(&mut buffer, &[0]),
             (_, source) => {
                 if let Some(BufferSource::File(file)) = source.map(|source| &self.document.buffers[source])
                     && let Some(uri) = uris.renamed.get(&file.located.path)
@@ -429,6 +534,14 @@ fn output_text(
 fn set_text(object: &mut Cow<'_, Value>, key: &str, text: &str) {
     if object.get(key).is_none_or(|old| old != text) {
         object.to_mut()[key] = text.into();
+    }
+}
+
+/// Sets the bytes of a buffer as a `data:` URI.
+fn set_bytes(buffer: &mut Cow<'_, Value>, bytes: &[u8]) {
+    set_text(buffer, "uri", &encode_data_uri("application/octet-stream", bytes));
+    if buffer.get("byteLength").is_none_or(|before| *before != bytes.len()) {
+        buffer.to_mut()["byteLength"] = bytes.len().into();
     }
 }
 

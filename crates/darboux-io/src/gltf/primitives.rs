@@ -9,6 +9,7 @@ pub mod limits;
 pub mod name;
 pub mod quads;
 pub mod triangles;
+pub mod used_vertices;
 
 use super::Document;
 use crate::Error;

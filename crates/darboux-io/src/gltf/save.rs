@@ -13,6 +13,7 @@ use super::buffers::{BufferSource, ImageFile};
 use super::container::glb;
 use super::document::Document;
 use super::exchange::{self, ExchangeFormat};
+use super::image_source::ImageSource;
 use super::output::{FileUris, OutputLayout};
 use super::portable_names::{Numbers, image_stem, portable};
 use super::resources::{LocatedFile, UriTarget, encode_path};
@@ -211,23 +212,45 @@ impl Document {
         let mut names = FileNames::new(folder, target);
         let library =
             Path::new(target.file_stem().unwrap_or(OsStr::new("materials"))).with_added_extension("mtl");
-        let mut textures = vec![None; self.root.images.len()];
-        if format == ExchangeFormat::Obj {
-            for image in exchange::images_of_library(self)? {
-                let Ok(bytes) = self.image_bytes(image) else { continue };
-                let segments = [Segment::Borrowed(&bytes)];
-                let placed = names.place_content(&self.image_file_name(image), staging, &segments)?;
-                textures[image] = Some(path_in_library(&placed));
-            }
-        }
-        let mut content = exchange::content(self, format, &portable(&library).to_string_lossy(), &textures)?;
+        let surfaces = exchange::surfaces(self)?;
+        let textures = match format {
+            ExchangeFormat::Obj => self.stage_textures(&mut names, staging)?,
+            ExchangeFormat::Ply => Vec::new(),
+        };
+        let library_name = portable(&library).to_string_lossy().into_owned();
+        let mut content = exchange::content(self, &surfaces, format, &library_name, &textures)?;
         if let Some(text) = &content.library {
             let placed = names.place_content(&library, staging, &[Segment::Borrowed(text.as_bytes())])?;
             if placed != portable(&library) {
-                content = exchange::content(self, format, &placed.to_string_lossy(), &textures)?;
+                content = exchange::content(self, &surfaces, format, &placed.to_string_lossy(), &textures)?;
             }
         }
         Ok(content.segments)
+    }
+
+    /// Writes the textures of an OBJ beside it. Returns the path of each image in its library. Images over
+    /// the same bytes share a file.
+    fn stage_textures(
+        &self,
+        names: &mut FileNames<'_>,
+        staging: &mut Staging,
+    ) -> Result<Vec<Option<String>>, Error> {
+        let mut textures = vec![None; self.root.images.len()];
+        let mut place_of_source: HashMap<ImageSource, PathBuf> = HashMap::new();
+        for image in exchange::images_of_library(self)? {
+            let source = self.image_source(image);
+            let placed = match source.as_ref().and_then(|source| place_of_source.get(source)) {
+                Some(placed) => placed.clone(),
+                None => {
+                    let Ok(bytes) = self.image_bytes(image) else { continue };
+                    let segments = [Segment::Borrowed(&bytes)];
+                    names.place_content(&self.image_file_name(image), staging, &segments)?
+                }
+            };
+            textures[image] = Some(path_in_library(&placed));
+            place_of_source.extend(source.map(|source| (source, placed)));
+        }
+        Ok(textures)
     }
 
     /// A file name for an image: that of its file, or its name with the ending of its media type.

@@ -31,6 +31,16 @@ impl<'a> StoredElements<'a> {
         packed.into()
     }
 
+    /// The elements at some places without gaps. Panics: a place has no element.
+    pub fn packed_at(&self, places: &[u32]) -> Vec<u8> {
+        let mut packed = Vec::with_capacity(places.len() * self.size);
+        for &place in places {
+            let start = place as usize * self.stride;
+            packed.extend_from_slice(&self.bytes[start..start + self.size]);
+        }
+        packed
+    }
+
     /// The elements as values of `T`, if they have its size, alignment and byte order.
     fn borrowed<T: Pod>(&self) -> Option<&'a [T]> {
         let fits = cfg!(target_endian = "little") && self.stride == self.size && self.size == size_of::<T>();

@@ -102,11 +102,14 @@ fn run(
     let given_of = |candidate: usize| given.of(&selection.candidates[candidate].name);
     let groups = groups::group(&accessors, selection.chosen(), given_of);
     limits::check_triangles(document, groups::triangle_counts(&groups))?;
+    let vertices = |group: &Group| document.accessors()[group.position].count;
+    let all_vertices = groups.iter().map(vertices).fold(0, usize::saturating_add);
+    limits::check_more_output(document, all_vertices.saturating_mul(options.encoding.bytes()))?;
     let total = groups::triangle_counts(&groups).sum();
     let at = Progress { done: 0, total };
     let summary = TangentsSummary::default();
     let batches = match generate {
-        Generate::OnCpu => groups::batches(&groups),
+        Generate::OnCpu => groups::batches(&groups, vertices),
         Generate::With(_) => groups.chunks(1).collect(),
     };
     let contexts = Vec::new();

@@ -71,10 +71,12 @@ impl ModelFiles {
     /// The file that a reference names, relative to the folder of the file `base`; empty is the model itself.
     /// `\` separates folders as `/` does.
     pub fn find(&self, base: &str, reference: &str) -> Option<FoundFile> {
-        let reference = reference.trim().replace('\\', "/");
-        if reference.is_empty() || reference.len() > LONGEST_PATH {
+        let reference = reference.trim();
+        // Callers try many ends of long lines.
+        if reference.is_empty() || reference.len() > LONGEST_PATH || self.lookups_left.get() == 0 {
             return None;
         }
+        let reference = reference.replace('\\', "/");
         let is_absolute = reference.starts_with('/') || reference.as_bytes().get(1) == Some(&b':');
         if is_absolute && self.allow_outside && self.may_look_up() {
             let path = PathBuf::from(&reference);

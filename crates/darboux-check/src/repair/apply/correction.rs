@@ -38,6 +38,8 @@ impl Correction {
     /// Corrects wrong tangents; none where the surface lacks what is needed. `options`: the method where no
     /// recipe is recognised.
     pub fn new(surface: Surface, wrong: &WrongTangents, options: &FixOptions) -> Option<Self> {
+        let among = surface.vertices_in_file.as_ref().map(|in_file| wrong.among(in_file));
+        let wrong = among.as_ref().unwrap_or(wrong);
         let corrector = Corrector::new(&surface, wrong, options)?;
         let corrected = corrector.corrected()?;
         let is_mixed = wrong.codes.contains(&Code::TangentSignMixed);
@@ -45,12 +47,13 @@ impl Correction {
         Some(Self { surface, tangent_of_corner })
     }
 
-    /// The tangents of the vertices that triangles use; none where the corners of a vertex have different
-    /// ones.
+    /// The tangents of the vertices that triangles use, by their indices in the file; none where the corners
+    /// of a vertex have different ones.
     pub fn of_vertices(&self) -> Option<BTreeMap<usize, [f32; 4]>> {
         let mut of_vertices = BTreeMap::new();
         for (&vertex, &tangent) in self.surface.vertex_of_corner.iter().zip(&self.tangent_of_corner) {
-            if bits(*of_vertices.entry(vertex as usize).or_insert(tangent)) != bits(tangent) {
+            let vertex = self.surface.vertex_in_file(vertex as usize);
+            if bits(*of_vertices.entry(vertex).or_insert(tangent)) != bits(tangent) {
                 return None;
             }
         }

@@ -1,5 +1,7 @@
 //! How the tangents of a file were made.
 
+use std::collections::HashMap;
+
 use darboux::{
     Choice, Convention, Mesh, Method, Mode, RecipeMatch, RecipeRounding, RecipeWriting, recognise_recipe,
 };
@@ -34,39 +36,30 @@ pub fn recipes(document: &Document, infos: &[PrimitiveInfo]) -> Result<Vec<Optio
     if infos.iter().all(|info| !info.has_tangents) {
         return Ok(found);
     }
+    let places = infos.iter().enumerate().map(|(place, info)| ((info.name.mesh, info.name.primitive), place));
+    let places: HashMap<(usize, usize), usize> = places.collect();
     for corners in document.corners()? {
-        let Some(place) = infos.iter().position(|info| info.name == *corners.name()) else { continue };
+        let Some(&place) = places.get(&(corners.name().mesh, corners.name().primitive)) else { continue };
         let info = &infos[place];
         if !info.has_tangents || corners.is_empty() {
             continue;
         }
         let uv_set = format!("TEXCOORD_{}", info.uv_set);
         let (Some(positions), Some(normals), Some(uvs), Some(tangents)) = (
-            corners.vectors::<3>("POSITION")?,
-            corners.vectors::<3>("NORMAL")?,
-            corners.vectors::<2>(&uv_set)?,
+            corners.own_vectors::<3>("POSITION")?,
+            corners.own_vectors::<3>("NORMAL")?,
+            corners.own_vectors::<2>(&uv_set)?,
             corners.vectors::<4>("TANGENT")?,
         ) else {
             continue;
         };
-        let vertices = corners.vertices();
-        let (positions, normals) = (of_vertices(&positions, vertices), of_vertices(&normals, vertices));
-        let uvs = of_vertices(&uvs, vertices);
         let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
         let tangents: Vec<[f32; 4]> = tangents.iter().map(|&tangent| to_generated.tangent(tangent)).collect();
-        let matches = Mesh::triangles(&positions, &normals, &uvs, vertices)
+        let matches = Mesh::triangles(&*positions, &*normals, &*uvs, corners.own_vertices())
             .and_then(|mesh| recognise_recipe(&mesh, &tangents));
         found[place] = matches.ok().and_then(|matches| matches.first().map(MadeBy::new));
     }
     Ok(found)
-}
-
-/// The values of vertices, from those of corners.
-fn of_vertices<const N: usize>(of_corners: &[[f32; N]], vertices: &[u32]) -> Vec<[f32; N]> {
-    let count = vertices.iter().max().map_or(0, |&last| last as usize + 1);
-    let mut values = vec![[0.0; N]; count];
-    vertices.iter().zip(of_corners).for_each(|(&vertex, &value)| values[vertex as usize] = value);
-    values
 }
 
 impl MadeBy {

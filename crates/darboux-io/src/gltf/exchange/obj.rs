@@ -26,15 +26,35 @@ pub fn text(surfaces: &[Surface], materials: &Materials, library: &str) -> Strin
         _ = writeln!(out, "mtllib {library}");
     }
     let mut lists = Lists::default();
-    let mut last_name: Option<&Arc<str>> = None;
-    for surface in surfaces {
-        if last_name.is_none_or(|last| !Arc::ptr_eq(last, &surface.name) && **last != *surface.name) {
-            _ = writeln!(out, "o {}", one_line(&surface.name, "Surface"));
-            last_name = Some(&surface.name);
-        }
-        lists.write(surface, materials, &mut out);
+    let mut names = ObjectNames::of(surfaces);
+    for objects in surfaces.chunk_by(is_one_object) {
+        _ = writeln!(out, "o {}", names.name(&objects[0].name));
+        objects.iter().for_each(|surface| lists.write(surface, materials, &mut out));
     }
     out
+}
+
+/// Whether a surface and the next one belong to one object.
+fn is_one_object(a: &Surface, b: &Surface) -> bool {
+    Arc::ptr_eq(&a.name, &b.name) || *a.name == *b.name
+}
+
+/// The names of objects, each as it is written.
+struct ObjectNames<'a> {
+    longest: usize,
+    written: HashMap<&'a str, String>,
+}
+
+impl<'a> ObjectNames<'a> {
+    fn of(surfaces: &'a [Surface]) -> Self {
+        let lengths = surfaces.chunk_by(is_one_object).map(|objects| objects[0].name.len());
+        Self { longest: longest_name(lengths), written: HashMap::new() }
+    }
+
+    fn name(&mut self, name: &'a str) -> &str {
+        let number = self.written.len();
+        self.written.entry(name).or_insert_with(|| cut(one_line(name, "Surface"), self.longest, number))
+    }
 }
 
 /// The numbered positions, UVs and normals of the file. Equal ones are written once, so that surfaces stay
@@ -106,9 +126,30 @@ impl Lists {
     }
 }
 
-/// The most characters of a name. Names are written once for every surface, so that a long one would be
-/// written very often.
+/// The most characters of a name.
 const LONGEST_NAME: usize = 1000;
+
+/// The most characters of a name where many are written. A mesh or a material that is at many places has its
+/// name written as often.
+const LONGEST_OF_MANY: usize = 60;
+
+/// Names of so many bytes are written as they are, and so many more for each of them.
+const NAME_BYTES: usize = 1 << 20;
+
+/// The most characters of names that are written in turn, given by their lengths.
+fn longest_name(lengths: impl Iterator<Item = usize>) -> usize {
+    let (count, bytes) =
+        lengths.fold((0, 0), |(count, bytes), length| (count + 1, bytes + length.min(LONGEST_NAME)));
+    if bytes <= NAME_BYTES + LONGEST_OF_MANY * count { LONGEST_NAME } else { LONGEST_OF_MANY }
+}
+
+/// A name with at most so many characters. One that is cut ends in its number, which tells it from others.
+fn cut(name: String, longest: usize, number: usize) -> String {
+    match name.char_indices().nth(longest) {
+        Some((end, _)) if longest < LONGEST_NAME => format!("{}_{number}", &name[..end]),
+        _ => name,
+    }
+}
 
 /// A name that a statement can end with: without line breaks, other control characters, and the mark of a
 /// continued line; `otherwise` for none.
@@ -145,10 +186,17 @@ pub fn images(document: &Document) -> Result<Vec<usize>, Error> {
 }
 
 /// The materials of a document. `paths`: the path of each image in the library; none for an image without a
-/// file.
-pub fn materials(document: &Document, paths: &[Option<String>]) -> Result<Materials, Error> {
+/// file. `surfaces`: those that name the materials.
+pub fn materials(
+    document: &Document,
+    surfaces: &[Surface],
+    paths: &[Option<String>],
+) -> Result<Materials, Error> {
     let materials = document.materials()?;
-    let names = unique_names(document, materials.len());
+    let name = |index: usize| document.json()["materials"][index]["name"].as_str().unwrap_or_default();
+    let longest =
+        longest_name(surfaces.iter().filter_map(|surface| surface.material).map(|index| name(index).len()));
+    let names = unique_names(materials.len(), name, longest);
     let mut library = format!("# Created by Darboux {}\n", env!("CARGO_PKG_VERSION"));
     for (name, material) in names.iter().zip(&materials) {
         write_material(name, material, paths, &mut library);
@@ -178,13 +226,13 @@ fn write_material(name: &str, material: &Material, paths: &[Option<String>], out
 }
 
 /// A name for each material, without white space, each once: `usemtl` names one.
-fn unique_names(document: &Document, count: usize) -> Vec<String> {
+fn unique_names<'a>(count: usize, name: impl Fn(usize) -> &'a str, longest: usize) -> Vec<String> {
     let mut taken = HashSet::new();
     // The next number of each name, so that many equal names take no more time each than the first.
     let mut next_number: HashMap<String, u32> = HashMap::new();
     let name_of = |index: usize| {
-        let name = document.json()["materials"][index]["name"].as_str().unwrap_or_default();
-        let name = one_line(name, &format!("Material_{index}")).replace(' ', "_");
+        let name = one_line(name(index), &format!("Material_{index}")).replace(' ', "_");
+        let name = cut(name, longest, index);
         let mut unique = name.clone();
         let number = next_number.entry(name.clone()).or_insert(1);
         while !taken.insert(unique.clone()) {

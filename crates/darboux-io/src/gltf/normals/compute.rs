@@ -10,7 +10,7 @@ use darboux::{
 use super::select::{NormalInput, NormalSelection};
 use crate::Error;
 use crate::gltf::primitives::canonical::CanonicalAccessors;
-use crate::gltf::primitives::limits;
+use crate::gltf::primitives::{element_count, limits};
 use crate::gltf::schema::Attributes;
 use crate::gltf::{Document, PrimitiveName, Progress};
 
@@ -131,19 +131,18 @@ impl Reader<'_> {
         accessor: usize,
         out: &mut Vec<[f32; 3]>,
     ) -> Result<(), Error> {
-        let vectors = self.vectors(accessor)?;
-        let vertices = vectors.len();
-        let found = part.corners.iter().map(|&index| vectors.get(index as usize).copied());
-        let before = out.len();
-        out.extend(found.map_while(|vector| vector));
-        let at = out.len() - before;
-        match part.corners.get(at) {
-            None => Ok(()),
-            Some(&index) => {
-                let source = darboux::Error::IndexOutOfRange { at, index, vertices };
-                Err(self.document.mesh_error(part.name.path(), source))
-            }
+        let vertices = element_count(self.document, accessor)?;
+        if let Some(at) = part.corners.iter().position(|&index| index as usize >= vertices) {
+            let source = darboux::Error::IndexOutOfRange { at, index: part.corners[at], vertices };
+            return Err(self.document.mesh_error(part.name.path(), source));
         }
+        if vertices > part.corners.len() {
+            out.extend(self.document.vectors_at::<3>(accessor, &part.corners)?);
+        } else {
+            let vectors = self.vectors(accessor)?;
+            out.extend(part.corners.iter().map(|&index| vectors[index as usize]));
+        }
+        Ok(())
     }
 }
 

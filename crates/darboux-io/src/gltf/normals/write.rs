@@ -102,22 +102,39 @@ impl<'a> NormalWriter<'a> {
         }
         for (accessor, moves) in moves_of_accessor {
             let old = moves.first().and_then(|(.., moved)| moved.old);
-            let mut offsets = vec![[0.0; 3]; self.split.normal_of_vertex.len()];
-            // The first corner with an offset decides for its vertex, so that corners are written in reverse
-            // order.
-            for &(_, first, moved) in moves.iter().rev() {
-                for &(corner, offset) in moved.offsets.iter().rev() {
-                    offsets[self.split.indices[first + corner] as usize] = offset;
+            // Targets may move few of many vertices. The first corner with an offset decides for its vertex.
+            let mut offsets: HashMap<u32, [f32; 3]> = HashMap::new();
+            for &(_, first, moved) in &moves {
+                for &(corner, offset) in &moved.offsets {
+                    offsets.entry(self.split.indices[first + corner]).or_insert(offset);
                 }
             }
             for (part, first, moved) in moves {
                 let vertices = &self.split.indices[first..first + part.corners.len()];
                 *self.conflicting.entry(part.candidate).or_default() += conflicts(vertices, moved, &offsets);
             }
-            self.offsets.insert(accessor, push_vectors(document, old, ElementType::Vec3, &offsets, true));
+            self.offsets.insert(accessor, self.push_offsets_of_vertices(document, old, offsets));
             limits::check_output(document)?;
         }
         Ok(())
+    }
+
+    /// An accessor of the offsets of vertices, sparse if that takes fewer bytes.
+    fn push_offsets_of_vertices(
+        &self,
+        document: &mut Document,
+        old: Option<usize>,
+        offsets: HashMap<u32, [f32; 3]>,
+    ) -> usize {
+        let count = self.split.normal_of_vertex.len();
+        if old.is_none() && offsets.len() < count / 2 {
+            let mut few: Vec<(u32, [f32; 3])> = offsets.into_iter().collect();
+            few.sort_unstable_by_key(|(vertex, _)| *vertex);
+            return document.push_few_vectors(count, &few);
+        }
+        let mut all = vec![[0.0; 3]; count];
+        offsets.into_iter().for_each(|(vertex, offset)| all[vertex as usize] = offset);
+        push_vectors(document, old, ElementType::Vec3, &all, true)
     }
 
     fn write(
@@ -253,11 +270,11 @@ impl<'a> NormalWriter<'a> {
 }
 
 /// Counts the corners whose offset differs from that of their vertex.
-fn conflicts(vertices: &[u32], moved: &MovedNormals, offsets: &[[f32; 3]]) -> usize {
+fn conflicts(vertices: &[u32], moved: &MovedNormals, offsets: &HashMap<u32, [f32; 3]>) -> usize {
     let mut own = moved.offsets.iter().peekable();
     let corners = vertices.iter().enumerate().filter(|&(corner, &vertex)| {
         let own = own.next_if(|(moves, _)| *moves == corner).map_or([0.0; 3], |(_, offset)| *offset);
-        own != offsets[vertex as usize]
+        own != offsets.get(&vertex).copied().unwrap_or_default()
     });
     corners.count()
 }

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use super::name::PrimitiveName;
 use super::triangles::TriangleMode;
+use super::used_vertices::UsedVertices;
 use super::{element_count, limits};
 use crate::Error;
 use crate::gltf::Document;
@@ -17,6 +18,8 @@ pub struct PrimitiveCorners<'a> {
     name: PrimitiveName,
     primitive: &'a schema::Primitive,
     vertices: Vec<u32>,
+    /// None where all vertices of the accessors are read.
+    used: Option<UsedVertices>,
 }
 
 impl<'a> PrimitiveCorners<'a> {
@@ -33,7 +36,11 @@ impl<'a> PrimitiveCorners<'a> {
             (None, None) => Vec::new(),
         };
         indices.truncate(topology.whole(indices.len()));
-        Ok(Some(Self { document, name: name.clone(), primitive, vertices: topology.corners(indices) }))
+        let vertices = topology.corners(indices);
+        let position = primitive.attributes.get("POSITION");
+        let count = position.map_or(Ok(0), |&position| element_count(document, position))?;
+        let used = UsedVertices::of(&vertices, count);
+        Ok(Some(Self { document, name: name.clone(), primitive, vertices, used }))
     }
 
     /// The primitive.
@@ -77,20 +84,30 @@ impl<'a> PrimitiveCorners<'a> {
         target.map_or(Ok(None), |target| self.gathered(target, semantic))
     }
 
-    /// The values of an attribute at every vertex, as floats, in the order of the file; none if the primitive
-    /// does not have it. Every corner's vertex is in range.
+    /// The values of an attribute as floats, in the order of the file; none if the primitive does not have
+    /// it. [`PrimitiveCorners::own_vertices`] has the place of every corner's value.
     ///
-    /// Errors: as [`PrimitiveCorners::vectors`].
-    pub(in crate::gltf) fn vertex_vectors<const N: usize>(
-        &self,
-        semantic: &str,
-    ) -> Result<Option<Cow<'a, [[f32; N]]>>, Error> {
+    /// They are those of all vertices of the accessor; where it has more vertices than the primitive has
+    /// corners, as one that primitives share, those of the vertices that the corners use. The lists of all
+    /// attributes have the same vertices. Errors: as [`PrimitiveCorners::vectors`].
+    pub fn own_vectors<const N: usize>(&self, semantic: &str) -> Result<Option<Cow<'a, [[f32; N]]>>, Error> {
         self.checked(&self.primitive.attributes, semantic)
     }
 
-    /// The vertex of every corner, without a copy.
-    pub(in crate::gltf) fn into_vertices(self) -> Vec<u32> {
-        self.vertices
+    /// The place of every corner's value in the lists of [`PrimitiveCorners::own_vectors`].
+    pub fn own_vertices(&self) -> &[u32] {
+        self.used.as_ref().map_or(&self.vertices, |used| &used.of_corner)
+    }
+
+    /// The vertex in the accessors of each place in the lists of [`PrimitiveCorners::own_vectors`]; none
+    /// where they are the same.
+    pub fn vertices_of_own(&self) -> Option<&[u32]> {
+        self.used.as_ref().map(|used| used.vertices.as_slice())
+    }
+
+    /// As [`PrimitiveCorners::own_vertices`], without a copy.
+    pub(in crate::gltf) fn into_own_vertices(self) -> Vec<u32> {
+        self.used.map_or(self.vertices, |used| used.of_corner)
     }
 
     fn gathered<const N: usize>(
@@ -99,25 +116,26 @@ impl<'a> PrimitiveCorners<'a> {
         semantic: &str,
     ) -> Result<Option<Vec<[f32; N]>>, Error> {
         let vectors = self.checked(attributes, semantic)?;
-        Ok(vectors.map(|vectors| self.vertices.iter().map(|&vertex| vectors[vertex as usize]).collect()))
+        Ok(vectors.map(|vectors| self.own_vertices().iter().map(|&own| vectors[own as usize]).collect()))
     }
 
-    /// An attribute's values per vertex. Errors: invalid data; a corner's vertex is out of range.
+    /// An attribute's values, one for each of the primitive's own vertices. Errors: invalid data; a corner's
+    /// vertex is out of range.
     fn checked<const N: usize>(
         &self,
         attributes: &Attributes,
         semantic: &str,
     ) -> Result<Option<Cow<'a, [[f32; N]]>>, Error> {
         let Some(&accessor) = attributes.get(semantic) else { return Ok(None) };
-        let vectors = self.document.vectors::<N>(accessor)?;
-        let vertices = vectors.len();
-        match self.vertices.iter().position(|&vertex| vertex as usize >= vertices) {
-            None => Ok(Some(vectors)),
-            Some(at) => {
-                let problem = darboux::Error::IndexOutOfRange { at, index: self.vertices[at], vertices };
-                Err(self.document.mesh_error(self.name.path(), problem))
-            }
+        let vertices = element_count(self.document, accessor)?;
+        if let Some(at) = self.vertices.iter().position(|&vertex| vertex as usize >= vertices) {
+            let problem = darboux::Error::IndexOutOfRange { at, index: self.vertices[at], vertices };
+            return Err(self.document.mesh_error(self.name.path(), problem));
         }
+        Ok(Some(match &self.used {
+            Some(used) => self.document.vectors_at(accessor, &used.vertices)?.into(),
+            None => self.document.vectors(accessor)?,
+        }))
     }
 }
 
@@ -136,6 +154,12 @@ impl Document {
             }
         }
         Ok(found)
+    }
+
+    /// Checks a number of triangles that are to be kept, as those of meshes at all their places. Errors: more
+    /// than the memory limit permits.
+    pub fn check_triangle_count(&self, triangles: usize) -> Result<(), Error> {
+        limits::check_triangles(self, std::iter::once(triangles))
     }
 
     /// The corners of one primitive; none for points and lines, and where it does not exist. Errors: as

@@ -11,8 +11,10 @@ use super::encoding::TangentEncoding;
 use super::groups::{Group, Job};
 use super::options::AddTangentsOptions;
 use crate::Error;
+use crate::gltf::primitives::element_count;
 use crate::gltf::primitives::quads::QuadFaces;
 use crate::gltf::primitives::triangles::TriangleMode;
+use crate::gltf::primitives::used_vertices::UsedVertices;
 use crate::gltf::{Document, IndexList, PrimitiveName};
 
 /// One vector per vertex.
@@ -27,6 +29,8 @@ pub struct Vertices<'a> {
     stored_uvs: Option<Cow<'a, [[f32; 2]]>>,
     /// The UVs of the current job. UVs of vertices outside the job are unspecified.
     uvs: Cow<'a, [[f32; 2]]>,
+    /// The vertices that were read, ascending; none if all were.
+    used: Option<Vec<u32>>,
 }
 
 impl<'a> Vertices<'a> {
@@ -43,7 +47,49 @@ impl<'a> Vertices<'a> {
             normals: document.vectors(group.normal)?,
             stored_uvs: transformed.then(|| uvs.clone()),
             uvs,
+            used: None,
         })
+    }
+
+    /// Reads the vertices that the jobs of a group use, where there are many others. Its jobs are numbered by
+    /// these vertices then.
+    pub fn read_used(document: &'a Document, group: &Group) -> Result<Self, Error> {
+        let count = element_count(document, group.position)?;
+        let of_job =
+            |job: &Job| job.indices.map_or(Some(count), |list| Some(document.accessors().get(list)?.count));
+        let corners = group.jobs.iter().filter_map(of_job).fold(0, usize::saturating_add);
+        if count <= corners {
+            return Self::read(document, group);
+        }
+        let mut corners = Vec::new();
+        for accessor in group.jobs.iter().filter_map(|job| job.indices) {
+            corners.extend(document.indices(accessor)?.iter());
+        }
+        let Some(used) = UsedVertices::of(&corners, count) else { return Self::read(document, group) };
+        // The sentence about an index out of range names the job.
+        if used.vertices.last().is_some_and(|&last| last as usize >= count) {
+            return Self::read(document, group);
+        }
+        let used = used.vertices;
+        let uvs = match group.uv {
+            Some(uv) => document.vectors_at(uv, &used)?,
+            None => vec![[0.0; 2]; used.len()],
+        };
+        let transformed = group.jobs.iter().any(|job| job.transform.is_some());
+        Ok(Self {
+            positions: document.vectors_at(group.position, &used)?.into(),
+            normals: document.vectors_at(group.normal, &used)?.into(),
+            stored_uvs: transformed.then(|| uvs.clone().into()),
+            uvs: uvs.into(),
+            used: Some(used),
+        })
+    }
+
+    /// Corners by the vertices that were read.
+    fn numbered<'i>(&self, corners: IndexList<'i>) -> IndexList<'i> {
+        let Some(used) = &self.used else { return corners };
+        let place = |vertex: u32| used.partition_point(|used| *used < vertex) as u32;
+        IndexList::U32(corners.iter().map(place).collect())
     }
 
     /// Replaces positions and normals. Returns the previous ones.
@@ -158,6 +204,7 @@ pub fn compute_job<'a>(
         TriangleMode::Triangles => corners,
         other => IndexList::U32(other.corners(corners.into_u32()).into()),
     };
+    let corners = vertices.numbered(corners);
     let at = &*name.path();
     // Given tangents are those of triangles.
     let quads = if job.given.is_none() { QuadFaces::of(document, name, &corners) } else { None };

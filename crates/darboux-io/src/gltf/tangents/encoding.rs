@@ -52,6 +52,15 @@ impl TangentEncoding {
         }
     }
 
+    /// Bytes per tangent.
+    pub(super) fn bytes(self) -> usize {
+        match self {
+            Self::F32x4 => 16,
+            Self::Snorm16x4 => 8,
+            Self::Snorm8x4 => 4,
+        }
+    }
+
     /// The extension that the encoding needs.
     pub(super) fn extension(self) -> Option<&'static str> {
         (self != Self::F32x4).then_some("KHR_mesh_quantization")

@@ -84,16 +84,24 @@ const LARGE_GROUP: usize = 1 << 14;
 /// Small groups are computed side by side, so many triangles before they are written.
 const BATCH_TRIANGLES: usize = 1 << 18;
 
-/// Divides groups into batches of consecutive ones: a large group, or several small ones.
-pub fn batches(groups: &[Group]) -> Vec<&[Group]> {
+/// Small groups of a batch have at most so many vertices together: each may have many that other groups use.
+const BATCH_VERTICES: usize = 1 << 20;
+
+/// Divides groups into batches of consecutive ones: a large group, or several small ones. `vertices`: the
+/// number of vertices of a group.
+pub fn batches(groups: &[Group], vertices: impl Fn(&Group) -> usize) -> Vec<&[Group]> {
     let mut batches = Vec::new();
     let (mut start, mut triangles, mut was_large) = (0, 0, false);
+    let mut all_vertices: usize = 0;
     for (at, group) in groups.iter().enumerate() {
         let more = triangle_counts(std::slice::from_ref(group)).sum::<usize>();
         let is_large = more >= LARGE_GROUP;
-        if at > start && (was_large || is_large || triangles + more > BATCH_TRIANGLES) {
+        let own_vertices = vertices(group);
+        all_vertices = all_vertices.saturating_add(own_vertices);
+        let is_full = triangles + more > BATCH_TRIANGLES || all_vertices > BATCH_VERTICES;
+        if at > start && (was_large || is_large || is_full) {
             batches.push(&groups[start..at]);
-            (start, triangles) = (at, 0);
+            (start, triangles, all_vertices) = (at, 0, own_vertices);
         }
         (triangles, was_large) = (triangles + more, is_large);
     }

@@ -1,0 +1,17 @@
+//! [`DecodedImage`]: images with the same bytes are decoded once.
+
+use darboux_io::gltf::{Document, ImageSource, TextureUse};
+
+/// An image by the source of its bytes, or else by its index.
+#[derive(Debug, PartialEq, Eq, Hash)]
+pub enum DecodedImage {
+    Source(ImageSource),
+    Index(Option<usize>),
+}
+
+impl DecodedImage {
+    pub fn of(document: &Document, used: &TextureUse) -> Self {
+        let source = used.image.and_then(|image| document.image_source(image));
+        source.map_or(Self::Index(used.image), Self::Source)
+    }
+}
