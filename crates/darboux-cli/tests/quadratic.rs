@@ -58,6 +58,10 @@ fn faces_of_many_corners_are_cut() {
     let lines = ["bake IN --high IN -o o.png --size 8x3"];
     ends_in_time("m.obj", polygon(24_000, [1.0, 1.0]).as_bytes(), &lines);
     ends_in_time("m.obj", polygon(24_000, [1.0, 0.3]).as_bytes(), &lines);
+    for distances in [[1.0, 1.0], [1.0, 0.3]] {
+        let said = ends_in_time("m.obj", polygon(50_000, distances).as_bytes(), &["inspect IN"]);
+        assert!(!said.contains("crosses itself or is too large"), "{said}");
+    }
     let repeated = ["1/1/1", "2/2/1", "3/3/1"].into_iter().cycle().map(str::to_owned);
     ends_in_time("m.obj", (SQUARE.to_owned() + &face(repeated.take(300_000))).as_bytes(), &lines);
 }

@@ -7,6 +7,7 @@
 mod alternating;
 mod corner_tree;
 mod ears;
+mod queued;
 mod triangle;
 
 use darboux::Choice;
@@ -16,7 +17,8 @@ use ears::Polygon;
 pub use triangle::Triangle;
 
 /// The most steps that the cuts of one file may take: tries of a corner, and nodes of the tree that a try
-/// visits. A face of ordinary shape takes about a hundred per corner.
+/// visits. A face of ordinary shape takes about a hundred per corner. What is left to cut when they are used
+/// up has as many steps again, in an order that takes few ([`queued`]).
 const MAX_STEPS: u64 = 1 << 26;
 
 /// How faces of five and more corners are cut into triangles, which MikkTSpace needs. Quads are not affected.
@@ -57,6 +59,8 @@ impl Choice for PolygonRule {
 pub struct Cutter {
     rule: PolygonRule,
     steps: u64,
+    /// The steps for faces that the rule did not cut.
+    more_steps: u64,
     /// Concave quads that are not cut along the diagonal of MikkTSpace.
     pub outside_diagonals: usize,
     /// Faces with triangles that face the other way than the face: it crosses itself, or the steps are used
@@ -66,7 +70,7 @@ pub struct Cutter {
 
 impl Cutter {
     pub fn new(rule: PolygonRule) -> Self {
-        Self { rule, steps: MAX_STEPS, outside_diagonals: 0, folded: 0 }
+        Self { rule, steps: MAX_STEPS, more_steps: MAX_STEPS, outside_diagonals: 0, folded: 0 }
     }
 
     /// The halves of a quad, in the order of MikkTSpace. `uvs`: none for a mesh without UVs, whose quads are
@@ -100,11 +104,18 @@ impl Cutter {
                 PolygonRule::Fan | PolygonRule::Ears => fan,
             };
         };
-        let triangles = match self.rule {
-            PolygonRule::Blender => alternating::cut(positions, steps).unwrap_or(fan),
-            PolygonRule::Fan => polygon.cut(fan, steps),
-            PolygonRule::Ears => polygon.ears(steps).unwrap_or(fan),
+        let (mut triangles, is_used_up) = match self.rule {
+            PolygonRule::Blender => match alternating::cut(positions, steps) {
+                Some(triangles) => (triangles, false),
+                None => (fan, true),
+            },
+            PolygonRule::Fan => (polygon.cut(fan, steps), *steps == 0),
+            PolygonRule::Ears => (polygon.ears(steps).unwrap_or(fan), *steps == 0),
         };
+        if is_used_up && polygon.is_folded(&triangles) {
+            let queued = polygon.queued(&mut self.more_steps);
+            triangles = queued.filter(|queued| !polygon.is_folded(queued)).unwrap_or(triangles);
+        }
         self.folded += usize::from(polygon.is_folded(&triangles));
         triangles
     }

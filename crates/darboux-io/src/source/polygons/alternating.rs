@@ -11,8 +11,16 @@
 //! - While no corner is reflex or straight, every corner is an ear. Else an ear is convex and holds no corner
 //!   that is not convex, on its border included. If there is none, straight corners are taken, then any that
 //!   is not reflex, then the corner where the search begins.
+//!
+//! Where many corners are not convex, a [tree](super::corner_tree) of them finds one in an ear. The side of
+//! a line is decided in single precision for every corner that the tree cannot exclude by more than the
+//! rounding errors of that decision, so the triangles are those of a test of all corners.
 
+use super::corner_tree::CornerTree;
 use super::triangle::Triangle;
+
+/// The number of obstacles from which on a tree finds one in an ear: fewer are tested sooner one by one.
+const MANY: usize = 32;
 
 /// The side to which the face turns at a corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +32,14 @@ enum Turn {
 
 /// The triangles of a face. None: the steps are used up.
 pub fn cut(positions: &[[f32; 3]], steps: &mut u64) -> Option<Vec<Triangle>> {
-    let mut outline = Outline::new(projected(positions));
+    cut_with(positions, MANY, steps)
+}
+
+/// As [`cut`]. `many`: the number of obstacles from which on a tree finds one in an ear.
+fn cut_with(positions: &[[f32; 3]], many: usize, steps: &mut u64) -> Option<Vec<Triangle>> {
+    let corners = projected(positions);
+    let places: Vec<[f64; 2]> = corners.iter().map(|corner| corner.map(f64::from)).collect();
+    let mut outline = Outline::new(corners, &places, many);
     let mut triangles = Vec::with_capacity(positions.len() - 2);
     let (mut start, mut backwards) = (0, false);
     while outline.remaining > 3 {
@@ -47,13 +62,20 @@ pub fn cut(positions: &[[f32; 3]], steps: &mut u64) -> Option<Vec<Triangle>> {
 }
 
 /// The corners that are left, in a ring.
-struct Outline {
+struct Outline<'a> {
     corners: Vec<[f32; 2]>,
+    /// The corners in double precision.
+    places: &'a [[f64; 2]],
+    many: usize,
     next: Vec<usize>,
     previous: Vec<usize>,
     turns: Vec<Turn>,
     /// The corners that were not convex at first. Those that were removed or became convex are skipped.
     obstacles: Vec<usize>,
+    /// The obstacles, if there are many.
+    tree: Option<CornerTree<'a>>,
+    /// With a tree: the neighbours of a corner when it was last tried, and the obstacle in the triangle.
+    known: Vec<Option<([usize; 2], usize)>>,
     is_removed: Vec<bool>,
     /// The number of corners left that are not convex.
     not_convex: usize,
@@ -61,15 +83,19 @@ struct Outline {
     first: usize,
 }
 
-impl Outline {
-    fn new(corners: Vec<[f32; 2]>) -> Self {
+impl<'a> Outline<'a> {
+    fn new(corners: Vec<[f32; 2]>, places: &'a [[f64; 2]], many: usize) -> Self {
         let count = corners.len();
         let mut outline = Self {
             corners,
+            places,
+            many,
             next: (0..count).map(|corner| (corner + 1) % count).collect(),
             previous: (0..count).map(|corner| (corner + count - 1) % count).collect(),
             turns: vec![Turn::Convex; count],
             obstacles: Vec::new(),
+            tree: None,
+            known: Vec::new(),
             is_removed: vec![false; count],
             not_convex: 0,
             remaining: count,
@@ -80,7 +106,25 @@ impl Outline {
         }
         outline.obstacles = (0..count).filter(|&corner| outline.turns[corner] != Turn::Convex).collect();
         outline.not_convex = outline.obstacles.len();
+        outline.plant();
+        if outline.tree.is_some() {
+            outline.known = vec![None; count];
+        }
         outline
+    }
+
+    /// Makes the tree of the obstacles.
+    fn plant(&mut self) {
+        let obstacles = || self.obstacles.iter().map(|&corner| corner as u32).collect();
+        self.tree =
+            (self.obstacles.len() >= self.many).then(|| CornerTree::of_some(self.places, obstacles()));
+    }
+
+    /// Takes a corner out of the tree.
+    fn forget(&mut self, corner: usize) {
+        if let Some(tree) = &mut self.tree {
+            tree.remove(corner);
+        }
     }
 
     fn turn(&self, corner: usize) -> Turn {
@@ -98,6 +142,7 @@ impl Outline {
         self.is_removed[corner] = true;
         self.not_convex -= usize::from(self.turns[corner] != Turn::Convex);
         self.remaining -= 1;
+        self.forget(corner);
         if self.first == corner {
             self.first = next;
         }
@@ -107,7 +152,10 @@ impl Outline {
     fn renew(&mut self, corner: usize) {
         if self.turns[corner] != Turn::Convex {
             self.turns[corner] = self.turn(corner);
-            self.not_convex -= usize::from(self.turns[corner] == Turn::Convex);
+            if self.turns[corner] == Turn::Convex {
+                self.not_convex -= 1;
+                self.forget(corner);
+            }
         }
     }
 
@@ -143,19 +191,70 @@ impl Outline {
         if self.obstacles.len() > 2 * self.not_convex {
             let (is_removed, turns) = (&self.is_removed, &self.turns);
             self.obstacles.retain(|&corner| !is_removed[corner] && turns[corner] != Turn::Convex);
+            self.plant();
         }
         let triangle = [corner, self.next[corner], self.previous[corner]];
-        let [a, b, c] = triangle.map(|corner| self.corners[corner]);
-        *steps = steps.checked_sub(self.obstacles.len() as u64)?;
-        let lies_inside = |&obstacle: &usize| {
-            let place = self.corners[obstacle];
-            self.turns[obstacle] != Turn::Convex
-                && !self.is_removed[obstacle]
-                && !triangle.contains(&obstacle)
-                && [[a, b], [b, c], [c, a]].iter().all(|&[from, to]| side([from, to, place]) != Turn::Reflex)
-        };
-        Some(!self.obstacles.iter().any(lies_inside))
+        match &self.tree {
+            Some(tree) => {
+                let neighbours = [triangle[1], triangle[2]];
+                let is_known = |&(of, obstacle): &([usize; 2], usize)| of == neighbours && tree.has(obstacle);
+                if self.known[corner].as_ref().is_some_and(is_known) {
+                    return Some(false);
+                }
+                let found = self.find_obstacle(tree, triangle, steps)?;
+                self.known[corner] = found.map(|obstacle| (neighbours, obstacle));
+                Some(found.is_none())
+            }
+            None => {
+                *steps = steps.checked_sub(self.obstacles.len() as u64)?;
+                let lies_inside = |&obstacle: &usize| {
+                    self.turns[obstacle] != Turn::Convex
+                        && !self.is_removed[obstacle]
+                        && self.lies_inside(obstacle, triangle)
+                };
+                Some(!self.obstacles.iter().any(lies_inside))
+            }
+        }
     }
+
+    fn lies_inside(&self, obstacle: usize, triangle: Triangle) -> bool {
+        let [a, b, c] = triangle.map(|corner| self.corners[corner]);
+        let place = self.corners[obstacle];
+        !triangle.contains(&obstacle)
+            && [[a, b], [b, c], [c, a]].iter().all(|&[from, to]| side([from, to, place]) != Turn::Reflex)
+    }
+
+    /// The outer none: the steps are used up.
+    #[expect(clippy::option_option, reason = "the outer one is the limit's")]
+    fn find_obstacle(
+        &self,
+        tree: &CornerTree<'_>,
+        triangle: Triangle,
+        steps: &mut u64,
+    ) -> Option<Option<usize>> {
+        let [a, b, c] = triangle.map(|corner| self.places[corner]);
+        let edges = [[a, b], [b, c], [c, a]];
+        let may_hold = |bounds| !edges.iter().any(|&edge| is_all_reflex(bounds, edge));
+        tree.find(may_hold, |obstacle| self.lies_inside(obstacle, triangle), steps)
+    }
+}
+
+/// Whether [`side`] is reflex for every place between the least and the greatest coordinates.
+///
+/// The area that it computes is off by at most 2^-21 times the product of the greatest differences (four
+/// roundings of two products), and by what products lose that are below the range of normal numbers.
+fn is_all_reflex([least, greatest]: [[f64; 2]; 2], [a, b]: [[f64; 2]; 2]) -> bool {
+    let x = if b[1] > a[1] { greatest[0] } else { least[0] };
+    let y = if a[0] > b[0] { greatest[1] } else { least[1] };
+    let area = (b[0] - x) * (a[1] - y) - (a[0] - x) * (b[1] - y);
+    let difference = |i: usize| {
+        let ends = [a[i] - least[i], a[i] - greatest[i], b[i] - least[i], b[i] - greatest[i]];
+        ends.iter().fold(0.0f64, |most, end| most.max(end.abs()))
+    };
+    let [x, y] = [0, 1].map(difference);
+    let product = x * y;
+    // Beyond the range of single precision, differences of infinities would be no numbers.
+    x < 1e37 && y < 1e37 && product < 1e37 && area + product * f64::from(f32::EPSILON) * 8.0 + 1e-40 < 0.0
 }
 
 /// The side of the line from a to b on which c lies: convex is to the right, as the projection mirrors the
@@ -199,4 +298,33 @@ fn normal(positions: &[[f32; 3]]) -> [f32; 3] {
     });
     let squared = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
     if squared > 1.0e-35 { sum.map(|x| x * (1.0 / squared.sqrt())) } else { [0.0, 0.0, 1.0] }
+}
+
+#[cfg(test)]
+mod tests {
+    use darboux_dice::Dice;
+
+    use super::*;
+
+    /// Faces of random corners, whose triangles must be those without a tree.
+    #[test]
+    fn a_tree_changes_no_triangle() {
+        let mut dice = Dice::from_seed(47);
+        for round in 0..120 {
+            let (count, places) = (100 + dice.below(300), [6, 40, 4000][round % 3]);
+            let scale = [1.0f32, 1e-22, 1e17, 1e-3][round % 4];
+            let mut positions: Vec<[f32; 3]> = (0..count)
+                .map(|_| [0, 1, 2].map(|_| (dice.below(places) as f32 * 0.1 + 7.0) * scale))
+                .collect();
+            if round.is_multiple_of(2) {
+                let middle = 0.05 * places as f32 + 7.0;
+                let angle = |p: &[f32; 3]| (p[1] / scale - middle).atan2(p[0] / scale - middle);
+                positions.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+                positions.iter_mut().for_each(|position| position[2] = 0.0);
+            }
+            let slow = cut_with(&positions, usize::MAX, &mut (1 << 40)).expect("enough steps");
+            let mut steps = 1 << 40;
+            assert_eq!(cut_with(&positions, 1, &mut steps).expect("enough steps"), slow, "round {round}");
+        }
+    }
 }

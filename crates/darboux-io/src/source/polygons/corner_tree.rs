@@ -37,14 +37,19 @@ struct Node {
 
 impl<'a> CornerTree<'a> {
     pub fn new(corners: &'a [[f64; 2]]) -> Self {
-        let count = corners.len();
+        Self::of_some(corners, (0..corners.len() as u32).collect())
+    }
+
+    /// As [`CornerTree::new`], where only some corners were not removed.
+    pub fn of_some(corners: &'a [[f64; 2]], some: Vec<u32>) -> Self {
+        let count = some.len();
         let leaves = count.div_ceil(LEAF).next_power_of_two();
         let absent = Node { least: [0.0; 2], greatest: [0.0; 2], first: 0, end: 0, remaining: 0 };
         let mut tree = Self {
             corners,
-            order: (0..count as u32).collect(),
+            order: some,
             nodes: vec![absent; 2 * leaves - 1],
-            leaf_of_corner: vec![None; count],
+            leaf_of_corner: vec![None; corners.len()],
         };
         tree.build(0, 0, count);
         tree
@@ -103,37 +108,51 @@ impl<'a> CornerTree<'a> {
         let own = triangle.map(|corner| self.corners[corner]);
         let [a, b, c] = own;
         let edges = [[a, b], [b, c], [c, a]];
+        let may_hold = |[least, greatest]: [[f64; 2]; 2]| {
+            let is_own = least == greatest && own.contains(&least);
+            !is_own && !edges.iter().any(|&edge| lies_outside([least, greatest], edge))
+        };
+        let is_inside = |corner: usize| {
+            let place = self.corners[corner];
+            !own.contains(&place) && edges.iter().all(|&[from, to]| area([from, to, place]) >= 0.0)
+        };
+        self.find(may_hold, is_inside, steps)
+    }
+
+    /// A corner that `is_wanted`. `may_hold`: whether one can lie between the least and the greatest
+    /// coordinates of a box. The outer none: the steps are used up.
+    #[expect(clippy::option_option, reason = "the outer one is the limit's")]
+    pub fn find(
+        &self,
+        may_hold: impl Fn([[f64; 2]; 2]) -> bool,
+        is_wanted: impl Fn(usize) -> bool,
+        steps: &mut u64,
+    ) -> Option<Option<usize>> {
         let mut waiting = vec![0];
         while let Some(node) = waiting.pop() {
             *steps = steps.checked_sub(1)?;
             let Node { least, greatest, first, end, remaining } = self.nodes[node];
-            let is_own = least == greatest && own.contains(&least);
-            if remaining == 0 || is_own || edges.iter().any(|&edge| self.nodes[node].lies_outside(edge)) {
+            if remaining == 0 || !may_hold([least, greatest]) {
                 continue;
             }
             if !self.is_leaf(node) {
                 waiting.extend([2 * node + 1, 2 * node + 2]);
                 continue;
             }
-            for &corner in &self.order[first as usize..end as usize] {
-                let place = self.corners[corner as usize];
-                let is_inside = || edges.iter().all(|&[from, to]| area([from, to, place]) >= 0.0);
-                if self.has(corner as usize) && !own.contains(&place) && is_inside() {
-                    return Some(Some(corner as usize));
-                }
+            let mut corners = self.order[first as usize..end as usize].iter().map(|&corner| corner as usize);
+            if let Some(found) = corners.find(|&corner| self.has(corner) && is_wanted(corner)) {
+                return Some(Some(found));
             }
         }
         Some(None)
     }
 }
 
-impl Node {
-    /// Whether all places of the box lie to the right of an edge.
-    fn lies_outside(&self, [from, to]: [[f64; 2]; 2]) -> bool {
-        let x = if to[1] > from[1] { self.least[0] } else { self.greatest[0] };
-        let y = if to[0] > from[0] { self.greatest[1] } else { self.least[1] };
-        area([from, to, [x, y]]) < 0.0
-    }
+/// Whether all places of a box lie to the right of an edge.
+fn lies_outside([least, greatest]: [[f64; 2]; 2], [from, to]: [[f64; 2]; 2]) -> bool {
+    let x = if to[1] > from[1] { least[0] } else { greatest[0] };
+    let y = if to[0] > from[0] { greatest[1] } else { least[1] };
+    area([from, to, [x, y]]) < 0.0
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 //! corners ([`corner_tree`](super::corner_tree)), not of every corner.
 
 use super::corner_tree::{CornerTree, area};
+use super::queued;
 use super::triangle::Triangle;
 
 /// A face as seen along an axis, counter-clockwise.
@@ -47,6 +48,11 @@ impl Polygon {
         let faults = self.faults(&fan);
         let ears = if faults > 0 { self.ears(steps) } else { None };
         ears.filter(|ears| self.faults(ears) < faults).unwrap_or(fan)
+    }
+
+    /// As [`Polygon::ears`], in an order that takes few steps.
+    pub fn queued(&self, steps: &mut u64) -> Option<Vec<Triangle>> {
+        queued::cut(&self.corners, steps)
     }
 
     /// Cuts off ears: triangles of neighbours that contain no other corner. Corners on a straight line are
