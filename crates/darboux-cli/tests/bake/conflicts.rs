@@ -150,3 +150,27 @@ fn only_regular_files_are_read() {
     let run = darboux(&["bake", &low, "--high", &high, "-o", &map, "--cage", &pipe]).exits(1);
     assert!(run.stderr.contains("pipe.png: cannot be read: it is not a regular file"), "{}", run.stderr);
 }
+
+/// Models that do not exist show that nothing was read before.
+#[test]
+#[cfg(unix)]
+fn outputs_that_cannot_be_replaced_are_refused_before_models_are_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    assert!(std::process::Command::new("mkfifo").arg(at("pipe.png")).status().expect("mkfifo").success());
+    std::os::unix::fs::symlink(at("nowhere"), at("broken.png")).expect("a link");
+    fs::write(at("kept.png"), "").expect("a file");
+    let mut permissions = at("kept.png").metadata().expect("a file").permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(at("kept.png"), permissions).expect("a read-only file");
+    for (name, what) in [
+        ("pipe.png", "pipe.png: exists and is not a regular file; name another output"),
+        ("broken.png", "broken.png: is a broken link; remove it"),
+        ("kept.png", "kept.png: is read-only; make it writable, or name another output"),
+    ] {
+        let (model, output) = (at("missing.glb"), at(name));
+        let [model, output] = [&model, &output].map(|path| text(path));
+        let run = darboux(&["bake", model, "--high", model, "-o", output, "--force"]).exits(2);
+        assert!(run.stderr.contains(what), "{}", run.stderr);
+    }
+}

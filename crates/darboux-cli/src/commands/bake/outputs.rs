@@ -62,12 +62,10 @@ pub fn refuse_outputs(arguments: &BakeArguments) -> Result<(), String> {
     refuse_existing(arguments)
 }
 
-/// Refuses to write over files and folders that exist.
+/// Refuses to write over files that exist, and over what cannot be replaced by a file.
 pub fn refuse_existing(arguments: &BakeArguments) -> Result<(), String> {
     for path in all_outputs(arguments) {
-        if path.is_dir() {
-            return Err(format!("{} is a folder; choose a file in it", path.display()));
-        }
+        refuse_irreplaceable(&path)?;
         if path.exists() && !arguments.may_replace(&path) {
             return Err(match arguments.own_outputs {
                 OwnOutputs::None => {
@@ -78,6 +76,22 @@ pub fn refuse_existing(arguments: &BakeArguments) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// Refuses folders, FIFOs, devices, broken links and read-only files.
+fn refuse_irreplaceable(path: &Path) -> Result<(), String> {
+    let shown = path.display();
+    match path.metadata() {
+        Ok(metadata) if metadata.is_dir() => Err(format!("{shown} is a folder; choose a file in it")),
+        Ok(metadata) if !metadata.is_file() => {
+            Err(format!("{shown}: exists and is not a regular file; name another output"))
+        }
+        Ok(metadata) if metadata.permissions().readonly() => {
+            Err(format!("{shown}: is read-only; make it writable, or name another output"))
+        }
+        Err(_) if path.is_symlink() => Err(format!("{shown}: is a broken link; remove it")),
+        _ => Ok(()),
+    }
 }
 
 /// Refuses a model and a heat map that cannot be what was asked for.
