@@ -25,6 +25,8 @@ use crate::{Error, paths};
 /// The files that one save writes. Dropped before [`Staging::commit`], it removes them.
 pub struct Staging {
     run: Option<RunId>,
+    /// Whether files are written; otherwise, one that would be written is an error.
+    writes: bool,
     staged: Vec<Staged>,
     made_folders: Vec<PathBuf>,
     renamed: Vec<Renamed>,
@@ -111,7 +113,14 @@ pub struct RunId(pub u64);
 
 impl Staging {
     pub fn new(run: Option<RunId>) -> Self {
-        Self { run, staged: Vec::new(), made_folders: Vec::new(), renamed: Vec::new() }
+        Self { run, writes: true, staged: Vec::new(), made_folders: Vec::new(), renamed: Vec::new() }
+    }
+
+    /// For a comparison with what is there: a file that would have to be written is an error.
+    pub fn comparing() -> Self {
+        let mut staging = Self::new(None);
+        staging.writes = false;
+        staging
     }
 
     /// Writes a file, which [`Staging::commit`] renames to `target`. With `replace`, an existing target is
@@ -140,6 +149,9 @@ impl Staging {
         target: &Path,
         write: impl FnOnce(&mut File) -> io::Result<()>,
     ) -> io::Result<Temporary> {
+        if !self.writes {
+            return Err(ErrorKind::NotFound.into());
+        }
         let folder =
             target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         self.make_folders(folder)?;

@@ -140,12 +140,35 @@ impl Document {
         options: &SaveOptions,
         staging: &mut Staging,
     ) -> Result<(), Error> {
-        let segments = match container {
-            Container::Glb => self.glb_segments()?,
-            Container::Gltf => self.stage_gltf(target, staging)?,
-            Container::Exchange(format) => self.stage_exchange(target, format, staging)?,
-        };
+        let segments = self.stage_others(target, container, staging)?;
         staging.stage(target, options.force, |file| segments::write(&segments, file))
+    }
+
+    /// Writes the files that an output needs beside it. Returns its content.
+    fn stage_others(
+        &self,
+        target: &Path,
+        container: Container,
+        staging: &mut Staging,
+    ) -> Result<Vec<Segment<'_>>, Error> {
+        match container {
+            Container::Glb => self.glb_segments(),
+            Container::Gltf => self.stage_gltf(target, staging),
+            Container::Exchange(format) => self.stage_exchange(target, format, staging),
+        }
+    }
+
+    /// Whether a file has the bytes that [`Document::save`] would write there, and the files that it needs
+    /// are beside it. Nothing is written, and no file is read into memory.
+    pub fn is_saved_at(&self, path: &Path) -> bool {
+        let compared = || -> Result<bool, Error> {
+            let container = Container::of(path)?;
+            let failed = |source| Error::Read { file: path.to_owned(), source };
+            let target = path.canonicalize().map_err(failed)?;
+            let segments = self.stage_others(&target, container, &mut Staging::comparing())?;
+            holds(&target, &segments).map_err(failed)
+        };
+        compared().unwrap_or(false)
     }
 
     fn glb_segments(&self) -> Result<Vec<Segment<'_>>, Error> {

@@ -1,6 +1,5 @@
 //! `darboux check --fix`: repairs models and normal maps, and says what was repaired.
 
-use std::collections::BTreeSet;
 use std::path::Path;
 
 use darboux::TangentOptions;
@@ -226,41 +225,6 @@ fn error_line(finding: &ReportedFinding) -> Option<String> {
     is_left.then(|| format!("{place}: {code}: {text}"))
 }
 
-/// What a document holds: its JSON, the values of its accessors, its images and the bytes of other buffer
-/// views, wherever in its buffers they lie. None if it cannot be read.
-fn content(document: &Document) -> Option<(Value, Vec<Vec<u8>>)> {
-    let glb = document.to_glb().ok()?;
-    let length = u32::from_le_bytes(*glb.get(12..)?.first_chunk()?) as usize;
-    let mut json: Value = serde_json::from_slice(glb.get(20..)?.get(..length)?).ok()?;
-    let others = other_views(&json, glb.get(20 + length + 8..).unwrap_or_default())?;
-    let parts = json.as_object_mut()?;
-    parts.remove("buffers");
-    parts.remove("bufferViews");
-    let count = |name: &str| parts.get(name).and_then(Value::as_array).map_or(0, Vec::len);
-    let (accessors, images) = (count("accessors"), count("images"));
-    let written = Document::from_bytes(document.name(), glb, None, document.load_options()).ok()?;
-    let values = (0..accessors).map(|index| written.elements(index).ok().map(|elements| elements.bytes));
-    let texels = (0..images).map(|index| Some(written.image_bytes(index).ok()?.into_owned()));
-    let all: Option<Vec<Vec<u8>>> = values.chain(texels).collect();
-    Some((json, all?.into_iter().chain(others).collect()))
-}
-
-/// The bytes of the buffer views that neither accessors nor images use, as those of extensions. `binary`: the
-/// binary chunk of a GLB.
-fn other_views(json: &Value, binary: &[u8]) -> Option<Vec<Vec<u8>>> {
-    let items = |name: &str| json.get(name).and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
-    let number = |value: &Value, name: &str| value.get(name).and_then(Value::as_u64);
-    let users = items("accessors").iter().chain(items("images"));
-    let used: BTreeSet<u64> = users.filter_map(|user| number(user, "bufferView")).collect();
-    let others = items("bufferViews").iter().zip(0..).filter(|(_, index)| !used.contains(index));
-    let is_in_glb = |view: &Value| number(view, "buffer") == Some(0);
-    let bytes = |(view, _): (&Value, u64)| {
-        let start = number(view, "byteOffset").unwrap_or(0) as usize;
-        Some(binary.get(start..)?.get(..number(view, "byteLength")? as usize)?.to_vec())
-    };
-    others.filter(|(view, _)| is_in_glb(view)).map(bytes).collect()
-}
-
 impl CheckArguments {
     fn fix_options(&self) -> FixOptions {
         let codes = Code::ALL.iter().copied().filter(|&code| self.findings.reports(code));
@@ -288,10 +252,7 @@ impl Repair<'_> {
         let mut warnings = document.warnings().to_vec();
         warnings.extend(self.stale_output(job, fixed.is_changed));
         warnings.extend(left_out(&document, &job.output)?);
-        let is_written = |existing: &Path| {
-            let existing = reading.open(existing).ok().and_then(|existing| content(&existing));
-            existing.is_some() && existing == content(&document)
-        };
+        let is_written = |existing: &Path| document.is_saved_at(existing);
         let (status, files_written) = match self.written_before(&job.output, fixed.is_changed, is_written)? {
             Some(status) => (status, Vec::new()),
             None => save(&document, &job.output, files, fixed.is_changed)?,
