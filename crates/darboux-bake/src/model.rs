@@ -1,6 +1,7 @@
 //! The surfaces of glTF documents, in the space of the scene.
 
 mod content;
+mod decoded_bytes;
 mod decoded_image;
 mod high;
 mod low;

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use darboux::{Convention, UvOrigin};
+use darboux::{Convention, TexelLayout, UvOrigin};
 use darboux_io::gltf::Wrap;
+use darboux_io::image::RgbCodes;
 
 use crate::BakeError;
 use crate::texture_wrap::Mix;
@@ -13,11 +14,42 @@ use crate::vector::{Place, Vector};
 #[derive(Clone, Debug, PartialEq)]
 pub struct NormalTexture {
     size: [usize; 2],
-    /// In frames of the surface: as its generated tangents have them. Copies share them.
-    texels: Arc<Vec<[f32; 3]>>,
+    texels: Texels,
+    /// The factors of x and y that bring texels into frames of the surface, as its generated tangents have
+    /// them.
+    signs: [f32; 2],
     wrap: [Wrap; 2],
     scale: f32,
     flips_v: bool,
+}
+
+/// Texels, which textures share that differ in how they are read.
+#[derive(Clone, Debug, PartialEq)]
+enum Texels {
+    Codes(Arc<RgbCodes>),
+    Vectors(Arc<Vec<[f32; 3]>>),
+}
+
+impl Texels {
+    fn len(&self) -> usize {
+        match self {
+            Self::Vectors(vectors) => vectors.len(),
+            Self::Codes(codes) => match &**codes {
+                RgbCodes::Bytes(codes) => codes.len(),
+                RgbCodes::Words(codes) => codes.len(),
+            },
+        }
+    }
+
+    fn at(&self, index: usize) -> [f32; 3] {
+        match self {
+            Self::Vectors(vectors) => vectors[index],
+            Self::Codes(codes) => match &**codes {
+                RgbCodes::Bytes(codes) => TexelLayout::RGB.vector(codes[index]),
+                RgbCodes::Words(codes) => TexelLayout::RGB.vector(codes[index]),
+            },
+        }
+    }
 }
 
 impl NormalTexture {
@@ -28,21 +60,34 @@ impl NormalTexture {
     /// `surface_convention`: that of the surface that has the map. Errors: another number of texels.
     pub fn new(
         size: [u32; 2],
-        mut texels: Vec<[f32; 3]>,
+        texels: Vec<[f32; 3]>,
+        map_convention: Convention,
+        surface_convention: Convention,
+    ) -> Result<Self, BakeError> {
+        Self::of_texels(size, Texels::Vectors(Arc::new(texels)), map_convention, surface_convention)
+    }
+
+    /// As [`NormalTexture::new`], of the codes of a map of glTF on a surface of glTF.
+    pub(crate) fn of_codes(size: [u32; 2], codes: RgbCodes) -> Result<Self, BakeError> {
+        Self::of_texels(size, Texels::Codes(Arc::new(codes)), Convention::GLTF, Convention::GLTF)
+    }
+
+    fn of_texels(
+        size: [u32; 2],
+        texels: Texels,
         map_convention: Convention,
         surface_convention: Convention,
     ) -> Result<Self, BakeError> {
         let size = size.map(|side| side as usize);
-        if size[0].checked_mul(size[1]) != Some(texels.len()) || texels.is_empty() {
+        if size[0].checked_mul(size[1]) != Some(texels.len()) || texels.len() == 0 {
             let expected = size[0].saturating_mul(size[1]);
             return Err(BakeError::Texels { expected, found: texels.len() });
         }
         let conversion = map_convention.to(surface_convention.generated());
         let sign = |inverts| if inverts { -1.0 } else { 1.0 };
-        let [red, green] = [conversion.inverts_red(), conversion.inverts_green()].map(sign);
-        texels.iter_mut().for_each(|[x, y, _]| (*x, *y) = (red * *x, green * *y));
+        let signs = [conversion.inverts_red(), conversion.inverts_green()].map(sign);
         let flips_v = surface_convention.uv_origin == UvOrigin::BottomLeft;
-        Ok(Self { size, texels: Arc::new(texels), wrap: [Wrap::Repeat; 2], scale: 1.0, flips_v })
+        Ok(Self { size, texels, signs, wrap: [Wrap::Repeat; 2], scale: 1.0, flips_v })
     }
 
     /// This texture with other modes outside [0, 1], along u and v.
@@ -74,7 +119,10 @@ impl NormalTexture {
             return [0.0, 0.0, 1.0];
         }
         let [columns, rows] = [0, 1].map(|i| Mix::of(place[i], self.size[i], self.wrap[i]));
-        let texel = |row: usize, column: usize| self.texels[row * self.size[0] + column].map(f64::from);
+        let texel = |row: usize, column: usize| {
+            let [x, y, z] = self.texels.at(row * self.size[0] + column);
+            [self.signs[0] * x, self.signs[1] * y, z].map(f64::from)
+        };
         let row = |row: usize| columns.mixed(columns.texels.map(|column| texel(row, column)));
         let [x, y, z] = rows.mixed(rows.texels.map(row));
         [f64::from(self.scale) * x, f64::from(self.scale) * y, z]

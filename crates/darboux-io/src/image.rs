@@ -18,7 +18,8 @@ pub use channels::{Channels, ChannelsError};
 #[cfg(feature = "textures")]
 pub use decoding::{DecodeError, DecodeLimits};
 pub use normal_map::{
-    change_texels, convert_normal_map, count_invalid_normals, normal_vectors, set_normal_vectors,
+    RgbCodes, change_texels, convert_normal_map, count_invalid_normals, normal_vectors, rgb_codes,
+    set_normal_vectors,
 };
 pub use png_image::{PngImage, Sample};
 #[cfg(feature = "textures")]

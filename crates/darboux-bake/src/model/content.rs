@@ -6,8 +6,9 @@ use std::collections::{HashMap, HashSet};
 
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners, TextureUse};
-use darboux_io::image::{DecodeLimits, RgbaImage};
+use darboux_io::image::RgbaImage;
 
+use super::decoded_bytes::DecodedBytes;
 use super::decoded_image::DecodedImage;
 use crate::{BakeError, ColorTexture, HighSurface, MapKind, MapSet, MaterialProperty};
 
@@ -37,6 +38,7 @@ pub struct ColorTextures {
     known: HashMap<(Option<usize>, bool, String), Option<usize>>,
     /// By the source of the bytes and whether it is in sRGB; the error is a clause.
     decoded: HashMap<(DecodedImage, bool), Result<ColorTexture, String>>,
+    bytes: DecodedBytes,
     pub warnings: Vec<String>,
     /// The same, to give each once.
     warned: HashSet<String>,
@@ -169,7 +171,8 @@ impl ColorTextures {
             return known;
         }
         let source = (DecodedImage::of(document, used), is_srgb);
-        let decoded = self.decoded.entry(source).or_insert_with(|| decode(document, used, is_srgb));
+        let decoded = self.decoded.entry(source);
+        let decoded = decoded.or_insert_with(|| decode(document, used, is_srgb, &mut self.bytes));
         let index = match decoded.clone() {
             Ok(texture) => {
                 self.list.push(texture.with_wrap(used.wrap));
@@ -185,14 +188,21 @@ impl ColorTextures {
     }
 }
 
+/// Four bytes per texel, and for the levels above a third of sixteen.
+const BYTES_PER_TEXEL: [u64; 2] = [10; 2];
+
 /// The error is a clause.
-fn decode(document: &Document, used: &TextureUse, is_srgb: bool) -> Result<ColorTexture, String> {
-    let image = used.image.ok_or("its texture has no image; export it again with one")?;
-    let bytes = document.image_bytes(image).map_err(|error| error.to_string())?;
-    // Four bytes per texel, and for the levels above a third of sixteen.
-    let limits = DecodeLimits::default().with_max_texels(document.memory_limit_of(bytes.len()) / 10);
+fn decode(
+    document: &Document,
+    used: &TextureUse,
+    is_srgb: bool,
+    decoded: &mut DecodedBytes,
+) -> Result<ColorTexture, String> {
+    let (bytes, limits) = decoded.limits(document, used.image, BYTES_PER_TEXEL)?;
     let image = RgbaImage::decode(&bytes, &limits).map_err(|error| format!("the image {error}"))?;
-    ColorTexture::new([image.width, image.height], image.texels, is_srgb).map_err(|error| error.to_string())
+    let size = [image.width, image.height];
+    decoded.add(&bytes, size, BYTES_PER_TEXEL);
+    ColorTexture::new(size, image.texels, is_srgb).map_err(|error| error.to_string())
 }
 
 /// The colours of a primitive's vertices, opaque where they have no alpha. Errors: invalid data.

@@ -3,11 +3,12 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use darboux::{Convention, TangentOptions};
+use darboux::TangentOptions;
 use darboux_io::Error;
 use darboux_io::gltf::{Document, Material, PrimitiveCorners, TextureUse};
-use darboux_io::image::{Channels, DecodeLimits, PngImage, RgbaImage, normal_vectors};
+use darboux_io::image::{PngImage, RgbCodes, RgbaImage, rgb_codes};
 
+use super::decoded_bytes::DecodedBytes;
 use super::decoded_image::DecodedImage;
 use super::placed::PlacedPrimitive;
 use super::stored::StoredPrimitive;
@@ -34,6 +35,7 @@ pub struct Textures {
     materials: Option<Vec<Material>>,
     /// By the image, or the source of its bytes; the error is a clause.
     decoded: HashMap<DecodedImage, Result<NormalTexture, String>>,
+    bytes: DecodedBytes,
     pub warnings: Vec<String>,
 }
 
@@ -65,9 +67,8 @@ impl Textures {
         let Some(material) = materials.get(index).cloned() else { return Ok(None) };
         let Some(used) = &material.normal_texture else { return Ok(None) };
         let texture = self.decoded.entry(DecodedImage::of(document, used)).or_insert_with(|| {
-            let (size, texels) = decode(document, used)?;
-            NormalTexture::new(size, texels, Convention::GLTF, Convention::GLTF)
-                .map_err(|error| error.to_string())
+            let (size, codes) = decode(document, used, &mut self.bytes)?;
+            NormalTexture::of_codes(size, codes).map_err(|error| error.to_string())
         });
         match texture.clone() {
             Ok(texture) => {
@@ -115,20 +116,26 @@ impl Textures {
     }
 }
 
-/// The size and the vectors of a normal map: 8 or 16 bits of a PNG, 8 bits of other formats. The error is a
+/// The bytes of a texel with channels of 8 bits, and of 16 bits.
+const BYTES_PER_TEXEL: [u64; 2] = [3, 6];
+
+/// The size and the codes of a normal map: 8 or 16 bits of a PNG, 8 bits of other formats. The error is a
 /// clause.
-fn decode(document: &Document, used: &TextureUse) -> Result<([u32; 2], Vec<[f32; 3]>), String> {
-    let image = used.image.ok_or("its texture has no image; export it again with one")?;
-    let bytes = document.image_bytes(image).map_err(|error| error.to_string())?;
-    let name = format!("{}: images[{image}]", document.name());
+fn decode(
+    document: &Document,
+    used: &TextureUse,
+    decoded: &mut DecodedBytes,
+) -> Result<([u32; 2], RgbCodes), String> {
+    let (bytes, limits) = decoded.limits(document, used.image, BYTES_PER_TEXEL)?;
     if PngImage::is_png(&bytes) && PngImage::obstacle(&bytes).is_none() {
+        let name = format!("{}: images[{}]", document.name(), used.image.unwrap_or_default());
         let image = PngImage::from_bytes(&name, bytes.into_owned(), document.load_options());
         let image = image.map_err(|error| error.to_string())?;
-        let vectors = normal_vectors(&image, Channels::RGB).map_err(|error| error.to_string())?;
-        return Ok((image.size(), vectors));
+        let codes = rgb_codes(&image).map_err(|error| error.to_string())?;
+        return Ok((image.size(), codes));
     }
-    let limits = DecodeLimits::default().with_max_texels(document.memory_limit_of(bytes.len()) / 4);
     let image = RgbaImage::decode(&bytes, &limits).map_err(|error| format!("the image {error}"))?;
-    let vector = |[r, g, b, _]: &[u8; 4]| darboux::TexelLayout::RGB.vector([*r, *g, *b]);
-    Ok(([image.width, image.height], image.texels.iter().map(vector).collect()))
+    decoded.add(&bytes, [image.width, image.height], BYTES_PER_TEXEL);
+    let codes = image.texels.iter().map(|&[r, g, b, _]| [r, g, b]).collect();
+    Ok(([image.width, image.height], RgbCodes::Bytes(codes)))
 }

@@ -68,6 +68,17 @@ pub struct Document {
 impl Document {
     /// The memory that may be computed for a document of this size, or decompressed from it.
     pub(super) fn memory_limit(&self) -> Budget {
+        let [read, decompressed] = self.sizes();
+        self.options.budget(read, decompressed)
+    }
+
+    /// The bytes of the file and of its buffers, without images that are files.
+    pub fn source_size(&self) -> usize {
+        self.sizes()[0]
+    }
+
+    /// The bytes that were read, and those that were decompressed.
+    fn sizes(&self) -> [usize; 2] {
         let embedded = self.buffers.iter().map(|source| match source {
             BufferSource::Chunk | BufferSource::Absent(_) | BufferSource::New(_) => [0, 0],
             BufferSource::File(file) => [file.bytes.len(), 0],
@@ -75,8 +86,7 @@ impl Document {
             BufferSource::Decoded(bytes) => [0, bytes.len()],
         });
         let start = [self.file.len(), self.decompressed_bytes];
-        let [read, decompressed] = embedded.fold(start, |sum, bytes| [sum[0] + bytes[0], sum[1] + bytes[1]]);
-        self.options.budget(read, decompressed)
+        embedded.fold(start, |sum, bytes| [sum[0] + bytes[0], sum[1] + bytes[1]])
     }
 
     /// The most bytes that may be decoded from `size` bytes of an image: the memory limit of [`LoadOptions`]

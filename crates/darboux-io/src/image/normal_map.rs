@@ -49,6 +49,32 @@ pub fn normal_vectors(image: &PngImage, channels: Channels) -> Result<Vec<[f32; 
     })
 }
 
+/// The codes of red, green and blue of all texels, row after row.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[expect(clippy::exhaustive_enums, reason = "samples of images have 8 or 16 bits")]
+pub enum RgbCodes {
+    /// Codes of 8 bits.
+    Bytes(Vec<[u8; 3]>),
+    /// Codes of 16 bits.
+    Words(Vec<[u16; 3]>),
+}
+
+/// The codes of red, green and blue, which take less memory than [`normal_vectors`]. Errors: the image does
+/// not have the channels.
+pub fn rgb_codes(image: &PngImage) -> Result<RgbCodes, Error> {
+    fn picked<C: Copy>(channels: &[C], samples: usize, [r, g, b]: [usize; 3]) -> Vec<[C; 3]> {
+        channels.chunks_exact(samples).map(|texel| [texel[r], texel[g], texel[b]]).collect()
+    }
+    let lacks = || lacks(image, Channels::RGB);
+    let (red, green, blue) = Channels::RGB.indices(image.color).ok_or_else(lacks)?;
+    let indices = [red, green, blue.ok_or_else(lacks)?];
+    let samples = image.color.samples();
+    Ok(match &image.texels {
+        Texels::Bytes(bytes) => RgbCodes::Bytes(picked(bytes, samples, indices)),
+        Texels::Words(words) => RgbCodes::Words(picked(words, samples, indices)),
+    })
+}
+
 /// Replaces the vectors of all texels; each component becomes the nearest code. Other channels keep their
 /// content.
 ///

@@ -148,6 +148,13 @@ impl PngImage {
         bytes.starts_with(&chunks::SIGNATURE)
     }
 
+    /// The width and height in the header of a PNG; none for other files.
+    pub fn size_of(file: &[u8]) -> Option<[u32; 2]> {
+        let header = file.get(..24).filter(|header| Self::is_png(header) && &header[12..16] == b"IHDR")?;
+        let number = |at: usize| header[at..].first_chunk().map(|&bytes| u32::from_be_bytes(bytes));
+        Some([number(16)?, number(20)?])
+    }
+
     /// Why a file cannot be read as an image of this kind, judged by its header and the kinds of its chunks,
     /// as a clause whose subject is the image; none if it can, unless its texels are damaged.
     pub fn obstacle(file: &[u8]) -> Option<String> {
