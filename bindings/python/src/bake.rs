@@ -8,6 +8,7 @@ use darboux_bake::{
     LowSurface, MapKind, MapSet, MaterialProperty, SkewCorrection, Udim, bake as bake_surfaces,
     inflated_cage,
 };
+use darboux_io::memory_of_process;
 use numpy::prelude::*;
 use numpy::{PyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
@@ -170,7 +171,8 @@ pub fn bake<'py>(
         .with_thickness_distance(thickness_distance)
         .with_curvature_radius(choice("curvature_unit", curvature_unit, UNITS)?(curvature_radius))
         .with_world_direction(world_direction.into())
-        .with_udim(tile(udim)?);
+        .with_udim(tile(udim)?)
+        .with_memory_limit(memory_of_process());
     let low = MeshArrays::new(positions, normals, uvs, indices, None)?;
     let tangents = Rows::<4>::new("tangents", "C", tangents)?;
     let tangents = tangents.packed()?;

@@ -6,7 +6,7 @@ use std::sync::mpsc::Sender;
 
 use darboux::{Cancel, Context};
 use darboux_io::gltf::{self, AddNormalsOptions, AddTangentsOptions, IndexList, Progress, TangentEncoding};
-use darboux_io::{LoadOptions, MemoryLimit, OptionNames, SaveOptions};
+use darboux_io::{LoadOptions, MemoryLimit, OptionNames, SaveOptions, memory_of_process};
 use pyo3::exceptions::{PyIndexError, PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -37,7 +37,7 @@ pub struct Document {
 ///     Also read files outside the document's folder.
 /// memory_limit : int, optional
 ///     The most memory for decoding the file and computing from it, in MiB. By default 256 MiB plus 64 times
-/// the size of the file.
+/// the size of the file, and at most what the process may still use by ulimit -v or its control groups.
 ///
 /// Raises
 /// ------
@@ -90,12 +90,14 @@ pub fn loads(
 
 /// The options of the reader, with the names of Python's parameters for messages.
 pub fn load_options(memory_limit: Option<Natural>) -> LoadOptions {
-    let limit = memory_limit.map(|Natural(mebibytes)| MemoryLimit::bytes(u64::from(mebibytes) << 20));
+    let chosen = memory_limit.map(|Natural(mebibytes)| MemoryLimit::bytes(u64::from(mebibytes) << 20));
+    // Measured for each call, because arrays of the program come and go.
+    let limit = chosen.unwrap_or_else(|| MemoryLimit::of_process(memory_of_process()));
     let names = OptionNames::default()
         .with_memory_limit("memory_limit=")
         .with_allow_outside("allow_outside=True")
         .with_apply_texture_transform("apply_texture_transform=True");
-    LoadOptions::default().with_memory_limit(limit.unwrap_or_default()).with_option_names(names)
+    LoadOptions::default().with_memory_limit(limit).with_option_names(names)
 }
 
 /// Return a document as the bytes of a GLB with all its buffers and images, except remote and missing ones.

@@ -3,6 +3,11 @@
 import inspect
 import random
 import re
+import struct
+import subprocess
+import sys
+import zlib
+from pathlib import Path
 from typing import Any, Dict
 
 import darboux
@@ -182,3 +187,26 @@ def test_random_arguments_everywhere() -> None:
         except (ValueError, TypeError, OSError) as error:
             assert "\n" not in str(error), (function, arguments)
     assert len(returned) > len(functions) / 2, returned
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of addresses are Linux's")
+def test_limits_of_the_process_count(tmp_path: Path) -> None:
+    """An image that decodes to more than the process may use is named, and does not end the process."""
+    rows = b"".join(b"\0" + b"\x80\x80\xff" * 5000 for _ in range(5000))
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = chunk(b"IHDR", struct.pack(">IIBBBBB", 5000, 5000, 8, 2, 0, 0, 0))
+    png = b"\x89PNG\r\n\x1a\n" + header + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
+    path = tmp_path / "map.png"
+    path.write_bytes(png)
+    assert "5000 x 5000 texels" not in str(darboux.check(path))
+    program = """
+import resource, sys, darboux
+used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used + (100 << 20),) * 2)
+print(darboux.check(sys.argv[1]))
+"""
+    run = subprocess.run([sys.executable, "-c", program, str(path)], capture_output=True, text=True, check=False)
+    assert run.returncode == 0 and "5000 x 5000 texels" in run.stdout, run.stderr + run.stdout

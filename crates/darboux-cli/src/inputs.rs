@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use darboux_io::{FileKind, system_reason};
 use walkdir::{DirEntry, WalkDir};
 
+use crate::memory;
 use crate::options::reading::missing_reader;
 use crate::paths::canonical;
 use crate::text::counted;
@@ -34,6 +35,14 @@ impl Input {
         match self {
             Input::File(path) => Path::metadata(path).map_or(0, |metadata| metadata.len()),
             Input::Stdin => 0,
+        }
+    }
+
+    /// The bytes that processing the file takes at most.
+    pub fn memory(&self) -> u64 {
+        match self {
+            Input::File(path) => memory::of_file(path),
+            Input::Stdin => memory::of_stream(),
         }
     }
 }

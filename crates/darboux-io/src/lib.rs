@@ -40,6 +40,7 @@ pub mod obj;
 mod paths;
 #[cfg(feature = "ply")]
 mod ply;
+mod process_memory;
 mod readers;
 pub mod source;
 mod staging;
@@ -52,6 +53,7 @@ pub use files::Files;
 pub use load_options::{LoadOptions, OptionNames};
 pub use memory_limit::MemoryLimit;
 pub use paths::{FileKind, read_regular, resolve_input, wrong_output};
+pub use process_memory::memory_of_process;
 pub use staging::{Outputs, RunId, SaveOptions};
 pub use temporary::{Discarded, discard_unfinished_outputs};
 

@@ -41,12 +41,12 @@ pub fn run(arguments: &BakeArguments, messages: &Messages) -> u8 {
     }
     interrupt::wait_for_writes();
     messages.start(progress_units(arguments));
-    let done = bake_files(arguments, None, messages);
+    let done = bake_files(arguments, None, memory::available(None), messages);
     messages.end_progress();
     let report = match done {
         Ok(report) => report,
-        Err(sentence) => {
-            messages.error(&sentence);
+        Err(failure) => {
+            messages.error(&String::from(failure));
             return exit::FAILED;
         }
     };
@@ -71,14 +71,45 @@ pub fn check_usage(arguments: &BakeArguments) -> Result<(), String> {
     refuse_twice(&outputs_of(arguments, 0), &all_inputs(arguments))
 }
 
-/// Reads, bakes and writes. Errors are one sentence each.
+/// Why a bake has failed, in one sentence.
+#[derive(Debug)]
+pub enum BakeFailure {
+    /// It needs more memory than it may use.
+    Memory(String),
+    Other(String),
+}
+
+impl From<String> for BakeFailure {
+    fn from(sentence: String) -> Self {
+        Self::Other(sentence)
+    }
+}
+
+impl From<BakeError> for BakeFailure {
+    fn from(error: BakeError) -> Self {
+        let sentence = error.to_string();
+        if matches!(error, BakeError::Memory { .. }) { Self::Memory(sentence) } else { Self::Other(sentence) }
+    }
+}
+
+impl From<BakeFailure> for String {
+    fn from(failure: BakeFailure) -> Self {
+        match failure {
+            BakeFailure::Memory(sentence) | BakeFailure::Other(sentence) => sentence,
+        }
+    }
+}
+
+/// Reads, bakes and writes.
 ///
-/// `run`: the run of a job that the files belong to.
+/// `run`: the run of a job that the files belong to; `memory_limit`: the bytes that the bake may use beside
+/// the models.
 pub fn bake_files(
     arguments: &BakeArguments,
     run: Option<RunId>,
+    memory_limit: Option<u64>,
     messages: &Messages,
-) -> Result<BakeReport, String> {
+) -> Result<BakeReport, BakeFailure> {
     let (mut clock, mut warnings) = (Clock::start(), Vec::new());
     let documents = Documents::open(arguments, &mut warnings)?;
     let corners = documents.corners()?;
@@ -90,23 +121,22 @@ pub fn bake_files(
     let mut rays = Rays::choose(arguments, &models.low);
     let mut surfaces = models.low.surfaces().map_err(sentence)?;
     let high_surfaces = models.high_surfaces(arguments, &mut surfaces, &mut warnings)?;
-    let tiles = tiles_of(arguments, &surfaces, &documents.inputs)?;
+    let tiles = tiles_of(arguments, &surfaces, &documents.inputs, memory_limit)?;
     if arguments.verify {
-        let check = check_verification(&surfaces, &high_surfaces, &options(arguments, &rays));
+        let check = check_verification(&surfaces, &high_surfaces, &options(arguments, &rays, memory_limit));
         check.map_err(|error| format!("--verify cannot follow the bake: {error}"))?;
     }
     let mut seconds = Seconds { reading: clock.lap(), ..Seconds::default() };
     let mut context = context(arguments);
-    let prepared = PreparedSurfaces::new(&surfaces, &high_surfaces, memory::available(), &context);
-    let prepared = prepared.map_err(text)?;
+    let prepared = PreparedSurfaces::new(&surfaces, &high_surfaces, memory_limit, &context)?;
     let cage = documents.cage.as_ref();
     let cages = Cages::read(arguments, cage, &mut rays, &models.low, &surfaces, &prepared, &mut context)?;
-    let mut surfaces = cages.around(surfaces).map_err(text)?;
+    let mut surfaces = cages.around(surfaces)?;
     if let Some(skew) = &skew {
-        surfaces = skew.on(surfaces).map_err(text)?;
+        surfaces = skew.on(surfaces)?;
     }
     warnings.extend(advice::of_rays(arguments, &surfaces, models.low.names(), rays.distance()[0]));
-    let surfaces = prepared.with_low(&surfaces, &context).map_err(text)?;
+    let surfaces = prepared.with_low(&surfaces, &context)?;
 
     seconds.building = clock.lap();
 
@@ -136,7 +166,7 @@ pub fn bake_files(
         warnings: Vec::new(),
     };
     for tile in &tiles {
-        bake.tile(tile, &options(arguments, &rays).with_udim(tile.udim), &mut report)?;
+        bake.tile(tile, &options(arguments, &rays, memory_limit).with_udim(tile.udim), &mut report)?;
     }
     let Run { page, mut outputs, warnings, .. } = bake;
     report.warnings = distinct(warnings);
@@ -160,17 +190,22 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Bakes a tile, stages its files and adds it to the report. Errors are one sentence each.
-    fn tile(&mut self, tile: &Tile, options: &BakeOptions, report: &mut BakeReport) -> Result<(), String> {
+    /// Bakes a tile, stages its files and adds it to the report.
+    fn tile(
+        &mut self,
+        tile: &Tile,
+        options: &BakeOptions,
+        report: &mut BakeReport,
+    ) -> Result<(), BakeFailure> {
         let Tile { udim, arguments } = tile;
         let low = &self.models.low;
         let progress = self.messages.file(&arguments.output.display().to_string(), PROGRESS_UNITS);
         let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
-        let baked = self.surfaces.bake(options, &mut self.context, &mut tell).map_err(text)?;
+        let baked = self.surfaces.bake(options, &mut self.context, &mut tell)?;
         drop(tell);
         report.seconds.rays += self.clock.lap();
         if let Some(reason) = advice::failure(&baked.report, arguments, low.elongation()) {
-            return Err(udim.map_or(reason.clone(), |udim| format!("tile {udim}: {reason}")));
+            return Err(udim.map_or(reason.clone(), |udim| format!("tile {udim}: {reason}")).into());
         }
         let outputs = &mut self.outputs;
         let mut written = stage_maps(arguments, &baked.images, options, outputs)?;
@@ -229,10 +264,6 @@ fn context(arguments: &BakeArguments) -> Context {
         context.set_max_threads(usize::from(jobs.get()));
     }
     context
-}
-
-fn text(error: BakeError) -> String {
-    error.to_string()
 }
 
 /// Sentences in their order, each once: a model may be LOW and HIGH.
@@ -331,7 +362,7 @@ fn low_options(arguments: &BakeArguments) -> LowModelOptions {
         .with_material(arguments.material)
 }
 
-fn options(arguments: &BakeArguments, rays: &Rays) -> BakeOptions {
+fn options(arguments: &BakeArguments, rays: &Rays, memory_limit: Option<u64>) -> BakeOptions {
     let content = &arguments.content;
     let world_direction = content.world_direction.0;
     BakeOptions::new(arguments.size, rays.distance())
@@ -349,5 +380,5 @@ fn options(arguments: &BakeArguments, rays: &Rays) -> BakeOptions {
         .with_curvature_radius(content.curvature_radius)
         .with_id_source(content.id_from)
         .with_world_direction(world_direction)
-        .with_memory_limit(memory::available())
+        .with_memory_limit(memory_limit)
 }

@@ -15,6 +15,7 @@ use super::report::{CheckedFile, ReportedMap};
 use super::source;
 use crate::documents::Source;
 use crate::inputs::{FoundInputs, Input};
+use crate::memory::JobMemory;
 use crate::net;
 use crate::options::reading::ReadOptions;
 
@@ -43,10 +44,12 @@ impl Checks<'_> {
     fn check_all(&self, inputs: &[&Input]) -> Vec<CheckedFile> {
         let next = AtomicUsize::new(0);
         let checked: Vec<OnceLock<CheckedFile>> = inputs.iter().map(|_| OnceLock::new()).collect();
+        let memory = JobMemory::of_process();
         let work = || {
             loop {
                 let number = next.fetch_add(1, Ordering::Relaxed);
                 let Some(input) = inputs.get(number) else { return };
+                let _share = memory.take(|| input.memory());
                 // Every number is taken once.
                 _ = checked[number].set(self.check_file(input));
             }

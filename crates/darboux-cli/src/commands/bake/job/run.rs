@@ -1,7 +1,7 @@
 //! Bakes the entries of a job.
 
+use std::cell::Cell;
 use std::collections::HashSet;
-use std::fs;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -17,12 +17,12 @@ use crate::commands::bake::arguments::{BakeArguments, OwnOutputs};
 use crate::commands::bake::conflicts::{InputFile, all_inputs, files_of, outputs_of, refuse_twice};
 use crate::commands::bake::outputs::refuse_existing;
 use crate::commands::bake::report::{BakeReport, summary};
-use crate::commands::bake::single::{bake_files, check_usage, progress_units};
+use crate::commands::bake::single::{BakeFailure, bake_files, check_usage, progress_units};
 use crate::commands::bake::skew::SkewChoice;
 use crate::commands::bake::tile_names::has_place;
 use crate::exit;
 use crate::json::{VERSION, print_report};
-use crate::memory::JobMemory;
+use crate::memory::{self, JobMemory, Share};
 use crate::net;
 use crate::options::files::new_run;
 use crate::options::reading::ReadOptions;
@@ -59,7 +59,7 @@ pub fn run(arguments: &BakeArguments, Job { entries, warnings }: Job, messages: 
         JobReport { command: "bake", version: VERSION, bakes: Vec::new(), up_to_date: 0, errors: Vec::new() };
     let _note = journal.as_ref().and_then(Journal::note_interrupts);
     messages.start(entries.iter().map(|entry| progress_units(&entry.arguments)).sum());
-    let job = Work { arguments, journal: journal.as_ref(), run, messages, memory: JobMemory::of_process() };
+    let job = Work { arguments, journal: journal.as_ref(), run, messages, memory: JobMemory::available() };
     job.bake_all(&entries, &mut |done| match done {
         Ok(Some(baked)) => {
             print_baked(&baked, messages);
@@ -194,16 +194,30 @@ impl Work<'_> {
     fn bake(&self, entry: &Entry) -> Done {
         let recorded = self.journal.map(|journal| Recorded::of(journal, entry));
         let arguments = arguments_of(entry, recorded)?;
-        self.caught(entry, || bake_entry(&arguments, &entry.options, recorded, self.run, self.messages))
+        let bake = |limit| bake_entry(&arguments, &entry.options, recorded, self.run, limit, self.messages);
+        self.caught(entry, bake)
     }
 
-    /// Bakes an entry, and writes the journal. A panic fails this entry alone.
-    fn caught(&self, entry: &Entry, bake: impl FnOnce() -> Result<BakedEntry, String>) -> Done {
-        let BakeArguments { low, high, output, .. } = &entry.arguments;
-        let sizes =
-            high.iter().chain([low]).filter_map(|path| fs::metadata(path).ok()).map(|file| file.len());
-        let _share = self.memory.take(sizes.sum());
-        let work = || match net::catch(&low.display(), bake) {
+    /// Bakes an entry within a share of the memory, and writes the journal. A panic fails this entry alone.
+    fn caught(&self, entry: &Entry, bake: impl Fn(Option<u64>) -> Result<BakedEntry, BakeFailure>) -> Done {
+        let BakeArguments { low, output, .. } = &entry.arguments;
+        let share = Cell::new(Some(self.memory.take(|| memory_of(&entry.arguments))));
+        let within_share = || {
+            let limit = |share: &Share<'_>| memory::available(share.limit());
+            let Some(mine) = share.take() else { return bake(None) };
+            let done = bake(limit(&mine));
+            if mine.is_whole() || !matches!(done, Err(BakeFailure::Memory(_))) {
+                share.set(Some(mine));
+                return done;
+            }
+            // The estimate was too small: alone, it may use all memory.
+            drop(mine);
+            let whole = self.memory.take(|| u64::MAX);
+            let done = bake(limit(&whole));
+            share.set(Some(whole));
+            done
+        };
+        let work = || match net::catch(&low.display(), || within_share().map_err(String::from)) {
             Ok(BakedEntry { report, record }) => (Ok(report), record),
             Err(sentence) => (Err(sentence), None),
         };
@@ -215,6 +229,17 @@ impl Work<'_> {
             }
         }
     }
+}
+
+/// The bytes that a bake needs, about: its models, and its images while they are made, which have up to four
+/// channels per map.
+fn memory_of(arguments: &BakeArguments) -> u64 {
+    let BakeArguments { low, high, cage, size, .. } = arguments;
+    let files = high.iter().chain([low]).chain(cage);
+    let files = files.map(|path| memory::of_file(path));
+    let texels = u64::from(size[0]) * u64::from(size[1]);
+    let maps = arguments.baked_maps().kinds().count() as u64;
+    files.fold(0, u64::saturating_add).saturating_add(texels * (64 + 24 * maps))
 }
 
 /// What a journal says about an entry.
@@ -266,23 +291,24 @@ pub fn arguments_of(entry: &Entry, recorded: Option<Recorded<'_>>) -> Result<Bak
 }
 
 /// Bakes an entry, unless an earlier run has done it. `arguments`: of [`arguments_of`]; `recorded`: none
-/// without `--resume`. Errors are one sentence each.
+/// without `--resume`; `memory_limit`: the bytes that the bake may use.
 pub fn bake_entry(
     arguments: &BakeArguments,
     options: &str,
     recorded: Option<Recorded<'_>>,
     run: RunId,
+    memory_limit: Option<u64>,
     messages: &Messages,
-) -> Result<BakedEntry, String> {
+) -> Result<BakedEntry, BakeFailure> {
     let Some(Recorded { folder, record, .. }) = recorded else {
-        let report = bake_files(arguments, None, messages)?;
+        let report = bake_files(arguments, None, memory_limit, messages)?;
         return Ok(BakedEntry { report: Some(report), record: None });
     };
     let inputs = inputs_of(arguments, options.to_owned())?;
     if record.is_some_and(|record| record.is_up_to_date(&inputs, folder)) {
         return Ok(BakedEntry { report: None, record: None });
     }
-    let report = bake_files(arguments, Some(run), messages)?;
+    let report = bake_files(arguments, Some(run), memory_limit, messages)?;
     let record = Record::new(folder, &arguments.output, inputs, &report.files(), &report)?;
     Ok(BakedEntry { report: Some(report), record })
 }
@@ -324,6 +350,8 @@ fn totals(report: &JobReport) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
     use crate::commands::bake::job::file;
 
@@ -339,11 +367,10 @@ mod tests {
         let run = new_run();
         let journal = Journal::open(folder.path(), run).unwrap();
         let (arguments, messages) = (&entries[0].arguments, &Messages::new(true));
-        let work =
-            Work { arguments, journal: Some(&journal), run, messages, memory: JobMemory::of_process() };
-        let sentence = work.caught(&entries[0], || panic!("no such row")).unwrap_err();
+        let work = Work { arguments, journal: Some(&journal), run, messages, memory: JobMemory::available() };
+        let sentence = work.caught(&entries[0], |_| panic!("no such row")).unwrap_err();
         assert!(sentence.contains("a.glb: darboux failed on this file: no such row; this is"), "{sentence}");
-        let next = work.caught(&entries[1], || Ok(BakedEntry { report: None, record: None }));
+        let next = work.caught(&entries[1], |_| Ok(BakedEntry { report: None, record: None }));
         assert!(next.unwrap().is_none());
         // The run was not killed, so the next one tries it again with the others.
         drop(journal);

@@ -1,0 +1,250 @@
+//! Files whose parts share their content, and jobs that share the memory of the process: what one needs alone
+//! is enough for many.
+
+#![cfg(target_os = "linux")]
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use common::limited::ends_in_time;
+use common::{Run, darboux_with_addresses, names_in, text};
+use darboux_io::image::PngImage;
+use serde_json::{Value, json};
+
+/// A PNG of one colour, which a map of a plane has.
+fn flat(side: usize) -> Vec<u8> {
+    let texels = vec![[128u8, 128, 255]; side * side];
+    let image = PngImage::from_rgb("map", [side as u32; 2], &texels).expect("an image");
+    image.to_bytes().expect("a file")
+}
+
+/// A square in a buffer, with normals of a length, and what describes it: accessors 0 to 3 and a view 4 of
+/// `data`.
+fn square(length: f32, data: &[u8], members: Value) -> Vec<u8> {
+    let corners = [[0.0f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let of =
+        |vector: &dyn Fn([f32; 2]) -> Vec<f32>| corners.into_iter().flat_map(vector).collect::<Vec<f32>>();
+    let mut binary: Vec<u8> = Vec::new();
+    let mut views = Vec::new();
+    let mut add = |bytes: &[u8]| {
+        views.push(json!({ "buffer": 0, "byteOffset": binary.len(), "byteLength": bytes.len() }));
+        binary.extend(bytes);
+        binary.resize(binary.len().next_multiple_of(4), 0);
+    };
+    for floats in
+        [of(&|[x, y]| vec![x, y, 0.0]), of(&|_| vec![0.0, 0.0, length]), of(&|[x, y]| vec![x, 1.0 - y])]
+    {
+        add(&floats.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>());
+    }
+    add(&[0u32, 1, 2, 0, 2, 3].iter().flat_map(|index| index.to_le_bytes()).collect::<Vec<u8>>());
+    add(data);
+    let accessor = |view: usize, count: usize, kind: &str| {
+        let component = if kind == "SCALAR" { 5125 } else { 5126 };
+        json!({ "bufferView": view, "componentType": component, "count": count, "type": kind })
+    };
+    let mut json = json!({
+        "asset": { "version": "2.0" },
+        "buffers": [{ "byteLength": binary.len() }],
+        "bufferViews": views,
+        "accessors": [accessor(0, 4, "VEC3"), accessor(1, 4, "VEC3"), accessor(2, 4, "VEC2"), accessor(3, 6, "SCALAR")],
+    });
+    for (name, value) in members.as_object().expect("members") {
+        match json.get_mut(name).and_then(Value::as_array_mut) {
+            Some(array) => array.extend(value.as_array().expect("an array").iter().cloned()),
+            None => json[name] = value.clone(),
+        }
+    }
+    let chunk = |kind: &[u8; 4], content: &[u8], padding: u8| {
+        let length = content.len().next_multiple_of(4);
+        let mut bytes = [&(length as u32).to_le_bytes()[..], kind, content].concat();
+        bytes.resize(8 + length, padding);
+        bytes
+    };
+    let chunks = [chunk(b"JSON", json.to_string().as_bytes(), b' '), chunk(b"BIN\0", &binary, 0)].concat();
+    [b"glTF", &2u32.to_le_bytes()[..], &(12 + chunks.len() as u32).to_le_bytes(), &chunks].concat()
+}
+
+/// Primitives with a material each, and images over the same bytes, which `texture` of a material uses.
+fn materials(count: usize, images: usize, map: &[u8], material: impl Fn(Value) -> Value) -> Vec<u8> {
+    let attributes = json!({ "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 });
+    let all = |count: usize, value: &dyn Fn(usize) -> Value| (0..count).map(value).collect::<Vec<Value>>();
+    square(
+        1.0,
+        map,
+        json!({
+            "images": all(images, &|_| json!({ "bufferView": 4, "mimeType": "image/png" })),
+            "textures": all(images, &|index| json!({ "source": index })),
+            "materials": all(count, &|index| material(json!({ "index": index % images }))),
+            "meshes": [{ "primitives": all(count, &|index| {
+                json!({ "attributes": attributes, "indices": 3, "material": index })
+            }) }],
+            "nodes": [{ "mesh": 0 }],
+        }),
+    )
+}
+
+#[test]
+fn an_image_is_decoded_once_for_all_materials() {
+    let map = flat(2000);
+    let normal = |texture: Value| json!({ "normalTexture": texture });
+    let color = |texture: Value| json!({ "pbrMetallicRoughness": { "baseColorTexture": texture } });
+    for images in [1, 50] {
+        let line = "bake IN --high IN -o out.png --size 16";
+        ends_in_time("m.glb", &materials(50, images, &map, normal), &[line]);
+        let line = "bake IN --high IN -o out.png --size 16 --map base-color";
+        ends_in_time("m.glb", &materials(50, images, &map, color), &[line]);
+    }
+    // Many materials, each of which is looked up.
+    let line = "bake IN --high IN -o out.png --size 16";
+    ends_in_time("m.glb", &materials(4000, 4000, &flat(4), normal), &[line]);
+}
+
+/// Images that are not the same share a limit.
+#[test]
+fn different_images_are_decoded_within_one_limit() {
+    let map = flat(4000);
+    let attributes = json!({ "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 });
+    let all = |value: &dyn Fn(usize) -> Value| (0..20).map(value).collect::<Vec<Value>>();
+    let mut data = map.clone();
+    data.extend([0; 20]);
+    let first = 48 + 48 + 32 + 24;
+    // What follows a PNG belongs to no image.
+    let view = |i: usize| json!({ "buffer": 0, "byteOffset": first, "byteLength": map.len() + i });
+    let file = square(
+        1.0,
+        &data,
+        json!({
+            "bufferViews": all(&view),
+            "images": all(&|i| json!({ "bufferView": 5 + i, "mimeType": "image/png" })),
+            "textures": all(&|i| json!({ "source": i })),
+            "materials": all(&|i| json!({ "normalTexture": { "index": i } })),
+            "meshes": [{ "primitives": all(&|i| {
+                json!({ "attributes": attributes, "indices": 3, "material": i })
+            }) }],
+            "nodes": [{ "mesh": 0 }],
+        }),
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("m.glb");
+    fs::write(&path, &file).expect("a file");
+    let (model, map) = (text(&path), folder.path().join("out.png"));
+    let arguments = ["bake", model, "--high", model, "-o", text(&map), "--size", "16"];
+    let run = darboux_with_addresses((512 << 20) + 10 * file.len(), &arguments).exits(0);
+    let left_out =
+        run.stderr.matches("and those of the images before need more than the memory limit").count();
+    assert!((1..20).contains(&left_out), "{left_out}: {}", run.stderr);
+    assert!(run.stderr.contains("raise the limit (--memory-limit)"), "{}", run.stderr);
+}
+
+/// The output of an earlier run is compared with what would be written, without copies of accessors.
+#[test]
+fn an_earlier_repair_is_recognised_without_copies() {
+    let elements = 100_000;
+    let accessor = json!({ "bufferView": 4, "componentType": 5126, "count": elements, "type": "VEC3" });
+    let attributes = json!({ "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 });
+    let file = square(
+        2.0,
+        &vec![0; 12 * elements],
+        json!({
+            "accessors": vec![accessor; 3000],
+            "images": [{ "uri": "missing.png" }],
+            "textures": [{ "source": 0 }],
+            "materials": [{ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }],
+            "meshes": [{ "primitives": [{ "attributes": attributes, "indices": 3, "material": 0 }] }],
+            "nodes": [{ "mesh": 0 }],
+        }),
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("m.glb");
+    fs::write(&path, &file).expect("a file");
+    let run = || {
+        let arguments = ["check", text(&path), "--fix", "--fail-on", "never"];
+        darboux_with_addresses((512 << 20) + 10 * file.len(), &arguments).exits(0)
+    };
+    run();
+    assert_eq!(names_in(folder.path()), ["m.fixed.glb", "m.glb"]);
+    let written =
+        fs::metadata(folder.path().join("m.fixed.glb")).expect("a file").modified().expect("a time");
+    let second = run();
+    assert!(second.stderr.contains("up to date, not written"), "{}", second.stderr);
+    let after = fs::metadata(folder.path().join("m.fixed.glb")).expect("a file").modified().expect("a time");
+    assert_eq!(written, after);
+}
+
+/// A `.gltf` whose file for new data is another one is not what would be written.
+#[test]
+fn an_earlier_repair_is_compared_with_its_buffers() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let attributes = json!({ "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 });
+    let members = json!({
+        "meshes": [{ "primitives": [{ "attributes": attributes, "indices": 3 }] }],
+        "nodes": [{ "mesh": 0 }],
+    });
+    let [glb, model] = ["m.glb", "m.gltf"].map(|name| folder.path().join(name));
+    fs::write(&glb, square(2.0, &[], members)).expect("a file");
+    let convert = ["convert", text(&glb), "--from", "gltf", "--to", "gltf", "-o", text(&model)];
+    common::darboux(&convert).exits(0);
+    let fix = ["check", text(&model), "--fix", "--fail-on", "never"];
+    common::darboux(&fix).exits(0);
+    assert!(common::darboux(&fix).exits(0).stderr.contains("up to date, not written"));
+    let fixed = folder.path().join("m.fixed.bin");
+    let mut bytes = fs::read(&fixed).expect("a buffer");
+    bytes[0] ^= 1;
+    fs::write(&fixed, bytes).expect("a file");
+    let refused = common::darboux(&fix).exits(1);
+    assert!(refused.stderr.contains("other data would be written"), "{}", refused.stderr);
+}
+
+/// Runs the command with limits in a folder, and glibc's memory for each thread in one heap.
+fn limited(folder: &Path, mebibytes: usize, arguments: &[&str]) -> Run {
+    let script = format!("ulimit -v {} && exec \"$0\" \"$@\"", mebibytes << 10);
+    let output = Command::new("sh")
+        .env("MALLOC_ARENA_MAX", "1")
+        .args(["-c", &script, env!("CARGO_BIN_EXE_darboux")])
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .expect("a shell");
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    Run { code: output.status.code().expect("the command ends by itself"), stdout: output.stdout, stderr }
+}
+
+/// Small images that are large in memory.
+#[test]
+fn images_wait_for_the_memory_that_their_heads_declare() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (map, count) = (flat(2500), 5);
+    for index in 0..count {
+        fs::write(folder.path().join(format!("map{index}.png")), &map).expect("a file");
+    }
+    let names: Vec<String> = (0..count).map(|index| format!("map{index}.png")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let limited = |arguments: &[&[&str]]| limited(folder.path(), 300, &arguments.concat()).exits(0);
+    limited(&[&["check", "map0.png"]]);
+    limited(&[&["check", "--jobs", "5"], &names]);
+    limited(&[&["convert", "--from", "opengl", "--to", "directx", "--jobs", "5"], &names]);
+    assert_eq!(names_in(folder.path()).len(), 2 * count);
+}
+
+/// Bakes of a job that fit one by one.
+#[test]
+fn bakes_of_a_job_wait_for_the_memory_of_their_maps() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let attributes = json!({ "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 });
+    let members = json!({
+        "meshes": [{ "primitives": [{ "attributes": attributes, "indices": 3 }] }],
+        "nodes": [{ "mesh": 0 }],
+    });
+    fs::write(folder.path().join("m.glb"), square(1.0, &[], members)).expect("a file");
+    let entry = |index: usize| {
+        format!(
+            "[[bake]]\nlow = \"m.glb\"\nhigh = \"m.glb\"\noutput = \"{index}.png\"\nsize = 1024\nmap = [\"normal\", \"position\"]\n"
+        )
+    };
+    fs::write(folder.path().join("job.toml"), (0..6).map(entry).collect::<String>()).expect("a file");
+    limited(folder.path(), 250, &["bake", "job.toml", "--jobs", "6"]).exits(0);
+    assert_eq!(names_in(folder.path()).iter().filter(|name| name.ends_with("normal.png")).count(), 6);
+}
