@@ -233,6 +233,8 @@ struct SharedBytes {
     /// Whether positions are stored apart for one vertex.
     is_sparse: bool,
     nodes: usize,
+    /// Whether each primitive is in a mesh of its own.
+    own_meshes: bool,
 }
 
 impl SharedBytes {
@@ -269,9 +271,11 @@ impl SharedBytes {
             })
         };
         let primitives: Vec<Value> = (0..primitives).map(primitive).collect();
+        let meshes = if self.own_meshes { primitives.chunks(1).collect() } else { vec![&primitives[..]] };
+        let meshes: Vec<Value> = meshes.into_iter().map(|mesh| json!({ "primitives": mesh })).collect();
         builder.glb(json!({
             "extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"],
-            "meshes": [{ "primitives": primitives }],
+            "meshes": meshes,
             "nodes": vec![json!({ "mesh": 0 }); self.nodes],
         }))
     }
@@ -280,8 +284,14 @@ impl SharedBytes {
 /// Where each of many primitives or nodes reads vertices that must be decoded, it reads those that it uses.
 #[test]
 fn shared_vertices_are_decoded_where_they_are_used() {
-    let shared =
-        SharedBytes { vertices: 300_000, primitives: 400, own_uvs: false, is_sparse: false, nodes: 1 };
+    let shared = SharedBytes {
+        vertices: 300_000,
+        primitives: 400,
+        own_uvs: false,
+        is_sparse: false,
+        nodes: 1,
+        own_meshes: false,
+    };
     let lines = [
         "compare IN IN",
         "check IN",
@@ -297,8 +307,37 @@ fn shared_vertices_are_decoded_where_they_are_used() {
     ends_in_time("m.glb", &shared.file(), &["tangents IN --overwrite -o out.glb"]);
     let file = SharedBytes { own_uvs: true, ..shared }.file();
     ends_in_time("m.glb", &file, &["normals IN --overwrite -o out.glb"]);
+    let meshes = SharedBytes { vertices: 600_000, primitives: 8000, own_meshes: true, ..shared };
+    ends_in_time("m.glb", &meshes.file(), &["normals IN --overwrite -o out.glb"]);
     // Each primitive gets tangents for all vertices of its own.
     is_refused("m.glb", &file, "tangents IN --overwrite -o out.glb", "share bytes so often");
+}
+
+/// A Draco stream of a million points and one face, which is that of many primitives.
+#[test]
+fn a_stream_of_many_primitives_is_decoded_once() {
+    let (points, count) = (1_000_000usize, 8000);
+    let mut builder = Builder::default();
+    let position = builder.square()["attributes"]["POSITION"].clone();
+    // Sequential connectivity with indices of 8 bits, and one attribute of 8 bits per point without
+    // prediction.
+    let million = [0xc0, 0x84, 0x3d];
+    let mut stream = [b"DRACO".as_slice(), &[2, 2, 1, 0, 0, 0, 1], &million, &[1, 0, 1, 2]].concat();
+    stream.extend([1, 1, 4, 2, 1, 0, 0, 0]);
+    stream.resize(stream.len() + points, 0);
+    let view = builder.view(&stream);
+    let primitive = |_| {
+        let indices = builder.accessor(json!({ "componentType": 5125, "count": 3, "type": "SCALAR" }));
+        let draco = json!({ "bufferView": view, "attributes": {} });
+        json!({ "attributes": { "POSITION": position }, "indices": indices,
+            "extensions": { "KHR_draco_mesh_compression": draco } })
+    };
+    let primitives: Vec<Value> = (0..count).map(primitive).collect();
+    let members = json!({
+        "extensionsUsed": ["KHR_draco_mesh_compression"], "extensionsRequired": ["KHR_draco_mesh_compression"],
+        "meshes": [{ "primitives": primitives }],
+    });
+    ends_in_time("m.glb", &builder.glb(members), &["check IN", "inspect IN --quiet"]);
 }
 
 /// Morph targets whose offsets are the same bytes, each one vertex later.

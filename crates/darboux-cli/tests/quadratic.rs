@@ -9,7 +9,7 @@ mod common;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use common::limited::ends_in_time;
+use common::limited::{ends_beside, ends_in_time};
 
 /// Triangles over each other: a grid of 4 x 4 squares, 2,000 times.
 fn copies() -> String {
@@ -64,4 +64,16 @@ fn faces_of_many_corners_are_cut() {
     }
     let repeated = ["1/1/1", "2/2/1", "3/3/1"].into_iter().cycle().map(str::to_owned);
     ends_in_time("m.obj", (SQUARE.to_owned() + &face(repeated.take(300_000))).as_bytes(), &lines);
+}
+
+/// Statements whose name of a texture may begin at each of many words.
+#[test]
+fn long_statements_of_textures_are_not_tried_without_end() {
+    let mut library = String::new();
+    for material in 0..800 {
+        writeln!(library, "newmtl {material}\nmap_Kd {material} {}", "a ".repeat(2000)).expect("text");
+    }
+    let obj = format!("mtllib m.mtl\n{}usemtl 0\nf 1 2 3\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    let others = [("m.mtl", library.as_bytes())];
+    ends_beside("m.obj", obj.as_bytes(), &others, &["inspect IN --quiet"]);
 }

@@ -20,6 +20,9 @@ const NAME: &str = "KHR_draco_mesh_compression";
 /// What a decoded face takes in memory: three indices of 32 bits.
 const BYTES_PER_FACE: usize = 12;
 
+/// What a decoded point takes at least, whichever of its attributes are wanted.
+const BYTES_PER_POINT: usize = 12;
+
 /// The source of each decoded accessor: the buffer view, and Draco's identifier of the attribute, or none for
 /// indices.
 type Sources = HashMap<usize, (usize, Option<u32>)>;
@@ -31,6 +34,7 @@ impl Document {
         budget: &mut DecodeBudget,
     ) -> Result<BTreeSet<usize>, ContentError> {
         let mut sources = Sources::new();
+        let mut last = None;
         for mesh in 0..self.root.meshes.len() {
             for i in 0..self.root.meshes[mesh].primitives.len() {
                 let primitive = &self.root.meshes[mesh].primitives[i];
@@ -38,7 +42,7 @@ impl Document {
                 let at = format!("meshes[{mesh}].primitives[{i}]");
                 let wanted = wanted_accessors(primitive, &draco, &at)?;
                 if !self.has_data(&wanted, &draco, &sources, &at)? {
-                    self.decode_primitive(&wanted, &draco, budget, &mut sources, &at)?;
+                    self.decode_primitive(&wanted, &draco, budget, (&mut sources, &mut last), &at)?;
                 }
                 self.remove_primitive_extension(mesh, i, NAME)?;
             }
@@ -82,16 +86,24 @@ impl Document {
         wanted: &[(usize, Option<u32>)],
         draco: &Draco,
         budget: &mut DecodeBudget,
-        sources: &mut Sources,
+        (sources, last): (&mut Sources, &mut Option<(usize, Mesh)>),
         at: &str,
     ) -> Result<(), ContentError> {
         let at = format!("{at}.extensions.{NAME}");
-        let (stream, _) = self.view(draco.buffer_view, &format!("{at}.bufferView"))?;
-        let mesh = decode(stream, budget.left).map_err(|problem| {
-            ContentError::invalid(&at, format!("the stream {problem}; compress the file again"))
-        })?;
-        // The whole stream was decoded, whichever of its accessors are new: this bounds the time of many
-        // primitives over one stream.
+        // Consecutive primitives over one stream share what it holds.
+        let mesh = match last {
+            Some((view, mesh)) if *view == draco.buffer_view => mesh,
+            _ => {
+                let (stream, _) = self.view(draco.buffer_view, &format!("{at}.bufferView"))?;
+                let mesh = decode(stream, budget.left).map_err(|problem| {
+                    ContentError::invalid(&at, format!("the stream {problem}; compress the file again"))
+                })?;
+                // The whole stream was decoded, whichever of its accessors are new: this bounds the time of
+                // primitives that read several streams in turn.
+                budget.spend(mesh.num_points().saturating_mul(BYTES_PER_POINT), &at)?;
+                &mut last.insert((draco.buffer_view, mesh)).1
+            }
+        };
         budget.spend(mesh.num_faces().saturating_mul(BYTES_PER_FACE), &at)?;
         for &(index, id) in wanted {
             let accessor = &self.root.accessors[index];
@@ -99,8 +111,8 @@ impl Document {
                 continue;
             }
             let decoded = match id {
-                None => index_elements(&mesh, accessor),
-                Some(id) => attribute_elements(&mesh, id, accessor),
+                None => index_elements(mesh, accessor),
+                Some(id) => attribute_elements(mesh, id, accessor),
             };
             let elements = decoded.map_err(|problem| {
                 ContentError::invalid(&at, format!("accessors[{index}]: {problem}; compress the file again"))

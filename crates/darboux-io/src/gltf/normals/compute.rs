@@ -175,17 +175,13 @@ fn shade_mesh(
 fn welded(parts: &[ShadedPrimitive], positions: &[[f32; 3]], seams: SmoothingSeams) -> Vec<u32> {
     let mut welded = Vec::with_capacity(positions.len());
     // Each vertex of an accessor is looked up once, however many corners it has.
-    let mut number_of_vertex: HashMap<usize, Vec<Option<u32>>> = HashMap::new();
+    let mut number_of_vertex = numbers_of_vertices(parts);
     let mut at_position = HashMap::new();
     let mut count = 0;
     for part in parts {
         let numbers = number_of_vertex.entry(part.position).or_default();
         for &vertex in &part.corners {
-            let vertex = vertex as usize;
-            if numbers.len() <= vertex {
-                numbers.resize(vertex + 1, None);
-            }
-            let number = *numbers[vertex].get_or_insert_with(|| match seams {
+            let number = *numbers.of(vertex).get_or_insert_with(|| match seams {
                 SmoothingSeams::Ignored => {
                     *at_position.entry(bits(positions[welded.len()])).or_insert_with(|| next(&mut count))
                 }
@@ -195,6 +191,48 @@ fn welded(parts: &[ShadedPrimitive], positions: &[[f32; 3]], seams: SmoothingSea
         }
     }
     welded
+}
+
+/// Numbers of some vertices of an accessor.
+enum VertexNumbers {
+    /// By the vertex.
+    All(Vec<Option<u32>>),
+    /// Where the accessor has many other vertices.
+    Some(HashMap<u32, Option<u32>>),
+}
+
+impl Default for VertexNumbers {
+    fn default() -> Self {
+        Self::Some(HashMap::new())
+    }
+}
+
+impl VertexNumbers {
+    fn of(&mut self, vertex: u32) -> &mut Option<u32> {
+        match self {
+            Self::All(numbers) => &mut numbers[vertex as usize],
+            Self::Some(numbers) => numbers.entry(vertex).or_default(),
+        }
+    }
+}
+
+/// No numbers yet, for the vertices of each accessor of positions.
+fn numbers_of_vertices(parts: &[ShadedPrimitive]) -> HashMap<usize, VertexNumbers> {
+    // The number of corners, and of vertices as far as they are used.
+    let mut sizes: HashMap<usize, (usize, usize)> = HashMap::new();
+    for part in parts {
+        let (corners, vertices) = sizes.entry(part.position).or_default();
+        *corners += part.corners.len();
+        *vertices = part.corners.iter().fold(*vertices, |most, &vertex| most.max(vertex as usize + 1));
+    }
+    let numbers = |(corners, vertices): (usize, usize)| {
+        if vertices <= 4 * corners {
+            VertexNumbers::All(vec![None; vertices])
+        } else {
+            VertexNumbers::default()
+        }
+    };
+    sizes.into_iter().map(|(position, sizes)| (position, numbers(sizes))).collect()
 }
 
 /// Returns a counter and increments it.
