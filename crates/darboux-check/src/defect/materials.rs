@@ -14,7 +14,7 @@ pub enum MaterialFault {
     },
     /// The negative scale.
     ScaleNegative(f64),
-    /// The scale of 0.
+    /// The scale, which is nearly 0.
     ScaleZero(f64),
     /// The large scale.
     ScaleExtreme(f64),

@@ -58,6 +58,7 @@ impl NormalFault {
             Self::Missing(_) | Self::OtherAxes { .. } => None,
         }
     }
+
     /// The indices that are those of vertices.
     pub fn vertices_mut(&mut self) -> Option<&mut Indices> {
         match self {

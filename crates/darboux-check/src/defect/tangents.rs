@@ -93,6 +93,7 @@ impl TangentFault {
             Self::Missing(_) | Self::Unused { .. } | Self::OtherRecipe { .. } => None,
         }
     }
+
     /// The indices that are those of vertices.
     pub fn vertices_mut(&mut self) -> [Option<&mut Indices>; 2] {
         match self {

@@ -63,6 +63,7 @@ impl UvFault {
             Self::Missing { .. } => None,
         }
     }
+
     /// The indices that are those of vertices.
     pub fn vertices_mut(&mut self) -> Option<&mut Indices> {
         match self {

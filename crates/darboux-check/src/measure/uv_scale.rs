@@ -2,9 +2,10 @@
 //! surface's own median.
 //!
 //! The derivatives of the position along u and v have a largest and a smallest length over all directions of
-//! the plane, the singular values. Their ratio is
-//! the stretch (Sander, Snyder, Gortler, Hoppe, "Texture Mapping Progressive Meshes", 2001), and the root of
-//! their product the length that one unit of UV covers.
+//! the plane, the singular values. Their ratio is the stretch, and the root of their product the length that
+//! one unit of UV covers.
+//!
+//! Source: Sander, Snyder, Gortler, Hoppe, "Texture Mapping Progressive Meshes", 2001.
 
 use crate::indices::Indices;
 use crate::model_area::area_of;
