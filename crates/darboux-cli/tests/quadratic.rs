@@ -6,7 +6,7 @@
 
 mod common;
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
 use common::limited::{ends_beside, ends_in_time};
@@ -42,15 +42,47 @@ fn face(corners: impl Iterator<Item = String>) -> String {
     format!("f {}\n", corners.collect::<Vec<_>>().join(" "))
 }
 
-/// [`SQUARE`] and, as an object without UVs, a polygon whose corners have these distances from its middle, in
-/// turn.
+/// [`SQUARE`] and, as an object without UVs, a polygon.
+fn beside_square(polygon: &[[f64; 2]]) -> String {
+    let places: String = polygon.iter().map(|[x, y]| format!("v {x} {y} 0\n")).collect();
+    let corners = (5..polygon.len() + 5).map(|i| i.to_string());
+    SQUARE.to_owned() + &places + "o polygon\n" + &face(corners)
+}
+
+/// A polygon whose corners have these distances from its middle, in turn.
 fn polygon(count: usize, distances: [f64; 2]) -> String {
     let place = |i: usize| {
         let (angle, distance) = (TAU * i as f64 / count as f64, distances[i % 2]);
-        format!("v {} {} 0\n", distance * angle.cos(), distance * angle.sin())
+        [distance * angle.cos(), distance * angle.sin()]
     };
-    let corners = (5..count + 5).map(|i| i.to_string());
-    SQUARE.to_owned() + &(0..count).map(place).collect::<String>() + "o polygon\n" + &face(corners)
+    beside_square(&(0..count).map(place).collect::<Vec<_>>())
+}
+
+/// A half circle of reflex corners before two that are far from it.
+fn arch(count: usize) -> String {
+    let place = |i: usize| {
+        let angle = PI * i as f64 / (count - 2) as f64;
+        [3.0 * angle.sin(), angle.cos()]
+    };
+    let far = [[10.0, -1.0], [10.0, 1.0]];
+    beside_square(&far.into_iter().chain((0..count - 2).map(place)).collect::<Vec<_>>())
+}
+
+/// H. von Koch's curve of 3 * 4^`level` corners.
+fn koch(level: usize) -> String {
+    let corner = |i: usize| [(TAU * i as f64 / 3.0).cos(), (TAU * i as f64 / 3.0).sin()];
+    let mut curve: Vec<[f64; 2]> = (0..3).map(corner).collect();
+    for _ in 0..level {
+        let ends = curve.iter().zip(curve.iter().cycle().skip(1));
+        let parts = ends.flat_map(|(&[x, y], &[end_x, end_y])| {
+            let [dx, dy] = [(end_x - x) / 3.0, (end_y - y) / 3.0];
+            let height = 0.75f64.sqrt();
+            let top = [x + 1.5 * dx + height * dy, y + 1.5 * dy - height * dx];
+            [[x, y], [x + dx, y + dy], top, [x + 2.0 * dx, y + 2.0 * dy]]
+        });
+        curve = parts.collect();
+    }
+    beside_square(&curve)
 }
 
 #[test]
@@ -58,9 +90,9 @@ fn faces_of_many_corners_are_cut() {
     let lines = ["bake IN --high IN -o o.png --size 8x3"];
     ends_in_time("m.obj", polygon(24_000, [1.0, 1.0]).as_bytes(), &lines);
     ends_in_time("m.obj", polygon(24_000, [1.0, 0.3]).as_bytes(), &lines);
-    for distances in [[1.0, 1.0], [1.0, 0.3]] {
-        let said = ends_in_time("m.obj", polygon(50_000, distances).as_bytes(), &["inspect IN"]);
-        assert!(!said.contains("crosses itself or is too large"), "{said}");
+    for file in [polygon(50_000, [1.0, 1.0]), polygon(50_000, [1.0, 0.3]), arch(24_000), koch(6)] {
+        let said = ends_in_time("m.obj", file.as_bytes(), &["inspect IN"]);
+        assert!(!said.contains("is too large to cut"), "{said}");
     }
     let repeated = ["1/1/1", "2/2/1", "3/3/1"].into_iter().cycle().map(str::to_owned);
     ends_in_time("m.obj", (SQUARE.to_owned() + &face(repeated.take(300_000))).as_bytes(), &lines);

@@ -143,7 +143,7 @@ fn concave_faces_do_not_fold_over() {
 fn faces_that_cross_themselves_are_a_warning() {
     let elements = "v 0 0 0\nv 3 3 0\nv 3 0 0\nv 0 2 0\nv 9 9 9\n";
     let [warning] = &warnings(&format!("{elements}f 1 2 3 4\n"), "")[..] else { panic!("one warning") };
-    assert!(warning.starts_with("1 face crosses itself or is too large to cut, and its triangles overlap"));
+    assert!(warning.starts_with("1 face crosses itself, is not flat or is too large to cut, and its"));
     assert_eq!(warnings(&format!("{elements}f 1 1 1 1\nf 1 2 2 5\n"), ""), [""; 0]);
 }
 

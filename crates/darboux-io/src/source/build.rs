@@ -91,12 +91,12 @@ pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Resu
     Ok(Built { glb: segments::joined(&glb), provenance, warnings })
 }
 
-/// A sentence if there are faces that no triangles cover without folds.
+/// A sentence if there are faces whose triangles fold over.
 fn folded_warning(faces: usize) -> Option<String> {
     let faces = match faces {
         0 => return None,
-        1 => "1 face crosses itself or is too large to cut, and its".to_owned(),
-        count => format!("{count} faces cross themselves or are too large to cut, and their"),
+        1 => "1 face crosses itself, is not flat or is too large to cut, and its".to_owned(),
+        count => format!("{count} faces cross themselves, are not flat or are too large to cut, and their"),
     };
     Some(format!("{faces} triangles overlap; split such faces in a modelling program"))
 }

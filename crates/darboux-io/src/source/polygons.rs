@@ -16,10 +16,21 @@ use darboux::internal::is_quad_cut_across;
 use ears::Polygon;
 pub use triangle::Triangle;
 
-/// The most steps that the cuts of one file may take: tries of a corner, and nodes of the tree that a try
+/// The most steps that a rule may take for a face: tries of a corner, and nodes of the tree that a try
 /// visits. A face of ordinary shape takes about a hundred per corner. What is left to cut when they are used
-/// up has as many steps again, in an order that takes few ([`queued`]).
-const MAX_STEPS: u64 = 1 << 26;
+/// up has [steps of its own](queued_steps), in an order that takes few ([`queued`]).
+///
+/// They grow with the corners, so that time does, and are those of one face, so that no face changes the
+/// triangles of another. Faces of up to 128 corners do not use them up, whatever their shape is: to find
+/// an ear, each corner is tried at most once, which takes at most 63 steps, and passed over at most once.
+fn rule_steps(corners: usize) -> u64 {
+    512 * corners as u64 + (1 << 20)
+}
+
+/// The most steps for a face that the rule did not cut. An arch of 100,000 corners takes 607 per corner.
+fn queued_steps(corners: usize) -> u64 {
+    1024 * corners as u64 + (1 << 20)
+}
 
 /// How faces of five and more corners are cut into triangles, which MikkTSpace needs. Quads are not affected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -58,19 +69,16 @@ impl Choice for PolygonRule {
 /// Cuts the faces of one file.
 pub struct Cutter {
     rule: PolygonRule,
-    steps: u64,
-    /// The steps for faces that the rule did not cut.
-    more_steps: u64,
     /// Concave quads that are not cut along the diagonal of MikkTSpace.
     pub outside_diagonals: usize,
-    /// Faces with triangles that face the other way than the face: it crosses itself, or the steps are used
-    /// up.
+    /// Faces with triangles that face the other way than the face: it crosses itself, is not flat, or the
+    /// steps are used up.
     pub folded: usize,
 }
 
 impl Cutter {
     pub fn new(rule: PolygonRule) -> Self {
-        Self { rule, steps: MAX_STEPS, more_steps: MAX_STEPS, outside_diagonals: 0, folded: 0 }
+        Self { rule, outside_diagonals: 0, folded: 0 }
     }
 
     /// The halves of a quad, in the order of MikkTSpace. `uvs`: none for a mesh without UVs, whose quads are
@@ -97,23 +105,25 @@ impl Cutter {
     pub fn polygon(&mut self, positions: &[[f32; 3]]) -> Vec<Triangle> {
         let wide: Vec<[f64; 3]> = positions.iter().map(|position| position.map(f64::from)).collect();
         let fan: Vec<Triangle> = fan(positions.len()).collect();
-        let steps = &mut self.steps;
+        let steps = &mut rule_steps(positions.len());
         let Some(polygon) = Polygon::of(&wide) else {
             return match self.rule {
                 PolygonRule::Blender => alternating::cut(positions, steps).unwrap_or(fan),
                 PolygonRule::Fan | PolygonRule::Ears => fan,
             };
         };
-        let (mut triangles, is_used_up) = match self.rule {
+        let (mut triangles, is_kept) = match self.rule {
+            // Where Blender's triangles fold, as those of many faces that are not flat, its exporters write
+            // them all the same.
             PolygonRule::Blender => match alternating::cut(positions, steps) {
-                Some(triangles) => (triangles, false),
-                None => (fan, true),
+                Some(triangles) => (triangles, true),
+                None => (fan, false),
             },
-            PolygonRule::Fan => (polygon.cut(fan, steps), *steps == 0),
-            PolygonRule::Ears => (polygon.ears(steps).unwrap_or(fan), *steps == 0),
+            PolygonRule::Fan => (polygon.cut(fan, steps), false),
+            PolygonRule::Ears => (polygon.ears(steps).unwrap_or(fan), false),
         };
-        if is_used_up && polygon.is_folded(&triangles) {
-            let queued = polygon.queued(&mut self.more_steps);
+        if !is_kept && polygon.is_folded(&triangles) {
+            let queued = polygon.queued(&mut queued_steps(positions.len()));
             triangles = queued.filter(|queued| !polygon.is_folded(queued)).unwrap_or(triangles);
         }
         self.folded += usize::from(polygon.is_folded(&triangles));
@@ -123,4 +133,57 @@ impl Cutter {
 
 fn fan(corners: usize) -> impl Iterator<Item = Triangle> {
     (2..corners).map(|corner| [0, corner - 1, corner])
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f32::consts::TAU;
+
+    use darboux_dice::Dice;
+
+    use super::*;
+
+    fn random(corners: usize, dice: &mut Dice) -> Vec<[f32; 3]> {
+        (0..corners).map(|_| [dice.below(10_000) as f32, dice.below(10_000) as f32, 0.0]).collect()
+    }
+
+    /// A face that crosses itself and has too many corners for its rule leaves the steps of others alone.
+    #[test]
+    fn no_face_changes_the_triangles_of_another() {
+        let octagon: Vec<[f32; 3]> =
+            (0..8).map(|i| (TAU * i as f32 / 8.0).sin_cos()).map(|(sin, cos)| [cos, sin, 0.0]).collect();
+        let alone = Cutter::new(PolygonRule::Blender).polygon(&octagon);
+        assert_ne!(alone, fan(8).collect::<Vec<_>>());
+        let crossing = random(10_000, &mut Dice::from_seed(12));
+        let mut cutter = Cutter::new(PolygonRule::Blender);
+        assert_eq!(cutter.polygon(&crossing), fan(10_000).collect::<Vec<_>>());
+        assert_eq!((cutter.polygon(&octagon), cutter.folded), (alone, 1));
+    }
+
+    #[test]
+    fn small_faces_do_not_use_up_their_steps() {
+        let mut dice = Dice::from_seed(13);
+        for round in 0..200 {
+            let face = random(128, &mut dice);
+            let mut steps = rule_steps(128);
+            assert!(alternating::cut(&face, &mut steps).is_some(), "round {round}");
+            assert!(steps > rule_steps(128) / 2, "round {round}: {steps} steps are left");
+        }
+    }
+
+    /// A zigzag band, for which both rules take steps in proportion to the square of its corners.
+    #[test]
+    fn faces_whose_steps_are_used_up_are_cut_without_folds() {
+        let upper = (0..4000i16).map(|i| [f32::from(i), f32::from(i % 2) * 1000.0, 0.0]);
+        let lower = upper.clone().map(|[x, y, z]| [x, y - 2.0, z]);
+        let band: Vec<[f32; 3]> = lower.chain(upper.rev()).collect();
+        for rule in [PolygonRule::Blender, PolygonRule::Ears, PolygonRule::Fan] {
+            let mut cutter = Cutter::new(rule);
+            let triangles = cutter.polygon(&band);
+            assert_eq!(cutter.folded, 0, "{rule:?}");
+            let polygon = Polygon::of(&band.iter().map(|p| p.map(f64::from)).collect::<Vec<_>>());
+            let queued = polygon.and_then(|polygon| polygon.queued(&mut queued_steps(band.len())));
+            assert_eq!(Some(triangles), queued, "{rule:?}");
+        }
+    }
 }

@@ -59,6 +59,6 @@ pub struct FaceCounts {
     pub polygons: usize,
     /// Concave quads that are not cut along the diagonal of MikkTSpace, because it lies outside them.
     pub outside_diagonals: usize,
-    /// Faces that no triangles cover without folds.
+    /// Faces whose triangles fold over: they cross themselves, are not flat, or are too large to cut.
     pub folded: usize,
 }

@@ -75,7 +75,7 @@ struct Outline<'a> {
     /// The obstacles, if there are many.
     tree: Option<CornerTree<'a>>,
     /// With a tree: the neighbours of a corner when it was last tried, and the obstacle in the triangle.
-    known: Vec<Option<([usize; 2], usize)>>,
+    last_obstacle: Vec<Option<([usize; 2], usize)>>,
     is_removed: Vec<bool>,
     /// The number of corners left that are not convex.
     not_convex: usize,
@@ -95,7 +95,7 @@ impl<'a> Outline<'a> {
             turns: vec![Turn::Convex; count],
             obstacles: Vec::new(),
             tree: None,
-            known: Vec::new(),
+            last_obstacle: Vec::new(),
             is_removed: vec![false; count],
             not_convex: 0,
             remaining: count,
@@ -106,22 +106,22 @@ impl<'a> Outline<'a> {
         }
         outline.obstacles = (0..count).filter(|&corner| outline.turns[corner] != Turn::Convex).collect();
         outline.not_convex = outline.obstacles.len();
-        outline.plant();
+        outline.rebuild_tree();
         if outline.tree.is_some() {
-            outline.known = vec![None; count];
+            outline.last_obstacle = vec![None; count];
         }
         outline
     }
 
     /// Makes the tree of the obstacles.
-    fn plant(&mut self) {
+    fn rebuild_tree(&mut self) {
         let obstacles = || self.obstacles.iter().map(|&corner| corner as u32).collect();
         self.tree =
             (self.obstacles.len() >= self.many).then(|| CornerTree::of_some(self.places, obstacles()));
     }
 
     /// Takes a corner out of the tree.
-    fn forget(&mut self, corner: usize) {
+    fn remove_from_tree(&mut self, corner: usize) {
         if let Some(tree) = &mut self.tree {
             tree.remove(corner);
         }
@@ -142,7 +142,7 @@ impl<'a> Outline<'a> {
         self.is_removed[corner] = true;
         self.not_convex -= usize::from(self.turns[corner] != Turn::Convex);
         self.remaining -= 1;
-        self.forget(corner);
+        self.remove_from_tree(corner);
         if self.first == corner {
             self.first = next;
         }
@@ -154,7 +154,7 @@ impl<'a> Outline<'a> {
             self.turns[corner] = self.turn(corner);
             if self.turns[corner] == Turn::Convex {
                 self.not_convex -= 1;
-                self.forget(corner);
+                self.remove_from_tree(corner);
             }
         }
     }
@@ -191,18 +191,18 @@ impl<'a> Outline<'a> {
         if self.obstacles.len() > 2 * self.not_convex {
             let (is_removed, turns) = (&self.is_removed, &self.turns);
             self.obstacles.retain(|&corner| !is_removed[corner] && turns[corner] != Turn::Convex);
-            self.plant();
+            self.rebuild_tree();
         }
         let triangle = [corner, self.next[corner], self.previous[corner]];
         match &self.tree {
             Some(tree) => {
                 let neighbours = [triangle[1], triangle[2]];
                 let is_known = |&(of, obstacle): &([usize; 2], usize)| of == neighbours && tree.has(obstacle);
-                if self.known[corner].as_ref().is_some_and(is_known) {
+                if self.last_obstacle[corner].as_ref().is_some_and(is_known) {
                     return Some(false);
                 }
                 let found = self.find_obstacle(tree, triangle, steps)?;
-                self.known[corner] = found.map(|obstacle| (neighbours, obstacle));
+                self.last_obstacle[corner] = found.map(|obstacle| (neighbours, obstacle));
                 Some(found.is_none())
             }
             None => {
