@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use darboux_io::image::PngImage;
 use serde::Deserialize;
@@ -22,20 +23,22 @@ const PER_PRIMITIVE: u64 = 4096;
 /// PNG.
 const PER_TEXEL: u64 = 20;
 
-/// The most bytes that darboux-io permits by default for a file of this size.
+/// The most bytes of JSON that are read for an estimate.
+const MOST_JSON: u64 = 4 << 20;
+
+/// The most bytes that darboux-io permits by default for a file of this size with its buffers.
 fn limit_of(size: u64) -> u64 {
-    (256 << 20) + size.saturating_mul(64)
+    size.saturating_mul(64).saturating_add(256 << 20)
 }
 
-/// The bytes that processing a file takes at most. Where its head does not tell, that is the
-/// default limit.
+/// The bytes that processing a file takes at most. Where its head does not tell, that is the default limit.
+/// A glTF whose JSON is long or cannot be read takes all memory, since its buffers are not known.
 pub fn of_file(path: &Path) -> u64 {
-    let size = path.metadata().map_or(0, |metadata| metadata.len());
+    let Head { files, beside } = head(path);
+    let size = path.metadata().map_or(0, |metadata| metadata.len()).saturating_add(files);
     let plain = size.saturating_mul(PER_BYTE).saturating_add(BASE);
-    match needed_beside(path) {
-        Some(more) => plain.saturating_add(more).min(plain.max(limit_of(size))),
-        None => plain.max(limit_of(size)),
-    }
+    let limit = plain.max(limit_of(size));
+    beside.map_or(limit, |beside| plain.saturating_add(beside).min(limit))
 }
 
 /// As [`of_file`], of standard input.
@@ -43,36 +46,51 @@ pub fn of_stream() -> u64 {
     limit_of(0)
 }
 
-/// What a file declares to need beyond its bytes. None: its head does not tell.
-fn needed_beside(path: &Path) -> Option<u64> {
-    let metadata = path.metadata().ok().filter(std::fs::Metadata::is_file)?;
-    let mut file = File::open(path).ok()?;
+/// What the head of a file tells.
+struct Head {
+    /// The bytes of its buffers that are not in the file, or encoded.
+    files: u64,
+    /// What it needs beyond its bytes and those of its buffers; none if the head does not tell.
+    beside: Option<u64>,
+}
+
+fn head(path: &Path) -> Head {
+    let other = Head { files: 0, beside: None };
+    let Some(metadata) = path.metadata().ok().filter(std::fs::Metadata::is_file) else { return other };
+    let Ok(mut file) = File::open(path) else { return other };
     let mut head = [0; 26];
-    file.read_exact(&mut head).ok()?;
+    if file.read_exact(&mut head).is_err() {
+        return other;
+    }
     let number =
         |at: usize| u64::from(u32::from_be_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]));
     if PngImage::is_png(&head) {
         let texels = number(16).saturating_mul(number(20));
-        return Some(texels.saturating_mul(PER_TEXEL));
+        return Head { beside: Some(texels.saturating_mul(PER_TEXEL)), ..other };
     }
-    let text = if head.starts_with(b"glTF") {
-        let length = u32::from_le_bytes([head[12], head[13], head[14], head[15]]);
-        file.seek(SeekFrom::Start(20)).ok()?;
-        let mut text = Vec::new();
-        file.take(length.into()).read_to_end(&mut text).ok()?;
-        text
+    let (start, length) = if head.starts_with(b"glTF") {
+        (20, u32::from_le_bytes([head[12], head[13], head[14], head[15]]).into())
     } else if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gltf")) {
-        file.seek(SeekFrom::Start(0)).ok()?;
-        let mut text = Vec::new();
-        file.take(metadata.len()).read_to_end(&mut text).ok()?;
-        text
+        (0, metadata.len())
     } else {
-        return None;
+        return other;
     };
-    let text = String::from_utf8(text).ok()?;
-    // Compression is declared with the parts that have it.
-    let is_compressed = text.contains("_compression");
-    serde_json::from_str::<Declared>(&text).ok()?.bytes().filter(|_| !is_compressed)
+    let declared = declared(&mut file, start, length);
+    declared.map_or(Head { files: u64::MAX, beside: None }, |declared| declared.head())
+}
+
+/// What the JSON in a range of a file declares; none if it is long or cannot be read. One is read at a time:
+/// no job has taken memory for it.
+fn declared(file: &mut File, start: u64, length: u64) -> Option<Declared> {
+    static READING: Mutex<()> = Mutex::new(());
+    if length > MOST_JSON {
+        return None;
+    }
+    let _reading = READING.lock().unwrap_or_else(PoisonError::into_inner);
+    file.seek(SeekFrom::Start(start)).ok()?;
+    let mut text = Vec::new();
+    file.take(length).read_to_end(&mut text).ok()?;
+    serde_json::from_slice(&text).ok()
 }
 
 /// What counts of a glTF.
@@ -82,7 +100,9 @@ fn needed_beside(path: &Path) -> Option<u64> {
 struct Declared {
     accessors: Vec<Accessor>,
     meshes: Vec<Mesh>,
+    nodes: Vec<Node>,
     buffers: Vec<Buffer>,
+    buffer_views: Vec<BufferView>,
     images: Vec<IgnoredAny>,
 }
 
@@ -100,12 +120,23 @@ struct Mesh {
 struct Primitive {
     attributes: Attributes,
     indices: Option<usize>,
+    #[serde(default)]
+    targets: Vec<IgnoredAny>,
+    #[serde(default)]
+    extensions: Extensions,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 struct Attributes {
     position: Option<usize>,
+}
+
+#[derive(Deserialize)]
+struct Node {
+    mesh: Option<usize>,
+    #[serde(default)]
+    extensions: Extensions,
 }
 
 #[derive(Deserialize)]
@@ -116,22 +147,133 @@ struct Buffer {
     uri: Option<IgnoredAny>,
 }
 
+#[derive(Deserialize)]
+struct BufferView {
+    #[serde(default)]
+    extensions: Extensions,
+}
+
+/// The extensions whose data has a size that is not in the JSON.
+#[derive(Deserialize, Default)]
+#[serde(default)]
+struct Extensions {
+    #[serde(rename = "KHR_draco_mesh_compression")]
+    draco: Option<IgnoredAny>,
+    #[serde(rename = "EXT_meshopt_compression")]
+    meshopt: Option<IgnoredAny>,
+    #[serde(rename = "KHR_meshopt_compression")]
+    khr_meshopt: Option<IgnoredAny>,
+    #[serde(rename = "EXT_mesh_gpu_instancing")]
+    instances: Option<IgnoredAny>,
+}
+
+impl Extensions {
+    fn are_known(&self) -> bool {
+        let Self { draco, meshopt, khr_meshopt, instances } = self;
+        [draco, meshopt, khr_meshopt, instances].into_iter().all(Option::is_none)
+    }
+}
+
 impl Declared {
-    /// None: there are images, which are decoded to sizes that are not written here.
-    fn bytes(&self) -> Option<u64> {
-        if !self.images.is_empty() {
-            return None;
+    fn head(&self) -> Head {
+        let buffers = self.buffers.iter().filter(|buffer| buffer.uri.is_some());
+        let files = buffers.map(|buffer| buffer.byte_length).fold(0, u64::saturating_add);
+        Head { files, beside: self.is_complete().then(|| self.bytes_of_meshes()) }
+    }
+
+    /// Whether all that needs memory has its size in the JSON. Images have it elsewhere.
+    fn is_complete(&self) -> bool {
+        self.images.is_empty()
+            && self.buffer_views.iter().all(|view| view.extensions.are_known())
+            && self.nodes.iter().all(|node| node.extensions.are_known())
+            && self.meshes.iter().flat_map(|mesh| &mesh.primitives).all(|part| part.extensions.are_known())
+    }
+
+    /// What the primitives take, with their morph targets, at all places of their meshes.
+    fn bytes_of_meshes(&self) -> u64 {
+        let mut places = vec![0u64; self.meshes.len()];
+        for mesh in self.nodes.iter().filter_map(|node| node.mesh) {
+            places.get_mut(mesh).into_iter().for_each(|places| *places += 1);
         }
         let count = |accessor: Option<usize>| {
             accessor.and_then(|index| self.accessors.get(index)).map_or(0, |accessor| accessor.count)
         };
         let of_primitive = |primitive: &Primitive| {
             let corners = count(primitive.indices).max(count(primitive.attributes.position));
-            corners.saturating_mul(PER_CORNER).saturating_add(PER_PRIMITIVE)
+            let shapes = 1 + primitive.targets.len() as u64;
+            corners.saturating_mul(PER_CORNER).saturating_mul(shapes).saturating_add(PER_PRIMITIVE)
         };
-        let primitives = self.meshes.iter().flat_map(|mesh| &mesh.primitives).map(of_primitive);
-        let files = self.buffers.iter().filter(|buffer| buffer.uri.is_some());
-        let files = files.map(|buffer| buffer.byte_length.saturating_mul(PER_BYTE));
-        Some(primitives.chain(files).fold(0, u64::saturating_add))
+        let of_mesh = |(mesh, places): (&Mesh, u64)| {
+            let once = mesh.primitives.iter().map(of_primitive).fold(0, u64::saturating_add);
+            once.saturating_mul(places.max(1))
+        };
+        self.meshes.iter().zip(places).map(of_mesh).fold(0, u64::saturating_add)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    const MEBIBYTE: u64 = 1 << 20;
+
+    /// The estimate of a `.gltf`, and its size.
+    fn of_gltf(text: &str) -> (u64, u64) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("m.gltf");
+        fs::write(&path, text).expect("a file");
+        (of_file(&path), text.len() as u64)
+    }
+
+    fn of_primitives(primitive: &str, members: &str) -> (u64, u64) {
+        of_gltf(&format!(
+            r#"{{"accessors":[{{"count":1000}},{{"count":300}}],"meshes":[{{"primitives":[{primitive}]}}]{members}}}"#
+        ))
+    }
+
+    /// A file with `beside` bytes that its JSON declares.
+    fn declares((estimate, size): (u64, u64), files: u64, beside: u64) {
+        assert_eq!(estimate, BASE + PER_BYTE * (size + files) + beside);
+    }
+
+    fn has_the_limit((estimate, size): (u64, u64), files: u64) {
+        assert_eq!(estimate, 256 * MEBIBYTE + 64 * (size + files));
+    }
+
+    #[test]
+    fn places_and_morph_targets_are_counted() {
+        let once = PER_PRIMITIVE + 1000 * PER_CORNER;
+        let primitive = r#"{"attributes":{"POSITION":0},"indices":1}"#;
+        declares(of_primitives(primitive, ""), 0, once);
+        declares(of_primitives(primitive, r#","nodes":[{"mesh":0},{},{"mesh":0},{"mesh":7}]"#), 0, 2 * once);
+        let targets = r#"{"attributes":{"POSITION":0},"targets":[{},{},{}]}"#;
+        declares(of_primitives(targets, ""), 0, once + 3 * 1000 * PER_CORNER);
+    }
+
+    #[test]
+    fn the_limit_counts_buffers() {
+        let buffers = r#","buffers":[{"byteLength":40000000,"uri":"a.bin"},{"byteLength":5}]"#;
+        let many = format!(r#"{{"attributes":{{"POSITION":0}},"targets":[{}{{}}]}}"#, "{},".repeat(100_000));
+        has_the_limit(of_primitives(&many, buffers), 40_000_000);
+        declares(of_primitives("", buffers), 40_000_000, 0);
+    }
+
+    #[test]
+    fn compressed_data_and_images_have_the_limit() {
+        let draco = r#"{"attributes":{},"extensions":{"KHR_draco_mesh\u005fcompression":{}}}"#;
+        has_the_limit(of_primitives(draco, ""), 0);
+        let view = r#","bufferViews":[{"extensions":{"EXT_meshopt_compression":{}}}]"#;
+        has_the_limit(of_primitives("", view), 0);
+        has_the_limit(of_primitives("", r#","images":[{"uri":"a_compression.png"}]"#), 0);
+        declares(of_primitives("", r#","extras":"_compression""#), 0, 0);
+    }
+
+    #[test]
+    fn a_long_json_takes_all_memory() {
+        let long = " ".repeat(4 * MEBIBYTE as usize);
+        assert_eq!(of_gltf(&format!("{{{long}}}")).0, u64::MAX);
+        assert_eq!(of_gltf(r#"{"accessors": [{}], "no": "count"}"#).0, u64::MAX);
     }
 }
