@@ -2,22 +2,24 @@
 //! the values that a reader of all vertices finds.
 
 use darboux_io::LoadOptions;
-use darboux_io::gltf::Document;
+use darboux_io::gltf::{Document, inspect};
 use serde_json::{Value, json};
 
 const VERTICES: usize = 300;
 
-/// A document of one buffer with these buffer views, accessors and indices of primitives over the first
-/// accessor.
+/// A document of one buffer with these buffer views, accessors and indices of primitives over them: they are
+/// positions, normals and UVs.
 fn document(data: &[u8], views: Value, mut accessors: Vec<Value>, primitives: &[&[u16]]) -> Document {
     let mut data = data.to_vec();
     let mut views = views.as_array().expect("views").clone();
     let mut meshes = Vec::new();
+    let semantics = ["POSITION", "NORMAL", "TEXCOORD_0"].into_iter().zip(0..accessors.len());
+    let attributes: serde_json::Map<String, Value> =
+        semantics.map(|(semantic, accessor)| (semantic.to_owned(), accessor.into())).collect();
     for indices in primitives {
         views.push(json!({ "buffer": 0, "byteOffset": data.len(), "byteLength": 2 * indices.len() }));
         data.extend(indices.iter().flat_map(|index| index.to_le_bytes()));
         accessors.push(json!({ "bufferView": views.len() - 1, "componentType": 5123, "count": indices.len(), "type": "SCALAR" }));
-        let attributes = json!({ "POSITION": 0 });
         meshes.push(json!({ "primitives": [{ "attributes": attributes, "indices": accessors.len() - 1 }] }));
     }
     let json = json!({
@@ -131,12 +133,25 @@ fn wrong_sparse_indices_are_refused() {
     }
 }
 
+/// The sentence names the index and the number of vertices in the file, where few or many of them are used.
 #[test]
 fn indices_out_of_range_are_refused() {
-    let view = json!([{ "buffer": 0, "byteLength": 12 * VERTICES }]);
-    let accessor = json!({ "bufferView": 0, "componentType": 5126, "count": VERTICES, "type": "VEC3" });
-    let document = document(&bytes(12 * VERTICES), view, vec![accessor], &[&[0, 1, 300]]);
-    let corners = document.corners().expect("corners");
-    assert!(corners[0].own_vectors::<3>("POSITION").is_err());
-    assert!(corners[0].vectors::<3>("POSITION").is_err());
+    let many: Vec<u16> = (0..VERTICES as u16 - 4).chain([999]).collect();
+    for indices in [&[0, 1, 999], &many[..]] {
+        let view = json!([{ "buffer": 0, "byteLength": 12 * VERTICES }]);
+        let accessor =
+            |kind: &str| json!({ "bufferView": 0, "componentType": 5126, "count": VERTICES, "type": kind });
+        let accessors = ["VEC3", "VEC3", "VEC2"].map(accessor).to_vec();
+        let document = document(&bytes(12 * VERTICES), view, accessors, &[indices]);
+        let corners = document.corners().expect("corners");
+        let sentence =
+            corners[0].own_vectors::<3>("POSITION").expect_err("an index out of range").to_string();
+        let place = indices.len() - 1;
+        let problem = format!("index 999 at place {place} is out of range: there are {VERTICES} vertices");
+        assert!(sentence.contains(&problem), "{sentence}");
+        let at_corners = corners[0].vectors::<3>("POSITION").expect_err("an index out of range");
+        assert_eq!(at_corners.to_string(), sentence);
+        let inspected = inspect(&document).expect_err("an index out of range");
+        assert_eq!(inspected.to_string(), sentence);
+    }
 }

@@ -18,6 +18,8 @@ mod vertices;
 
 pub use checkpoint::Checkpoint;
 
+use std::sync::PoisonError;
+
 use crate::json::{Map, Value, object};
 
 use super::buffers::{BufferSource, NewBytes};
@@ -225,7 +227,15 @@ impl Document {
         self.root.renew(array, index, &edited)?;
         *stored = edited;
         self.is_changed = true;
+        if ["accessors", "bufferViews", "buffers"].contains(&array) {
+            self.forget_checked_sparse();
+        }
         Ok(true)
+    }
+
+    /// Sparse indices are looked through again: their accessors or bytes may be other ones now.
+    pub(super) fn forget_checked_sparse(&mut self) {
+        self.checked_sparse.get_mut().unwrap_or_else(PoisonError::into_inner).clear();
     }
 
     /// Whether the typed parts are what the JSON says. Every edit keeps this; builds with debug assertions

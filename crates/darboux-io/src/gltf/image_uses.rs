@@ -11,17 +11,11 @@ use super::materials::Texture;
 const NORMAL_MAPS: [&str; 2] = ["normalTexture", "clearcoatNormalTexture"];
 
 impl Document {
-    /// Why the texels of an image cannot be changed as those of a normal map, as a clause whose subject is
-    /// the image; none if they can.
+    /// The images whose texels cannot be changed as those of a normal map, each with the reason, as a clause
+    /// whose subject is the image.
     ///
     /// They cannot where a material also uses the image as another texture, and where its texture refers to
     /// the same picture in several formats.
-    pub fn normal_map_obstacle(&self, image: usize) -> Option<&'static str> {
-        self.normal_map_obstacles().remove(&image)
-    }
-
-    /// The images whose texels cannot be changed as those of a normal map, with the clause of
-    /// [`Document::normal_map_obstacle`].
     pub fn normal_map_obstacles(&self) -> HashMap<usize, &'static str> {
         let textures: Vec<Texture> = json::read(&self.json["textures"], "textures").unwrap_or_default();
         let in_several_formats = textures.iter().filter(|texture| texture.formats() > 1);

@@ -247,6 +247,9 @@ impl<'a> OutputLayout<'a> {
             match files.of_buffer(i) {
                 Some(SharedFile { place: SharedPlace::Binary(moves), .. }) => {
                     layout.moves[i] = Arc::clone(moves);
+                    if !is_plain(document.element("buffers", i)) {
+                        layout.push_unmoved(OutputBuffer { source: Some(i), content: BufferContent::Mark });
+                    }
                     continue;
                 }
                 Some(file) => {

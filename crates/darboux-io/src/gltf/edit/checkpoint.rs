@@ -46,5 +46,6 @@ impl Document {
         }
         self.warnings.truncate(checkpoint.warning_count);
         self.backed_count.take();
+        self.forget_checked_sparse();
     }
 }

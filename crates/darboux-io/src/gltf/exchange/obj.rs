@@ -47,8 +47,8 @@ struct ObjectNames<'a> {
 
 impl<'a> ObjectNames<'a> {
     fn of(surfaces: &'a [Surface]) -> Self {
-        let lengths = surfaces.chunk_by(is_one_object).map(|objects| objects[0].name.len());
-        Self { longest: longest_name(lengths), written: HashMap::new() }
+        let names = surfaces.chunk_by(is_one_object).map(|objects| &*objects[0].name);
+        Self { longest: longest_name(names), written: HashMap::new() }
     }
 
     fn name(&mut self, name: &'a str) -> &str {
@@ -136,10 +136,10 @@ const LONGEST_OF_MANY: usize = 60;
 /// Names of so many bytes are written as they are, and so many more for each of them.
 const NAME_BYTES: usize = 1 << 20;
 
-/// The most characters of names that are written in turn, given by their lengths.
-fn longest_name(lengths: impl Iterator<Item = usize>) -> usize {
-    let (count, bytes) =
-        lengths.fold((0, 0), |(count, bytes), length| (count + 1, bytes + length.min(LONGEST_NAME)));
+/// The most characters of names that are written in turn.
+fn longest_name<'a>(names: impl Iterator<Item = &'a str>) -> usize {
+    let length = |name: &str| name.char_indices().nth(LONGEST_NAME).map_or(name.len(), |(end, _)| end);
+    let (count, bytes) = names.fold((0, 0), |(count, bytes), name| (count + 1, bytes + length(name)));
     if bytes <= NAME_BYTES + LONGEST_OF_MANY * count { LONGEST_NAME } else { LONGEST_OF_MANY }
 }
 
@@ -194,8 +194,7 @@ pub fn materials(
 ) -> Result<Materials, Error> {
     let materials = document.materials()?;
     let name = |index: usize| document.json()["materials"][index]["name"].as_str().unwrap_or_default();
-    let longest =
-        longest_name(surfaces.iter().filter_map(|surface| surface.material).map(|index| name(index).len()));
+    let longest = longest_name(surfaces.iter().filter_map(|surface| surface.material).map(name));
     let names = unique_names(materials.len(), name, longest);
     let mut library = format!("# Created by Darboux {}\n", env!("CARGO_PKG_VERSION"));
     for (name, material) in names.iter().zip(&materials) {

@@ -162,6 +162,17 @@ impl Document {
         limits::check_triangles(self, std::iter::once(triangles))
     }
 
+    /// As [`Document::check_triangle_count`], for UVs.
+    pub fn check_uv_count(&self, uvs: usize) -> Result<(), Error> {
+        limits::check_uvs(self, uvs)
+    }
+
+    /// Checks bytes that edits are to add. Errors: with those of earlier edits, more than the memory limit
+    /// permits.
+    pub fn check_new_bytes(&self, bytes: usize) -> Result<(), Error> {
+        limits::check_more_output(self, bytes)
+    }
+
     /// The corners of one primitive; none for points and lines, and where it does not exist. Errors: as
     /// [`Document::corners`].
     pub fn corners_of(&self, name: &PrimitiveName) -> Result<Option<PrimitiveCorners<'_>>, Error> {

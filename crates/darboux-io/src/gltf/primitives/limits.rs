@@ -25,6 +25,11 @@ pub fn check_matrices(document: &Document, accessors: impl Iterator<Item = usize
     check(document, matrices.saturating_mul(size_of::<[f32; 16]>()), "have so many matrices that they need")
 }
 
+/// Checks UVs that are to be kept, those of all sets together. Errors: they take more than the memory limit.
+pub fn check_uvs(document: &Document, uvs: usize) -> Result<(), Error> {
+    check(document, uvs.saturating_mul(size_of::<[f32; 2]>()), "have so many UVs that they need")
+}
+
 /// Checks the bytes that are to be written. Errors: they are more than the memory limit.
 pub fn check_output(document: &Document) -> Result<(), Error> {
     check_more_output(document, 0)

@@ -65,11 +65,11 @@ impl<'a> Vertices<'a> {
         for accessor in group.jobs.iter().filter_map(|job| job.indices) {
             corners.extend(document.indices(accessor)?.iter());
         }
-        let Some(used) = UsedVertices::of(&corners, count) else { return Self::read(document, group) };
-        // The sentence about an index out of range names the job.
-        if used.vertices.last().is_some_and(|&last| last as usize >= count) {
+        // The sentence about an index out of range names it, and the number of all vertices.
+        if corners.iter().any(|&vertex| vertex as usize >= count) {
             return Self::read(document, group);
         }
+        let Some(used) = UsedVertices::of(&corners, count) else { return Self::read(document, group) };
         let used = used.vertices;
         let uvs = match group.uv {
             Some(uv) => document.vectors_at(uv, &used)?,
