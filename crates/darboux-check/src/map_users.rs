@@ -113,8 +113,10 @@ impl<'a> MapUsers<'a> {
             return Ok(None);
         };
         let mut read = self.read.borrow_mut();
-        if read.corners + corners.len() <= MOST_KEPT_CORNERS {
-            read.corners += corners.len();
+        // Each further UV set takes as much as the first one.
+        let corners = corners.len().saturating_mul(surface.uv_sets.len().max(1));
+        if read.corners.saturating_add(corners) <= MOST_KEPT_CORNERS {
+            read.corners += corners;
             read.by_primitive.insert(primitive, Arc::clone(&surface));
         }
         Ok(Some(surface))

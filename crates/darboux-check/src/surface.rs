@@ -1,8 +1,8 @@
 //! [`Surface`]: the data of one primitive, as the rules read it.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::Hash;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use darboux::{Convention, Mesh, TangentOptions, generate_tangents};
 use darboux_io::Error;
@@ -36,8 +36,8 @@ pub struct Surface {
     pub tangents: Option<Vec<[f32; 4]>>,
     /// Bytes per tangent in the file, without padding; 0 where it has none.
     pub tangent_size: usize,
-    /// The UV sets by the n of `TEXCOORD_n`.
-    pub uv_sets: BTreeMap<usize, Vec<[f32; 2]>>,
+    /// The UV sets by the n of `TEXCOORD_n`. Those of one accessor are one list.
+    pub uv_sets: BTreeMap<usize, Arc<Vec<[f32; 2]>>>,
     /// Whether its faces say nothing about maps, once that was asked.
     pub has_no_votes: OnceLock<bool>,
 }
@@ -45,7 +45,8 @@ pub struct Surface {
 impl Surface {
     /// Reads a primitive; none where it has no positions. All attributes have as many elements, or the
     /// document would not have opened. `info`: where it is absent, the surface does not need tangents,
-    /// and they follow the first UV set. Errors: invalid accessors; an index out of range.
+    /// and they follow the first UV set. Errors: invalid accessors; an index out of range; UV sets that need
+    /// more than the memory limit.
     pub fn read(
         document: &Document,
         corners: &PrimitiveCorners<'_>,
@@ -73,10 +74,16 @@ impl Surface {
             uv_sets: BTreeMap::new(),
             has_no_votes: OnceLock::new(),
         };
-        for semantic in attributes.keys() {
-            if let Some(set) = semantic.strip_prefix("TEXCOORD_").and_then(|set| set.parse().ok()) {
-                surface.uv_sets.extend(vertices(corners, semantic)?.map(|uvs| (set, uvs)));
+        let set_of = |semantic: &str| semantic.strip_prefix("TEXCOORD_").and_then(|set| set.parse().ok());
+        let sets = || attributes.iter().filter_map(|(name, &at)| Some((set_of(name)?, name, at)));
+        let accessors: BTreeSet<usize> = sets().map(|(_, _, accessor)| accessor).collect();
+        document.check_uv_count(accessors.len().saturating_mul(surface.positions.len()))?;
+        let mut read: BTreeMap<usize, Arc<Vec<[f32; 2]>>> = BTreeMap::new();
+        for (set, semantic, accessor) in sets() {
+            if !read.contains_key(&accessor) {
+                read.extend(vertices(corners, semantic)?.map(|uvs| (accessor, Arc::new(uvs))));
             }
+            surface.uv_sets.extend(read.get(&accessor).map(|uvs| (set, Arc::clone(uvs))));
         }
         Ok(Some(surface))
     }
@@ -89,7 +96,7 @@ impl Surface {
     /// The mesh with one of its UV sets; none where it has no normals or not that set.
     pub fn mesh(&self, uv_set: usize) -> Option<Mesh<'_>> {
         let (normals, uvs) = (self.normals.as_ref()?, self.uv_sets.get(&uv_set)?);
-        Mesh::triangles(&self.positions, normals, uvs, &self.vertex_of_corner).ok()
+        Mesh::triangles(&self.positions, normals, &**uvs, &self.vertex_of_corner).ok()
     }
 
     /// MikkTSpace's tangents of all corners in glTF's convention.

@@ -97,7 +97,6 @@ fn findings_name_the_vertices_of_the_file() {
 
 #[test]
 fn repairs_change_the_vertices_of_the_file() {
-    let wrong = [41, 42, 83, 127];
     let mut document = model(|vertex, tangent| match vertex {
         41 => tangent[1] = f32::NAN,
         42 => *tangent = [0.0, 0.0, 0.0, 1.0],
@@ -115,5 +114,4 @@ fn repairs_change_the_vertices_of_the_file() {
             assert_eq!(tangents[vertex as usize], [1.0, 0.0, 0.0, 1.0], "{vertex}");
         }
     }
-    assert!(wrong.iter().all(|&vertex| vertex < 4 * SQUARES));
 }

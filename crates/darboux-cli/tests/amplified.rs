@@ -437,25 +437,28 @@ fn a_scene_without_faces_is_not_written_as_one_of_faces() {
 /// Two meshes in turn, whose names are written each time.
 #[test]
 fn names_of_objects_are_not_repeated_at_length() {
-    let mut builder = Builder::default();
-    let square = builder.square();
-    let mesh = |letter: &str| json!({ "name": letter.repeat(1000), "primitives": [square] });
-    let file = builder.glb(json!({
-        "meshes": [mesh("a"), mesh("b")],
-        "nodes": (0..6000).map(|i| json!({ "mesh": i % 2 })).collect::<Vec<_>>(),
-    }));
-    let folder = tempfile::tempdir().expect("a folder");
-    let (path, output) = (folder.path().join("m.glb"), folder.path().join("out.obj"));
-    fs::write(&path, file).expect("a file");
-    common::darboux(&["convert", text(&path), "--from", "gltf", "--to", "gltf", "-o", text(&output)])
-        .exits(0);
-    let obj = fs::read_to_string(&output).expect("a text");
-    assert!(obj.len() < 1 << 20, "{} bytes", obj.len());
-    let mut names: Vec<&str> = obj.lines().filter(|line| line.starts_with("o ")).collect();
-    assert_eq!(names.len(), 6000);
-    names.sort_unstable();
-    names.dedup();
-    assert_eq!(names.len(), 2);
+    // Characters of one byte and of three.
+    for (letters, places) in [(["a", "b"], 6000), (["\u{20ac}", "\u{20a4}"], 1000)] {
+        let mut builder = Builder::default();
+        let square = builder.square();
+        let meshes = letters.map(|letter| json!({ "name": letter.repeat(1000), "primitives": [square] }));
+        let file = builder.glb(json!({
+            "meshes": meshes,
+            "nodes": (0..places).map(|i| json!({ "mesh": i % 2 })).collect::<Vec<_>>(),
+        }));
+        let folder = tempfile::tempdir().expect("a folder");
+        let (path, output) = (folder.path().join("m.glb"), folder.path().join("out.obj"));
+        fs::write(&path, file).expect("a file");
+        common::darboux(&["convert", text(&path), "--from", "gltf", "--to", "gltf", "-o", text(&output)])
+            .exits(0);
+        let obj = fs::read_to_string(&output).expect("a text");
+        assert!(obj.len() < 1 << 20, "{} bytes", obj.len());
+        let mut names: Vec<&str> = obj.lines().filter(|line| line.starts_with("o ")).collect();
+        assert_eq!(names.len(), places);
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), 2);
+    }
 }
 
 /// Buffers over one file, each of another length.
@@ -464,7 +467,8 @@ fn a_file_of_many_buffers_is_written_once() {
     let length = 1_000_000;
     for extra in [json!({}), json!({ "extras": 0 })] {
         let buffer = |i: usize| {
-            let mut buffer = json!({ "uri": "a.bin", "byteLength": length - i });
+            // As one that an earlier run made, which the next one replaces.
+            let mut buffer = json!({ "uri": "a.bin", "byteLength": length - i, "name": "darboux" });
             buffer.as_object_mut().expect("an object").extend(extra.as_object().expect("members").clone());
             buffer
         };
@@ -485,20 +489,24 @@ fn a_file_of_many_buffers_is_written_once() {
         let path = folder.path().join("m.gltf");
         fs::write(&path, &model).expect("a file");
         fs::write(folder.path().join("a.bin"), &bytes).expect("a file");
-        let glb = folder.path().join("out.glb");
-        common::darboux(&["convert", text(&path), "--from", "gltf", "--to", "gltf", "-o", text(&glb)])
-            .exits(0);
-        let written = fs::metadata(&glb).expect("a file").len();
-        assert!(written < 3 * length as u64, "{written} bytes");
-        let options = darboux_io::LoadOptions::default();
-        let document = darboux_io::gltf::Document::open(&glb, &options).expect("a model");
-        for i in 0..60 {
-            let first = document.vectors::<3>(i).expect("positions")[0];
-            assert_eq!(first, [i, i + 1, i + 2].map(|x| x as f32));
-            assert_eq!(
-                document.json()["buffers"].as_array().map_or(0, Vec::len),
-                if extra["extras"] == 0 { 60 } else { 1 }
-            );
+        for output in ["out.glb", "out.gltf"] {
+            let folder = tempfile::tempdir_in(folder.path()).expect("a folder");
+            let output = folder.path().join(output);
+            common::darboux(&["normals", text(&path), "-o", text(&output)]).exits(0);
+            let files = fs::read_dir(folder.path()).expect("a folder");
+            let written: u64 =
+                files.map(|file| file.and_then(|file| file.metadata()).expect("a file").len()).sum();
+            assert!(written < 3 * length as u64, "{written} bytes");
+            let options = darboux_io::LoadOptions::default();
+            let document = darboux_io::gltf::Document::open(&output, &options).expect("a model");
+            for i in 0..60 {
+                let first = document.vectors::<3>(i).expect("positions")[0];
+                assert_eq!(first, [i, i + 1, i + 2].map(|x| x as f32));
+            }
+            let buffers = document.json()["buffers"].as_array().expect("buffers");
+            assert_eq!(buffers.len(), if extra["extras"] == 0 { 60 } else { 1 });
+            let has_extras = extra.get("extras").is_some();
+            assert!(buffers.iter().all(|buffer| buffer.get("extras").is_some() == has_extras));
         }
     }
 }
@@ -526,6 +534,57 @@ fn white_space_is_not_repeated() {
             &["normals IN --overwrite -o out.gltf", "tangents IN --overwrite -o out.gltf"],
         );
     }
+}
+
+/// A triangle of the first of many vertices, whose normals are too long.
+fn first_of(vertices: usize, builder: &mut Builder) -> (usize, Vec<u8>) {
+    let mut positions = vec![0.0f32; 3 * vertices];
+    positions[..9].copy_from_slice(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    let normals = [0.0f32, 0.0, 2.0].map(f32::to_le_bytes).as_flattened().repeat(vertices);
+    (builder.floats(&positions, "VEC3", vertices), normals)
+}
+
+/// Many UV sets of a primitive: of one accessor, and of one each, which need too much.
+#[test]
+fn uv_sets_of_one_accessor_are_read_once() {
+    let (vertices, sets) = (60_000, 1000);
+    for is_one in [true, false] {
+        let mut builder = Builder::default();
+        let (position, _) = first_of(vertices, &mut builder);
+        let view = builder.view(&vec![7; 4 * vertices]);
+        let uvs = json!({ "bufferView": view, "componentType": 5123, "normalized": true, "count": vertices, "type": "VEC2" });
+        let mut attributes = json!({ "POSITION": position });
+        let first = builder.accessor(uvs.clone());
+        for set in 0..sets {
+            let accessor = if is_one { first } else { builder.accessor(uvs.clone()) };
+            attributes[format!("TEXCOORD_{set}")] = json!(accessor);
+        }
+        let file = builder.glb(json!({ "meshes": [{ "primitives": [{ "attributes": attributes }] }] }));
+        if is_one {
+            ends_in_time("m.glb", &file, &["check IN"]);
+        } else {
+            is_refused("m.glb", &file, "check IN", "have so many UVs that they need");
+        }
+    }
+}
+
+/// Accessors over the same bytes, each of which a repair would write again.
+#[test]
+fn what_repairs_write_again_is_limited() {
+    let (vertices, count) = (60_000, 1000);
+    let mut builder = Builder::default();
+    let (position, normals) = first_of(vertices, &mut builder);
+    let view = builder.view(&normals);
+    let indices = builder.indices(&[0, 1, 2]);
+    let mut primitive = || {
+        let normal = builder.accessor(
+            json!({ "bufferView": view, "componentType": 5126, "count": vertices, "type": "VEC3" }),
+        );
+        json!({ "attributes": { "POSITION": position, "NORMAL": normal }, "indices": indices })
+    };
+    let primitives: Vec<Value> = (0..count).map(|_| primitive()).collect();
+    let file = builder.glb(json!({ "meshes": [{ "primitives": primitives }] }));
+    is_refused("m.glb", &file, "check IN --fix -o out.glb", "share bytes so often that the result needs");
 }
 
 /// What decoding takes is known from the head of an image.

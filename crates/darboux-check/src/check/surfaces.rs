@@ -1,6 +1,7 @@
 //! Checks the surfaces of a document.
 
 use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
 
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveInfo, PrimitiveName, inspect};
@@ -47,7 +48,7 @@ pub fn for_each_surface(
         surface.place.same_as = same_as;
         let texture = corners.material().and_then(|index| materials.get(index)?.normal_texture.as_ref());
         if let Some(uvs) = texture.and_then(|texture| followed(&surface, texture)) {
-            surface.uv_sets.insert(surface.uv_set, uvs);
+            surface.uv_sets.insert(surface.uv_set, Arc::new(uvs));
         }
         visit(surface);
     }

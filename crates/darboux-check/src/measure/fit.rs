@@ -3,6 +3,9 @@
 //! The rules about tangents that follow other directions or signs exclude each other, so one measurement
 //! decides among them.
 
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
 use darboux::CornerDifference;
 
 use crate::measure::expected::{is_measured, on_mirrored_seams};
@@ -134,8 +137,11 @@ fn other_uv_set(surface: &Surface, own: &Counts, winding: Winding<'_>) -> Option
         let counts = Comparison::new(surface, set, (&expected, &is_on_seam), winding)?.counts();
         Some((set, counts))
     };
-    let others = surface.uv_sets.keys().filter(|&&set| set != surface.uv_set);
-    let others: Vec<(usize, Counts)> = others.filter_map(counts).collect();
+    // Sets of one accessor are compared once.
+    let mut seen: BTreeSet<*const Vec<[f32; 2]>> =
+        surface.uv_sets.get(&surface.uv_set).map(Arc::as_ptr).into_iter().collect();
+    let others = surface.uv_sets.iter().filter(|(_, uvs)| seen.insert(Arc::as_ptr(uvs)));
+    let others: Vec<(usize, Counts)> = others.filter_map(|(set, _)| counts(set)).collect();
     let with_signs = others.iter().position(|(_, other)| is_most(other.close, other));
     let directions_alone =
         || others.iter().position(|(_, other)| !is_most(own.near, own) && is_most(other.near, other));

@@ -118,7 +118,7 @@ fn recognise(surface: &Surface, tangents: &[[f32; 4]]) -> Option<Recognised> {
     // Normals that were scaled after the tangents were computed hide how they were.
     let Some(unit) = unit_normals(surface) else { return Some(as_they_are) };
     let uvs = surface.uv_sets.get(&surface.uv_set)?;
-    let mesh = Mesh::triangles(&surface.positions, &unit, uvs, &surface.vertex_of_corner).ok()?;
+    let mesh = Mesh::triangles(&surface.positions, &unit, &**uvs, &surface.vertex_of_corner).ok()?;
     let on_unit = recognise_on(&mesh, tangents)?;
     let is_better = on_unit.best.close > as_they_are.best.close;
     Some(if is_better { Recognised { with_unit_normals: true, ..on_unit } } else { as_they_are })

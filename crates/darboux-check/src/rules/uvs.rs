@@ -1,5 +1,8 @@
 //! Rules about UVs: the set that the tangents follow.
 
+use std::collections::HashMap;
+use std::sync::Arc;
+
 use super::rule::SurfaceRule;
 use crate::defect::{Defect, UvFault};
 use crate::facts::SurfaceFacts;
@@ -26,8 +29,13 @@ fn missing(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
 /// UVs of any set: every texture may use it. The UV set of the normal texture also decides the tangents.
 fn not_finite(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let surface = facts.surface;
-    let of_set = |(&set, uvs): (&usize, &Vec<[f32; 2]>)| {
-        let vertices = surface.vertices_where(uvs, |uv| !is_finite(*uv))?;
+    // Sets of one accessor are looked through once.
+    let mut known = HashMap::new();
+    let of_set = |(&set, uvs): (&usize, &Arc<Vec<[f32; 2]>>)| {
+        let vertices = known
+            .entry(Arc::as_ptr(uvs))
+            .or_insert_with(|| surface.vertices_where(uvs, |uv| !is_finite(*uv)))
+            .clone()?;
         let decides = surface.needs_tangents && set == surface.uv_set;
         let severity = if decides { Severity::Error } else { Severity::Warning };
         Some(Defect::new(UvFault::NotFinite { set, vertices }).with_severity(severity))
@@ -37,7 +45,7 @@ fn not_finite(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
 
 /// The UVs that the tangents follow, if the surface needs tangents.
 fn needed_uvs(surface: &Surface) -> Option<&Vec<[f32; 2]>> {
-    surface.uv_sets.get(&surface.uv_set).filter(|_| surface.needs_tangents)
+    surface.uv_sets.get(&surface.uv_set).map(|uvs| &**uvs).filter(|_| surface.needs_tangents)
 }
 
 /// Triangles with an area in space that are UV-degenerate.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveName};
 
 /// The accessors of an attribute of primitives, each with the primitives that use it.
@@ -18,4 +19,15 @@ pub fn users_of(
         }
     }
     users
+}
+
+/// Checks elements of `N` floats that are to take the place of all those of accessors, each as often as it is
+/// named. Errors: they are more than the memory limit permits.
+pub fn check_rewritten<const N: usize>(
+    document: &Document,
+    accessors: impl Iterator<Item = usize>,
+) -> Result<(), Error> {
+    let counts = accessors.filter_map(|index| Some(document.accessors().get(index)?.count));
+    let elements = counts.fold(0, usize::saturating_add);
+    document.check_new_bytes(elements.saturating_mul(size_of::<[f32; N]>()))
 }

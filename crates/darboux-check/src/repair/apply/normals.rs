@@ -7,7 +7,7 @@ use darboux::{Context, Faces, NormalOptions, generate_normals};
 use darboux_io::Error;
 use darboux_io::gltf::{AddNormalsOptions, Document, NormalsOutcome, PrimitiveName, add_normals_to};
 
-use super::attributes::users_of;
+use super::attributes::{check_rewritten, users_of};
 use crate::instances::{Groups, Key, key};
 use crate::measure::reversed::front;
 use crate::measure::values::is_unit;
@@ -65,7 +65,9 @@ fn make(
 /// Gives normals unit length, and vertices whose normal has no direction a smooth one. Other normals keep
 /// their bits.
 fn make_unit(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Error> {
-    for (accessor, users) in users_of(document, NORMAL, names) {
+    let users = users_of(document, NORMAL, names);
+    check_rewritten::<3>(document, users.keys().copied())?;
+    for (accessor, users) in users {
         let mut normals = document.vectors::<3>(accessor)?.into_owned();
         let has_direction = |normal: [f32; 3]| length(normal).is_finite() && length(normal) > 1e-9;
         for normal in normals.iter_mut().filter(|normal| has_direction(**normal)) {
@@ -143,7 +145,9 @@ fn flip(document: &mut Document, reversed: &[(Flip, Vec<PrimitiveName>)]) -> Res
             }
         }
     }
-    for (accessor, users) in users_of(document, NORMAL, &with_reversed_normals) {
+    let users = users_of(document, NORMAL, &with_reversed_normals);
+    check_rewritten::<3>(document, users.keys().copied())?;
+    for (accessor, users) in users {
         let normals = document.vectors::<3>(accessor)?;
         let reversed: Vec<[f32; 3]> = normals.iter().map(|normal| normal.map(|x| -x)).collect();
         document.set_normals(&users, &reversed)?;

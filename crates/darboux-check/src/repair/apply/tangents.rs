@@ -8,7 +8,7 @@ use darboux_io::gltf::{
     AddTangentsOptions, Document, Generate, GivenTangents, PrimitiveName, add_tangents_to,
 };
 
-use super::attributes::users_of;
+use super::attributes::{check_rewritten, users_of};
 use super::correction::{Correction, bits};
 use crate::check::for_each_surface;
 use crate::instances::{Groups, Key, key};
@@ -60,6 +60,9 @@ pub fn correct(
             None => split.push((names, correction)),
         }
     }
+    let written =
+        of_accessors.iter().flat_map(|(&accessor, rewritten)| rewritten.iter().map(move |_| accessor));
+    check_rewritten::<4>(document, written)?;
     for (accessor, rewritten) in of_accessors {
         let old = document.vectors::<4>(accessor)?.into_owned();
         for Rewritten { users, of_vertices } in rewritten {
@@ -123,7 +126,9 @@ pub fn change(
     names: &[PrimitiveName],
     change: fn([f32; 4]) -> [f32; 4],
 ) -> Result<(), Error> {
-    for (accessor, users) in users_of(document, TANGENT, names) {
+    let users = users_of(document, TANGENT, names);
+    check_rewritten::<4>(document, users.keys().copied())?;
+    for (accessor, users) in users {
         let changed: Vec<[f32; 4]> = document.vectors::<4>(accessor)?.iter().copied().map(change).collect();
         document.set_tangents(&users, &changed)?;
     }
