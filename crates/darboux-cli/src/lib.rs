@@ -19,7 +19,7 @@ mod memory;
 mod net;
 mod options;
 #[cfg(unix)]
-#[expect(unsafe_code, reason = "an allocator is unsafe to implement")]
+#[expect(unsafe_code, reason = "an allocator is unsafe to implement, and limits are read with the C library")]
 mod out_of_memory;
 mod paths;
 mod regular_file;
@@ -67,7 +67,9 @@ where
 }
 
 fn run_command(command: &Command) -> u8 {
-    // Before threads reserve addresses that are no memory.
+    // Both before threads reserve addresses that are no memory.
+    #[cfg(unix)]
+    out_of_memory::share_arena_where_addresses_are_limited();
     memory::of_process();
     match command {
         Command::Tangents(arguments) => batch::run(arguments),

@@ -29,6 +29,23 @@ fn or_exit(memory: *mut u8) -> *mut u8 {
     memory
 }
 
+/// Lets all threads allocate from one arena where addresses are limited, as by `ulimit -v`. Otherwise glibc
+/// reserves at least 64 MiB of addresses for each thread, which the limit counts and nothing uses.
+pub fn share_arena_where_addresses_are_limited() {
+    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    {
+        let mut limit = libc::rlimit { rlim_cur: libc::RLIM_INFINITY, rlim_max: libc::RLIM_INFINITY };
+        // SAFETY: `getrlimit` writes the limit at a valid address; `mallopt` may be called at any time and
+        // changes the arenas of later threads alone.
+        unsafe {
+            libc::getrlimit(libc::RLIMIT_AS, &raw mut limit);
+            if limit.rlim_cur != libc::RLIM_INFINITY {
+                libc::mallopt(libc::M_ARENA_MAX, 1);
+            }
+        }
+    }
+}
+
 // SAFETY: every call goes to the system's allocator with the caller's arguments, and its memory is returned
 // as it is.
 unsafe impl GlobalAlloc for ExitWithoutMemory {

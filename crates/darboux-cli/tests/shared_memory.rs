@@ -198,11 +198,10 @@ fn an_earlier_repair_is_compared_with_its_buffers() {
     assert!(refused.stderr.contains("other data would be written"), "{}", refused.stderr);
 }
 
-/// Runs the command with limits in a folder, and glibc's memory for each thread in one heap.
+/// Runs the command with a limit on addresses in a folder.
 fn limited(folder: &Path, mebibytes: usize, arguments: &[&str]) -> Run {
     let script = format!("ulimit -v {} && exec \"$0\" \"$@\"", mebibytes << 10);
     let output = Command::new("sh")
-        .env("MALLOC_ARENA_MAX", "1")
         .args(["-c", &script, env!("CARGO_BIN_EXE_darboux")])
         .args(arguments)
         .current_dir(folder)

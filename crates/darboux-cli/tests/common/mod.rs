@@ -50,8 +50,6 @@ pub fn darboux_with_addresses<A: AsRef<std::ffi::OsStr>>(bytes: usize, arguments
     }
     let mut command = Command::new("sh");
     let line = format!("ulimit -v {} && exec \"$0\" \"$@\"", bytes >> 10);
-    // Further arenas of glibc reserve 64 MiB of addresses each, which are no memory.
-    command.env("MALLOC_ARENA_MAX", "1");
     command.args(["-c", &line, env!("CARGO_BIN_EXE_darboux")]);
     run(command, arguments, b"")
 }
