@@ -1,10 +1,13 @@
 //! Primitives that share many vertices of which each uses few: findings name the vertices of the file, and a
 //! repair changes these.
 
+mod support;
+
 use darboux_check::{CheckOptions, Code, FixOptions, check_document, fix_document};
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
 use serde_json::json;
+use support::container::container;
 
 /// Squares of their own vertices, so many.
 const SQUARES: usize = 40;
@@ -55,15 +58,7 @@ fn model(change: impl Fn(usize, &mut [f32; 4])) -> Document {
         "materials": [{ "normalTexture": { "index": 0 } }],
         "meshes": [{ "primitives": primitives }],
     });
-    let mut text = json.to_string().into_bytes();
-    text.resize(text.len().next_multiple_of(4), b' ');
-    let mut file = [b"glTF".as_slice(), &2u32.to_le_bytes()].concat();
-    file.extend((28 + text.len() as u32 + data.len() as u32).to_le_bytes());
-    for (kind, chunk) in [(b"JSON", &text), (b"BIN\0", &data)] {
-        file.extend((chunk.len() as u32).to_le_bytes());
-        file.extend(kind);
-        file.extend(chunk);
-    }
+    let file = container(json.to_string().into_bytes(), data);
     Document::from_bytes("m.glb", file, None, &LoadOptions::default()).expect("a model")
 }
 

@@ -9,7 +9,7 @@ mod common;
 use std::fs;
 
 use common::limited::{ends_beside, ends_in_time, is_refused};
-use common::text;
+use common::{glb, text};
 use darboux_io::image::PngImage;
 use serde_json::{Value, json};
 
@@ -71,15 +71,7 @@ impl Builder {
         });
         let members = members.as_object().expect("members").clone();
         json.as_object_mut().expect("an object").extend(members);
-        let chunk = |kind: &[u8; 4], content: &[u8], padding: u8| {
-            let length = content.len().next_multiple_of(4);
-            let mut bytes = [&(length as u32).to_le_bytes()[..], kind, content].concat();
-            bytes.resize(8 + length, padding);
-            bytes
-        };
-        let chunks =
-            [chunk(b"JSON", json.to_string().as_bytes(), b' '), chunk(b"BIN\0", &self.data, 0)].concat();
-        [b"glTF", &2u32.to_le_bytes()[..], &(12 + chunks.len() as u32).to_le_bytes(), &chunks].concat()
+        glb(&json, &self.data)
     }
 }
 

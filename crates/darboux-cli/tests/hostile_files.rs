@@ -12,7 +12,8 @@ use std::process::Stdio;
 use std::time::Duration;
 
 use common::{
-    asset, darboux, darboux_with, darboux_with_addresses, folder_with, has_adapter, names_in, program, text,
+    asset, darboux, darboux_with, darboux_with_addresses, folder_with, glb, has_adapter, names_in, program,
+    text,
 };
 use serde_json::{Value, json};
 
@@ -41,17 +42,6 @@ fn square() -> (Value, Vec<u8>) {
         }] }],
     });
     (json, bytes)
-}
-
-fn glb(json: &Value, binary: &[u8]) -> Vec<u8> {
-    let chunk = |kind: &[u8; 4], content: &[u8], padding: u8| {
-        let length = content.len().next_multiple_of(4);
-        let mut bytes = [&(length as u32).to_le_bytes()[..], kind, content].concat();
-        bytes.resize(8 + length, padding);
-        bytes
-    };
-    let chunks = [chunk(b"JSON", json.to_string().as_bytes(), b' '), chunk(b"BIN\0", binary, 0)].concat();
-    [b"glTF", &2u32.to_le_bytes()[..], &(12 + chunks.len() as u32).to_le_bytes(), &chunks].concat()
 }
 
 /// Runs the command on a file that is alone in its folder. It must refuse the file by one sentence with this

@@ -6,11 +6,9 @@
 mod common;
 
 use std::fs;
-use std::path::Path;
-use std::process::Command;
 
 use common::limited::ends_in_time;
-use common::{Run, darboux_with_addresses, names_in, text};
+use common::{darboux_in_with_addresses, darboux_with_addresses, glb, names_in, text};
 use darboux_io::image::PngImage;
 use serde_json::{Value, json};
 
@@ -57,14 +55,7 @@ fn square(length: f32, data: &[u8], members: Value) -> Vec<u8> {
             None => json[name] = value.clone(),
         }
     }
-    let chunk = |kind: &[u8; 4], content: &[u8], padding: u8| {
-        let length = content.len().next_multiple_of(4);
-        let mut bytes = [&(length as u32).to_le_bytes()[..], kind, content].concat();
-        bytes.resize(8 + length, padding);
-        bytes
-    };
-    let chunks = [chunk(b"JSON", json.to_string().as_bytes(), b' '), chunk(b"BIN\0", &binary, 0)].concat();
-    [b"glTF", &2u32.to_le_bytes()[..], &(12 + chunks.len() as u32).to_le_bytes(), &chunks].concat()
+    glb(&json, &binary)
 }
 
 /// Primitives with a material each, and images over the same bytes, which `texture` of a material uses.
@@ -198,19 +189,6 @@ fn an_earlier_repair_is_compared_with_its_buffers() {
     assert!(refused.stderr.contains("other data would be written"), "{}", refused.stderr);
 }
 
-/// Runs the command with a limit on addresses in a folder.
-fn limited(folder: &Path, mebibytes: usize, arguments: &[&str]) -> Run {
-    let script = format!("ulimit -v {} && exec \"$0\" \"$@\"", mebibytes << 10);
-    let output = Command::new("sh")
-        .args(["-c", &script, env!("CARGO_BIN_EXE_darboux")])
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .expect("a shell");
-    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
-    Run { code: output.status.code().expect("the command ends by itself"), stdout: output.stdout, stderr }
-}
-
 /// Small images that are large in memory.
 #[test]
 fn images_wait_for_the_memory_that_their_heads_declare() {
@@ -221,7 +199,9 @@ fn images_wait_for_the_memory_that_their_heads_declare() {
     }
     let names: Vec<String> = (0..count).map(|index| format!("map{index}.png")).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    let limited = |arguments: &[&[&str]]| limited(folder.path(), 300, &arguments.concat()).exits(0);
+    let limited = |arguments: &[&[&str]]| {
+        darboux_in_with_addresses(folder.path(), 300 << 20, &arguments.concat()).exits(0)
+    };
     limited(&[&["check", "map0.png"]]);
     limited(&[&["check", "--jobs", "5"], &names]);
     limited(&[&["convert", "--from", "opengl", "--to", "directx", "--jobs", "5"], &names]);
@@ -244,6 +224,6 @@ fn bakes_of_a_job_wait_for_the_memory_of_their_maps() {
         )
     };
     fs::write(folder.path().join("job.toml"), (0..6).map(entry).collect::<String>()).expect("a file");
-    limited(folder.path(), 250, &["bake", "job.toml", "--jobs", "6"]).exits(0);
+    darboux_in_with_addresses(folder.path(), 250 << 20, &["bake", "job.toml", "--jobs", "6"]).exits(0);
     assert_eq!(names_in(folder.path()).iter().filter(|name| name.ends_with("normal.png")).count(), 6);
 }

@@ -1,5 +1,7 @@
 //! Documents: reading, edits, and everything that edits keep.
 
+mod support;
+
 use std::borrow::Cow;
 use std::fs;
 use std::io;
@@ -9,6 +11,7 @@ use std::sync::Arc;
 use darboux_io::gltf::{ComponentType, Document, ElementType, Elements, IndexList, NewAccessor, Target};
 use darboux_io::{Error, Files, LoadOptions, SaveOptions};
 use serde_json::{Value, json};
+use support::glb;
 
 /// Odd but valid spelling and layout, members that nothing here knows, and a buffer with one triangle:
 /// positions, then indices.
@@ -52,23 +55,6 @@ fn parse(text: &str) -> Result<Document, Error> {
 
 fn odd() -> String {
     ODD.replace("URI", &data_uri(&triangle()))
-}
-
-fn glb(json: &str, bin: &[u8]) -> Vec<u8> {
-    let mut json = json.as_bytes().to_vec();
-    json.resize(json.len().next_multiple_of(4), b' ');
-    let mut bin = bin.to_vec();
-    bin.resize(bin.len().next_multiple_of(4), 0);
-    let length = 12 + 8 + json.len() + 8 + bin.len();
-    let mut out = b"glTF".to_vec();
-    for word in [2, length as u32, json.len() as u32, 0x4E4F_534A] {
-        out.extend(word.to_le_bytes());
-    }
-    out.extend(json);
-    out.extend((bin.len() as u32).to_le_bytes());
-    out.extend(*b"BIN\0");
-    out.extend(bin);
-    out
 }
 
 /// The JSON chunk of a GLB.

@@ -1,9 +1,12 @@
 //! Primitives that share more vertices than they have corners are read at the vertices that they use, with
 //! the values that a reader of all vertices finds.
 
+mod support;
+
 use darboux_io::LoadOptions;
 use darboux_io::gltf::{Document, inspect};
 use serde_json::{Value, json};
+use support::glb;
 
 const VERTICES: usize = 300;
 
@@ -29,16 +32,7 @@ fn document(data: &[u8], views: Value, mut accessors: Vec<Value>, primitives: &[
         "accessors": accessors,
         "meshes": meshes,
     });
-    let mut text = json.to_string().into_bytes();
-    text.resize(text.len().next_multiple_of(4), b' ');
-    data.resize(data.len().next_multiple_of(4), 0);
-    let mut file = [b"glTF".as_slice(), &2u32.to_le_bytes()].concat();
-    file.extend((28 + text.len() as u32 + data.len() as u32).to_le_bytes());
-    for (kind, chunk) in [(b"JSON", &text), (b"BIN\0", &data)] {
-        file.extend((chunk.len() as u32).to_le_bytes());
-        file.extend(kind);
-        file.extend(chunk);
-    }
+    let file = glb(&json.to_string(), &data);
     Document::from_bytes("m.glb", file, None, &LoadOptions::default()).expect("a model")
 }
 

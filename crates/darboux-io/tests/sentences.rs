@@ -3,6 +3,8 @@
 
 #![cfg(feature = "textures")]
 
+mod support;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -11,6 +13,7 @@ use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents, inspect};
 use darboux_io::image::{DecodeLimits, PngImage, RgbaImage};
 use darboux_io::{Error, LoadOptions};
 use serde_json::{Value, json};
+use support::glb;
 
 /// What serde, the decoders and Rust itself say.
 const FOREIGN: &[&str] = &[
@@ -68,14 +71,6 @@ fn asset(name: &str) -> Vec<u8> {
 fn parts(bytes: &[u8]) -> (Value, Vec<u8>) {
     let length = u32::from_le_bytes(bytes[12..16].try_into().expect("four bytes")) as usize;
     (serde_json::from_slice(&bytes[20..20 + length]).expect("JSON"), bytes[28 + length..].to_vec())
-}
-
-fn glb(json: &str, data: &[u8]) -> Vec<u8> {
-    let json = format!("{json}{}", " ".repeat(json.len().next_multiple_of(4) - json.len()));
-    let total = (28 + json.len() + data.len()) as u32;
-    let header = [&b"glTF"[..], &2u32.to_le_bytes(), &total.to_le_bytes()].concat();
-    let json_header = [&(json.len() as u32).to_le_bytes()[..], b"JSON"].concat();
-    [&header[..], &json_header, json.as_bytes(), &(data.len() as u32).to_le_bytes(), b"BIN\0", data].concat()
 }
 
 /// Adds the pointers of all values below `value`.

@@ -45,12 +45,23 @@ pub fn darboux_with_little_memory<A: AsRef<std::ffi::OsStr>>(arguments: &[A]) ->
 
 /// As [`darboux_with_little_memory`], with this many bytes of addresses.
 pub fn darboux_with_addresses<A: AsRef<std::ffi::OsStr>>(bytes: usize, arguments: &[A]) -> Run {
-    if !cfg!(target_os = "linux") {
-        return darboux(arguments);
+    if cfg!(target_os = "linux") {
+        darboux_in_with_addresses(Path::new("."), bytes, arguments)
+    } else {
+        darboux(arguments)
     }
+}
+
+/// As [`darboux_with_addresses`], in a folder.
+pub fn darboux_in_with_addresses<A: AsRef<std::ffi::OsStr>>(
+    folder: &Path,
+    bytes: usize,
+    arguments: &[A],
+) -> Run {
     let mut command = Command::new("sh");
     let line = format!("ulimit -v {} && exec \"$0\" \"$@\"", bytes >> 10);
     command.args(["-c", &line, env!("CARGO_BIN_EXE_darboux")]);
+    command.current_dir(folder);
     run(command, arguments, b"")
 }
 
@@ -123,6 +134,18 @@ pub fn names_in(folder: &Path) -> Vec<String> {
         entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
     names.sort();
     names
+}
+
+/// A GLB (glTF 2.0, 4.4).
+pub fn glb(json: &Value, binary: &[u8]) -> Vec<u8> {
+    let chunk = |kind: &[u8; 4], content: &[u8], padding: u8| {
+        let length = content.len().next_multiple_of(4);
+        let mut bytes = [&(length as u32).to_le_bytes()[..], kind, content].concat();
+        bytes.resize(8 + length, padding);
+        bytes
+    };
+    let chunks = [chunk(b"JSON", json.to_string().as_bytes(), b' '), chunk(b"BIN\0", binary, 0)].concat();
+    [b"glTF", &2u32.to_le_bytes()[..], &(12 + chunks.len() as u32).to_le_bytes(), &chunks].concat()
 }
 
 /// The JSON of a GLB.

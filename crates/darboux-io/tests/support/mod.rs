@@ -154,6 +154,20 @@ pub const LEFT: [u16; 6] = [0, 1, 4, 0, 4, 3];
 pub const RIGHT: [u16; 6] = [1, 2, 5, 1, 5, 4];
 pub const BOTH: [u16; 12] = [0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4];
 
+/// A GLB (glTF 2.0, 4.4).
+pub fn glb(json: &str, data: &[u8]) -> Vec<u8> {
+    let pad = |bytes: &[u8], padding: u8| {
+        let mut bytes = bytes.to_vec();
+        bytes.resize(bytes.len().next_multiple_of(4), padding);
+        bytes
+    };
+    let (json, data) = (pad(json.as_bytes(), b' '), pad(data, 0));
+    let word = |number: usize| (number as u32).to_le_bytes();
+    let header = [b"glTF".as_slice(), &word(2), &word(28 + json.len() + data.len())].concat();
+    let chunks = [&word(json.len()), b"JSON".as_slice(), &json, &word(data.len()), b"BIN\0", &data];
+    [header, chunks.concat()].concat()
+}
+
 pub fn wide(indices: &[u16]) -> Vec<u32> {
     indices.iter().map(|&index| index.into()).collect()
 }
