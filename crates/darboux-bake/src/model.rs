@@ -2,8 +2,8 @@
 
 mod content;
 mod decoded_bytes;
-mod decoded_image;
 mod high;
+mod image_key;
 mod low;
 mod maps;
 mod parts;

@@ -26,9 +26,9 @@ impl ModelArea {
         let instances = document.mesh_instances().unwrap_or_default();
         let mut area = Self { total: 0.0, scale_of_mesh: scales(&instances) };
         for corners in document.corners()? {
-            let Some(positions) = corners.own_vectors::<3>("POSITION")? else { continue };
+            let Some(positions) = corners.used_vectors::<3>("POSITION")? else { continue };
             let at = |vertex: u32| positions[vertex as usize];
-            let triangles = corners.own_vertices().as_chunks::<3>().0.iter();
+            let triangles = corners.used_indices().as_chunks::<3>().0.iter();
             let own: f64 =
                 triangles.map(|triangle| area_of(triangle.map(at))).filter(|area| area.is_finite()).sum();
             area.total += own * area.scale(corners.name().mesh);

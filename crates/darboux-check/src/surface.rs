@@ -62,8 +62,8 @@ impl Surface {
             ineligible: info.and_then(|info| info.ineligible.clone()),
             moves_normals: primitive.targets.iter().any(|target| target.contains_key("NORMAL")),
             uv_set: info.map_or(0, |info| info.uv_set),
-            vertex_of_corner: corners.own_vertices().to_vec(),
-            vertices_in_file: corners.vertices_of_own().map(<[u32]>::to_vec),
+            vertex_of_corner: corners.used_indices().to_vec(),
+            vertices_in_file: corners.used_vertices().map(<[u32]>::to_vec),
             vertices_of_file: attributes
                 .get("POSITION")
                 .map_or(0, |&index| document.accessors()[index].count),
@@ -190,7 +190,7 @@ fn vertices<const N: usize>(
     corners: &PrimitiveCorners<'_>,
     semantic: &str,
 ) -> Result<Option<Vec<[f32; N]>>, Error> {
-    Ok(corners.own_vectors(semantic)?.map(|vectors| vectors.into_owned()))
+    Ok(corners.used_vectors(semantic)?.map(|vectors| vectors.into_owned()))
 }
 
 /// Twice the signed area of a triangle in UV space, with v as stored.

@@ -63,7 +63,7 @@ impl JobMemory {
     }
 
     /// Waits until there is as much memory as `estimate` says. It is not asked where there is no limit.
-    pub fn take(&self, estimate: impl FnOnce() -> u64) -> Share<'_> {
+    pub fn wait_for(&self, estimate: impl FnOnce() -> u64) -> Share<'_> {
         let Some(total) = self.total else { return Share { of: self, bytes: 0 } };
         let bytes = estimate().min(total);
         let used = self.used.lock().unwrap_or_else(PoisonError::into_inner);
@@ -108,7 +108,7 @@ mod tests {
             for size in [16, 16, 16, 16, u64::MAX, 16, 16, 40] {
                 let (memory, at_work, most) = (&memory, &at_work, &most);
                 scope.spawn(move || {
-                    let share = memory.take(|| size);
+                    let share = memory.wait_for(|| size);
                     let now = at_work.fetch_add(share.bytes, Ordering::SeqCst) + share.bytes;
                     most.fetch_max(now, Ordering::SeqCst);
                     at_work.fetch_sub(share.bytes, Ordering::SeqCst);

@@ -9,7 +9,7 @@ use darboux_io::gltf::{Document, PrimitiveCorners, TextureUse};
 use darboux_io::image::RgbaImage;
 
 use super::decoded_bytes::DecodedBytes;
-use super::decoded_image::DecodedImage;
+use super::image_key::ImageKey;
 use crate::{BakeError, ColorTexture, HighSurface, MapKind, MapSet, MaterialProperty};
 
 /// The colours and properties of a primitive.
@@ -37,7 +37,7 @@ pub struct ColorTextures {
     /// be used.
     known: HashMap<(Option<usize>, bool, String), Option<usize>>,
     /// By the source of the bytes and whether it is in sRGB; the error is a clause.
-    decoded: HashMap<(DecodedImage, bool), Result<ColorTexture, String>>,
+    decoded: HashMap<(ImageKey, bool), Result<ColorTexture, String>>,
     bytes: DecodedBytes,
     pub warnings: Vec<String>,
     /// The same, to give each once.
@@ -144,7 +144,7 @@ impl<'a> Stored<'a> {
         let Some(used) = self.document.texture_of_material(self.material, member)? else { return Ok(None) };
         let at = format!("{} of materials[{}]", member, self.material);
         let set = format!("TEXCOORD_{}", used.uv_set);
-        let Some(mut uvs) = self.corners.own_vectors(&set)? else {
+        let Some(mut uvs) = self.corners.used_vectors(&set)? else {
             let path = self.corners.name().path();
             textures.warn(self.document, format!("{at} is not used, because {path} has no {set}"));
             return Ok(None);
@@ -170,7 +170,7 @@ impl ColorTextures {
         if let Some(&known) = self.known.get(&key) {
             return known;
         }
-        let source = (DecodedImage::of(document, used), is_srgb);
+        let source = (ImageKey::of(document, used), is_srgb);
         let decoded = self.decoded.entry(source);
         let decoded = decoded.or_insert_with(|| decode(document, used, is_srgb, &mut self.bytes));
         let index = match decoded.clone() {
@@ -214,9 +214,9 @@ pub fn colors<'a>(
     let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
     let accessor = attributes.get("COLOR_0").and_then(|&index| document.accessors().get(index));
     if accessor.is_some_and(|accessor| accessor.element_type.components() == 3) {
-        let colors = corners.own_vectors::<3>("COLOR_0")?.unwrap_or_default();
+        let colors = corners.used_vectors::<3>("COLOR_0")?.unwrap_or_default();
         let opaque = colors.iter().map(|&[red, green, blue]| [red, green, blue, 1.0]).collect();
         return Ok(Some(Cow::Owned(opaque)));
     }
-    corners.own_vectors::<4>("COLOR_0")
+    corners.used_vectors::<4>("COLOR_0")
 }

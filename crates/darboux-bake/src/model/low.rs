@@ -112,14 +112,14 @@ impl<'a> LowModel<'a> {
             let material = corners.material().and_then(|material| materials.get(material));
             let of_map = material.map_or(0, |material| material.tangent_uv_set);
             let uv_set = options.uv_set.unwrap_or(of_map);
-            let Some(mut uvs) = corners.own_vectors(&format!("TEXCOORD_{uv_set}"))? else {
+            let Some(mut uvs) = corners.used_vectors(&format!("TEXCOORD_{uv_set}"))? else {
                 model.without_uvs += 1;
                 continue;
             };
             let Some(normals) = primitive.normals.clone() else {
                 return Err(without_normals(document, name));
             };
-            let has_own = corners.own_vectors::<4>("TANGENT")?.is_some();
+            let has_own = corners.used_vectors::<4>("TANGENT")?.is_some();
             let is_own = has_own && options.tangents.is_none() && uv_set == of_map;
             model.with_unused_tangents += usize::from(has_own && !is_own);
             if known_materials.insert(corners.material()) {

@@ -9,7 +9,7 @@ use darboux_io::gltf::{Document, Material, PrimitiveCorners, TextureUse};
 use darboux_io::image::{PngImage, RgbCodes, RgbaImage, rgb_codes};
 
 use super::decoded_bytes::DecodedBytes;
-use super::decoded_image::DecodedImage;
+use super::image_key::ImageKey;
 use super::placed::PlacedPrimitive;
 use super::stored::StoredPrimitive;
 use crate::NormalTexture;
@@ -34,7 +34,7 @@ pub struct Textures {
     /// All materials, once they were read.
     materials: Option<Vec<Material>>,
     /// By the image, or the source of its bytes; the error is a clause.
-    decoded: HashMap<DecodedImage, Result<NormalTexture, String>>,
+    decoded: HashMap<ImageKey, Result<NormalTexture, String>>,
     bytes: DecodedBytes,
     pub warnings: Vec<String>,
 }
@@ -66,7 +66,7 @@ impl Textures {
         };
         let Some(material) = materials.get(index).cloned() else { return Ok(None) };
         let Some(used) = &material.normal_texture else { return Ok(None) };
-        let texture = self.decoded.entry(DecodedImage::of(document, used)).or_insert_with(|| {
+        let texture = self.decoded.entry(ImageKey::of(document, used)).or_insert_with(|| {
             let (size, codes) = decode(document, used, &mut self.bytes)?;
             NormalTexture::of_codes(size, codes).map_err(|error| error.to_string())
         });
@@ -97,7 +97,7 @@ impl Textures {
         let Some((texture, material)) = &self.of_material[&material] else { return Ok(None) };
         let Some(used) = &material.normal_texture else { return Ok(None) };
         let (name, set) = (corners.name(), used.uv_set);
-        let uvs = corners.own_vectors(&format!("TEXCOORD_{set}"))?;
+        let uvs = corners.used_vectors(&format!("TEXCOORD_{set}"))?;
         let Some(mut uvs) = uvs.filter(|_| primitive.normals.is_some()) else {
             self.warnings.push(format!(
                 "{}: {}: the normal map is not used, because the primitive has no {}",
@@ -108,7 +108,7 @@ impl Textures {
             return Ok(None);
         };
         let computed = TangentOptions::default();
-        let has_own = corners.own_vectors::<4>("TANGENT")?.is_some();
+        let has_own = corners.used_vectors::<4>("TANGENT")?.is_some();
         let stored = StoredPrimitive { document, corners, uvs: &uvs };
         let tangents = stored.tangents((!has_own).then_some(&computed), primitive.transform.as_ref())?;
         uvs.to_mut().iter_mut().for_each(|uv| *uv = used.transform_uv(*uv));

@@ -52,9 +52,9 @@ impl<'a> PlacedPrimitive<'a> {
     /// Reads a primitive; none where it has no positions. A mirroring matrix reverses the triangles. Errors:
     /// invalid data.
     pub fn read(corners: &'a PrimitiveCorners<'a>, place: &Place) -> Result<Option<Self>, Error> {
-        let Some(positions) = corners.own_vectors("POSITION")? else { return Ok(None) };
-        let normals = corners.own_vectors("NORMAL")?;
-        let indices = Cow::Borrowed(corners.own_vertices());
+        let Some(positions) = corners.used_vectors("POSITION")? else { return Ok(None) };
+        let normals = corners.used_vectors("NORMAL")?;
+        let indices = Cow::Borrowed(corners.used_indices());
         let part_name = place.node_name.as_ref().or(corners.name().mesh_name.as_ref());
         let part_name = part_name.cloned().unwrap_or_default();
         let primitive = Self { part_name, positions, normals, indices, transform: None };

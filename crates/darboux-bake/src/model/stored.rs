@@ -25,7 +25,7 @@ impl StoredPrimitive<'_> {
             Some(options) => self.computed_tangents(options)?,
         };
         if let Some(transform) = transform {
-            let normals = self.corners.own_vectors("NORMAL")?.unwrap_or_default();
+            let normals = self.corners.used_vectors("NORMAL")?.unwrap_or_default();
             move_tangents(&mut tangents, self.corners, &normals, transform);
         }
         Ok(tangents)
@@ -40,10 +40,10 @@ impl StoredPrimitive<'_> {
 
     fn computed_tangents(&self, options: &TangentOptions) -> Result<Vec<[f32; 4]>, Error> {
         let (document, name) = (self.document, self.corners.name());
-        let positions = self.corners.own_vectors::<3>("POSITION")?.unwrap_or_default();
-        let normals = self.corners.own_vectors::<3>("NORMAL")?.unwrap_or_default();
+        let positions = self.corners.used_vectors::<3>("POSITION")?.unwrap_or_default();
+        let normals = self.corners.used_vectors::<3>("NORMAL")?.unwrap_or_default();
         let mesh =
-            Mesh::triangles(&*positions, &*normals, self.uvs, Indices::U32(self.corners.own_vertices()));
+            Mesh::triangles(&*positions, &*normals, self.uvs, Indices::U32(self.corners.used_indices()));
         let mesh =
             mesh.map_err(|source| Error::Mesh { file: document.name().to_owned(), at: name.path(), source })?;
         Ok(generate_tangents(&mesh, options).corners.into_per_corner())
@@ -57,7 +57,7 @@ fn move_tangents(
     normals: &[[f32; 3]],
     transform: &Transform,
 ) {
-    for (tangent, &vertex) in tangents.iter_mut().zip(corners.own_vertices()) {
+    for (tangent, &vertex) in tangents.iter_mut().zip(corners.used_indices()) {
         let normal = normals.get(vertex as usize).copied().unwrap_or_default();
         (_, *tangent) = transform.frame(normal, *tangent);
     }

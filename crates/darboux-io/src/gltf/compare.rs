@@ -124,20 +124,20 @@ fn pair<'a>(a: &'a Document, b: &'a Document, candidate: &TangentCandidate) -> R
         );
         return Err(b.invalid(name.path(), problem));
     }
-    let positions = corners.own_vectors("POSITION")?.unwrap_or_default();
-    let moved = others.own_vectors::<3>("POSITION")?.unwrap_or_default();
+    let positions = corners.used_vectors("POSITION")?.unwrap_or_default();
+    let moved = others.used_vectors::<3>("POSITION")?.unwrap_or_default();
     let tangents = [
-        corners.own_vectors("TANGENT")?.unwrap_or_default(),
-        others.own_vectors("TANGENT")?.unwrap_or_default(),
+        corners.used_vectors("TANGENT")?.unwrap_or_default(),
+        others.used_vectors("TANGENT")?.unwrap_or_default(),
     ];
-    let uvs = corners.own_vectors(&format!("TEXCOORD_{}", candidate.uv.set))?;
-    let both = corners.own_vertices().iter().zip(others.own_vertices());
+    let uvs = corners.used_vectors(&format!("TEXCOORD_{}", candidate.uv.set))?;
+    let both = corners.used_indices().iter().zip(others.used_indices());
     let positions_of =
         |(first, second): (&u32, &u32)| Some((positions.get(*first as usize)?, moved.get(*second as usize)?));
     let moved = both.filter_map(positions_of).filter(|(position, moved)| position != moved).count();
     let other_vertices =
-        (corners.own_vertices() != others.own_vertices()).then(|| others.into_own_vertices());
-    let vertices = corners.into_own_vertices();
+        (corners.used_indices() != others.used_indices()).then(|| others.into_used_indices());
+    let vertices = corners.into_used_indices();
     let corners = PairedCorners { vertices, other_vertices, positions, uvs, tangents, moved };
     Ok(Pair { name: name.clone(), corners: Ok(corners) })
 }

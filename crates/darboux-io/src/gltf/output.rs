@@ -66,7 +66,7 @@ enum BufferContent {
     /// A `data:` URI of the bytes of a buffer, which begin with those of the source.
     DataUri { of: usize },
     /// One byte, which keeps the JSON of a buffer whose bytes are in another one over the same file.
-    Mark,
+    Placeholder,
 }
 
 /// The files that buffers read. Many buffers may read the same one, which is written once.
@@ -182,14 +182,14 @@ impl<'a> OutputLayout<'a> {
                 Some(SharedPlace::Binary(moves)) => {
                     layout.moves[i] = Arc::clone(moves);
                     if !is_plain {
-                        aside.push(OutputBuffer { source: Some(i), content: BufferContent::Mark });
+                        aside.push(OutputBuffer { source: Some(i), content: BufferContent::Placeholder });
                     }
                     continue;
                 }
                 Some(SharedPlace::Aside(place)) => {
                     shared.push((i, *place));
                     if !is_plain {
-                        aside.push(OutputBuffer { source: Some(i), content: BufferContent::Mark });
+                        aside.push(OutputBuffer { source: Some(i), content: BufferContent::Placeholder });
                     }
                     continue;
                 }
@@ -248,7 +248,10 @@ impl<'a> OutputLayout<'a> {
                 Some(SharedFile { place: SharedPlace::Binary(moves), .. }) => {
                     layout.moves[i] = Arc::clone(moves);
                     if !is_plain(document.element("buffers", i)) {
-                        layout.push_unmoved(OutputBuffer { source: Some(i), content: BufferContent::Mark });
+                        layout.push_unmoved(OutputBuffer {
+                            source: Some(i),
+                            content: BufferContent::Placeholder,
+                        });
                     }
                     continue;
                 }
@@ -325,7 +328,7 @@ impl<'a> OutputLayout<'a> {
     fn push_unmoved(&mut self, output_buffer: OutputBuffer) {
         let place = MovedRange { start: 0, output_buffer: self.output_buffers.len(), offset: 0 };
         // The views of a buffer that is only marked are elsewhere.
-        if !matches!(output_buffer.content, BufferContent::Mark) {
+        if !matches!(output_buffer.content, BufferContent::Placeholder) {
             self.moves[output_buffer.source.unwrap_or_default()] = [place].into();
         }
         self.output_buffers.push(output_buffer);
@@ -474,7 +477,7 @@ impl<'a> OutputLayout<'a> {
                 let bytes = self.document.buffer(*of, String::new).unwrap_or_default();
                 set_bytes(&mut buffer, bytes);
             }
-            (BufferContent::Mark, _) => set_bytes(&mut buffer, &[0]),
+            (BufferContent::Placeholder, _) => set_bytes(&mut buffer, &[0]),
             (_, source) => {
                 if let Some(BufferSource::File(file)) = source.map(|source| &self.document.buffers[source])
                     && let Some(uri) = uris.renamed.get(&file.located.path)

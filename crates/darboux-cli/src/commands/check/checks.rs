@@ -49,7 +49,7 @@ impl Checks<'_> {
             loop {
                 let number = next.fetch_add(1, Ordering::Relaxed);
                 let Some(input) = inputs.get(number) else { return };
-                let _share = memory.take(|| input.memory());
+                let _share = memory.wait_for(|| input.memory());
                 // Every number is taken once.
                 _ = checked[number].set(self.check_file(input));
             }

@@ -46,16 +46,16 @@ pub fn recipes(document: &Document, infos: &[PrimitiveInfo]) -> Result<Vec<Optio
         }
         let uv_set = format!("TEXCOORD_{}", info.uv_set);
         let (Some(positions), Some(normals), Some(uvs), Some(tangents)) = (
-            corners.own_vectors::<3>("POSITION")?,
-            corners.own_vectors::<3>("NORMAL")?,
-            corners.own_vectors::<2>(&uv_set)?,
+            corners.used_vectors::<3>("POSITION")?,
+            corners.used_vectors::<3>("NORMAL")?,
+            corners.used_vectors::<2>(&uv_set)?,
             corners.vectors::<4>("TANGENT")?,
         ) else {
             continue;
         };
         let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
         let tangents: Vec<[f32; 4]> = tangents.iter().map(|&tangent| to_generated.tangent(tangent)).collect();
-        let matches = Mesh::triangles(&*positions, &*normals, &*uvs, corners.own_vertices())
+        let matches = Mesh::triangles(&*positions, &*normals, &*uvs, corners.used_indices())
             .and_then(|mesh| recognise_recipe(&mesh, &tangents));
         found[place] = matches.ok().and_then(|matches| matches.first().map(MadeBy::new));
     }

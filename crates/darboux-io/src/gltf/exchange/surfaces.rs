@@ -104,27 +104,27 @@ fn surface(
     uv_set: usize,
 ) -> Result<Option<Surface>, Error> {
     let Some(found) = PrimitiveCorners::find(document, name, primitive)? else { return Ok(None) };
-    let Some(positions) = found.own_vectors::<3>("POSITION")?.filter(|_| !found.is_empty()) else {
+    let Some(positions) = found.used_vectors::<3>("POSITION")?.filter(|_| !found.is_empty()) else {
         return Ok(None);
     };
-    let uvs = match found.own_vectors::<2>(&format!("TEXCOORD_{uv_set}"))? {
-        None => found.own_vectors::<2>("TEXCOORD_0")?,
+    let uvs = match found.used_vectors::<2>(&format!("TEXCOORD_{uv_set}"))? {
+        None => found.used_vectors::<2>("TEXCOORD_0")?,
         uvs => uvs,
     };
-    let used = used_vertices(found.own_vertices(), positions.len());
+    let used = used_vertices(found.used_indices(), positions.len());
     let used = used.as_deref();
     let mut surface = Surface {
         name: Arc::default(),
         material: primitive.material,
         positions: values(positions, used),
-        normals: found.own_vectors::<3>("NORMAL")?.map(|normals| values(normals, used)),
+        normals: found.used_vectors::<3>("NORMAL")?.map(|normals| values(normals, used)),
         uvs: uvs.map(|uvs| values(uvs, used)),
         colors: colors(document, primitive, &found, used)?,
-        tangents: found.own_vectors::<4>("TANGENT")?.map(|tangents| values(tangents, used)),
+        tangents: found.used_vectors::<4>("TANGENT")?.map(|tangents| values(tangents, used)),
         corners: Vec::new(),
         sizes: Vec::new(),
     };
-    let vertices = found.into_own_vertices();
+    let vertices = found.into_used_indices();
     match QuadFaces::of(document, name, &IndexList::U32(vertices.as_slice().into())) {
         Some(faces) => (surface.corners, surface.sizes) = (faces.vertices, faces.sizes),
         None => (surface.sizes, surface.corners) = (vec![3; vertices.len() / 3], vertices),
@@ -156,9 +156,9 @@ fn colors(
         return Ok(None);
     };
     Ok(match accessor.element_type {
-        ElementType::Vec4 => found.own_vectors::<4>("COLOR_0")?.map(|colors| values(colors, used)),
+        ElementType::Vec4 => found.used_vectors::<4>("COLOR_0")?.map(|colors| values(colors, used)),
         _ => found
-            .own_vectors::<3>("COLOR_0")?
+            .used_vectors::<3>("COLOR_0")?
             .map(|colors| values(colors, used).into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect()),
     })
 }

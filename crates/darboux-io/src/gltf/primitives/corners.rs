@@ -85,28 +85,28 @@ impl<'a> PrimitiveCorners<'a> {
     }
 
     /// The values of an attribute as floats, in the order of the file; none if the primitive does not have
-    /// it. [`PrimitiveCorners::own_vertices`] has the place of every corner's value.
+    /// it. [`PrimitiveCorners::used_indices`] has the place of every corner's value.
     ///
     /// They are those of all vertices of the accessor; where it has more vertices than the primitive has
     /// corners, as one that primitives share, those of the vertices that the corners use. The lists of all
     /// attributes have the same vertices. Errors: as [`PrimitiveCorners::vectors`].
-    pub fn own_vectors<const N: usize>(&self, semantic: &str) -> Result<Option<Cow<'a, [[f32; N]]>>, Error> {
+    pub fn used_vectors<const N: usize>(&self, semantic: &str) -> Result<Option<Cow<'a, [[f32; N]]>>, Error> {
         self.checked(&self.primitive.attributes, semantic)
     }
 
-    /// The place of every corner's value in the lists of [`PrimitiveCorners::own_vectors`].
-    pub fn own_vertices(&self) -> &[u32] {
+    /// The place of every corner's value in the lists of [`PrimitiveCorners::used_vectors`].
+    pub fn used_indices(&self) -> &[u32] {
         self.used.as_ref().map_or(&self.vertices, |used| &used.of_corner)
     }
 
-    /// The vertex in the accessors of each place in the lists of [`PrimitiveCorners::own_vectors`]; none
+    /// The vertex in the accessors of each place in the lists of [`PrimitiveCorners::used_vectors`]; none
     /// where they are the same.
-    pub fn vertices_of_own(&self) -> Option<&[u32]> {
+    pub fn used_vertices(&self) -> Option<&[u32]> {
         self.used.as_ref().map(|used| used.vertices.as_slice())
     }
 
-    /// As [`PrimitiveCorners::own_vertices`], without a copy.
-    pub(in crate::gltf) fn into_own_vertices(self) -> Vec<u32> {
+    /// As [`PrimitiveCorners::used_indices`], without a copy.
+    pub(in crate::gltf) fn into_used_indices(self) -> Vec<u32> {
         self.used.map_or(self.vertices, |used| used.of_corner)
     }
 
@@ -116,7 +116,7 @@ impl<'a> PrimitiveCorners<'a> {
         semantic: &str,
     ) -> Result<Option<Vec<[f32; N]>>, Error> {
         let vectors = self.checked(attributes, semantic)?;
-        Ok(vectors.map(|vectors| self.own_vertices().iter().map(|&own| vectors[own as usize]).collect()))
+        Ok(vectors.map(|vectors| self.used_indices().iter().map(|&own| vectors[own as usize]).collect()))
     }
 
     /// An attribute's values, one for each of the primitive's own vertices. Errors: invalid data; a corner's

@@ -201,7 +201,7 @@ impl Work<'_> {
     /// Bakes an entry within a share of the memory, and writes the journal. A panic fails this entry alone.
     fn caught(&self, entry: &Entry, bake: impl Fn(Option<u64>) -> Result<BakedEntry, BakeFailure>) -> Done {
         let BakeArguments { low, output, .. } = &entry.arguments;
-        let share = Cell::new(Some(self.memory.take(|| memory_of(&entry.arguments))));
+        let share = Cell::new(Some(self.memory.wait_for(|| memory_of(&entry.arguments))));
         let within_share = || {
             let limit = |share: &Share<'_>| memory::available(share.limit());
             let Some(mine) = share.take() else { return bake(None) };
@@ -212,7 +212,7 @@ impl Work<'_> {
             }
             // The estimate was too small: alone, it may use all memory.
             drop(mine);
-            let whole = self.memory.take(|| u64::MAX);
+            let whole = self.memory.wait_for(|| u64::MAX);
             let done = bake(limit(&whole));
             share.set(Some(whole));
             done

@@ -43,17 +43,17 @@ const FEW: [u16; 7] = [299, 7, 120, 7, 299, 13, 1];
 fn reads_its_own(document: &Document) {
     let all = document.vectors::<3>(0).expect("positions");
     for corners in document.corners().expect("corners") {
-        let own = corners.own_vectors::<3>("POSITION").expect("positions").expect("positions");
+        let own = corners.used_vectors::<3>("POSITION").expect("positions").expect("positions");
         let at_corners: Vec<[f32; 3]> =
-            corners.own_vertices().iter().map(|&place| own[place as usize]).collect();
+            corners.used_indices().iter().map(|&place| own[place as usize]).collect();
         let expected: Vec<[f32; 3]> = corners.vertices().iter().map(|&vertex| all[vertex as usize]).collect();
         assert_eq!(at_corners, expected);
         assert_eq!(corners.vectors::<3>("POSITION").expect("positions"), Some(expected));
-        let vertices: Vec<u32> = match corners.vertices_of_own() {
+        let vertices: Vec<u32> = match corners.used_vertices() {
             Some(vertices) => vertices.to_vec(),
             None => (0..own.len() as u32).collect(),
         };
-        let named: Vec<u32> = corners.own_vertices().iter().map(|&place| vertices[place as usize]).collect();
+        let named: Vec<u32> = corners.used_indices().iter().map(|&place| vertices[place as usize]).collect();
         assert_eq!(named, corners.vertices());
         assert!(own.len() <= corners.len(), "{} vertices of {} corners", own.len(), corners.len());
     }
@@ -122,7 +122,7 @@ fn wrong_sparse_indices_are_refused() {
     for _ in 0..2 {
         let corners = document.corners().expect("corners");
         let error =
-            corners[0].own_vectors::<3>("POSITION").expect_err("indices that do not ascend").to_string();
+            corners[0].used_vectors::<3>("POSITION").expect_err("indices that do not ascend").to_string();
         assert!(error.contains("accessors[0].sparse.indices") && error.contains("not greater"), "{error}");
     }
 }
@@ -139,7 +139,7 @@ fn indices_out_of_range_are_refused() {
         let document = document(&bytes(12 * VERTICES), view, accessors, &[indices]);
         let corners = document.corners().expect("corners");
         let sentence =
-            corners[0].own_vectors::<3>("POSITION").expect_err("an index out of range").to_string();
+            corners[0].used_vectors::<3>("POSITION").expect_err("an index out of range").to_string();
         let place = indices.len() - 1;
         let problem = format!("index 999 at place {place} is out of range: there are {VERTICES} vertices");
         assert!(sentence.contains(&problem), "{sentence}");
