@@ -3,6 +3,7 @@
 mod support;
 
 use darboux::{Mesh, Plan, TangentOptions};
+use darboux_io::LoadOptions;
 use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents};
 use serde_json::{Value, json};
 use support::*;
@@ -20,6 +21,12 @@ fn document(vertices: &Vertices, indices: &[u16], targets: impl FnOnce(&mut Buil
 fn offsets(document: &Document, target: usize) -> Vec<[f32; 3]> {
     let targets = &document.meshes()[0].primitives[0].targets;
     document.vectors(targets[target]["TANGENT"]).unwrap().into_owned()
+}
+
+/// A document as its file gives it.
+fn reopened(document: &Document) -> Document {
+    let file = document.to_glb().unwrap();
+    Document::from_bytes("m.glb", file, None, &LoadOptions::default()).unwrap()
 }
 
 fn add(base: &[[f32; 3]], by: &[[f32; 3]]) -> Vec<[f32; 3]> {
@@ -178,6 +185,43 @@ fn sparse_targets_that_turn_nothing_get_zeros_without_bytes() {
     let accessor = &document.accessors()[document.meshes()[0].primitives[0].targets[0]["TANGENT"]];
     assert!(accessor.buffer_view.is_none() && !accessor.is_sparse());
     assert_eq!(offsets(&document, 0), [[0.0; 3]; 4]);
+}
+
+#[test]
+fn offsets_of_vertices_that_no_face_uses_take_no_bytes() {
+    let count = 100;
+    let square = square();
+    let places = [97, 3, 50, 20];
+    let of_many = |values: &[[f32; 3]]| {
+        let mut all = vec![[0.5; 3]; count];
+        places.iter().zip(values).for_each(|(&place, &value)| all[usize::from(place)] = value);
+        all
+    };
+    let mut vertices = Vertices {
+        positions: of_many(&square.positions),
+        normals: of_many(&square.normals),
+        uvs: vec![[0.5; 2]; count],
+    };
+    places.iter().zip(&square.uvs).for_each(|(&place, &uv)| vertices.uvs[usize::from(place)] = uv);
+    let indices: Vec<u16> = SQUARE.iter().map(|&corner| places[usize::from(corner)]).collect();
+    let shear: Vec<_> = square.positions.iter().map(|p| [0.0, p[0], 0.0]).collect();
+    let build = |vertices: &Vertices, indices: &[u16], shear: Vec<[f32; 3]>| {
+        let mut document =
+            document(vertices, indices, |builder| json!([{"POSITION": builder.vectors(&shear)}]));
+        assert_eq!(written(&run(&mut document), 0).morph_targets, 1);
+        document
+    };
+    let few = build(&square, &SQUARE, shear.clone());
+    let many = build(&vertices, &indices, of_many(&shear));
+    let of_few = offsets(&reopened(&few), 0);
+    let of_many = offsets(&reopened(&many), 0);
+    assert!(of_few.iter().flatten().any(|&x| x != 0.0));
+    for (vertex, offset) in of_many.iter().enumerate() {
+        let place = places.iter().position(|&place| usize::from(place) == vertex);
+        assert_eq!(*offset, place.map_or([0.0; 3], |place| of_few[place]), "vertex {vertex}");
+    }
+    let accessor = &many.accessors()[many.meshes()[0].primitives[0].targets[0]["TANGENT"]];
+    assert!(accessor.buffer_view.is_none() && accessor.is_sparse() && accessor.count == count);
 }
 
 #[test]

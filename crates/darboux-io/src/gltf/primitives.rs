@@ -7,6 +7,7 @@ pub mod foreign_extensions;
 pub mod index_range;
 pub mod limits;
 pub mod name;
+pub mod offsets;
 pub mod quads;
 pub mod triangles;
 pub mod used_vertices;

@@ -37,10 +37,10 @@ use std::collections::HashMap;
 use darboux::Context;
 use darboux::internal::jobs;
 
-use super::primitives::append::{lacks_buffer_view, push_vectors};
+use super::primitives::append::lacks_buffer_view;
 use super::primitives::canonical::CanonicalAccessors;
 use super::primitives::{foreign_extensions, limits};
-use super::{Document, ElementType, PrimitiveName, Progress};
+use super::{Document, PrimitiveName, Progress};
 use crate::Error;
 use given::GivenPlaces;
 use group_computation::{GroupComputation, GroupTangents};
@@ -195,8 +195,7 @@ impl Run<'_, '_> {
         let mut stale_corners: HashMap<(Movement, usize), StaleCorners> = HashMap::new();
         for (Morph { movement, old, jobs, .. }, moved) in offsets {
             let sparse = movement.accessors().all(|accessor| lacks_buffer_view(document, accessor));
-            let accessor = push_vectors(document, old, ElementType::Vec3, &moved.of_vertex, sparse);
-            offset_accessors.insert(movement, accessor);
+            offset_accessors.insert(movement, moved.of_vertices.push(document, old, sparse));
             stale_corners.extend(jobs.into_iter().map(|job| (movement, job)).zip(moved.stale_corners));
         }
         let results = GroupAccessors { split: &split, lists, tangents, offsets: offset_accessors };

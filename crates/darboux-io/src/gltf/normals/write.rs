@@ -11,6 +11,7 @@ use super::summary::WrittenNormals;
 use crate::Error;
 use crate::gltf::primitives::append::{Appended, index_elements, push_vectors, set_attributes};
 use crate::gltf::primitives::canonical::CanonicalAccessors;
+use crate::gltf::primitives::offsets::VertexOffsets;
 use crate::gltf::primitives::triangles::TriangleMode;
 use crate::gltf::primitives::{foreign_extensions, limits};
 use crate::gltf::schema::{Attributes, Primitive};
@@ -113,28 +114,13 @@ impl<'a> NormalWriter<'a> {
                 let vertices = &self.split.indices[first..first + part.corners.len()];
                 *self.conflicting.entry(part.candidate).or_default() += conflicts(vertices, moved, &offsets);
             }
-            self.offsets.insert(accessor, self.push_offsets_of_vertices(document, old, offsets));
+            let mut few: Vec<(u32, [f32; 3])> = offsets.into_iter().collect();
+            few.sort_unstable_by_key(|(vertex, _)| *vertex);
+            let offsets = VertexOffsets::new(self.split.normal_of_vertex.len(), few);
+            self.offsets.insert(accessor, offsets.push(document, old, true));
             limits::check_output(document)?;
         }
         Ok(())
-    }
-
-    /// An accessor of the offsets of vertices, sparse if that takes fewer bytes.
-    fn push_offsets_of_vertices(
-        &self,
-        document: &mut Document,
-        old: Option<usize>,
-        offsets: HashMap<u32, [f32; 3]>,
-    ) -> usize {
-        let count = self.split.normal_of_vertex.len();
-        if old.is_none() && offsets.len() < count / 2 {
-            let mut few: Vec<(u32, [f32; 3])> = offsets.into_iter().collect();
-            few.sort_unstable_by_key(|(vertex, _)| *vertex);
-            return document.push_few_vectors(count, &few);
-        }
-        let mut all = vec![[0.0; 3]; count];
-        offsets.into_iter().for_each(|(vertex, offset)| all[vertex as usize] = offset);
-        push_vectors(document, old, ElementType::Vec3, &all, true)
     }
 
     fn write(

@@ -104,11 +104,12 @@ impl GroupComputation<'_> {
     ) -> Result<Vec<(Morph, Offsets)>, Error> {
         let Self { document, options, .. } = *self;
         let mut offsets = Vec::with_capacity(morphs.len());
+        let mut bytes = 0;
         for morph in morphs {
             let computed = (results, split);
             let moved = morph::offsets(document, &morph, group, vertices, computed, options, context)?;
+            bytes += moved.of_vertices.byte_length();
             offsets.push((morph, moved));
-            let bytes = offsets.len() * split.vertex_count() * size_of::<[f32; 3]>();
             limits::check_more_output(document, bytes)?;
         }
         Ok(offsets)

@@ -14,6 +14,7 @@ use super::split::Split;
 use crate::Error;
 use crate::gltf::Document;
 use crate::gltf::primitives::canonical::CanonicalAccessors;
+use crate::gltf::primitives::offsets::VertexOffsets;
 use crate::gltf::schema::Attributes;
 
 /// The accessors of position and normal offsets of a morph target.
@@ -85,10 +86,10 @@ pub fn morphs(
     morphs
 }
 
-/// Tangent offsets, one per vertex after splitting, and counts of corners that they do not fit.
+/// Tangent offsets of the vertices after splitting, and counts of corners that they do not fit.
 #[derive(Debug)]
 pub struct Offsets {
-    pub of_vertex: Vec<[f32; 3]>,
+    pub of_vertices: VertexOffsets,
     /// Counts for each of [`Morph::jobs`].
     pub stale_corners: Vec<StaleCorners>,
 }
@@ -149,7 +150,7 @@ pub fn offsets(
         stale_corners.push(StaleCorners { regrouped, conflicting });
     }
     vertices.replace(base.0, base.1);
-    Ok(Offsets { of_vertex: field.offsets, stale_corners })
+    Ok(Offsets { of_vertices: field.finish(), stale_corners })
 }
 
 /// The base plus the offsets of an accessor, if there is one. `at` is the JSON path of the target.
@@ -196,5 +197,15 @@ impl OffsetField {
             self.offsets[vertex] = offset;
         }
         self.offsets[vertex] == offset
+    }
+
+    fn finish(self) -> VertexOffsets {
+        let count = self.offsets.len();
+        let set = self.is_set.iter().filter(|&&is_set| is_set).count();
+        if set >= count / 2 {
+            return VertexOffsets::All(self.offsets);
+        }
+        let of_vertex = (0..).zip(self.offsets).zip(self.is_set);
+        VertexOffsets::new(count, of_vertex.filter_map(|(offset, is_set)| is_set.then_some(offset)).collect())
     }
 }
