@@ -52,7 +52,7 @@ pub enum Command {
     /// Add tangents to models
     #[command(long_about = tangents::ABOUT, after_long_help = tangents::EXAMPLES)]
     Tangents(TangentsArguments),
-    /// Add normals to glTF and GLB files
+    /// Add normals to models
     #[command(long_about = normals::ABOUT, after_long_help = normals::EXAMPLES)]
     Normals(NormalsArguments),
     /// Convert normal maps and models between conventions

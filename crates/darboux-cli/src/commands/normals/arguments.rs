@@ -9,7 +9,7 @@ use crate::options::messages::MessageOptions;
 use crate::options::shading::{ShadingChoice, shading};
 
 pub const ABOUT: &str = "\
-Add normals to glTF and GLB files.
+Add normals to models.
 
 Every triangle primitive without normals gets normals; with --overwrite all primitives get new ones. The primitives of a mesh are shaded as one \
 surface: vertices at equal positions count as one, so that UV seams and material borders are invisible. Vertices are split where their corners \
