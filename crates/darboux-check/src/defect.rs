@@ -15,7 +15,7 @@ use crate::severity::Severity;
 
 pub use maps::{
     Certainty, DirectionEvidence, FacesScore, LengthDoubt, MapFault, NoNormals, RedDoubt, ReliefEvidence,
-    Texels,
+    Texels, Unread,
 };
 pub use materials::MaterialFault;
 pub use normals::NormalFault;

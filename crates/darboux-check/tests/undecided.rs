@@ -7,6 +7,8 @@ use darboux::Method;
 use darboux_check::{
     AssumedMap, CheckOptions, Code, Finding, FixOptions, Severity, check_document, fix_document,
 };
+use darboux_io::LoadOptions;
+use darboux_io::gltf::Document;
 use support::models::{Model, healthy_models};
 
 const AVIF: &[u8] = b"\0\0\0\x20ftypavif and more";
@@ -83,6 +85,33 @@ fn a_map_in_a_format_that_is_not_read_is_not_checked_and_no_error() {
     model.map.file = b"no image".to_vec();
     let broken = check(&model).into_iter().find(|finding| finding.code == Code::MapUnreadable);
     assert_eq!(broken.map(|finding| finding.severity), Some(Severity::Error));
+}
+
+/// A GLB with another first image, in as many bytes as the one that it has.
+fn with_image(glb: &[u8], image: &str) -> Vec<u8> {
+    let start = glb.windows(10).position(|bytes| bytes == b"\"images\":[").expect("images") + 10;
+    let length = glb[start..].iter().position(|&byte| byte == b']').expect("an end");
+    let mut glb = glb.to_vec();
+    glb[start..start + length].copy_from_slice(format!("{image:length$}").as_bytes());
+    glb
+}
+
+#[test]
+fn an_image_elsewhere_is_not_checked_and_one_that_is_absent_is_an_error() {
+    let glb = healthy_models().remove(0).glb();
+    for (uri, severity, cure) in [
+        ("https://a.b/c.png", Severity::NotChecked, "None needed"),
+        ("absent.png", Severity::Error, "Put the image where the model refers to it"),
+    ] {
+        let file = with_image(&glb, &format!("{{\"uri\":\"{uri}\"}}"));
+        let document = Document::from_bytes("m.glb", file, None, &LoadOptions::default()).expect("a model");
+        let findings = check_document(&document, &CheckOptions::default()).expect("a valid document");
+        let map = findings.iter().find(|finding| finding.code == Code::MapUnreadable).expect("the finding");
+        assert_eq!(map.severity, severity, "{}", map.text);
+        assert!(map.cure.starts_with(cure) && map.evidence.is_empty(), "{map:?}");
+        let others = findings.iter().filter(|finding| finding.code != Code::MapUnreadable);
+        assert!(others.clone().all(|finding| finding.severity <= Severity::Info), "{findings:#?}");
+    }
 }
 
 /// Two mistakes that cancel on the whole model make no picture wrong: one warning says so.

@@ -11,7 +11,7 @@ use super::surfaces::{defects_of_surface, for_each_surface, weigh};
 use crate::cancelling;
 use crate::check_options::CheckOptions;
 use crate::code::Code;
-use crate::defect::{Defect, Fault, Obstacle, UvFault};
+use crate::defect::{Defect, Fault, Obstacle, Unread, UvFault};
 use crate::finding::Finding;
 use crate::hypotheses::{self, Inverted, MapWitness, inverted, is_about_channels};
 use crate::instances::{Key, key};
@@ -330,14 +330,17 @@ fn defects_of_image(
     options: &CheckOptions,
     decoded: &mut DecodedMaps,
 ) -> Result<(Vec<Defect>, MapWitness), Error> {
-    let unread = |problem: String| {
-        let map = Map::unreadable(problem, options.green);
+    let unread = |why: Unread| {
+        let map = Map::unread(why, options.green);
         let defects = MAP_RULES.iter().filter_map(|rule| rule(&map)).collect();
         Ok((defects, MapWitness::of_unread(options)))
     };
     let bytes = match document.image_bytes(image) {
         Ok(bytes) => bytes,
-        Err(error) => return unread(format!("cannot be read ({error})")),
+        Err(_) if document.is_remote_image(image) => {
+            return unread(Unread::LeftOut("is on another machine".to_owned()));
+        }
+        Err(error) => return unread(Unread::Absent(format!("cannot be read ({error})"))),
     };
     let source = document.image_source(image);
     let same = source.as_ref().and_then(|source| decoded.of_source.get(source));
@@ -350,15 +353,12 @@ fn defects_of_image(
     }
     if decoded.are_many() {
         let texels = decoded.texels;
-        return unread(format!(
-            "was not decoded, because the maps before it have {texels} texels; check its file alone"
-        ));
+        return unread(Unread::LeftOut(format!("comes after maps of {texels} texels")));
     }
     if decoded.triangles > decoded.most_triangles {
         let triangles = decoded.triangles;
-        return unread(format!(
-            "was not decoded, because the maps before it were compared with {triangles} triangles; check its file alone"
-        ));
+        let problem = format!("comes after maps that were compared with {triangles} triangles");
+        return unread(Unread::LeftOut(problem));
     }
     decoded.triangles = decoded.triangles.saturating_add(users.triangle_count(image));
     let checked = map_defects_on_surfaces(&bytes, &users.of(image)?, options);

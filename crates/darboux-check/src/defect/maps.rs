@@ -101,15 +101,26 @@ pub enum LengthDoubt {
     NoSlopes,
 }
 
+/// Why a map has no texels to look at, each with a clause that says more.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unread {
+    /// The decoder refuses the file.
+    Damaged(String),
+    /// There is no file where the model refers to one.
+    Absent(String),
+    /// The file is in a format that is not decoded here, so that nothing says that it is wrong.
+    OtherFormat(String),
+    /// The map was left out: it is on another machine, or beyond what a check decodes.
+    LeftOut(String),
+}
+
 /// What is wrong with the texels of a normal map.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MapFault {
     Unreadable {
-        /// The decoder's clause.
-        problem: String,
+        why: Unread,
+        /// 0 where there is no file.
         bytes: usize,
-        /// Whether it is in a format that is not read here, so that nothing says that it is wrong.
-        is_other_format: bool,
     },
     Height(Texels),
     ObjectSpace(Texels),

@@ -8,6 +8,7 @@ use darboux::{
 use darboux_io::image::{DecodeError, DecodeLimits, RgbaImage, linear_to_srgb, srgb_to_linear};
 
 use crate::check_options::{AssumedMap, CheckOptions};
+use crate::defect::Unread;
 use crate::measure::arrangement::Arrangement;
 use crate::measure::contradiction::Contradiction;
 use crate::measure::mesh_votes::MeshVotes;
@@ -16,12 +17,10 @@ use crate::measure::storage::Storage;
 
 /// The normal map of a material, or one that is checked alone.
 pub struct Map {
-    /// The judgement, or why the image could not be decoded.
-    pub judgement: Result<MapJudgement, String>,
+    /// The judgement, or why there is none.
+    pub judgement: Result<MapJudgement, Unread>,
     /// In bytes; 0 where the file itself could not be read.
     pub file_size: usize,
-    /// Whether the file is an image in a format that is not decoded here.
-    pub is_other_format: bool,
     /// The number of tiles that the judgement is from.
     pub tiles: usize,
     /// Where the texels look as if they had gone through the transfer function of sRGB once too often: which
@@ -103,7 +102,8 @@ impl Map {
                 let mut rows = image.texels.chunks_exact(image.width.max(1) as usize);
                 let pushed = rows.try_for_each(|row| judge.push_row(row));
                 let tiles = judge.tiles().correlations.iter().flatten().count();
-                let judgement = pushed.map(|()| judge.judgement()).map_err(|error| error.to_string());
+                let judgement =
+                    pushed.map(|()| judge.judgement()).map_err(|error| Unread::Damaged(error.to_string()));
                 let srgb_mistake = judgement.as_ref().ok().and_then(|judgement| {
                     judgement.srgb_mistake().or_else(|| srgb_mistake_by_length(&image, judgement))
                 });
@@ -119,7 +119,6 @@ impl Map {
                 Self {
                     judgement,
                     file_size: file.len(),
-                    is_other_format: false,
                     tiles,
                     srgb_mistake,
                     before_srgb,
@@ -134,11 +133,11 @@ impl Map {
                     assumed: None,
                 }
             }
-            Err(error) => Self {
-                file_size: file.len(),
-                is_other_format: !matches!(error, DecodeError::Broken(_)) && is_other_format(file),
-                ..Self::unreadable(error.to_string(), wanted)
-            },
+            Err(error) => {
+                let is_other_format = !matches!(error, DecodeError::Broken(_)) && is_other_format(file);
+                let why = if is_other_format { Unread::OtherFormat } else { Unread::Damaged };
+                Self { file_size: file.len(), ..Self::unread(why(error.to_string()), wanted) }
+            }
         }
     }
 
@@ -158,12 +157,11 @@ impl Map {
         self.facets.as_ref().map_or(0.0, |facets| facets.z_score(arrangement))
     }
 
-    /// A map that cannot be read, and why, as a clause.
-    pub fn unreadable(problem: String, wanted: BitangentDirection) -> Self {
+    /// A map without texels, and why.
+    pub fn unread(why: Unread, wanted: BitangentDirection) -> Self {
         Self {
-            judgement: Err(problem),
+            judgement: Err(why),
             file_size: 0,
-            is_other_format: false,
             tiles: 0,
             srgb_mistake: None,
             before_srgb: None,

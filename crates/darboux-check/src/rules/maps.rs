@@ -6,7 +6,7 @@ use super::rule::MapRule;
 use crate::defect::Obstacle;
 use crate::defect::{
     Certainty, Defect, DirectionEvidence, FacesScore, LengthDoubt, MapFault, NoNormals, RedDoubt,
-    ReliefEvidence, Texels,
+    ReliefEvidence, Texels, Unread,
 };
 use crate::measure::arrangement::Arrangement;
 use crate::measure::directions::{
@@ -55,10 +55,10 @@ fn of_kind(map: &Map, wanted: Kind) -> Option<&MapJudgement> {
 }
 
 fn unreadable(map: &Map) -> Option<Defect> {
-    let problem = map.judgement.as_ref().err()?.clone();
-    let is_other_format = map.is_other_format;
-    let found = Defect::new(MapFault::Unreadable { problem, bytes: map.file_size, is_other_format });
-    Some(if is_other_format { found.with_severity(Severity::NotChecked) } else { found })
+    let why = map.judgement.as_ref().err()?.clone();
+    let is_wrong = matches!(why, Unread::Damaged(_) | Unread::Absent(_));
+    let found = Defect::new(MapFault::Unreadable { why, bytes: map.file_size });
+    Some(if is_wrong { found } else { found.with_severity(Severity::NotChecked) })
 }
 
 fn height(map: &Map) -> Option<Defect> {

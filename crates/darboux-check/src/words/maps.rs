@@ -7,7 +7,7 @@ use super::said::Said;
 use crate::code::Code;
 use crate::defect::{
     Certainty, DirectionEvidence, FacesScore, LengthDoubt, MapFault, NoNormals, RedDoubt, ReliefEvidence,
-    Texels,
+    Texels, Unread,
 };
 use crate::measure::contradiction::{Contradiction, Part};
 use crate::measure::reordered::Reordered;
@@ -16,14 +16,7 @@ use crate::measure::storage::{BlockSteps, Enlargement, FewLevels};
 
 pub fn said(fault: &MapFault) -> Said {
     match fault {
-        MapFault::Unreadable { problem, bytes, is_other_format: false } => {
-            Said::new(format!("it {problem}")).with("file", *bytes as f64, "bytes")
-        }
-        MapFault::Unreadable { problem, bytes, is_other_format: true } => {
-            Said::new(format!("it was not checked, because it {problem}"))
-                .with_cure("None needed. To check the map, check the model before its images are compressed.")
-                .with("file", *bytes as f64, "bytes")
-        }
+        MapFault::Unreadable { why, bytes } => unread(why, *bytes as f64),
         MapFault::Height(texels) => Said::new("it is grey").with("grey texels", texels.percent, "%"),
         MapFault::ObjectSpace(texels) => Said::new("its unit vectors point in all directions").with(
             "texels with negative z",
@@ -109,6 +102,19 @@ pub fn said(fault: &MapFault) -> Said {
         MapFault::Flat(percent) => {
             Said::new("all its texels are the same").with("texels of the commonest colour", *percent, "%")
         }
+    }
+}
+
+fn unread(why: &Unread, bytes: f64) -> Said {
+    match why {
+        Unread::Damaged(problem) => Said::new(format!("it {problem}")).with("file", bytes, "bytes"),
+        Unread::Absent(problem) => Said::new(format!("it {problem}"))
+            .with_cure("Put the image where the model refers to it, or correct the reference."),
+        Unread::OtherFormat(problem) => Said::new(format!("it was not checked, because it {problem}"))
+            .with_cure("None needed. To check the map, check the model before its images are compressed.")
+            .with("file", bytes, "bytes"),
+        Unread::LeftOut(problem) => Said::new(format!("it was not checked, because it {problem}"))
+            .with_cure("None needed. To check the map, check its file alone."),
     }
 }
 

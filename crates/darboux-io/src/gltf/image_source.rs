@@ -42,4 +42,11 @@ impl Document {
             (None, None) => None,
         }
     }
+
+    /// Whether an image is on another machine. Nothing is asked of other machines.
+    pub fn is_remote_image(&self, index: usize) -> bool {
+        let uri = self.root.images.get(index).and_then(|image| image.uri.as_deref());
+        !self.image_files.contains_key(&index)
+            && uri.is_some_and(|uri| matches!(self.resources.resolve(uri), Ok(UriTarget::Remote)))
+    }
 }
