@@ -360,7 +360,6 @@ mod tests {
     use darboux::{BitangentDirection, TexelLayout, judge_normal_map};
 
     use super::*;
-    use crate::measure::storage::Storage;
 
     /// Waves along u, v and both, as `[x, y]`; `is_exchanged` exchanges red and green, and green is inverted
     /// before.
@@ -374,27 +373,10 @@ mod tests {
             [-red, green, 1.0].map(|x| (127.5 + 127.5 * x / length).round() as u8)
         };
         let texels: Vec<[u8; 3]> = (0..128 * 128).map(texel).collect();
-        let judgement =
-            judge_normal_map(&texels, [128; 2], TexelLayout::RGB).map_err(|error| error.to_string());
-        let arrangement = candidates(judgement.as_ref().expect("a judgement"))[1];
-        let facets = Some(MeshVotes::only(arrangement, 7.0));
-        Map {
-            judgement,
-            file_size: 0,
-            is_other_format: false,
-            tiles: 0,
-            srgb_mistake: None,
-            before_srgb: None,
-            scaled: None,
-            two_channels: None,
-            contradiction: None,
-            reordered: None,
-            is_picture: false,
-            storage: Storage::default(),
-            wanted: BitangentDirection::Up,
-            facets,
-            assumed: None,
-        }
+        let judgement = judge_normal_map(&texels, [128; 2], TexelLayout::RGB).expect("whole rows");
+        let facets = Some(MeshVotes::only(candidates(&judgement)[1], 7.0));
+        let unread = Map::unread(Unread::LeftOut(String::new()), BitangentDirection::Up);
+        Map { judgement: Ok(judgement), facets, ..unread }
     }
 
     /// Facets that vote for exchanged channels do not outweigh derivatives that show a gradient.
