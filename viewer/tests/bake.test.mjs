@@ -152,7 +152,7 @@ test('a high model for the open one by button, and the sentence about a pair tha
 test('what cannot be a high model is refused in a sentence, and the low model is still checked', async () => {
   writeFileSync(path('text_high.glb'), 'no model');
   writeFileSync(path('picture.png'), 'no model either');
-  for (const [high, sentence] of [['text_high.glb', /^text_high\.glb: is neither glTF nor GLB; give /], ['picture.png', /^There is no model in these files \(picture\.png\); open /]]) {
+  for (const [high, sentence] of [['text_high.glb', /^text_high\.glb: is named as glTF, but its content is that of no format that is read /], ['picture.png', /^There is no model in these files \(picture\.png\); open /]]) {
     await viewer.give('files', [path('plate_low.gltf')]);
     await viewer.give('high', [path(high)]);
     assert.match(await viewer.text('error'), sentence);

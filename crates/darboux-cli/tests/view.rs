@@ -218,7 +218,7 @@ fn what_is_no_model_is_refused_in_a_sentence() {
     let cases = [
         ("no-such.glb", "cannot be read"),
         (".", "it is a folder; name a file in it"),
-        ("index.html", "is neither glTF nor GLB"),
+        ("index.html", "is of no format that is read; give a model"),
         ("empty.glb", "empty.glb: "),
         ("start.glb", "start.glb: "),
         ("cut.glb", "cut.glb: "),

@@ -6,6 +6,7 @@
 //! geometry    faces of any size, with the values of their corners
 //! deformers   skins and blend shapes
 //! materials   shading, textures, normal maps
+//! placement   how textures are moved, turned and scaled
 //! ```
 //!
 //! ufbx is C code. Programs that read files of strangers and want no C code leave the feature `fbx` out.
@@ -14,6 +15,7 @@ mod deformers;
 mod geometry;
 mod load;
 mod materials;
+mod placement;
 mod scene;
 
 use crate::LoadOptions;

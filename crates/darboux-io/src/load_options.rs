@@ -30,7 +30,6 @@ pub struct OptionNames {
     pub allow_outside: &'static str,
     /// The name of
     /// [`AddTangentsOptions::apply_texture_transform`](crate::gltf::AddTangentsOptions::apply_texture_transform).
-    ///
     pub apply_texture_transform: &'static str,
     /// What to do about a file whose format this build does not read: a clause.
     pub missing_reader: &'static str,

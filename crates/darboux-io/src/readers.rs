@@ -4,10 +4,16 @@ use crate::LoadOptions;
 use crate::error::ContentError;
 use crate::source::{self, Built, ModelFiles, SourceFormat, SourceScene};
 
-/// Reads a file of another format than glTF as a GLB. None: the file is glTF, or may be.
+/// Reads a file of another format than glTF as a GLB. None: the file is glTF. `name` is the file's name,
+/// whose ending says what was meant where the content says nothing.
 ///
 /// Errors: the file is broken; it is of a format without a reader, which the error names.
-pub fn read(bytes: &[u8], files: &ModelFiles, options: &LoadOptions) -> Option<Result<Built, ContentError>> {
+pub fn read(
+    name: &str,
+    bytes: &[u8],
+    files: &ModelFiles,
+    options: &LoadOptions,
+) -> Option<Result<Built, ContentError>> {
     // Editors of Windows begin a text with a byte order mark, which belongs to no statement.
     let bytes = source::without_byte_order_mark(bytes);
     let first = bytes.iter().find(|byte| !byte.is_ascii_whitespace());
@@ -15,7 +21,7 @@ pub fn read(bytes: &[u8], files: &ModelFiles, options: &LoadOptions) -> Option<R
         return None;
     }
     let Some(format) = source::detect(bytes) else {
-        return source::name_of_other(bytes).map(|problem| Err(ContentError::invalid("", problem)));
+        return Some(Err(ContentError::invalid("", source::problem_of_other(bytes, name))));
     };
     let scene = scene(format, bytes, files, options);
     Some(scene.and_then(|scene| source::build(scene, bytes.len(), options)))

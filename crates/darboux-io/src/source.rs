@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! format      which format a file has, by its content
+//! others      what a file is that no reader takes
 //! scene       what a reader returns: nodes, meshes of polygons, materials, skins, as the file has them
 //! files       the textures and libraries that a model refers to, under the rules of glTF
 //! smoothing   normals by smoothing groups, where a file has none
@@ -16,6 +17,7 @@
 mod build;
 mod files;
 mod format;
+mod others;
 mod polygons;
 mod provenance;
 pub(crate) mod scene;
@@ -30,7 +32,8 @@ pub(crate) use build::{Built, build};
 #[cfg(feature = "obj")]
 pub(crate) use files::FoundFile;
 pub(crate) use files::{FileSource, ModelFiles};
-pub(crate) use format::{detect, name_of_other, without_byte_order_mark};
+pub(crate) use format::{detect, without_byte_order_mark};
+pub(crate) use others::problem as problem_of_other;
 #[cfg(any(feature = "fbx", feature = "obj"))]
 pub(crate) use scene::NormalMap;
 pub(crate) use scene::{

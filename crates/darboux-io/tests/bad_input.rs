@@ -29,9 +29,9 @@ fn glb_of(words: &[u32], json: &str) -> Vec<u8> {
 #[test]
 fn containers() {
     const JSON: u32 = 0x4E4F_534A;
-    refused(parse(""), "x.gltf: is empty; give a .gltf or .glb file");
+    refused(parse(""), "x.gltf: is empty; export or download it again");
     refused(parse("PK\x03\x04"), "is a zip archive; unpack it and give the model in it");
-    refused(parse("glTF, once upon a time"), "is neither glTF nor GLB");
+    refused(parse("glTF, once upon a time"), "begins as a GLB of a version that does not exist");
     refused(parse("glTF\x02\0"), "is cut off within the GLB header");
     refused(parse(glb_of(&[1, 12], "")), "is a GLB of version 1; convert it to glTF 2.0");
     refused(parse(glb_of(&[2, 99], "")), "the GLB header says 99 bytes but there are 12");

@@ -149,3 +149,11 @@ fn what_is_left_out_is_listed() {
     assert_eq!(document.left_out(FileKind::Ply).unwrap(), of_ply);
     assert!(document.left_out(FileKind::Glb).unwrap().is_empty());
 }
+
+/// An OBJ places textures by UVs only.
+#[test]
+fn how_textures_lie_is_listed_for_an_obj() {
+    let document = open(&blender("mapping.glb"));
+    let lost = document.left_out(FileKind::Obj).unwrap();
+    assert_eq!(lost, ["1 choice to clamp or mirror a texture", "KHR_texture_transform"]);
+}

@@ -123,7 +123,12 @@ fn textures_that_are_lost_are_listed() {
     let (objects, connections) = [
         texture(10, "specular", "SpecularColor", ""),
         texture(11, "mirror", "ReflectionFactor", ""),
-        texture(12, "paint", "DiffuseColor", "Properties70:  {\nP: \"WrapModeU\", \"enum\", \"\", \"\",1\nP: \"Scaling\", \"Vector\", \"\", \"A\",2,2,1\n}\n"),
+        texture(
+            12,
+            "paint",
+            "DiffuseColor",
+            "Properties70:  {\nP: \"Rotation\", \"Vector\", \"\", \"A\",0,0,30\n}\n",
+        ),
     ]
     .into_iter()
     .unzip::<_, _, Vec<String>, Vec<String>>();
@@ -135,7 +140,6 @@ fn textures_that_are_lost_are_listed() {
             "the specular colour texture of material \"Paint\"",
             "the texture of ReflectionFactor of material \"Paint\"",
             "the scale, rotation or offset of paint.png",
-            "the clamping of paint.png",
         ]
     );
 }

@@ -220,27 +220,6 @@ fn ascii_and_binary_stl_are_one_model() {
     assert!(refusal(&ascii[..ascii.len() - 12]).contains("cut off before endsolid"));
 }
 
-#[test]
-fn other_files_are_named_for_what_they_are() {
-    let stl = fs::read(blender("scene.stl")).unwrap();
-    let cut_stl = &stl[..stl.len() - 1];
-    for (bytes, words) in [
-        (&b"BLENDER-v405"[..], "is a Blender file"),
-        (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "is a scene of 3ds Max"),
-        (b"\x4D\x4D\x10\x00\x00\x00\x3D\x3D", "is a 3DS file"),
-        (b"PK\x03\x04", "is a zip archive"),
-        (b"<!DOCTYPE html><html>", "is a web page"),
-        (b"newmtl a\nKd 1 1 1\n", "is a material library of an OBJ"),
-        (b"version https://git-lfs.github.com/spec/v1", "is a pointer of Git LFS"),
-        (b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n", "without faces"),
-        (cut_stl, "is an STL that is cut off"),
-        (b"hello", "is neither glTF nor GLB"),
-    ] {
-        let sentence = refusal(bytes);
-        assert!(sentence.contains(words) && !sentence.contains('\n'), "{sentence}");
-    }
-}
-
 /// Whatever the ending says: the content decides, and an empty file is empty.
 #[test]
 fn endings_do_not_decide() {

@@ -106,6 +106,41 @@ fn colours_of_one_number_are_grey() {
     assert_eq!(model.json()["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"], [1.0, 1.0, 1.0, 1.0]);
 }
 
+/// As Blender's importer and exporter of glTF place the texture; v points up in OBJ.
+#[test]
+fn options_place_textures() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::copy("../../assets/blender/scene_normal.png", folder.path().join("a.png")).unwrap();
+    fs::write(folder.path().join("a.obj"), "mtllib a.mtl\nv 0 0 0\nvt 0 0\nusemtl a\nf 1/1 1/1 1/1\n")
+        .unwrap();
+    let texture = |options: &str| {
+        fs::write(
+            folder.path().join("a.mtl"),
+            format!("newmtl a\nmap_Kd {options} a.png\nnorm {options} a.png\n"),
+        )
+        .unwrap();
+        let model = open(&folder.path().join("a.obj"));
+        let (json, material) = (model.json(), &model.json()["materials"][0]);
+        let color = &material["pbrMetallicRoughness"]["baseColorTexture"];
+        assert_eq!(*color, material["normalTexture"], "one texture for both");
+        assert_eq!(json["images"].as_array().unwrap().len(), 1);
+        (color["extensions"].to_string(), json["samplers"].to_string(), model.warnings().to_vec())
+    };
+    let transform = |numbers: &str| format!("{{\"KHR_texture_transform\":{{{numbers}}}}}");
+    let moved = r#""offset":[0.25,-3.5],"rotation":0.0,"scale":[2.0,4.0]"#;
+    let clamped = r#"[{"wrapS":33071,"wrapT":33071}]"#;
+    for (options, transform, samplers) in [
+        ("-o 0.25 0.5 0 -s 2 4 1 -clamp on", transform(moved), clamped),
+        ("-s 2", transform(r#""offset":[0.0,0.0],"rotation":0.0,"scale":[2.0,1.0]"#), "null"),
+        ("-s 1 1 1 -o 0 0 0 -clamp off", "null".to_owned(), "null"),
+        ("-o inf", "null".to_owned(), "null"),
+    ] {
+        assert_eq!(texture(options), (transform, samplers.to_owned(), Vec::new()), "{options}");
+    }
+    let (_, _, warnings) = texture("-mm 0 2");
+    assert!(warnings.iter().any(|warning| warning.contains("options of textures")), "{warnings:?}");
+}
+
 #[test]
 fn attributes_of_some_corners_are_a_warning() {
     let elements = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\n";

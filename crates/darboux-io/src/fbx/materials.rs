@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 use darboux::BitangentDirection;
 use ufbx::{Exporter, MaterialMap, Scene, ShaderType, Texture, TextureFile, WrapMode};
 
+use super::placement::{self, Placement};
 use crate::error::shortened;
 use crate::image::{DecodeLimits, RgbaImage};
 use crate::source::{ModelFiles, NormalMap, SourceImage, SourceMaterial, SourceTexture};
@@ -13,6 +14,8 @@ use crate::source::{ModelFiles, NormalMap, SourceImage, SourceMaterial, SourceTe
 pub struct MaterialReader<'a> {
     scene: &'a Scene,
     files: &'a ModelFiles,
+    /// Whether Blender wrote the file.
+    is_blenders: bool,
     /// What green means in normal maps, where the program that wrote the file decides it.
     green: Option<BitangentDirection>,
     /// The image of each texture file; none for those that cannot be read.
@@ -31,6 +34,7 @@ impl<'a> MaterialReader<'a> {
         Self {
             scene,
             files,
+            is_blenders,
             green: is_blenders.then_some(BitangentDirection::Up),
             image_of_file: HashMap::new(),
             is_grey: HashMap::new(),
@@ -168,14 +172,19 @@ impl<'a> MaterialReader<'a> {
         let uv_set = uv_sets.iter().position(|name| *name == wanted).unwrap_or(0);
         let name = &self.images[image].name;
         let layers = texture.file_textures.count;
+        let placement = placement::of(with_file, self.is_blenders);
         let losses = [
-            (moves_uvs(with_file), "the scale, rotation or offset of"),
-            ((with_file.wrap_u, with_file.wrap_v) != (WrapMode::Repeat, WrapMode::Repeat), "the clamping of"),
+            (placement == Placement::Unknown, "the scale, rotation or offset of"),
             (!texture.has_file && layers > 1, "the layers of a texture but"),
         ];
         let losses = losses.into_iter().filter(|(is_lost, _)| *is_lost);
         self.not_carried.extend(losses.map(|(_, what)| format!("{what} {name}")));
-        Some(SourceTexture { image, uv_set, transform: None })
+        let transform = match placement {
+            Placement::Moved(transform) => Some(transform),
+            Placement::Plain | Placement::Unknown => None,
+        };
+        let clamps = [with_file.wrap_u, with_file.wrap_v].map(|wrap| wrap == WrapMode::Clamp);
+        Some(SourceTexture { image, uv_set, transform, clamps })
     }
 
     fn image(&mut self, file: u32) -> Option<usize> {
@@ -237,13 +246,6 @@ fn opacity(material: &ufbx::Material) -> f32 {
 /// Whether the shading is Lambert's or Phong's, without Blender's extensions.
 fn is_classic(material: &ufbx::Material) -> bool {
     matches!(material.shader_type, ShaderType::FbxLambert | ShaderType::FbxPhong)
-}
-
-/// Whether the texture is scaled, rotated or moved in the plane of UVs. Some programs write numbers about the
-/// third axis, which mean nothing.
-fn moves_uvs(texture: &Texture) -> bool {
-    let m = &texture.texture_to_uv;
-    texture.has_uv_transform && [m.m00, m.m01, m.m03, m.m10, m.m11, m.m13] != [1.0, 0.0, 0.0, 0.0, 1.0, 0.0]
 }
 
 /// The roughness; some programs write its inverse.

@@ -32,16 +32,10 @@ impl Container {
         let start = if file.starts_with(BOM) { BOM.len() } else { 0 };
         let first = file[start..].iter().find(|byte| !byte.is_ascii_whitespace());
         if first != Some(&b'{') {
-            return Err(unknown_format(if file.is_empty() { "is empty" } else { UNKNOWN_FORMAT }));
+            return Err(ContentError::invalid("", "is not glTF; give a .gltf or .glb file of glTF 2.0"));
         }
         Ok(Self { is_glb: false, json: start..file.len(), bin: None, other_chunks: Vec::new() })
     }
-}
-
-const UNKNOWN_FORMAT: &str = "is neither glTF nor GLB";
-
-fn unknown_format(what: &str) -> ContentError {
-    ContentError::invalid("", format!("{what}; give a .gltf or .glb file of glTF 2.0"))
 }
 
 fn parse_glb(file: &[u8]) -> Result<Container, ContentError> {
@@ -53,7 +47,11 @@ fn parse_glb(file: &[u8]) -> Result<Container, ContentError> {
     match version {
         2 => {}
         1 => return Err(ContentError::invalid("", "is a GLB of version 1; convert it to glTF 2.0")),
-        _ => return Err(unknown_format(UNKNOWN_FORMAT)),
+        _ => {
+            let problem =
+                "begins as a GLB of a version that does not exist; give a .gltf or .glb file of glTF 2.0";
+            return Err(ContentError::invalid("", problem));
+        }
     }
     if length as usize != file.len() {
         return Err(broken(format!("the GLB header says {length} bytes but there are {}", file.len())));

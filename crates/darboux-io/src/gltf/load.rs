@@ -94,7 +94,8 @@ impl Document {
     ) -> Result<Self, Error> {
         let failed = |source| Error::Read { file: base.unwrap_or(Path::new("")).to_owned(), source };
         let files = ModelFiles::new(access.model_files(base).map_err(failed)?, options);
-        let read = readers::read(&file, &files, options).transpose().map_err(|error| error.in_file(name))?;
+        let read =
+            readers::read(name, &file, &files, options).transpose().map_err(|error| error.in_file(name))?;
         let Some(Built { glb, provenance, warnings }) = read else {
             let resources = Resources::new(base, *options, access).map_err(failed)?;
             return Self::parse(name, file, resources, *options).map_err(|error| error.in_file(name));

@@ -169,7 +169,12 @@ impl<'a> Materials<'a> {
                 image
             }
         };
-        Some(SourceTexture { image: image?, ..SourceTexture::default() })
+        Some(SourceTexture {
+            image: image?,
+            transform: map.transform(),
+            clamps: [map.is_clamped; 2],
+            ..SourceTexture::default()
+        })
     }
 
     /// The image of a statement. Its options may be unknown, and its name may contain spaces, so the longest

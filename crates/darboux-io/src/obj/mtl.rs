@@ -30,7 +30,7 @@ pub struct MtlMaterial {
 }
 
 /// A texture of a material.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MtlMap {
     /// The name of the file. It may contain spaces.
     pub file: String,
@@ -38,8 +38,39 @@ pub struct MtlMap {
     pub statement: String,
     /// The option `-bm`.
     pub multiplier: Option<f32>,
-    /// Whether an option has no place in glTF: it moves, scales or clamps the texture.
+    /// The options `-o` and `-s`: the texture coordinate is scale * uv + offset, with v up.
+    pub offset: [f32; 2],
+    pub scale: [f32; 2],
+    /// Whether the option `-clamp` is on.
+    pub is_clamped: bool,
+    /// Whether an option has no place in glTF: it changes the values or disturbs the texture.
     pub has_options: bool,
+}
+
+impl Default for MtlMap {
+    fn default() -> Self {
+        Self {
+            file: String::new(),
+            statement: String::new(),
+            multiplier: None,
+            offset: [0.0; 2],
+            scale: [1.0; 2],
+            is_clamped: false,
+            has_options: false,
+        }
+    }
+}
+
+impl MtlMap {
+    /// The offset, rotation and scale of `KHR_texture_transform`, whose v points down; none for a texture
+    /// that lies as UVs say, and for numbers that are not finite.
+    pub fn transform(&self) -> Option<([f32; 2], f32, [f32; 2])> {
+        let ([x, y], [sx, sy]) = (self.offset, self.scale);
+        let is_plain = self.offset == [0.0; 2] && self.scale == [1.0; 2];
+        let offset = [x, 1.0 - sy - y];
+        let is_finite = offset.iter().chain(&self.scale).all(|x| x.is_finite());
+        (!is_plain && is_finite).then_some((offset, 0.0, [sx, sy]))
+    }
 }
 
 /// The materials of a library. Statements before the first `newmtl`, and unknown ones, are ignored.
@@ -117,12 +148,16 @@ fn map(rest: &[u8]) -> MtlMap {
             if place >= least && number.is_none() {
                 break;
             }
-            if option == "-bm" {
-                found.multiplier = number;
+            match (option, number) {
+                ("-bm", number) => found.multiplier = number,
+                ("-o", Some(number)) if place < 2 => found.offset[place] = number,
+                ("-s", Some(number)) if place < 2 => found.scale[place] = number,
+                ("-clamp", _) => found.is_clamped = word == "on",
+                _ => {}
             }
             left = after.trim_start();
         }
-        found.has_options |= ["-mm", "-o", "-s", "-t", "-clamp", "-imfchan"].contains(&option);
+        found.has_options |= ["-mm", "-t", "-imfchan"].contains(&option);
     }
     found.file = left.to_owned();
     found

@@ -74,6 +74,7 @@ pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Resu
         ("materials", materials.materials),
         ("textures", materials.textures),
         ("images", materials.images),
+        ("samplers", materials.samplers),
         ("skins", nodes.skins),
     ];
     for (name, list) in lists {

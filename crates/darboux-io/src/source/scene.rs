@@ -219,6 +219,8 @@ pub struct SourceTexture {
     pub uv_set: usize,
     /// `KHR_texture_transform`: offset, rotation, scale, in glTF's UVs.
     pub transform: Option<([f32; 2], f32, [f32; 2])>,
+    /// Whether the texture is clamped to its edges along u and v; it repeats where not.
+    pub clamps: [bool; 2],
 }
 
 /// An image file.

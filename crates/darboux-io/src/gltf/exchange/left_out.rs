@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::format::ExchangeFormat;
 use crate::Error;
 use crate::gltf::Document;
+use crate::json::Value;
 
 /// Counts of what is left out.
 pub struct LeftOut {
@@ -13,6 +14,7 @@ pub struct LeftOut {
     some_surfaces_lack: Vec<&'static str>,
     materials: usize,
     textures: usize,
+    clamped_textures: usize,
     uv_sets: usize,
     morph_targets: usize,
     skins: usize,
@@ -65,6 +67,7 @@ impl LeftOut {
             some_surfaces_lack: if is_ply { partial.collect() } else { Vec::new() },
             materials: if is_ply { length("materials") } else { 0 },
             textures: if is_ply { length("textures") } else { unspelt_textures(document)? },
+            clamped_textures: if is_ply { 0 } else { clamped_textures(document) },
             uv_sets: (1..).take_while(|set| having(&format!("TEXCOORD_{set}")) > 0).count(),
             morph_targets: primitives.iter().map(|primitive| primitive.targets.len()).max().unwrap_or(0),
             skins: length("skins"),
@@ -98,6 +101,11 @@ impl LeftOut {
             [
                 counted(self.materials, "material", "materials"),
                 counted(self.textures, &format!("texture{elsewhere}"), &format!("textures{elsewhere}")),
+                counted(
+                    self.clamped_textures,
+                    "choice to clamp or mirror a texture",
+                    "choices to clamp or mirror textures",
+                ),
                 counted(self.uv_sets, "further UV set", "further UV sets"),
                 counted(self.morph_targets, "morph target", "morph targets"),
                 counted(self.skins, "skin", "skins"),
@@ -128,4 +136,15 @@ fn unspelt_textures(document: &Document) -> Result<usize, Error> {
         .iter()
         .flat_map(|material| [&material.occlusion_texture, &material.clearcoat_normal_texture]);
     Ok(own.flatten().count())
+}
+
+/// The textures that do not repeat.
+fn clamped_textures(document: &Document) -> usize {
+    const REPEAT: u64 = 10497;
+    let json = document.json();
+    let repeats = |texture: &Value| {
+        let sampler = texture["sampler"].as_u64().map_or(&Value::Null, |at| &json["samplers"][at as usize]);
+        ["wrapS", "wrapT"].iter().all(|&wrap| sampler[wrap].as_u64().is_none_or(|wrap| wrap == REPEAT))
+    };
+    json["textures"].as_array().into_iter().flatten().filter(|texture| !repeats(texture)).count()
 }

@@ -10,23 +10,31 @@ use crate::LoadOptions;
 use crate::image::{Channels, PngImage, convert_normal_map};
 use crate::source::scene::{NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture};
 
-/// The lists of materials, textures and images, and the extensions that they use.
+/// The lists of materials, textures, images and samplers, and the extensions that they use.
 #[derive(Debug, Default)]
 pub struct Materials {
     pub materials: Vec<Value>,
     pub textures: Vec<Value>,
     pub images: Vec<Value>,
+    pub samplers: Vec<Value>,
     pub extensions: BTreeSet<&'static str>,
 }
 
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
 const WEBP: &str = "EXT_texture_webp";
+const CLAMP_TO_EDGE: u32 = 33071;
 
 /// Builds all materials of a scene.
 pub fn build(scene: &SourceScene, data: &mut DataBuilder, warnings: &mut Vec<String>) -> Materials {
-    let texture_of_image = HashMap::new();
-    let mut builder =
-        MaterialBuilder { scene, data, warnings, built: Materials::default(), texture_of_image };
+    let mut builder = MaterialBuilder {
+        scene,
+        data,
+        warnings,
+        built: Materials::default(),
+        texture_of_use: HashMap::new(),
+        image_of_source: HashMap::new(),
+        sampler_of_clamps: HashMap::new(),
+    };
     for material in &scene.materials {
         let json = builder.material(material);
         builder.built.materials.push(json);
@@ -39,8 +47,18 @@ struct MaterialBuilder<'a> {
     data: &'a mut DataBuilder,
     warnings: &'a mut Vec<String>,
     built: Materials,
-    /// The texture of an image, as it is or with green inverted; none for images that glTF cannot hold.
-    texture_of_image: HashMap<(usize, bool), Option<usize>>,
+    /// The texture of an image, as it is or with green inverted, repeated or clamped; none for images that
+    /// glTF cannot hold.
+    texture_of_use: HashMap<(usize, bool, [bool; 2]), Option<usize>>,
+    image_of_source: HashMap<(usize, bool), Option<GltfImage>>,
+    sampler_of_clamps: HashMap<[bool; 2], usize>,
+}
+
+/// An image in the document.
+#[derive(Clone, Copy, Debug)]
+struct GltfImage {
+    index: usize,
+    is_webp: bool,
 }
 
 impl MaterialBuilder<'_> {
@@ -91,7 +109,7 @@ impl MaterialBuilder<'_> {
     }
 
     fn texture_info(&mut self, texture: &SourceTexture, is_inverted: bool) -> Option<Value> {
-        let index = self.texture(texture.image, is_inverted)?;
+        let index = self.texture(texture, is_inverted)?;
         let mut info = json!({"index": index});
         if texture.uv_set > 0 {
             info["texCoord"] = texture.uv_set.into();
@@ -104,16 +122,53 @@ impl MaterialBuilder<'_> {
         Some(info)
     }
 
-    fn texture(&mut self, image: usize, is_inverted: bool) -> Option<usize> {
-        if let Some(&texture) = self.texture_of_image.get(&(image, is_inverted)) {
+    fn texture(&mut self, texture: &SourceTexture, is_inverted: bool) -> Option<usize> {
+        let texture_use = (texture.image, is_inverted, texture.clamps);
+        if let Some(&texture) = self.texture_of_use.get(&texture_use) {
             return texture;
         }
-        let made = self.scene.images.get(image).and_then(|source| self.add_texture(source, is_inverted));
-        self.texture_of_image.insert((image, is_inverted), made);
+        let image = self.image(texture.image, is_inverted);
+        let made = image.map(|image| self.add_texture(image, texture.clamps));
+        self.texture_of_use.insert(texture_use, made);
         made
     }
 
-    fn add_texture(&mut self, image: &SourceImage, is_inverted: bool) -> Option<usize> {
+    fn add_texture(&mut self, image: GltfImage, clamps: [bool; 2]) -> usize {
+        let mut json = if image.is_webp {
+            self.built.extensions.insert(WEBP);
+            json!({"extensions": {WEBP: {"source": image.index}}})
+        } else {
+            json!({"source": image.index})
+        };
+        if clamps.contains(&true) {
+            json["sampler"] = self.sampler(clamps).into();
+        }
+        self.built.textures.push(json);
+        self.built.textures.len() - 1
+    }
+
+    fn sampler(&mut self, clamps: [bool; 2]) -> usize {
+        let samplers = &mut self.built.samplers;
+        *self.sampler_of_clamps.entry(clamps).or_insert_with(|| {
+            let mut json = json!({});
+            for (name, _) in ["wrapS", "wrapT"].into_iter().zip(clamps).filter(|(_, clamps)| *clamps) {
+                json[name] = CLAMP_TO_EDGE.into();
+            }
+            samplers.push(json);
+            samplers.len() - 1
+        })
+    }
+
+    fn image(&mut self, image: usize, is_inverted: bool) -> Option<GltfImage> {
+        if let Some(&made) = self.image_of_source.get(&(image, is_inverted)) {
+            return made;
+        }
+        let made = self.scene.images.get(image).and_then(|source| self.add_image(source, is_inverted));
+        self.image_of_source.insert((image, is_inverted), made);
+        made
+    }
+
+    fn add_image(&mut self, image: &SourceImage, is_inverted: bool) -> Option<GltfImage> {
         let Some(mime) = mime_type(&image.bytes) else {
             let name = &image.name;
             let problem =
@@ -124,14 +179,7 @@ impl MaterialBuilder<'_> {
         let turned = if is_inverted { self.inverted(image) } else { None };
         let view = self.data.view(turned.as_deref().unwrap_or(&image.bytes));
         self.built.images.push(json!({"name": image.name, "mimeType": mime, "bufferView": view}));
-        let source = self.built.images.len() - 1;
-        self.built.textures.push(if mime == "image/webp" {
-            self.built.extensions.insert(WEBP);
-            json!({"extensions": {WEBP: {"source": source}}})
-        } else {
-            json!({"source": source})
-        });
-        Some(self.built.textures.len() - 1)
+        Some(GltfImage { index: self.built.images.len() - 1, is_webp: mime == "image/webp" })
     }
 
     /// A normal map with green inverted; none, with a warning, where it cannot be.
