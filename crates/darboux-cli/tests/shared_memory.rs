@@ -130,6 +130,45 @@ fn different_images_are_decoded_within_one_limit() {
     assert!(run.stderr.contains("raise the limit (--memory-limit)"), "{}", run.stderr);
 }
 
+/// A normal map and a colour texture that fit alone and not together.
+#[test]
+fn normal_maps_and_other_textures_share_one_limit() {
+    let [map, color] = [flat(1000), flat(999)];
+    let data = [&map[..], &vec![0; map.len().next_multiple_of(4) - map.len()], &color].concat();
+    let first = 48 + 48 + 32 + 24;
+    let second = first + map.len().next_multiple_of(4);
+    let views = json!([
+        { "buffer": 0, "byteOffset": first, "byteLength": map.len() },
+        { "buffer": 0, "byteOffset": second, "byteLength": color.len() },
+    ]);
+    let attributes = json!({ "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 });
+    let members = json!({
+        "bufferViews": views,
+        "images": [{ "bufferView": 5, "mimeType": "image/png" }, { "bufferView": 6, "mimeType": "image/png" }],
+        "textures": [{ "source": 0 }, { "source": 1 }],
+        "materials": [{
+            "normalTexture": { "index": 0 },
+            "pbrMetallicRoughness": { "baseColorTexture": { "index": 1 } },
+        }],
+        "meshes": [{ "primitives": [{ "attributes": attributes, "indices": 3, "material": 0 }] }],
+        "nodes": [{ "mesh": 0 }],
+    });
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("m.glb"), square(1.0, &data, members)).expect("a file");
+    let bake = |maps: &[&str]| {
+        let model = folder.path().join("m.glb");
+        let output = folder.path().join("out.png");
+        let line = ["bake", text(&model), "--high", text(&model), "-o", text(&output), "--force"];
+        let limits = ["--size", "16", "--memory-limit", "12"];
+        common::darboux(&[&line[..], &limits, maps].concat()).exits(0).stderr
+    };
+    let left_out = "and those of the images before need more than the memory limit";
+    assert!(!bake(&[]).contains(left_out));
+    assert!(!bake(&["--no-high-maps", "--map", "base-color"]).contains(left_out));
+    let both = bake(&["--map", "normal", "--map", "base-color"]);
+    assert_eq!(both.matches(left_out).count(), 1, "{both}");
+}
+
 /// The output of an earlier run is compared with what would be written, without copies of accessors.
 #[test]
 fn an_earlier_repair_is_recognised_without_copies() {
@@ -226,4 +265,25 @@ fn bakes_of_a_job_wait_for_the_memory_of_their_maps() {
     fs::write(folder.path().join("job.toml"), (0..6).map(entry).collect::<String>()).expect("a file");
     darboux_in_with_addresses(folder.path(), 250 << 20, &["bake", "job.toml", "--jobs", "6"]).exits(0);
     assert_eq!(names_in(folder.path()).iter().filter(|name| name.ends_with("normal.png")).count(), 6);
+}
+
+/// A bake whose tiles need more memory than its share, which is known before the first ray.
+#[test]
+fn a_bake_that_is_refused_at_the_start_is_baked_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Over each other in the UV layout.
+    let indices: Vec<u8> = [0u32, 1, 2, 0, 2, 3].repeat(600).iter().flat_map(|i| i.to_le_bytes()).collect();
+    let attributes = json!({ "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 });
+    let members = json!({
+        "accessors": [{ "bufferView": 4, "componentType": 5125, "count": indices.len() / 4, "type": "SCALAR" }],
+        "meshes": [{ "primitives": [{ "attributes": attributes, "indices": 4 }] }],
+        "nodes": [{ "mesh": 0 }],
+    });
+    fs::write(folder.path().join("m.glb"), square(1.0, &indices, members)).expect("a file");
+    let entry = |index: usize| {
+        format!("[[bake]]\nlow = \"m.glb\"\nhigh = \"m.glb\"\noutput = \"{index}.%UDIM%.png\"\nsize = 16\n")
+    };
+    fs::write(folder.path().join("job.toml"), (0..2).map(entry).collect::<String>()).expect("a file");
+    common::darboux(&["bake", text(&folder.path().join("job.toml"))]).exits(0);
+    assert_eq!(names_in(folder.path()), ["0.1001.png", "1.1001.png", "job.toml", "m.glb"]);
 }

@@ -38,7 +38,6 @@ pub struct ColorTextures {
     known: HashMap<(Option<usize>, bool, String), Option<usize>>,
     /// By the source of the bytes and whether it is in sRGB; the error is a clause.
     decoded: HashMap<(ImageKey, bool), Result<ColorTexture, String>>,
-    bytes: DecodedBytes,
     pub warnings: Vec<String>,
     /// The same, to give each once.
     warned: HashSet<String>,
@@ -53,12 +52,13 @@ pub fn is_color_texture(member: &str) -> bool {
 
 impl<'a> PartContent<'a> {
     /// Reads what maps need of a primitive. `texture`: the name of the texture of [`MapKind::Texture`] in the
-    /// material. Errors: invalid data.
+    /// material; `decoded`: the images of the document before. Errors: invalid data.
     pub fn read(
         document: &'a Document,
         corners: &'a PrimitiveCorners<'a>,
         (maps, texture): (MapSet, Option<&str>),
         textures: &mut ColorTextures,
+        decoded: &mut DecodedBytes,
     ) -> Result<Self, Error> {
         let has_any = |kinds: &[MapKind]| kinds.iter().any(|&kind| maps.has(kind));
         let mut content = Self::default();
@@ -68,7 +68,7 @@ impl<'a> PartContent<'a> {
         let Some(material) = corners.material() else { return Ok(content) };
         let stored = Stored { document, corners, material };
         let mut add = |property, factor, member: &str| -> Result<(), Error> {
-            let texture = stored.texture(member, textures)?;
+            let texture = stored.texture(member, textures, decoded)?;
             content.properties.push(PartProperty { property, factor, texture });
             Ok(())
         };
@@ -140,6 +140,7 @@ impl<'a> Stored<'a> {
         &self,
         member: &str,
         textures: &mut ColorTextures,
+        decoded: &mut DecodedBytes,
     ) -> Result<Option<PlacedTexture<'a>>, Error> {
         let Some(used) = self.document.texture_of_material(self.material, member)? else { return Ok(None) };
         let at = format!("{} of materials[{}]", member, self.material);
@@ -149,7 +150,7 @@ impl<'a> Stored<'a> {
             textures.warn(self.document, format!("{at} is not used, because {path} has no {set}"));
             return Ok(None);
         };
-        let Some(index) = textures.index(self.document, &used, is_color_texture(member), &at) else {
+        let Some(index) = textures.index(self.document, &used, is_color_texture(member), &at, decoded) else {
             return Ok(None);
         };
         uvs.to_mut().iter_mut().for_each(|uv| *uv = used.transform_uv(*uv));
@@ -165,14 +166,21 @@ impl ColorTextures {
         }
     }
 
-    fn index(&mut self, document: &Document, used: &TextureUse, is_srgb: bool, at: &str) -> Option<usize> {
+    fn index(
+        &mut self,
+        document: &Document,
+        used: &TextureUse,
+        is_srgb: bool,
+        at: &str,
+        bytes: &mut DecodedBytes,
+    ) -> Option<usize> {
         let key = (used.image, is_srgb, format!("{:?}", used.wrap));
         if let Some(&known) = self.known.get(&key) {
             return known;
         }
         let source = (ImageKey::of(document, used), is_srgb);
         let decoded = self.decoded.entry(source);
-        let decoded = decoded.or_insert_with(|| decode(document, used, is_srgb, &mut self.bytes));
+        let decoded = decoded.or_insert_with(|| decode(document, used, is_srgb, bytes));
         let index = match decoded.clone() {
             Ok(texture) => {
                 self.list.push(texture.with_wrap(used.wrap));

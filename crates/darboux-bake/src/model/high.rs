@@ -6,6 +6,7 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 
 use super::content::{ColorTextures, PartContent};
+use super::decoded_bytes::DecodedBytes;
 use super::maps::{MapOnPart, Textures};
 use super::placed::{PlacedPrimitive, places};
 use crate::{BakeError, HighSurface, IdSource, MapSet, SurfaceLabels};
@@ -88,14 +89,16 @@ impl<'a> HighModel<'a> {
         let triangles = corners.iter().map(|corners| (corners.len() / 3).saturating_mul(places_of(corners)));
         document.check_triangle_count(triangles.fold(0, usize::saturating_add))?;
         let (mut textures, mut color_textures) = (Textures::default(), ColorTextures::default());
+        let mut decoded = DecodedBytes::default();
         let needed = (options.maps, options.texture.as_deref());
         let material_names = material_names(document);
         let mut part_names: Vec<Arc<str>> = vec![Arc::default(); places.iter().map(Vec::len).sum()];
         let mut parts = Vec::new();
         for corners in corners {
-            let content = Arc::new(PartContent::read(document, corners, needed, &mut color_textures)?);
+            let content = PartContent::read(document, corners, needed, &mut color_textures, &mut decoded)?;
+            let content = Arc::new(content);
             let texture = match options.normal_maps {
-                true => textures.of_primitive(document, corners)?,
+                true => textures.of_primitive(document, corners, &mut decoded)?,
                 false => None,
             };
             for place in places.get(corners.name().mesh).into_iter().flatten() {

@@ -35,7 +35,6 @@ pub struct Textures {
     materials: Option<Vec<Material>>,
     /// By the image, or the source of its bytes; the error is a clause.
     decoded: HashMap<ImageKey, Result<NormalTexture, String>>,
-    bytes: DecodedBytes,
     pub warnings: Vec<String>,
 }
 
@@ -45,21 +44,28 @@ impl Textures {
         &self.list[index]
     }
 
-    /// The material of a primitive, if it has a normal map that can be used. Errors: a broken document.
+    /// The material of a primitive, if it has a normal map that can be used. `decoded`: the images of the
+    /// document before. Errors: a broken document.
     pub fn of_primitive(
         &mut self,
         document: &Document,
         corners: &PrimitiveCorners<'_>,
+        decoded: &mut DecodedBytes,
     ) -> Result<Option<usize>, Error> {
         let Some(material) = corners.material() else { return Ok(None) };
         if !self.of_material.contains_key(&material) {
-            let read = self.read(document, material)?;
+            let read = self.read(document, material, decoded)?;
             self.of_material.insert(material, read);
         }
         Ok(self.of_material[&material].as_ref().map(|_| material))
     }
 
-    fn read(&mut self, document: &Document, index: usize) -> Result<Option<(usize, Material)>, Error> {
+    fn read(
+        &mut self,
+        document: &Document,
+        index: usize,
+        decoded: &mut DecodedBytes,
+    ) -> Result<Option<(usize, Material)>, Error> {
         let materials = match &mut self.materials {
             Some(materials) => materials,
             none => none.insert(document.materials()?),
@@ -67,7 +73,7 @@ impl Textures {
         let Some(material) = materials.get(index).cloned() else { return Ok(None) };
         let Some(used) = &material.normal_texture else { return Ok(None) };
         let texture = self.decoded.entry(ImageKey::of(document, used)).or_insert_with(|| {
-            let (size, codes) = decode(document, used, &mut self.bytes)?;
+            let (size, codes) = decode(document, used, decoded)?;
             NormalTexture::of_codes(size, codes).map_err(|error| error.to_string())
         });
         match texture.clone() {

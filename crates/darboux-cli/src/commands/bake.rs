@@ -6,6 +6,7 @@ mod cage_file;
 mod conflicts;
 mod dither;
 mod encode;
+mod failure;
 mod files;
 pub mod job;
 mod legend;

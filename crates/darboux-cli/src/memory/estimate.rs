@@ -34,7 +34,13 @@ fn limit_of(size: u64) -> u64 {
 /// The bytes that processing a file takes at most. Where its head does not tell, that is the default limit.
 /// A glTF whose JSON is long or cannot be read takes all memory, since its buffers are not known.
 pub fn of_file(path: &Path) -> u64 {
-    let Head { files, beside } = head(path);
+    of_model(path, true)
+}
+
+/// As [`of_file`]. `decodes_images`: whether the images of a model are decoded, into sizes that its head does
+/// not tell; else they are counted in its bytes alone.
+pub fn of_model(path: &Path, decodes_images: bool) -> u64 {
+    let Head { files, beside } = head(path, decodes_images);
     let size = path.metadata().map_or(0, |metadata| metadata.len()).saturating_add(files);
     let plain = size.saturating_mul(PER_BYTE).saturating_add(BASE);
     let limit = plain.max(limit_of(size));
@@ -54,7 +60,7 @@ struct Head {
     beside: Option<u64>,
 }
 
-fn head(path: &Path) -> Head {
+fn head(path: &Path, decodes_images: bool) -> Head {
     let other = Head { files: 0, beside: None };
     let Some(metadata) = path.metadata().ok().filter(std::fs::Metadata::is_file) else { return other };
     let Ok(mut file) = File::open(path) else { return other };
@@ -76,7 +82,7 @@ fn head(path: &Path) -> Head {
         return other;
     };
     let declared = declared(&mut file, start, length);
-    declared.map_or(Head { files: u64::MAX, beside: None }, |declared| declared.head())
+    declared.map_or(Head { files: u64::MAX, beside: None }, |declared| declared.head(decodes_images))
 }
 
 /// What the JSON in a range of a file declares; none if it is long or cannot be read. One is read at a time:
@@ -175,15 +181,15 @@ impl Extensions {
 }
 
 impl Declared {
-    fn head(&self) -> Head {
+    fn head(&self, decodes_images: bool) -> Head {
         let buffers = self.buffers.iter().filter(|buffer| buffer.uri.is_some());
         let files = buffers.map(|buffer| buffer.byte_length).fold(0, u64::saturating_add);
-        Head { files, beside: self.is_complete().then(|| self.bytes_of_meshes()) }
+        Head { files, beside: self.is_complete(decodes_images).then(|| self.bytes_of_meshes()) }
     }
 
     /// Whether all that needs memory has its size in the JSON. Images have it elsewhere.
-    fn is_complete(&self) -> bool {
-        self.images.is_empty()
+    fn is_complete(&self, decodes_images: bool) -> bool {
+        (self.images.is_empty() || !decodes_images)
             && self.buffer_views.iter().all(|view| view.extensions.are_known())
             && self.nodes.iter().all(|node| node.extensions.are_known())
             && self.meshes.iter().flat_map(|mesh| &mesh.primitives).all(|part| part.extensions.are_known())
@@ -268,6 +274,16 @@ mod tests {
         has_the_limit(of_primitives("", view), 0);
         has_the_limit(of_primitives("", r#","images":[{"uri":"a_compression.png"}]"#), 0);
         declares(of_primitives("", r#","extras":"_compression""#), 0, 0);
+    }
+
+    #[test]
+    fn images_that_are_not_decoded_are_among_the_bytes() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("m.gltf");
+        let text = r#"{"images":[{"uri":"a.png"}],"buffers":[{"byteLength":1000,"uri":"a.bin"}]}"#;
+        fs::write(&path, text).expect("a file");
+        has_the_limit((of_model(&path, true), text.len() as u64), 1000);
+        declares((of_model(&path, false), text.len() as u64), 1000, 0);
     }
 
     #[test]

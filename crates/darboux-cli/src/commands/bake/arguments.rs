@@ -388,6 +388,15 @@ impl BakeArguments {
         MapSet::of(&self.map.iter().chain(packed).copied().collect::<Vec<_>>())
     }
 
+    /// Whether images of the high models are decoded.
+    pub fn reads_textures(&self) -> bool {
+        let needs_textures = |map| {
+            use MapKind::{BaseColor, Emission, Metalness, Opacity, Roughness, Texture};
+            matches!(map, BaseColor | Emission | Metalness | Opacity | Roughness | Texture)
+        };
+        !self.no_high_maps || self.baked_maps().kinds().any(needs_textures)
+    }
+
     /// Whether a file may be replaced if it exists.
     pub fn may_replace(&self, path: &Path) -> bool {
         self.force

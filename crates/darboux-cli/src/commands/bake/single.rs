@@ -5,8 +5,8 @@ use std::path::Path;
 
 use darboux::Context;
 use darboux_bake::{
-    BakeError, BakeOptions, BakeProgress, HighModel, HighModelOptions, HighSurface, LowModel,
-    LowModelOptions, LowSurface, PreparedSurfaces, check_verification, group_by_name,
+    BakeOptions, BakeProgress, HighModel, HighModelOptions, HighSurface, LowModel, LowModelOptions,
+    LowSurface, PreparedSurfaces, check_verification, group_by_name,
 };
 use darboux_io::gltf::{Document, PrimitiveCorners};
 use darboux_io::{Outputs, RunId};
@@ -15,6 +15,7 @@ use super::arguments::{BakeArguments, MatchChoice};
 use super::cage::{Cages, Rays};
 use super::cage_file::stage_cage;
 use super::conflicts::{InputFile, all_inputs, files_of, outputs_of, refuse_twice};
+use super::failure::BakeFailure;
 use super::legend::stage_legends;
 use super::model::{refuse_model, stage_model};
 use super::open::open_low;
@@ -71,35 +72,6 @@ pub fn check_usage(arguments: &BakeArguments) -> Result<(), String> {
     refuse_twice(&outputs_of(arguments, 0), &all_inputs(arguments))
 }
 
-/// Why a bake has failed, in one sentence.
-#[derive(Debug)]
-pub enum BakeFailure {
-    /// It needs more memory than it may use.
-    Memory(String),
-    Other(String),
-}
-
-impl From<String> for BakeFailure {
-    fn from(sentence: String) -> Self {
-        Self::Other(sentence)
-    }
-}
-
-impl From<BakeError> for BakeFailure {
-    fn from(error: BakeError) -> Self {
-        let sentence = error.to_string();
-        if matches!(error, BakeError::Memory { .. }) { Self::Memory(sentence) } else { Self::Other(sentence) }
-    }
-}
-
-impl From<BakeFailure> for String {
-    fn from(failure: BakeFailure) -> Self {
-        match failure {
-            BakeFailure::Memory(sentence) | BakeFailure::Other(sentence) => sentence,
-        }
-    }
-}
-
 /// Reads, bakes and writes.
 ///
 /// `run`: the run of a job that the files belong to; `memory_limit`: the bytes that the bake may use beside
@@ -124,7 +96,7 @@ pub fn bake_files(
     let tiles = tiles_of(arguments, &surfaces, &documents.inputs, memory_limit)?;
     if arguments.verify {
         let check = check_verification(&surfaces, &high_surfaces, &options(arguments, &rays, memory_limit));
-        check.map_err(|error| format!("--verify cannot follow the bake: {error}"))?;
+        check.map_err(|error| BakeFailure::from(error).after("--verify cannot follow the bake"))?;
     }
     let mut seconds = Seconds { reading: clock.lap(), ..Seconds::default() };
     let mut context = context(arguments);

@@ -5,6 +5,7 @@ use darboux_bake::{LowSurface, Udim, udims_of};
 
 use super::arguments::BakeArguments;
 use super::conflicts::{InputFile, outputs_of, refuse_twice};
+use super::failure::BakeFailure;
 use super::outputs::refuse_existing;
 use super::tile_names::{has_place, named};
 
@@ -16,20 +17,20 @@ pub struct Tile {
 }
 
 /// The tiles that are baked: those that charts cover where the output's name has `%UDIM%`, or else one for
-/// all. Errors are one sentence each: charts where no tile has a number; images that exist; files that would
-/// be written twice, or over one of the inputs. `memory_limit`: in bytes.
+/// all. Errors: charts where no tile has a number; images that exist; files that would be written twice, or
+/// over one of the inputs; more memory than `memory_limit` bytes.
 pub fn tiles_of(
     arguments: &BakeArguments,
     low: &[LowSurface<'_>],
     inputs: &[InputFile],
     memory_limit: Option<u64>,
-) -> Result<Vec<Tile>, String> {
+) -> Result<Vec<Tile>, BakeFailure> {
     if !has_place(&arguments.output) {
         return Ok(vec![Tile { udim: None, arguments: arguments.clone() }]);
     }
-    let udims = udims_of(low, Convention::GLTF, memory_limit).map_err(|error| error.to_string())?;
+    let udims = udims_of(low, Convention::GLTF, memory_limit)?;
     if udims.is_empty() {
-        return Err("no triangle of the low model covers a tile; check its UVs".to_owned());
+        return Err("no triangle of the low model covers a tile; check its UVs".to_owned().into());
     }
     let tile = |udim: Udim| {
         let mut arguments = arguments.clone();

@@ -10,6 +10,7 @@ use darboux_io::image::{Channels, PngImage, normal_vectors};
 use serde::Serialize;
 
 use super::arguments::BakeArguments;
+use super::failure::BakeFailure;
 use super::model::stage_painted;
 use super::outputs::scale_of;
 use super::pictures;
@@ -47,7 +48,7 @@ pub struct PartErrors {
 const PAGE_SIDE: u32 = 512;
 
 impl Verified {
-    /// Verifies a map and draws its errors. Errors are one sentence each.
+    /// Verifies a map and draws its errors.
     #[expect(clippy::too_many_arguments, reason = "each is another part of the run")]
     pub fn new(
         arguments: &BakeArguments,
@@ -59,15 +60,13 @@ impl Verified {
         context: &mut Context,
         messages: &Messages,
         outputs: &mut Outputs,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, BakeFailure> {
         let texels = normal_vectors(map, Channels::RGB).map_err(|error| error.to_string())?;
         let written = NormalTexture::new(map.size(), texels, options.map_convention, Convention::GLTF)
             .map_err(|error| error.to_string())?;
         let progress = messages.file(&format!("comparing {}", arguments.output.display()), PROGRESS_UNITS);
         let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
-        let errors = surfaces
-            .verify(baked, &written, options, context, &mut tell)
-            .map_err(|error| error.to_string())?;
+        let errors = surfaces.verify(baked, &written, options, context, &mut tell)?;
         let fitting = || HeatRange::fitting(errors.heat.iter().map(|&degrees| f64::from(degrees)));
         let range = arguments.heat_range.unwrap_or_else(fitting);
         let draw = |path: &std::path::PathBuf| {

@@ -1,6 +1,6 @@
 //! Bakes the entries of a job.
 
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 use std::collections::HashSet;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
@@ -15,14 +15,15 @@ use super::entry::{Entry, Job};
 use crate::batch::journal::{Earlier, Journal, OutputInputs, Record, skipped};
 use crate::commands::bake::arguments::{BakeArguments, OwnOutputs};
 use crate::commands::bake::conflicts::{InputFile, all_inputs, files_of, outputs_of, refuse_twice};
+use crate::commands::bake::failure::BakeFailure;
 use crate::commands::bake::outputs::refuse_existing;
 use crate::commands::bake::report::{BakeReport, summary};
-use crate::commands::bake::single::{BakeFailure, bake_files, check_usage, progress_units};
+use crate::commands::bake::single::{bake_files, check_usage, progress_units};
 use crate::commands::bake::skew::SkewChoice;
 use crate::commands::bake::tile_names::has_place;
 use crate::exit;
 use crate::json::{VERSION, print_report};
-use crate::memory::{self, JobMemory, Share};
+use crate::memory::{self, JobMemory};
 use crate::net;
 use crate::options::files::new_run;
 use crate::options::reading::ReadOptions;
@@ -201,19 +202,25 @@ impl Work<'_> {
     /// Bakes an entry within a share of the memory, and writes the journal. A panic fails this entry alone.
     fn caught(&self, entry: &Entry, bake: impl Fn(Option<u64>) -> Result<BakedEntry, BakeFailure>) -> Done {
         let BakeArguments { low, output, .. } = &entry.arguments;
-        let share = Cell::new(Some(self.memory.wait_for(|| memory_of(&entry.arguments))));
+        let estimate = OnceCell::new();
+        let estimate = || *estimate.get_or_init(|| BakeMemory::of(&entry.arguments));
+        let share = Cell::new(Some(self.memory.wait_for(|| estimate().whole())));
         let within_share = || {
-            let limit = |share: &Share<'_>| memory::available(share.limit());
             let Some(mine) = share.take() else { return bake(None) };
-            let done = bake(limit(&mine));
-            if mine.is_whole() || !matches!(done, Err(BakeFailure::Memory(_))) {
+            if mine.is_whole() {
+                let done = bake(memory::available(mine.limit()));
+                share.set(Some(mine));
+                return done;
+            }
+            let done = bake(memory::available(Some(estimate().beside_models())));
+            if !matches!(done, Err(BakeFailure::Memory(_))) {
                 share.set(Some(mine));
                 return done;
             }
             // The estimate was too small: alone, it may use all memory.
             drop(mine);
             let whole = self.memory.wait_for(|| u64::MAX);
-            let done = bake(limit(&whole));
+            let done = bake(memory::available(whole.limit()));
             share.set(Some(whole));
             done
         };
@@ -231,15 +238,41 @@ impl Work<'_> {
     }
 }
 
-/// The bytes that a bake needs, about: its models, and its images while they are made, which have up to four
-/// channels per map.
-fn memory_of(arguments: &BakeArguments) -> u64 {
-    let BakeArguments { low, high, cage, size, .. } = arguments;
-    let files = high.iter().chain([low]).chain(cage);
-    let files = files.map(|path| memory::of_file(path));
-    let texels = u64::from(size[0]) * u64::from(size[1]);
-    let maps = arguments.baked_maps().kinds().count() as u64;
-    files.fold(0, u64::saturating_add).saturating_add(texels * (64 + 24 * maps))
+/// The bytes that a bake needs, about.
+#[derive(Clone, Copy)]
+struct BakeMemory {
+    /// Its models, and the hierarchies over them.
+    models: u64,
+    /// Its images while they are made, which have up to four channels per map.
+    maps: u64,
+}
+
+impl BakeMemory {
+    fn of(arguments: &BakeArguments) -> Self {
+        let BakeArguments { low, high, cage, size, report, .. } = arguments;
+        // Pages draw all models with their textures. Where images are not decoded, they are counted in the
+        // bytes.
+        let draws_textures = report.is_some();
+        let high =
+            high.iter().map(|path| memory::of_model(path, draws_textures || arguments.reads_textures()));
+        let low = memory::of_model(low, draws_textures);
+        let cage = cage.iter().map(|path| memory::of_model(path, false));
+        let models = high.chain([low]).chain(cage).fold(0, u64::saturating_add);
+        let texels = u64::from(size[0]) * u64::from(size[1]);
+        let maps = texels * (64 + 24 * arguments.baked_maps().kinds().count() as u64);
+        Self { models, maps }
+    }
+
+    /// All of it.
+    fn whole(self) -> u64 {
+        self.models.saturating_add(self.maps)
+    }
+
+    /// What the bake may use beside its models, once they are read. A hierarchy takes 100 bytes per triangle,
+    /// less than half of what the estimate has for three corners and the bytes of the file.
+    fn beside_models(self) -> u64 {
+        self.maps.saturating_add(self.models / 2)
+    }
 }
 
 /// What a journal says about an entry.
@@ -376,5 +409,28 @@ mod tests {
         drop(journal);
         let journal = Journal::open(folder.path(), new_run()).unwrap();
         assert_eq!(journal.earlier(&entries[0].arguments.output), Earlier::Harmless);
+    }
+
+    /// The images of the low model are not decoded, and those of the high one are not where no map needs
+    /// them.
+    #[test]
+    fn models_and_maps_are_counted_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("job.toml");
+        fs::write(folder.path().join("m.gltf"), r#"{"images":[{"uri":"a.png"}]}"#).unwrap();
+        let entry = |more: &str| {
+            format!("[[bake]]\nlow = \"m.gltf\"\nhigh = \"m.gltf\"\noutput = \"a.png\"\nsize = 16\n{more}\n")
+        };
+        let memory_of = |more: &str| {
+            fs::write(&path, entry(more)).unwrap();
+            BakeMemory::of(&file::entries(&path).unwrap()[0].arguments)
+        };
+        let mebibytes = |bytes: u64| bytes >> 20;
+        let decoded = memory_of("");
+        assert_eq!(mebibytes(decoded.whole()), 256 + 16);
+        assert_eq!(mebibytes(memory_of("no-high-maps = true").whole()), 16 + 16);
+        let colors = "no-high-maps = true\nmap = [\"base-color\"]";
+        assert_eq!(mebibytes(memory_of(colors).whole()), 256 + 16);
+        assert_eq!(mebibytes(decoded.beside_models()), (256 + 16) / 2);
     }
 }
