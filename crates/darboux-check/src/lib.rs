@@ -40,6 +40,7 @@ mod map_users;
 mod measure;
 mod model_area;
 mod obstacles;
+mod once_per;
 mod place;
 mod repair;
 mod report;
@@ -47,6 +48,7 @@ mod rules;
 mod severity;
 mod spoiled;
 mod surface;
+mod tilts;
 mod words;
 
 pub use check::{

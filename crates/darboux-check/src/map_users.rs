@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use darboux_io::Error;
@@ -18,6 +19,8 @@ pub struct MapUsers<'a> {
     primitives: Vec<PrimitiveCorners<'a>>,
     /// Per image the indices of primitives, each with the textures that use the image.
     users: BTreeMap<usize, BTreeMap<usize, Vec<TextureUse>>>,
+    /// The number of images that each primitive uses.
+    images_of_primitive: Vec<usize>,
     /// Why the texels of images cannot be changed.
     obstacles: HashMap<usize, &'static str>,
     read: RefCell<ReadSurfaces>,
@@ -52,8 +55,11 @@ impl<'a> MapUsers<'a> {
             }
             primitives.push(corners);
         }
+        let mut images_of_primitive = vec![0; primitives.len()];
+        users.values().flat_map(BTreeMap::keys).for_each(|&primitive| images_of_primitive[primitive] += 1);
         let obstacles = document.normal_map_obstacles();
-        Ok(Self { document, primitives, users, obstacles, read: RefCell::default() })
+        let read = RefCell::default();
+        Ok(Self { document, primitives, users, images_of_primitive, obstacles, read })
     }
 
     /// Why the texels of an image cannot be changed, as a clause; none if they can.
@@ -69,7 +75,11 @@ impl<'a> MapUsers<'a> {
 
     /// Whether two images are used on the same surfaces in the same way.
     pub fn are_same(&self, a: usize, b: usize) -> bool {
-        let (Some(of_a), Some(of_b)) = (self.users.get(&a), self.users.get(&b)) else { return false };
+        let (of_a, of_b) = match (self.users.get(&a), self.users.get(&b)) {
+            (Some(of_a), Some(of_b)) => (of_a, of_b),
+            (None, None) => return true,
+            _ => return false,
+        };
         let is_same = |(a, b): (&TextureUse, &TextureUse)| {
             let mut b = b.clone();
             b.image = a.image;
@@ -79,6 +89,22 @@ impl<'a> MapUsers<'a> {
             |a: &[TextureUse], b: &[TextureUse]| a.len() == b.len() && a.iter().zip(b).all(is_same);
         let mut pairs = of_a.iter().zip(of_b);
         of_a.len() == of_b.len() && pairs.all(|((a, of_a), (b, of_b))| a == b && are_same(of_a, of_b))
+    }
+
+    /// A hash of the surfaces on which an image is used and of the ways in which it is: equal for images that
+    /// [are the same](Self::are_same).
+    pub fn hash_of_uses(&self, image: usize) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        for (primitive, textures) in self.users.get(&image).into_iter().flatten() {
+            primitive.hash(&mut hasher);
+            for texture in textures {
+                let mut texture = texture.clone();
+                texture.image = None;
+                // The numbers of its transform have no hash.
+                format!("{texture:?}").hash(&mut hasher);
+            }
+        }
+        hasher.finish()
     }
 
     /// The number of triangles on which an image is used.
@@ -109,9 +135,9 @@ impl<'a> MapUsers<'a> {
             return Ok(Some(Arc::clone(known)));
         }
         let corners = &self.primitives[primitive];
-        let Some(surface) = Surface::read(self.document, corners, None)?.map(Arc::new) else {
-            return Ok(None);
-        };
+        let Some(mut surface) = Surface::read(self.document, corners, None)? else { return Ok(None) };
+        surface.keeps_tilts = self.images_of_primitive[primitive] > 1;
+        let surface = Arc::new(surface);
         let mut read = self.read.borrow_mut();
         // Each further UV set takes as much as the first one.
         let corners = corners.len().saturating_mul(surface.uv_sets.len().max(1));

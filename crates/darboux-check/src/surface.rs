@@ -9,7 +9,9 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveInfo};
 
 use crate::indices::Part;
+use crate::once_per::{OncePer, Reading};
 use crate::place::Place;
+use crate::tilts::Tilts;
 
 /// A primitive with triangles.
 #[derive(Debug)]
@@ -40,7 +42,18 @@ pub struct Surface {
     pub uv_sets: BTreeMap<usize, Arc<Vec<[f32; 2]>>>,
     /// Whether its faces say nothing about maps, once that was asked.
     pub has_no_votes: OnceLock<bool>,
+    /// The smooth edges at which maps are cut: of each side the triangle and the corner where it begins.
+    pub smooth_seams: OncePer<Reading, Vec<[CornerOfTriangle; 2]>>,
+    /// The triangles that are one face: for each the first one of its face, by number.
+    pub face_of_triangle: OncePer<Reading, Vec<u32>>,
+    /// Whether the tilts of its triangles are kept, which take 240 bytes for each.
+    pub keeps_tilts: bool,
+    /// How every so manieth triangle leans.
+    pub tilts: OncePer<(Reading, usize), Tilts>,
 }
+
+/// A triangle by its number, and one of its corners.
+pub type CornerOfTriangle = (u32, u8);
 
 impl Surface {
     /// Reads a primitive; none where it has no positions. All attributes have as many elements, or the
@@ -73,6 +86,10 @@ impl Surface {
             tangent_size: attributes.get("TANGENT").map_or(0, |&accessor| element_size(document, accessor)),
             uv_sets: BTreeMap::new(),
             has_no_votes: OnceLock::new(),
+            smooth_seams: OncePer::default(),
+            face_of_triangle: OncePer::default(),
+            keeps_tilts: false,
+            tilts: OncePer::default(),
         };
         let set_of = |semantic: &str| semantic.strip_prefix("TEXCOORD_").and_then(|set| set.parse().ok());
         let sets = || attributes.iter().filter_map(|(name, &at)| Some((set_of(name)?, name, at)));

@@ -130,6 +130,39 @@ fn different_images_are_decoded_within_one_limit() {
     assert!(run.stderr.contains("raise the limit (--memory-limit)"), "{}", run.stderr);
 }
 
+/// Images over the same bytes, which materials of one primitive read in two ways by turns.
+#[test]
+fn the_same_map_is_judged_once_for_each_way_in_which_it_is_read() {
+    let (map, count) = (flat(2000), 200);
+    let all = |value: &dyn Fn(usize) -> Value| (0..count).map(value).collect::<Vec<Value>>();
+    let mappings = all(&|i| json!({ "material": i, "variants": [i] }));
+    let file = square(
+        1.0,
+        &map,
+        json!({
+            "extensionsUsed": ["KHR_materials_variants"],
+            "extensions": { "KHR_materials_variants": { "variants": all(&|i| json!({ "name": i.to_string() })) } },
+            "images": all(&|_| json!({ "bufferView": 4, "mimeType": "image/png" })),
+            "samplers": [{ "wrapS": 10497 }, { "wrapS": 33071 }],
+            "textures": all(&|i| json!({ "source": i, "sampler": i % 2 })),
+            "materials": all(&|i| json!({ "normalTexture": { "index": i } })),
+            "meshes": [{ "primitives": [{
+                "attributes": { "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 },
+                "indices": 3,
+                "material": 0,
+                "extensions": { "KHR_materials_variants": { "mappings": mappings } },
+            }] }],
+            "nodes": [{ "mesh": 0 }],
+        }),
+    );
+    ends_in_time("m.glb", &file, &["check IN"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("m.glb"), file).expect("a file");
+    let report = common::darboux(&["check", text(&folder.path().join("m.glb")), "--json"]).exits(0).json();
+    assert_eq!(report["totals"]["errors"], json!({}), "not all maps were judged");
+    assert_eq!(report["totals"]["infos"]["map-flat"], count);
+}
+
 /// A normal map and a colour texture that fit alone and not together.
 #[test]
 fn normal_maps_and_other_textures_share_one_limit() {

@@ -263,8 +263,8 @@ struct DecodedMaps {
     /// The triangles that they were compared with, and the most of them.
     triangles: usize,
     most_triangles: usize,
-    /// By the source of their bytes the last image, and what was found.
-    of_source: HashMap<ImageSource, (usize, Vec<Defect>, MapWitness)>,
+    /// By the source of their bytes and how they are used, the last image and what was found.
+    judged: HashMap<(ImageSource, u64), (usize, Vec<Defect>, MapWitness)>,
 }
 
 impl DecodedMaps {
@@ -342,8 +342,8 @@ fn defects_of_image(
         }
         Err(error) => return unread(Unread::Absent(format!("cannot be read ({error})"))),
     };
-    let source = document.image_source(image);
-    let same = source.as_ref().and_then(|source| decoded.of_source.get(source));
+    let key = document.image_source(image).map(|source| (source, users.hash_of_uses(image)));
+    let same = key.as_ref().and_then(|key| decoded.judged.get(key));
     let obstacle = users.obstacle(image).map(str::to_owned).map(Obstacle::NotRewritable);
     let with_obstacle = |found: &[Defect]| {
         found.iter().map(|defect| defect.clone().with_obstacle(obstacle.clone())).collect()
@@ -367,7 +367,7 @@ fn defects_of_image(
         None => decoded.add_broken(&bytes),
     }
     let (found, witness) = (with_obstacle(&checked.defects), checked.witness);
-    decoded.of_source.extend(source.map(|source| (source, (image, checked.defects, witness))));
+    decoded.judged.extend(key.map(|key| (key, (image, checked.defects, witness))));
     Ok((found, witness))
 }
 

@@ -1,18 +1,25 @@
 //! The triangles of a surface in the tangent space of its normals, and the texels on them.
 
+use std::sync::Arc;
+
 use darboux::TexelLayout;
 use darboux_io::gltf::{TextureUse, Wrap};
 use darboux_io::image::RgbaImage;
 
 use crate::measure::other_axes::OtherAxes;
 use crate::measure::reversal::Sides;
-use crate::surface::{Surface, cross, dot, length, sub};
+use crate::once_per::reading;
+use crate::surface::{CornerOfTriangle, Surface, cross, dot, length, sub};
+use crate::tilts::{Tilt, Tilts};
 
 /// Samples per edge of a triangle.
 const SAMPLES: usize = 4;
 
 /// Blocks along each side of the map.
 pub const BLOCKS: usize = 16;
+
+/// More ways in which materials read maps of one surface are not remembered.
+const MOST_READINGS: usize = 4;
 
 /// A surface on which an image is the normal map, and how its material uses the map; none for the UVs that
 /// its tangents follow, repeated.
@@ -39,17 +46,58 @@ impl<'a> Facets<'a> {
         Some(Self { surface, normals, uvs, texture })
     }
 
-    /// At most about `limit` of the facets.
-    pub fn iter(&self, limit: usize) -> impl Iterator<Item = Facet> {
-        let place = |uv| self.texture.map_or(uv, |texture| texture.transform_uv(uv));
+    /// How at most about `limit` of the facets lean.
+    pub fn tilts(&self, limit: usize) -> Arc<Tilts> {
+        /// For each use of [`Facets::tilts`].
+        const MOST: usize = 3;
         let step = 1 + (self.surface.vertex_of_corner.len() / 3) / limit;
-        self.surface.triangles().step_by(step).filter_map(move |triangle| {
-            Facet::new(triangle.map(|vertex| Corner {
-                position: self.surface.positions[vertex],
-                normal: self.normals[vertex],
-                uv: place(self.uvs[vertex]),
-            }))
-        })
+        let tilts = || {
+            let mut tilts = Tilts::default();
+            for (number, triangle) in (0..).zip(self.surface.triangles()).step_by(step) {
+                if let Some(facet) = self.facet(triangle) {
+                    tilts.add(number, facet.uv_area(), facet.tilts());
+                }
+            }
+            tilts
+        };
+        match self.surface.keeps_tilts {
+            true => self.surface.tilts.get((reading(self.texture), step), MOST, tilts),
+            false => Arc::new(tilts()),
+        }
+    }
+
+    /// The edges where maps are cut and the normals are not.
+    pub fn smooth_seams(
+        &self,
+        seams: impl FnOnce() -> Vec<[CornerOfTriangle; 2]>,
+    ) -> Arc<Vec<[CornerOfTriangle; 2]>> {
+        self.surface.smooth_seams.get(reading(self.texture), MOST_READINGS, seams)
+    }
+
+    /// The face of each triangle, named by the number of its first one.
+    pub fn face_of_triangle(&self, faces: impl FnOnce() -> Vec<u32>) -> Arc<Vec<u32>> {
+        self.surface.face_of_triangle.get(reading(self.texture), MOST_READINGS, faces)
+    }
+
+    /// All facets, each with the number of its triangle.
+    pub fn numbered(&self) -> impl Iterator<Item = (u32, Facet)> {
+        let numbered = (0u32..).zip(self.surface.triangles());
+        numbered.filter_map(|(number, triangle)| Some((number, self.facet(triangle)?)))
+    }
+
+    /// The facet of a triangle by its number.
+    pub fn at(&self, number: u32) -> Option<Facet> {
+        let triangle = self.surface.vertex_of_corner.as_chunks::<3>().0.get(number as usize)?;
+        self.facet(triangle.map(|vertex| vertex as usize))
+    }
+
+    fn facet(&self, triangle: [usize; 3]) -> Option<Facet> {
+        let place = |uv| self.texture.map_or(uv, |texture| texture.transform_uv(uv));
+        Facet::new(triangle.map(|vertex| Corner {
+            position: self.surface.positions[vertex],
+            normal: self.normals[vertex],
+            uv: place(self.uvs[vertex]),
+        }))
     }
 
     pub fn wrap(&self) -> [Wrap; 2] {
@@ -75,6 +123,7 @@ pub struct Facet {
 
 /// A point of a triangle: x and y of the face normal in the tangent space of the smoothed one, and the place
 /// of its texel.
+#[derive(Clone, Copy)]
 pub struct Sample {
     pub tilt: [f64; 2],
     pub texel: [usize; 2],
@@ -111,25 +160,29 @@ impl Means {
     }
 }
 
-impl Facet {
-    /// The sums over its samples, weighted by its area in the map, so that the faces of a plane count as one.
-    pub fn means(&self, facets: &Facets<'_>, image: &RgbaImage) -> Means {
-        let [a, b, c] = self.corners.each_ref().map(|corner| corner.uv.map(f64::from));
-        let area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs();
-        let size = [image.width, image.height].map(|side| side as usize);
-        let mut means = Means::default();
-        for Sample { tilt, texel: [column, row] } in self.samples(facets, image) {
-            let texel = image.texels[row * size[0] + column];
-            if TexelLayout::RGBA.holds_normal(texel) {
-                let [x, y, _] = TexelLayout::RGBA.vector(texel).map(f64::from);
-                let block = row * BLOCKS / size[1] * BLOCKS + column * BLOCKS / size[0];
-                let tilt = tilt.map(|lean| area * lean);
-                means.add(&Means { tilt, texel: [area * x, area * y], count: area, block });
-            }
+/// The sums over the points of a triangle, weighted by its area in the map, so that the faces of a plane
+/// count as one.
+pub fn means(uv_area: f64, tilts: &[Tilt], wrap: [Wrap; 2], image: &RgbaImage) -> Means {
+    let size = [image.width, image.height].map(|side| side as usize);
+    let mut means = Means::default();
+    for Sample { tilt, texel: [column, row] } in samples(tilts, wrap, image) {
+        let texel = image.texels[row * size[0] + column];
+        if TexelLayout::RGBA.holds_normal(texel) {
+            let [x, y, _] = TexelLayout::RGBA.vector(texel).map(f64::from);
+            let block = row * BLOCKS / size[1] * BLOCKS + column * BLOCKS / size[0];
+            let tilt = tilt.map(|lean| uv_area * lean);
+            means.add(&Means { tilt, texel: [uv_area * x, uv_area * y], count: uv_area, block });
         }
-        means
     }
+    means
+}
 
+/// The points of a triangle with their texels.
+pub fn samples(tilts: &[Tilt], wrap: [Wrap; 2], image: &RgbaImage) -> impl Iterator<Item = Sample> {
+    tilts.iter().map(move |&Tilt { tilt, uv }| Sample { tilt, texel: texel_at(image, wrap, uv) })
+}
+
+impl Facet {
     /// None for a triangle without area, in space or in UV space, and for numbers that are not finite.
     fn new(corners: [Corner; 3]) -> Option<Self> {
         let [a, b, c] = &corners;
@@ -146,16 +199,20 @@ impl Facet {
         Some(Self { corners, normal, along_u, along_v })
     }
 
-    /// Samples without a smoothed normal are left out.
-    pub fn samples(&self, facets: &Facets<'_>, image: &RgbaImage) -> Vec<Sample> {
+    /// Twice its area in UV space.
+    fn uv_area(&self) -> f64 {
+        let [a, b, c] = self.corners.each_ref().map(|corner| corner.uv.map(f64::from));
+        ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
+    }
+
+    /// Points without a smoothed normal are left out.
+    fn tilts(&self) -> impl Iterator<Item = Tilt> {
         let weights = (0..SAMPLES).flat_map(|i| (0..SAMPLES - i).map(move |j| [i, j]));
-        let sample = |weights: [usize; 2]| {
+        weights.filter_map(|weights| {
             let [b, c] = weights.map(|i| (i as f32 + 1.0 / 3.0) / SAMPLES as f32);
             let weights = [1.0 - b - c, b, c];
-            let texel = texel_at(image, facets.wrap(), self.uv_at(weights));
-            Some(Sample { tilt: self.tilt(self.normal_at(weights)?)?, texel })
-        };
-        weights.filter_map(sample).collect()
+            Some(Tilt { tilt: self.tilt(self.normal_at(weights)?)?, uv: self.uv_at(weights) })
+        })
     }
 
     /// x and y of the face normal in the tangent space of a smoothed normal.

@@ -21,7 +21,7 @@ use darboux::TexelLayout;
 use darboux_io::image::RgbaImage;
 
 use crate::measure::arrangement::{ARRANGEMENTS, Arrangement};
-use crate::measure::facet::{BLOCKS, Facets, MapUse, Sample};
+use crate::measure::facet::{BLOCKS, Facets, MapUse, Sample, samples};
 use crate::measure::flattening::flattening;
 
 /// The smallest z score of a decision. Neighbouring triangles are not independent, so it is larger than that
@@ -58,10 +58,10 @@ impl FacetVotes {
     pub fn of(uses: &[MapUse<'_>], image: &RgbaImage) -> Self {
         let mut sums = Sums::default();
         for facets in uses.iter().filter_map(|map_use| Facets::new(*map_use)) {
-            let products = facets
-                .iter(TRIANGLES)
-                .map(|facet| Products::of(&facet.samples(&facets, image), image, [0; 2]));
-            products.filter_map(|products| products.votes()).for_each(|votes| sums.add(votes));
+            for (.., tilts) in facets.tilts(TRIANGLES).iter() {
+                let products = Products::of(samples(tilts, facets.wrap(), image), image, [0; 2]);
+                products.votes().into_iter().for_each(|votes| sums.add(votes));
+            }
         }
         let is_decided = (0..ARRANGEMENTS).any(|index| sums.z_score(index).abs() >= DECIDED);
         let tested = || Tested { registered: registered(uses, image), flattening: flattening(uses, image) };
@@ -126,14 +126,15 @@ fn registered(uses: &[MapUse<'_>], image: &RgbaImage) -> [f64; ARRANGEMENTS] {
     // At its own place, and at the offsets.
     let mut totals = [[0.0; ARRANGEMENTS]; OFFSETS + 1];
     for facets in uses.iter().filter_map(|map_use| Facets::new(*map_use)) {
-        for facet in facets.iter(OFFSET_TRIANGLES) {
-            let samples = facet.samples(&facets, image);
+        for (.., tilts) in facets.tilts(OFFSET_TRIANGLES).iter() {
+            let samples: Vec<Sample> = samples(tilts, facets.wrap(), image).collect();
             let Some(Sample { texel, .. }) = samples.get(samples.len() / 2) else { continue };
             let [column, row] = [0, 1].map(|i| texel[i] * BLOCKS / size[i]);
             let block = &mut blocks[row * BLOCKS + column];
             for (number, total) in totals.iter_mut().enumerate() {
                 let weight = if number == 0 { 1.0 } else { -1.0 / OFFSETS as f64 };
-                let votes = Products::of(&samples, image, offset(number)).votes().unwrap_or_default();
+                let votes =
+                    Products::of(samples.iter().copied(), image, offset(number)).votes().unwrap_or_default();
                 block.iter_mut().zip(votes).for_each(|(sum, vote)| *sum += weight * vote);
                 total.iter_mut().zip(votes).for_each(|(sum, vote)| *sum += vote);
             }
@@ -195,7 +196,7 @@ struct Products {
 
 impl Products {
     /// `offset`: by how many texels the map is moved.
-    fn of(samples: &[Sample], image: &RgbaImage, offset: [usize; 2]) -> Self {
+    fn of(samples: impl Iterator<Item = Sample>, image: &RgbaImage, offset: [usize; 2]) -> Self {
         let mut products = Self::default();
         let size = [image.width, image.height].map(|side| side as usize);
         for Sample { tilt, texel } in samples {

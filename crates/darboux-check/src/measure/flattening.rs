@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use darboux_io::image::RgbaImage;
 
 use crate::measure::arrangement::ARRANGEMENTS;
-use crate::measure::facet::{Facet, Facets, MapUse, Means};
+use crate::measure::facet::{Facet, Facets, MapUse, Means, means};
 use crate::surface::{dot, length, sub};
 
 /// More triangles of a surface are not asked.
@@ -44,7 +44,7 @@ pub fn flattening(uses: &[MapUse<'_>], image: &RgbaImage) -> [f64; ARRANGEMENTS]
             add_faces(&facets, image, &mut faces);
         }
     }
-    faces.retain(|face| face.count > 0.0 && face.tilt[0].hypot(face.tilt[1]) >= SMALLEST * face.count);
+    faces.retain(|face| face.tilt[0].hypot(face.tilt[1]) >= SMALLEST * face.count);
     let mut blocks: Vec<usize> = faces.iter().map(|face| face.block).collect();
     blocks.sort_unstable();
     blocks.dedup();
@@ -64,9 +64,21 @@ pub fn flattening(uses: &[MapUse<'_>], image: &RgbaImage) -> [f64; ARRANGEMENTS]
     })
 }
 
-/// Adds the faces of a surface: connected triangles in one plane, and pairs that share their longest edge.
+/// Adds the faces of a surface.
 fn add_faces(facets: &Facets<'_>, image: &RgbaImage, faces: &mut Vec<Means>) {
-    let all: Vec<Facet> = facets.iter(usize::MAX).collect();
+    let face_of_triangle = facets.face_of_triangle(|| face_of_triangle(facets));
+    let mut of_face = vec![Means::default(); face_of_triangle.len()];
+    for (number, uv_area, tilts) in facets.tilts(usize::MAX).iter() {
+        let face = face_of_triangle[number as usize];
+        of_face[face as usize].add(&means(uv_area, tilts, facets.wrap(), image));
+    }
+    faces.extend(of_face.into_iter().filter(|face| face.count > 0.0));
+}
+
+/// The face of each triangle, named by the number of its first one: connected triangles in one plane are one
+/// face, and so are pairs that share their longest edge.
+fn face_of_triangle(facets: &Facets<'_>) -> Vec<u32> {
+    let (numbers, all): (Vec<u32>, Vec<Facet>) = facets.numbered().unzip();
     let mut edges: BTreeMap<[[u32; 5]; 2], Vec<(usize, usize)>> = BTreeMap::new();
     for (number, facet) in all.iter().enumerate() {
         for corner in 0..3 {
@@ -89,11 +101,12 @@ fn add_faces(facets: &Facets<'_>, image: &RgbaImage, faces: &mut Vec<Means>) {
             parents[first.max(second)] = first.min(second);
         }
     }
-    let mut of_face: BTreeMap<usize, Means> = BTreeMap::new();
-    for (number, facet) in all.iter().enumerate() {
-        of_face.entry(root(&mut parents, number)).or_default().add(&facet.means(facets, image));
+    // Triangles without an area have no face.
+    let mut faces = vec![u32::MAX; facets.surface.vertex_of_corner.len() / 3];
+    for (index, &number) in numbers.iter().enumerate() {
+        faces[number as usize] = numbers[root(&mut parents, index)];
     }
-    faces.extend(of_face.into_values());
+    faces
 }
 
 /// The corner at which the longest edge begins.

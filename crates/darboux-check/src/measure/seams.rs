@@ -17,7 +17,7 @@ use darboux::TexelLayout;
 use darboux_io::image::RgbaImage;
 
 use crate::measure::facet::{Facet, Facets, MapUse, texel_at};
-use crate::surface::dot;
+use crate::surface::{CornerOfTriangle, dot};
 
 /// How a map lies on the UVs of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -192,42 +192,48 @@ fn lean(side: &Side, image: &RgbaImage, layout: Layout, offset: [usize; 2]) -> O
     Some([0, 1, 2].map(|i| x * side.tangent[i] + y * side.bitangent[i]))
 }
 
-/// A corner of a facet and the next one.
-type Edge = (usize, usize);
-
 /// Adds the points on both sides of all smooth seams.
 fn add_points(facets: &Facets<'_>, image: &RgbaImage, points: &mut Vec<[Side; 2]>) {
-    let all: Vec<Facet> = facets.iter(usize::MAX).collect();
-    let mut edges: BTreeMap<[[u32; 3]; 2], Vec<Edge>> = BTreeMap::new();
+    let seams = facets.smooth_seams(|| smooth_seams(facets));
+    for &[(first, a), (second, b)] in &*seams {
+        let (Some(first), Some(second)) = (facets.at(first), facets.at(second)) else { continue };
+        for number in 0..POINTS {
+            let along = (number as f32 + 0.5) / POINTS as f32;
+            let first = side(&first, a.into(), along, facets, image);
+            let second = side(&second, b.into(), 1.0 - along, facets, image);
+            points.extend(first.zip(second).map(<[Side; 2]>::from));
+        }
+    }
+}
+
+/// The edges where the normals go on smoothly and the UVs do not.
+fn smooth_seams(facets: &Facets<'_>) -> Vec<[CornerOfTriangle; 2]> {
+    let all: Vec<(u32, Facet)> = facets.numbered().collect();
+    let mut edges: BTreeMap<[[u32; 3]; 2], Vec<(usize, usize)>> = BTreeMap::new();
     // Zeros of both signs are one place.
     let bits = |position: [f32; 3]| position.map(|x| (x + 0.0).to_bits());
-    for (number, facet) in all.iter().enumerate() {
+    for (index, (_, facet)) in all.iter().enumerate() {
         for corner in 0..3 {
             let ends = [corner, (corner + 1) % 3].map(|end| bits(facet.corners[end].position));
             let key = if ends[0] <= ends[1] { ends } else { [ends[1], ends[0]] };
-            edges.entry(key).or_default().push((number, corner));
+            edges.entry(key).or_default().push((index, corner));
         }
     }
+    let mut seams = Vec::new();
     for sides in edges.values() {
         let [(first, a), (second, b)] = sides[..] else { continue };
-        let [first, second] = [&all[first], &all[second]];
+        let [(number_of_first, first), (number_of_second, second)] = [&all[first], &all[second]];
         // Neighbours with one winding run along their edge in opposite directions.
         let [a0, a1] = [a, (a + 1) % 3].map(|end| &first.corners[end]);
         let [b1, b0] = [b, (b + 1) % 3].map(|end| &second.corners[end]);
         let is_smooth = |x: [f32; 3], y: [f32; 3]| dot(x, y) >= SMOOTH;
         let is_place = bits(a0.position) == bits(b0.position);
         let is_seam = a0.uv != b0.uv && a1.uv != b1.uv;
-        if !is_place || !is_seam || !is_smooth(a0.normal, b0.normal) || !is_smooth(a1.normal, b1.normal) {
-            continue;
-        }
-        for number in 0..POINTS {
-            let along = (number as f32 + 0.5) / POINTS as f32;
-            let sides = [side(first, a, along, facets, image), side(second, b, 1.0 - along, facets, image)];
-            if let [Some(a), Some(b)] = sides {
-                points.push([a, b]);
-            }
+        if is_place && is_seam && is_smooth(a0.normal, b0.normal) && is_smooth(a1.normal, b1.normal) {
+            seams.push([(*number_of_first, a as u8), (*number_of_second, b as u8)]);
         }
     }
+    seams
 }
 
 /// A point beside an edge of a facet. `along`: from the corner, 0, to the next one, 1.

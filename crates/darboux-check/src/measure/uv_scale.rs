@@ -123,6 +123,7 @@ mod tests {
     use std::sync::OnceLock;
 
     use super::*;
+    use crate::once_per::OncePer;
     use crate::place::Place;
 
     /// Squares of side 1 beside each other, each with the sides of its UVs.
@@ -145,6 +146,10 @@ mod tests {
             vertices_in_file: None,
             vertices_of_file: 0,
             has_no_votes: OnceLock::new(),
+            smooth_seams: OncePer::default(),
+            face_of_triangle: OncePer::default(),
+            keeps_tilts: false,
+            tilts: OncePer::default(),
             vertex_of_corner: indices,
             positions,
             normals: None,
