@@ -35,7 +35,7 @@ use report::{FileReport, Status, SummarySource};
 use tally::Tally;
 
 /// With more files than this, each file gets one line.
-const MAX_DETAILED_FILES: usize = 10;
+pub const MAX_DETAILED_FILES: usize = 10;
 
 /// Runs a command and returns its exit code.
 pub fn run<W: FileCommand>(command: &W) -> u8 {

@@ -65,7 +65,7 @@ pub fn run(arguments: &CheckArguments) -> u8 {
         reading: arguments.files.reading,
         jobs: arguments.files.jobs,
     };
-    let files = checks.check_found(&found);
+    let files = checks.check_found(&found, &messages);
     files.iter().filter_map(|file| file.error.as_ref()).for_each(|error| messages.error(error));
     let code = exit_code(&files, arguments.findings.fail_on);
     let report = CheckReport::new(files);
@@ -79,15 +79,22 @@ pub fn run(arguments: &CheckArguments) -> u8 {
     let text = match (arguments.messages.json, arguments.messages.quiet) {
         (true, _) => to_json(&report),
         (false, is_quiet) => {
+            let is_brief = report.files.len() > batch::MAX_DETAILED_FILES;
             let describe = |file| match (is_quiet, arguments.files.verbose) {
                 (true, _) => text::failures(file, arguments.findings.fail_on),
                 (false, true) => text::describe(file),
+                (false, false) if is_brief => text::describe_briefly(file),
                 (false, false) => text::describe_folded(file),
             };
             let good = report.files.iter().filter(|file| file.error.is_none());
-            let total =
-                if is_quiet || report.files.len() < 2 { String::new() } else { text::total(&report.totals) };
-            Ok((good.map(describe).collect::<String>() + &total).into_bytes())
+            let mut text: String = good.map(describe).collect();
+            if !is_quiet && report.files.len() > 1 {
+                text += &text::total(&report.totals);
+            }
+            if !is_quiet && is_brief && !arguments.files.verbose {
+                text += text::HOW_TO_SEE_MORE;
+            }
+            Ok(text.into_bytes())
         }
     };
     match text {

@@ -30,7 +30,7 @@ pub fn run(arguments: &ReportArguments) -> u8 {
     let checks = Checks { findings, model: Model::none(), reading: *reading, jobs: None };
     let found = find_inputs(inputs, SearchMode::All);
     found.unread.iter().for_each(|sentence| messages.warn(sentence));
-    let files = checks.check_found(&found);
+    let files = checks.check_found(&found, &messages);
     files.iter().filter_map(|file| file.error.as_ref()).for_each(|error| messages.error(error));
     let code = exit_code(&files, findings.fail_on);
     let report = CheckReport::new(files);

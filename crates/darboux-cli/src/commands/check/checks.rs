@@ -18,6 +18,7 @@ use crate::inputs::{FoundInputs, Input};
 use crate::memory::JobMemory;
 use crate::net;
 use crate::options::reading::ReadOptions;
+use crate::terminal::Messages;
 
 /// How files are checked.
 pub struct Checks<'a> {
@@ -31,17 +32,21 @@ pub struct Checks<'a> {
 }
 
 impl Checks<'_> {
-    /// Checks all files that were found, in their order, after those that were not.
-    pub fn check_found(&self, found: &FoundInputs) -> Vec<CheckedFile> {
+    /// Checks all files that were found, in their order, after those that were not. `messages`: where a
+    /// progress bar is shown meanwhile.
+    pub fn check_found(&self, found: &FoundInputs, messages: &Messages) -> Vec<CheckedFile> {
         let inputs: Vec<&Input> = found.files.iter().map(|(input, _)| input).collect();
         let failed = found.failed.iter().map(|(path, reason)| {
             let maps = folder::maps_instead(path).map_or(String::new(), |clause| format!("; {clause}"));
             failed(path.display().to_string(), format!("{}: {reason}{maps}", path.display()))
         });
-        failed.chain(self.check_all(&inputs)).collect()
+        messages.start(inputs.iter().map(|input| input.byte_length()).sum());
+        let checked = self.check_all(&inputs, messages);
+        messages.end_progress();
+        failed.chain(checked).collect()
     }
 
-    fn check_all(&self, inputs: &[&Input]) -> Vec<CheckedFile> {
+    fn check_all(&self, inputs: &[&Input], messages: &Messages) -> Vec<CheckedFile> {
         let next = AtomicUsize::new(0);
         let checked: Vec<OnceLock<CheckedFile>> = inputs.iter().map(|_| OnceLock::new()).collect();
         let memory = JobMemory::of_process();
@@ -50,6 +55,7 @@ impl Checks<'_> {
                 let number = next.fetch_add(1, Ordering::Relaxed);
                 let Some(input) = inputs.get(number) else { return };
                 let _share = memory.wait_for(|| input.memory());
+                let _progress = messages.file(&input.to_string(), input.byte_length());
                 // Every number is taken once.
                 _ = checked[number].set(self.check_file(input));
             }

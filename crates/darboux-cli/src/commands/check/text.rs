@@ -40,13 +40,42 @@ pub fn describe_folded(file: &CheckedFile) -> String {
         text += &format!("  {}{further}\n{}", printable(&group[0].place), lines(group[0]));
     }
     if !known.is_empty() {
-        let codes = known.iter().map(|group| match group.len() {
-            1 => group[0].code.to_string(),
-            count => format!("{} ({count})", group[0].code),
-        });
+        let codes = known.iter().map(|group| with_count(group));
         text += &format!("  worth knowing (-v): {}\n", codes.collect::<Vec<_>>().join(", "));
     }
     text + &counts(file)
+}
+
+/// What follows the total where files were described in one line each.
+pub const HOW_TO_SEE_MORE: &str =
+    "  -v prints what each of these means, what it looks like and what to type\n";
+
+/// A file in one line, with the codes of its errors and warnings; nothing for a model without any.
+pub fn describe_briefly(file: &CheckedFile) -> String {
+    let groups = by_kind(&file.findings);
+    let of_severity = |severity: Severity, one: &str, more: &str| {
+        let groups: Vec<_> = groups.iter().filter(|group| group[0].severity == severity).collect();
+        let count = groups.iter().map(|group| group.len()).sum();
+        let codes: Vec<String> = groups.into_iter().map(|group| with_count(group)).collect();
+        (count > 0).then(|| format!("{} ({})", counted(count, one, more), codes.join(", ")))
+    };
+    let verdict = file.map.as_ref().map(verdict);
+    let errors = of_severity(Severity::Error, "error", "errors");
+    let warnings = of_severity(Severity::Warning, "warning", "warnings");
+    let parts: Vec<String> = verdict.into_iter().chain(errors).chain(warnings).collect();
+    if parts.is_empty() {
+        String::new()
+    } else {
+        format!("{}: {}\n", printable(&file.input), parts.join(", "))
+    }
+}
+
+/// The code of some findings of one kind, with their number if there are several.
+fn with_count(group: &[&ReportedFinding]) -> String {
+    match group.len() {
+        1 => group[0].code.to_string(),
+        count => format!("{} ({count})", group[0].code),
+    }
 }
 
 /// The name of a file, the diagnosis and the verdict on an image.
