@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from conftest import bits
 
-bpy = pytest.importorskip("bpy", reason="Blender is not installed as a module")
+bpy = pytest.importorskip("bpy", reason="Blender, or a library that it needs, is not installed as a module", exc_type=ImportError)
 
 import darboux.bpy  # noqa: E402
 

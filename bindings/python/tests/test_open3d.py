@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from conftest import ROOT, bits, grid
 
-open3d = pytest.importorskip("open3d")
+open3d = pytest.importorskip("open3d", reason="Open3D, or a library that it needs, is not installed", exc_type=ImportError)
 
 MODEL = ROOT / "assets/NormalTangentTest/NormalTangentTest.glb"
 

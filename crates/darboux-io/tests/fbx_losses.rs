@@ -2,7 +2,7 @@
 #![cfg(feature = "fbx")]
 
 use darboux_io::LoadOptions;
-use darboux_io::gltf::Document;
+use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents};
 
 /// An ASCII FBX of one triangle with two UV sets, at the node `Plate`.
 #[derive(Clone, Copy, Default)]
@@ -21,9 +21,11 @@ struct Parts<'a> {
 
 fn fbx(parts: Parts<'_>) -> String {
     let Parts { geometry, model, material, shading, objects, connections } = parts;
+    // u of the second set is v of the first.
     let uvs = |index: u8, name: &str| {
+        let uvs = ["0,0,1,0,0,0.5", "0,0,0,1,0.5,0"][usize::from(index)];
         format!(
-            "LayerElementUV: {index} {{\nVersion: 101\nName: \"{name}\"\nMappingInformationType: \"ByVertice\"\nReferenceInformationType: \"Direct\"\nUV: *6 {{\na: 0,0,1,0,0,{index}.5\n}}\n}}\n"
+            "LayerElementUV: {index} {{\nVersion: 101\nName: \"{name}\"\nMappingInformationType: \"ByVertice\"\nReferenceInformationType: \"Direct\"\nUV: *6 {{\na: {uvs}\n}}\n}}\n"
         )
     };
     let layer =
@@ -263,4 +265,35 @@ fn a_file_without_meshes_says_so() {
     let document = Document::from_bytes("a.fbx", fbx.into_bytes(), None, &LoadOptions::default()).unwrap();
     let sentence = "there are no meshes in the file; if there should be, export it again with its meshes";
     assert_eq!(document.warnings(), [sentence]);
+}
+
+/// A texture names its UV set, and the tangents follow that of the normal map.
+#[test]
+fn textures_name_their_uv_set() {
+    let opened = |set: &str| {
+        let uv_set = format!("Properties70:  {{\nP: \"UVSet\", \"KString\", \"\", \"\", \"{set}\"\n}}\n");
+        let (objects, connections) = texture(12, "bumps", "NormalMap", &uv_set);
+        open(Parts { objects: &objects, connections: &connections, ..Parts::default() })
+    };
+    let missing =
+        "bumps.png is placed by the UV set \"third\", which its mesh does not have; the first set is taken";
+    for (set, place, warning) in [
+        ("", 0, None),
+        ("default", 0, None),
+        ("first", 0, None),
+        ("second", 1, None),
+        ("third", 0, Some(missing)),
+    ] {
+        let mut document = opened(set);
+        let warnings = document.warnings().to_vec();
+        let found = warnings.iter().find(|warning| warning.contains("UV set"));
+        assert_eq!(found.map(String::as_str), warning, "{set}: {warnings:?}");
+        let texture = &document.json()["materials"][0]["normalTexture"];
+        assert_eq!(texture.get("texCoord").and_then(|set| set.as_u64()).unwrap_or(0), place, "{set}");
+        add_tangents(&mut document, &AddTangentsOptions::default(), &mut |_| {}).unwrap();
+        let corners = document.corners().unwrap();
+        let tangents = corners[0].vectors::<4>("TANGENT").unwrap().unwrap();
+        let expected = [[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, -1.0]][place as usize];
+        assert_eq!(tangents[0], expected, "{set}");
+    }
 }

@@ -169,8 +169,14 @@ impl<'a> MaterialReader<'a> {
         let with_file = if texture.has_file { texture } else { texture.file_textures.into_iter().next()? };
         let image = self.image(with_file.file_index)?;
         let wanted = shortened(&texture.uv_set);
-        let uv_set = uv_sets.iter().position(|name| *name == wanted).unwrap_or(0);
+        let uv_set = uv_sets.iter().position(|name| *name == wanted);
         let name = &self.images[image].name;
+        if uv_set.is_none() && !uv_sets.is_empty() && !["", "default"].contains(&&*wanted) {
+            self.warnings.push(format!(
+                "{name} is placed by the UV set {wanted:?}, which its mesh does not have; the first set is taken"
+            ));
+        }
+        let uv_set = uv_set.unwrap_or(0);
         let layers = texture.file_textures.count;
         let placement = placement::of(with_file, self.is_blenders);
         let losses = [
