@@ -1,5 +1,5 @@
-//! Everything of Blender's scene beside its tangents: the second UV set, the shapes and the skin of the FBX are
-//! those of the glTF of the same scene.
+//! Everything of Blender's scene beside its tangents: the second UV set, the shapes and the skin of the FBX
+//! are those of the glTF of the same scene.
 #![cfg(feature = "fbx")]
 
 use std::collections::HashMap;
@@ -102,8 +102,8 @@ fn second_uvs_shapes_and_weights_are_those_of_the_gltf() {
     assert_eq!(names(&fbx), names(&gltf));
 }
 
-/// The vertices of the sheet in the scene, after the second bone was turned about an axis of the scene: by the
-/// second UV, which tells vertices apart.
+/// The vertices of the sheet in the scene, after the second bone was turned about an axis of the scene: by
+/// the second UV, which tells vertices apart.
 fn posed(document: &Document) -> HashMap<[u32; 2], [f64; 3]> {
     let scene = document.mesh_instances().unwrap();
     let instance = scene.meshes.iter().find(|instance| instance.skin.is_some()).unwrap();

@@ -19,6 +19,8 @@ pub enum FileBytes {
     Mapped(memmap2::Mmap),
     /// Read into memory.
     Read(Vec<u8>),
+    /// Made in memory: the bytes from `start` on.
+    Made { bytes: Vec<u8>, start: usize },
 }
 
 /// Files below this size are always read: that takes a twentieth of a second, and no other process can change
@@ -133,6 +135,10 @@ impl FileBytes {
             #[cfg(unix)]
             Self::Mapped(map) => map.to_vec(),
             Self::Read(bytes) => bytes,
+            Self::Made { mut bytes, start } => {
+                bytes.drain(..start);
+                bytes
+            }
         }
     }
 }
@@ -145,6 +151,7 @@ impl Deref for FileBytes {
             #[cfg(unix)]
             Self::Mapped(map) => map,
             Self::Read(bytes) => bytes,
+            Self::Made { bytes, start } => &bytes[*start..],
         }
     }
 }

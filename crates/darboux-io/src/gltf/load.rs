@@ -96,13 +96,13 @@ impl Document {
         let files = ModelFiles::new(access.model_files(base).map_err(failed)?, options);
         let read =
             readers::read(name, &file, &files, options).transpose().map_err(|error| error.in_file(name))?;
-        let Some(Built { glb, provenance, warnings }) = read else {
+        let Some(Built { bytes, start, provenance, warnings }) = read else {
             let resources = Resources::new(base, *options, access).map_err(failed)?;
             return Self::parse(name, file, resources, *options).map_err(|error| error.in_file(name));
         };
         drop(file);
         let resources = Resources::new(None, *options, access).map_err(failed)?;
-        let document = Self::parse(name, FileBytes::Read(glb), resources, *options);
+        let document = Self::parse(name, FileBytes::Made { bytes, start }, resources, *options);
         let mut document = document.map_err(|error| error.in_file(name))?;
         document.warnings.splice(0..0, warnings);
         document.provenance = Some(Provenance { companions: files.into_read(), ..provenance });

@@ -1,6 +1,6 @@
 //! Reads the faces of a PLY, and strips of triangles, with the UVs and textures of their corners.
 
-use super::header::{Element, Property};
+use super::header::{Element, Encoding, NumberType, Property};
 use super::property::{cut_off, next, properties};
 use super::values::Values;
 use crate::error::ContentError;
@@ -13,6 +13,8 @@ const NONE: u32 = u32::MAX;
 #[derive(Debug, Default)]
 pub struct FaceReader {
     pub corners: Vec<u32>,
+    /// The triangles before the first face that has an entry in the lists below.
+    first_triangles: usize,
     sizes: Vec<u32>,
     /// UVs of corners, which MeshLab writes as `texcoord`, and the place of each corner's.
     uvs: Vec<[f32; 2]>,
@@ -52,7 +54,12 @@ impl FaceReader {
         let is_strip = element.name == "tristrips";
         let kinds: Vec<FaceProperty> = element.properties.iter().map(face_property).collect();
         let (mut indices, mut uvs) = (Vec::new(), Vec::new());
-        for face in 0..element.count {
+        let read =
+            if is_strip || !self.sizes.is_empty() { 0 } else { self.read_triangles(element, &kinds, values) };
+        if read < element.count {
+            self.list_first_triangles();
+        }
+        for face in read..element.count {
             indices.clear();
             uvs.clear();
             let mut texture = None;
@@ -77,6 +84,49 @@ impl FaceReader {
         let others = element.properties.iter().zip(kinds).filter(|(_, kind)| *kind == FaceProperty::Other);
         scene.not_carried.extend(properties("face", others.map(|(property, _)| &*property.name)));
         Ok(())
+    }
+
+    /// Reads triangles of a binary file whose faces have nothing but indices of 32 bits, as most have, up to
+    /// the first larger face. Returns how many.
+    fn read_triangles(
+        &mut self,
+        element: &Element,
+        kinds: &[FaceProperty],
+        values: &mut Values<'_>,
+    ) -> usize {
+        const ROW: usize = 13;
+        let ([property], [FaceProperty::Indices]) = (&element.properties[..], kinds) else { return 0 };
+        let is_signed = match (property.length, property.number) {
+            (Some(NumberType::U8 | NumberType::I8), NumberType::I32) => true,
+            (Some(NumberType::U8 | NumberType::I8), NumberType::U32) => false,
+            _ => return 0,
+        };
+        if values.encoding() != Encoding::LittleEndian {
+            return 0;
+        }
+        let rows = values.rest().as_chunks::<ROW>().0;
+        let rows = &rows[..rows.len().min(element.count)];
+        let count = rows.iter().position(|row| row[0] != 3).unwrap_or(rows.len());
+        self.corners.reserve_exact(3 * count);
+        for row in &rows[..count] {
+            let index = |at: usize| {
+                let index = u32::from_le_bytes(*row[at..].first_chunk().expect("a row has 13 bytes"));
+                // Negative numbers are no vertices.
+                if is_signed && index > i32::MAX as u32 { u32::MAX } else { index }
+            };
+            self.corners.extend([index(1), index(5), index(9)]);
+        }
+        self.first_triangles += count;
+        _ = values.bytes(ROW * count);
+        count
+    }
+
+    /// Makes the lists of faces as long as if the first triangles had been added one by one.
+    fn list_first_triangles(&mut self) {
+        let count = std::mem::take(&mut self.first_triangles);
+        self.sizes.resize(self.sizes.len() + count, 3);
+        self.textures.resize(self.sizes.len(), None);
+        self.uv_of_corner.resize(self.corners.len(), NONE);
     }
 
     fn add_face(&mut self, list: &[f64]) {

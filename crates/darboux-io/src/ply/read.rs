@@ -109,8 +109,56 @@ fn row_size(element: &Element) -> Option<usize> {
         .sum()
 }
 
+/// The binary rows of an element, all of one size.
+struct Columns<'a> {
+    element: &'a Element,
+    kinds: &'a [VertexProperty],
+    encoding: Encoding,
+    rows: &'a [u8],
+    size: usize,
+}
+
+impl Columns<'_> {
+    /// Copies the vectors of these properties into `list` and adds the properties to `done`, if all are
+    /// little-endian numbers of single precision.
+    fn copy<const N: usize>(
+        &self,
+        wanted: [VertexProperty; N],
+        list: &mut Vec<[f32; N]>,
+        done: &mut Vec<VertexProperty>,
+    ) {
+        let Some(offsets) = self.offsets(wanted) else { return };
+        list.clear();
+        for row in self.rows.chunks_exact(self.size) {
+            let mut vector = [0.0; N];
+            for (number, &at) in vector.iter_mut().zip(&offsets) {
+                *number = f32::from_le_bytes([row[at], row[at + 1], row[at + 2], row[at + 3]]);
+            }
+            list.push(vector);
+        }
+        done.extend(wanted);
+    }
+
+    fn offsets<const N: usize>(&self, wanted: [VertexProperty; N]) -> Option<[usize; N]> {
+        if self.encoding != Encoding::LittleEndian {
+            return None;
+        }
+        let mut found = [0; N];
+        for (to, kind) in found.iter_mut().zip(wanted) {
+            let place = self.kinds.iter().position(|&other| other == kind)?;
+            let properties = &self.element.properties;
+            if properties[place].number != NumberType::F32 {
+                return None;
+            }
+            *to = properties[..place].iter().map(|property| property.number.size()).sum();
+        }
+        Some(found)
+    }
+}
+
 impl VertexLists {
-    /// Reads rows property by property, so that each loop has one type and one target.
+    /// Reads rows: vectors of single precision in one pass each, then what is left property by property, so
+    /// that each loop has one type and one target.
     fn read_rows(
         &mut self,
         element: &Element,
@@ -119,11 +167,27 @@ impl VertexLists {
         rows: &[u8],
         size: usize,
     ) {
+        use VertexProperty::{Normal, Position, Tangent, Uv};
+
+        let columns = Columns { element, kinds, encoding, rows, size };
+        let mut done = Vec::new();
+        columns.copy([0, 1, 2].map(Position), &mut self.positions, &mut done);
+        if !self.normals.is_empty() {
+            columns.copy([0, 1, 2].map(Normal), &mut self.normals, &mut done);
+        }
+        if !self.tangents.is_empty() {
+            columns.copy([0, 1, 2, 3].map(Tangent), &mut self.tangents, &mut done);
+        }
+        for (set, uvs) in self.uv_sets.iter_mut().enumerate() {
+            columns.copy([0, 1].map(|axis| Uv(set, axis)), uvs, &mut done);
+        }
         let mut offset = 0;
         for (property, &kind) in element.properties.iter().zip(kinds) {
             let number = property.number;
-            for (vertex, row) in rows.chunks_exact(size).enumerate() {
-                self.set(vertex, kind, decode(number, encoding, &row[offset..]), number);
+            if kind != VertexProperty::Other && !done.contains(&kind) {
+                for (vertex, row) in rows.chunks_exact(size).enumerate() {
+                    self.set(vertex, kind, decode(number, encoding, &row[offset..]), number);
+                }
             }
             offset += number.size();
         }

@@ -14,7 +14,16 @@ impl<'a> Values<'a> {
         Self { encoding, rest: bytes }
     }
 
-    /// The bytes that are left.
+    pub fn encoding(&self) -> Encoding {
+        self.encoding
+    }
+
+    /// What follows.
+    pub fn rest(&self) -> &'a [u8] {
+        self.rest
+    }
+
+    /// How many bytes are left.
     pub fn left(&self) -> usize {
         self.rest.len()
     }

@@ -21,13 +21,14 @@ use super::scene::SourceScene;
 use super::smoothing;
 use crate::LoadOptions;
 use crate::error::ContentError;
-use crate::gltf::{container, segments};
 use data::DataBuilder;
 
 /// A scene as a GLB.
 #[derive(Debug)]
 pub struct Built {
-    pub glb: Vec<u8>,
+    /// The GLB, from `start` on.
+    pub bytes: Vec<u8>,
+    pub start: usize,
     pub provenance: Provenance,
     /// What is wrong, and what was not carried over: one sentence each.
     pub warnings: Vec<String>,
@@ -86,10 +87,8 @@ pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Resu
     if !extensions.is_empty() {
         root["extensionsUsed"] = extensions.into();
     }
-    let bytes = data.finish(&mut root);
-    let chunk = vec![segments::Segment::Owned(bytes)];
-    let glb = container::glb(root.to_string().into_bytes(), Some(chunk), Vec::new())?;
-    Ok(Built { glb: segments::joined(&glb), provenance, warnings })
+    let (bytes, start) = data.finish(root)?;
+    Ok(Built { bytes, start, provenance, warnings })
 }
 
 /// A sentence if there are faces whose triangles fold over.

@@ -2,14 +2,27 @@
 
 use serde_json::{Value, json};
 
-use crate::gltf::{ComponentType, ElementType};
+use crate::error::ContentError;
+use crate::gltf::segments::{self, Segment};
+use crate::gltf::{ComponentType, ElementType, container};
+
+/// Room for the head of the GLB before the binary chunk, so that the chunk need not be copied behind it. The
+/// JSON of most models is shorter.
+const ROOM: usize = 1 << 16;
 
 /// The binary chunk while it grows.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct DataBuilder {
+    /// The room, then the chunk.
     bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
+}
+
+impl Default for DataBuilder {
+    fn default() -> Self {
+        Self { bytes: vec![0; ROOM], views: Vec::new(), accessors: Vec::new() }
+    }
 }
 
 impl DataBuilder {
@@ -75,16 +88,28 @@ impl DataBuilder {
     /// Adds a buffer view.
     pub fn view(&mut self, bytes: &[u8]) -> usize {
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        self.views.push(json!({"buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len()}));
+        self.views
+            .push(json!({"buffer": 0, "byteOffset": self.bytes.len() - ROOM, "byteLength": bytes.len()}));
         self.bytes.extend_from_slice(bytes);
         self.views.len() - 1
     }
 
-    /// Adds the lists to the JSON and returns the binary chunk.
-    pub fn finish(self, root: &mut Value) -> Vec<u8> {
+    /// Adds the lists to the JSON and makes the GLB. Returns its bytes and where in them it begins.
+    ///
+    /// Errors: more than the 4 GiB that a GLB can hold.
+    pub fn finish(mut self, mut root: Value) -> Result<(Vec<u8>, usize), ContentError> {
         root["accessors"] = self.accessors.into();
         root["bufferViews"] = self.views.into();
-        root["buffers"] = json!([{"byteLength": self.bytes.len()}]);
-        self.bytes
+        root["buffers"] = json!([{"byteLength": self.bytes.len() - ROOM}]);
+        let chunk = vec![Segment::Borrowed(&self.bytes[ROOM..])];
+        let parts = container::glb(root.to_string().into_bytes(), Some(chunk), Vec::new())?;
+        // The last two are the chunk and its padding.
+        let head = segments::joined(&parts[..parts.len() - 2]);
+        let Some(start) = ROOM.checked_sub(head.len()) else { return Ok((segments::joined(&parts), 0)) };
+        let padding = parts[parts.len() - 1].len();
+        drop(parts);
+        self.bytes[start..ROOM].copy_from_slice(&head);
+        self.bytes.resize(self.bytes.len() + padding, 0);
+        Ok((self.bytes, start))
     }
 }
