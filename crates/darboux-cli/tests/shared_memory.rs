@@ -280,6 +280,36 @@ fn images_wait_for_the_memory_that_their_heads_declare() {
     assert_eq!(names_in(folder.path()).len(), 2 * count);
 }
 
+/// A model that needs all memory, because its JSON is long, among many that are small. The journal tells the
+/// order.
+#[test]
+fn a_large_file_gets_its_turn() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let models = folder.path().join("models");
+    fs::create_dir(&models).expect("a folder");
+    let attributes = json!({ "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 });
+    let model = |extras: &str| {
+        let members = json!({
+            "extras": extras,
+            "meshes": [{ "primitives": [{ "attributes": attributes, "indices": 3 }] }],
+            "nodes": [{ "mesh": 0 }],
+        });
+        square(1.0, &[], members)
+    };
+    let (small, large) = (model(""), model(&"x".repeat(5 << 20)));
+    for index in 0..100 {
+        let file = if index == 10 { &large } else { &small };
+        fs::write(models.join(format!("{index:02}.glb")), file).expect("a file");
+    }
+    let arguments = ["tangents", "models", "--out-dir", "out", "--resume", "--jobs", "4"];
+    darboux_in_with_addresses(folder.path(), 1 << 30, &arguments).exits(0);
+    let journal = fs::read_to_string(folder.path().join("out/darboux-journal.jsonl")).expect("a journal");
+    let mut begun = journal.lines().filter(|line| line.starts_with(r#"{"begun""#));
+    let place = begun.position(|line| line.contains("10.glb")).expect("it was begun");
+    // Others may have come while its thread did not run.
+    assert!(place < 60, "{place} files were begun before it");
+}
+
 /// Bakes of a job that fit one by one.
 #[test]
 fn bakes_of_a_job_wait_for_the_memory_of_their_maps() {
