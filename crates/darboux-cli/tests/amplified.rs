@@ -560,6 +560,100 @@ fn uv_sets_of_one_accessor_are_read_once() {
     }
 }
 
+/// UVs of which every second one is not a number, in many sets: one finding for all of them.
+#[test]
+fn uvs_that_are_not_finite_are_found_once() {
+    let (vertices, sets) = (60_000, 10_000);
+    let mut builder = Builder::default();
+    let (position, _) = first_of(vertices, &mut builder);
+    let values: Vec<f32> = (0..vertices).flat_map(|vertex| [[f32::NAN, 0.0], [0.0; 2]][vertex % 2]).collect();
+    let uvs = builder.floats(&values, "VEC2", vertices);
+    let mut attributes = json!({ "POSITION": position });
+    (0..sets).for_each(|set| attributes[format!("TEXCOORD_{set}")] = json!(uvs));
+    let file = builder.glb(json!({ "meshes": [{ "primitives": [{ "attributes": attributes }] }] }));
+    ends_in_time("m.glb", &file, &["check IN"]);
+}
+
+/// Many UV sets over the same bytes, and tangents that follow none of them.
+#[test]
+fn tangents_are_compared_with_few_uv_sets() {
+    let (side, sets) = (50, 3000);
+    let mut builder = Builder::default();
+    let places =
+        || (0..side * side).map(|vertex| [vertex % side, vertex / side].map(|x| x as f32 / side as f32));
+    let of = |vector: fn([f32; 2]) -> Vec<f32>| places().flat_map(vector).collect::<Vec<f32>>();
+    let uvs = builder.floats(&of(|[x, y]| vec![x, y]), "VEC2", side * side);
+    let mut attributes = json!({
+        "POSITION": builder.floats(&of(|[x, y]| vec![x, y, 0.05 * (7.0 * x).sin()]), "VEC3", side * side),
+        "NORMAL": builder.floats(&of(|_| vec![0.0, 0.0, 1.0]), "VEC3", side * side),
+        "TANGENT": builder.floats(
+            &of(|[x, y]| vec![(91.0 * (x + 57.0 * y)).cos(), (91.0 * (x + 57.0 * y)).sin(), 0.0, 1.0]),
+            "VEC4",
+            side * side,
+        ),
+        "TEXCOORD_0": uvs,
+    });
+    for set in 1..sets {
+        let same = builder.accessors[uvs].clone();
+        attributes[format!("TEXCOORD_{set}")] = json!(builder.accessor(same));
+    }
+    let square = |at: usize| [at, at + 1, at + side + 1, at, at + side + 1, at + side];
+    let corners = (0..side * (side - 1)).filter(|at| at % side < side - 1).flat_map(square);
+    let indices = builder.indices(&corners.map(|corner| corner as u32).collect::<Vec<u32>>());
+    let primitive = json!({ "attributes": attributes, "indices": indices, "material": 0 });
+    let file = builder.glb(json!({
+        "meshes": [{ "primitives": [primitive] }],
+        "materials": [{ "normalTexture": { "index": 0 } }],
+        "textures": [{}],
+    }));
+    ends_in_time("m.glb", &file, &["check IN"]);
+}
+
+/// Primitives of one accessor of tangents, each of which wants others of the last triangle.
+#[test]
+fn repairs_of_one_accessor_take_time_in_proportion_to_what_they_want() {
+    let (primitives, triangles) = (2500, 20);
+    let vertices = 3 * triangles;
+    let mut builder = Builder::default();
+    let corner = |vertex: usize| {
+        let (x, y) = ((vertex / 3 % 5) as f32, (vertex / 15) as f32);
+        [[x, y], [x + 0.8, y], [x, y + 0.8]][vertex % 3]
+    };
+    let of =
+        |vector: fn([f32; 2]) -> Vec<f32>| (0..vertices).map(corner).flat_map(vector).collect::<Vec<f32>>();
+    let shared = json!({
+        "POSITION": builder.floats(&of(|[x, y]| vec![x, y, 0.0]), "VEC3", vertices),
+        "NORMAL": builder.floats(&of(|_| vec![0.0, 0.0, 1.0]), "VEC3", vertices),
+        "TANGENT": builder.floats(&of(|_| vec![f32::NAN, 0.0, 0.0, 1.0]), "VEC4", vertices),
+    });
+    let uvs = builder.floats(&of(|[x, y]| vec![x / 5.0, y / 5.0]), "VEC2", vertices);
+    let uvs = builder.accessors[uvs]["bufferView"].clone();
+    let last: Vec<u8> = (vertices - 3..vertices).flat_map(|vertex| (vertex as u32).to_le_bytes()).collect();
+    let last = builder.view(&last);
+    let primitive = |number: usize| {
+        let (sin, cos) = (number as f32 * std::f32::consts::TAU / primitives as f32).sin_cos();
+        let turned = [0.5, 0.5, 0.5 + 0.1 * cos, 0.5 + 0.1 * sin, 0.5 - 0.1 * sin, 0.5 + 0.1 * cos];
+        let turned: Vec<u8> = turned.iter().flat_map(|x: &f32| x.to_le_bytes()).collect();
+        let sparse = json!({
+            "count": 3,
+            "indices": { "bufferView": last, "componentType": 5125 },
+            "values": { "bufferView": builder.view(&turned) },
+        });
+        let mut attributes = shared.clone();
+        attributes["TEXCOORD_0"] = json!(builder.accessor(
+            json!({ "bufferView": uvs, "componentType": 5126, "count": vertices, "type": "VEC2", "sparse": sparse })
+        ));
+        json!({ "attributes": attributes, "material": 0 })
+    };
+    let primitives: Vec<Value> = (0..primitives).map(primitive).collect();
+    let file = builder.glb(json!({
+        "meshes": [{ "primitives": primitives }],
+        "materials": [{ "normalTexture": { "index": 0 } }],
+        "textures": [{}],
+    }));
+    ends_in_time("m.glb", &file, &["check IN --fix -o out.glb"]);
+}
+
 /// Accessors over the same bytes, each of which a repair would write again.
 #[test]
 fn what_repairs_write_again_is_limited() {

@@ -15,6 +15,8 @@ pub enum UvFault {
     },
     NotFinite {
         set: usize,
+        /// The number of other sets with the same data.
+        others: usize,
         vertices: Part,
     },
     Degenerate {

@@ -56,6 +56,9 @@ const MIN_SHARE: f64 = 0.9;
 /// The largest share of corners whose sign may contradict the others.
 const MAX_SIGN_ERRORS: f64 = 0.01;
 
+/// The largest number of other UV sets that tangents are compared with. Programs write eight at most.
+const MAX_OTHER_SETS: usize = 16;
+
 /// Corners by the direction that is nearest to the file's tangent, and by sign.
 #[derive(Default)]
 struct Counts {
@@ -141,12 +144,16 @@ fn other_uv_set(surface: &Surface, own: &Counts, winding: Winding<'_>) -> Option
     let mut seen: BTreeSet<*const Vec<[f32; 2]>> =
         surface.uv_sets.get(&surface.uv_set).map(Arc::as_ptr).into_iter().collect();
     let others = surface.uv_sets.iter().filter(|(_, uvs)| seen.insert(Arc::as_ptr(uvs)));
-    let others: Vec<(usize, Counts)> = others.filter_map(|(set, _)| counts(set)).collect();
-    let with_signs = others.iter().position(|(_, other)| is_most(other.close, other));
-    let directions_alone =
-        || others.iter().position(|(_, other)| !is_most(own.near, own) && is_most(other.near, other));
-    let found = with_signs.or_else(directions_alone)?;
-    others.into_iter().nth(found)
+    let mut in_directions = None;
+    for (set, other) in others.take(MAX_OTHER_SETS).filter_map(|(set, _)| counts(set)) {
+        if is_most(other.close, &other) {
+            return Some((set, other));
+        }
+        if in_directions.is_none() && !is_most(own.near, own) && is_most(other.near, &other) {
+            in_directions = Some((set, other));
+        }
+    }
+    in_directions
 }
 
 /// The differences of parts of the surface.

@@ -1,6 +1,6 @@
 //! Rules about UVs: the set that the tangents follow.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::rule::SurfaceRule;
@@ -27,20 +27,24 @@ fn missing(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
 }
 
 /// UVs of any set: every texture may use it. The UV set of the normal texture also decides the tangents.
+/// Sets of one accessor have one defect.
 fn not_finite(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let surface = facts.surface;
-    // Sets of one accessor are looked through once.
-    let mut known = HashMap::new();
-    let of_set = |(&set, uvs): (&usize, &Arc<Vec<[f32; 2]>>)| {
-        let vertices = known
-            .entry(Arc::as_ptr(uvs))
-            .or_insert_with(|| surface.vertices_where(uvs, |uv| !is_finite(*uv)))
-            .clone()?;
-        let decides = surface.needs_tangents && set == surface.uv_set;
+    let mut sets_of: BTreeMap<*const Vec<[f32; 2]>, Vec<usize>> = BTreeMap::new();
+    for (&set, uvs) in &surface.uv_sets {
+        sets_of.entry(Arc::as_ptr(uvs)).or_default().push(set);
+    }
+    let mut groups: Vec<Vec<usize>> = sets_of.into_values().collect();
+    groups.sort_unstable();
+    let of_sets = |sets: Vec<usize>| {
+        let decides = surface.needs_tangents && sets.contains(&surface.uv_set);
+        let set = if decides { surface.uv_set } else { *sets.first()? };
+        let vertices = surface.vertices_where(surface.uv_sets.get(&set)?, |uv| !is_finite(*uv))?;
         let severity = if decides { Severity::Error } else { Severity::Warning };
-        Some(Defect::new(UvFault::NotFinite { set, vertices }).with_severity(severity))
+        let fault = UvFault::NotFinite { set, others: sets.len() - 1, vertices };
+        Some(Defect::new(fault).with_severity(severity))
     };
-    surface.uv_sets.iter().filter_map(of_set).collect()
+    groups.into_iter().filter_map(of_sets).collect()
 }
 
 /// The UVs that the tangents follow, if the surface needs tangents.

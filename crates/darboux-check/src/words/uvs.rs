@@ -11,9 +11,13 @@ pub fn said(fault: &UvFault) -> Said {
             "its normal texture uses TEXCOORD_{set}, which it does not have"
         ))
         .with("present", *present as f64, "UV sets"),
-        UvFault::NotFinite { set, vertices } => {
+        UvFault::NotFinite { set, others, vertices } => {
             let what = counted(vertices.len(), "vertex has", "vertices have");
-            Said::of_vertices(format!("{what} NaN or infinity in TEXCOORD_{set}"), vertices)
+            let others = match others {
+                0 => String::new(),
+                _ => format!(" and {} with the same data", counted(*others, "other set", "other sets")),
+            };
+            Said::of_vertices(format!("{what} NaN or infinity in TEXCOORD_{set}{others}"), vertices)
         }
         UvFault::Degenerate { set, triangles } => {
             let what = counted(triangles.len(), "triangle has", "triangles have");

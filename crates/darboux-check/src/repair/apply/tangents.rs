@@ -1,6 +1,7 @@
 //! Makes tangents again, or corrects those that are wrong.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 use darboux::Context;
 use darboux_io::Error;
@@ -38,7 +39,7 @@ pub fn correct(
     })?;
     let groups = Groups::of(document, corrections.iter().map(|correction| &correction.surface.place));
     let (mut split, mut remade) = (Vec::new(), Vec::new());
-    let mut of_accessors: BTreeMap<usize, Vec<Rewritten>> = BTreeMap::new();
+    let mut of_accessors: BTreeMap<usize, Lists> = BTreeMap::new();
     let mut changes = BTreeMap::new();
     for correction in corrections {
         let surface = &correction.surface;
@@ -48,8 +49,7 @@ pub fn correct(
         match correction.of_vertices() {
             Some(of_vertices) => {
                 for (accessor, users) in users_of(document, TANGENT, &names) {
-                    let users = users.into_iter();
-                    add(of_accessors.entry(accessor).or_default(), users, &of_vertices);
+                    of_accessors.entry(accessor).or_default().add(users, &of_vertices);
                 }
             }
             None if has_targets(document, &names) => {
@@ -61,11 +61,11 @@ pub fn correct(
         }
     }
     let written =
-        of_accessors.iter().flat_map(|(&accessor, rewritten)| rewritten.iter().map(move |_| accessor));
+        of_accessors.iter().flat_map(|(&accessor, lists)| lists.lists.iter().map(move |_| accessor));
     check_rewritten::<4>(document, written)?;
-    for (accessor, rewritten) in of_accessors {
+    for (accessor, Lists { lists, .. }) in of_accessors {
         let old = document.vectors::<4>(accessor)?.into_owned();
-        for Rewritten { users, of_vertices } in rewritten {
+        for Rewritten { users, of_vertices } in lists {
             let mut tangents = old.clone();
             of_vertices.into_iter().for_each(|(vertex, tangent)| tangents[vertex] = tangent);
             document.set_tangents(&users, &tangents)?;
@@ -76,32 +76,63 @@ pub fn correct(
     Ok(changes)
 }
 
+/// The tangents that primitives want of vertices.
+type Wish = BTreeMap<usize, [f32; 4]>;
+
 /// Primitives that share an accessor, and the values that they want.
 struct Rewritten {
     users: Vec<PrimitiveName>,
-    of_vertices: BTreeMap<usize, [f32; 4]>,
+    of_vertices: Wish,
 }
 
-/// Adds primitives to those that want no other values of the same accessor. Where all want others, they get
-/// an accessor of their own.
-fn add(
-    rewritten: &mut Vec<Rewritten>,
-    users: impl Iterator<Item = PrimitiveName>,
-    of_vertices: &BTreeMap<usize, [f32; 4]>,
-) {
-    let agrees = |known: &Rewritten| {
+impl Rewritten {
+    /// Whether no vertex is wanted with other bits.
+    fn agrees(&self, wish: &Wish) -> bool {
         let is_same = |(vertex, tangent): (&usize, &[f32; 4])| {
-            known.of_vertices.get(vertex).is_none_or(|other| bits(*other) == bits(*tangent))
+            self.of_vertices.get(vertex).is_none_or(|other| bits(*other) == bits(*tangent))
         };
-        of_vertices.iter().all(is_same)
-    };
-    match rewritten.iter_mut().find(|known| agrees(known)) {
-        Some(known) => {
-            known.users.extend(users);
-            known.of_vertices.extend(of_vertices);
-        }
-        None => rewritten.push(Rewritten { users: users.collect(), of_vertices: of_vertices.clone() }),
+        wish.iter().all(is_same)
     }
+}
+
+/// The lists of values that take the place of an accessor: each is that of primitives that agree.
+#[derive(Default)]
+struct Lists {
+    lists: Vec<Rewritten>,
+    /// The list that was made for a wish, by the wish's hash.
+    by_wish: HashMap<u64, usize>,
+}
+
+impl Lists {
+    /// How many lists are asked whether they agree. Further ones are found by equal wishes alone, so that the
+    /// time is in proportion to the wishes.
+    const ASKED: usize = 4;
+
+    /// Adds primitives to those that want no other values. Where all want others, they get an accessor of
+    /// their own.
+    fn add(&mut self, users: Vec<PrimitiveName>, wish: &Wish) {
+        let agrees = |lists: &[Rewritten], list: usize| lists[list].agrees(wish);
+        let asked = (0..self.lists.len().min(Self::ASKED)).find(|&list| agrees(&self.lists, list));
+        let hash = hash_of(wish);
+        let made = || self.by_wish.get(&hash).copied().filter(|&list| agrees(&self.lists, list));
+        match asked.or_else(made) {
+            Some(list) => {
+                let known = &mut self.lists[list];
+                known.users.extend(users);
+                known.of_vertices.extend(wish);
+            }
+            None => {
+                self.by_wish.insert(hash, self.lists.len());
+                self.lists.push(Rewritten { users, of_vertices: wish.clone() });
+            }
+        }
+    }
+}
+
+fn hash_of(wish: &Wish) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    wish.iter().for_each(|(vertex, tangent)| (vertex, bits(*tangent)).hash(&mut hasher));
+    hasher.finish()
 }
 
 fn has_targets(document: &Document, names: &[PrimitiveName]) -> bool {
