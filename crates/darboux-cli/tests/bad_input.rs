@@ -91,8 +91,8 @@ fn broken() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     });
     let few = zeros(json!({ "count": 3, "sparse": places }));
     vec![
-        ("empty.glb", Vec::new(), "glTF"),
-        ("text.gltf", b"solid model".to_vec(), "glTF"),
+        ("empty.glb", Vec::new(), "is empty; export or download it again"),
+        ("text.gltf", b"once upon a time".to_vec(), "is named as glTF, but its content"),
         ("header.glb", good[..11].to_vec(), "header.glb"),
         ("truncated.glb", good[..good.len() - 9].to_vec(), "bytes"),
         ("long.glb", long, "bytes"),

@@ -657,3 +657,17 @@ fn folders_of_images_and_other_formats_say_what_to_do() {
         assert!(run.stderr.contains("save it as .png"), "{}", run.stderr);
     }
 }
+
+/// The words of the source lead to the surface in the program that made it.
+#[test]
+fn places_are_named_as_the_source_has_them() {
+    for (name, code, place) in [
+        ("scene.fbx", 0, "\n  Body in your FBX, meshes[1].primitives[0] \"Sheet\": "),
+        ("scene.obj", 0, "\n  o Body in your OBJ, meshes[0].primitives[0] \"Body\": "),
+        ("scene.ply", 1, "\n  your PLY, meshes[0].primitives[0] \"\": "),
+    ] {
+        let run = darboux(&["check", text(&asset(&format!("blender/{name}")))]).exits(code);
+        let printed = String::from_utf8(run.stdout).expect("text");
+        assert!(printed.contains(place), "{printed}");
+    }
+}

@@ -212,6 +212,7 @@ fn ascii_with_polygons_smoothing_units_and_paths_of_windows() {
     std::fs::remove_dir_all(&folder).unwrap();
     let document = document.unwrap();
     let json = document.json();
+    assert_eq!(document.provenance().unwrap().primitive(0, 0).unwrap().path, "Group/Plate");
     let primitives = json["meshes"][0]["primitives"].as_array().unwrap();
     let triangles = primitives.iter().map(|primitive| {
         let accessor = primitive["indices"].as_u64().unwrap() as usize;

@@ -16,7 +16,7 @@ pub fn read(bytes: &[u8], files: &ModelFiles) -> Result<SourceScene, ContentErro
     let mut scene = SourceScene::new(SourceFormat::Ply);
     scene.generator = generator(&header);
     let mut values = Values::new(header.encoding, &bytes[header.end..]);
-    let mut mesh = SourceMesh { path: "the PLY".to_owned(), ..SourceMesh::default() };
+    let mut mesh = SourceMesh::default();
     let mut faces = FaceReader::default();
     // The bytes that all elements so far have at least, so that no memory or time is taken for elements that
     // cannot be there.

@@ -39,7 +39,8 @@ impl Provenance {
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct PrimitiveSource {
-    /// The place in the source file, in its own words: a node's path in FBX, `o Body` in OBJ.
+    /// The place in the source file, in its own words: a node's path in FBX, `o Body` in OBJ; empty in PLY,
+    /// which has one mesh.
     pub path: String,
     /// The triangles that are the first half of a quad, ascending; the next triangle is the other half.
     pub quads: Vec<u32>,

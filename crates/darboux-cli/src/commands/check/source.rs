@@ -12,10 +12,11 @@ pub fn name_places(document: &Document, findings: &mut [ReportedFinding]) {
             (Some(mesh), Some(primitive)) => provenance.primitive(mesh, primitive),
             _ => None,
         };
-        if let Some(source) = source.filter(|source| !source.path.is_empty()) {
-            finding.place =
-                format!("{} in your {}, {}", source.path, provenance.format.name(), finding.place);
-        }
+        let Some(source) = source else { continue };
+        let format = provenance.format.name();
+        // A PLY is one mesh without a name.
+        let part = if source.path.is_empty() { String::new() } else { format!("{} in ", source.path) };
+        finding.place = format!("{part}your {format}, {}", finding.place);
     }
 }
 
