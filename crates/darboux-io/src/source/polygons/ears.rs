@@ -167,10 +167,11 @@ mod tests {
         corners.iter().map(|&[x, y]| [x, y, 0.0]).collect()
     }
 
-    /// The triangles of a face, which must cover it: all face as it does.
+    /// The triangles of a face, which must cover it: there are as many as it has, and all face as it does.
     fn covering(positions: &[[f64; 3]]) -> Vec<Triangle> {
         let cut = cut(positions, &mut MAX_STEPS.clone());
         let polygon = Polygon::of(positions).expect("the face has an area");
+        assert_eq!(cut.triangles.len(), positions.len() - 2);
         assert!(!cut.is_folded && polygon.faults(&cut.triangles) == 0, "{:?}", cut.triangles);
         cut.triangles
     }

@@ -135,12 +135,13 @@ mod tests {
 
     use super::*;
 
-    /// Cuts a face, none of whose triangles may be clockwise. The areas of ears add up to that of the face,
-    /// so they then cover it once. The steps that it took.
+    /// Cuts a face into as many triangles as it has, none of which may be clockwise. The areas of ears add up
+    /// to that of the face, so they then cover it once. The steps that it took.
     fn covering(corners: &[[f64; 2]]) -> u64 {
         let mut steps = 1 << 30;
         let triangles = cut(corners, &mut steps).expect("the face has ears");
         let of = |triangle: Triangle| area(triangle.map(|corner| corners[corner]));
+        assert_eq!(triangles.len(), corners.len() - 2);
         assert!(triangles.iter().all(|&triangle| of(triangle) >= 0.0));
         (1 << 30) - steps
     }
