@@ -305,3 +305,45 @@ fn spread(bytes: &[u8], size: usize, stride: usize) -> Vec<u8> {
     }
     spread
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::LoadOptions;
+    use crate::gltf::Document;
+
+    /// Sparse indices are looked through once; an edit, and its taking back, make that outdated.
+    #[test]
+    fn sparse_indices_are_looked_through_again_after_edits() {
+        // 24 bytes of values, then 1, 2, 1: the view 1 ascends, the view 2 does not.
+        let data = format!("data:application/octet-stream;base64,{}AQIB", "A".repeat(32));
+        let text = format!(
+            r#"{{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":27,"uri":"{data}"}}],"bufferViews":[
+            {{"buffer":0,"byteLength":24}},{{"buffer":0,"byteOffset":24,"byteLength":2}},
+            {{"buffer":0,"byteOffset":25,"byteLength":2}}],"accessors":[{{"componentType":5126,"count":4,
+            "type":"VEC3","sparse":{{"count":2,"indices":{{"bufferView":2,"componentType":5121}},
+            "values":{{"bufferView":0}}}}}}]}}"#
+        );
+        let document = Document::from_bytes("m.gltf", text.into_bytes(), None, &LoadOptions::default());
+        let mut document = document.expect("a document");
+        let is_refused = |document: &Document| {
+            let read = document.vectors_at::<3>(0, &[1, 2]);
+            read.is_err_and(|error| error.to_string().contains("accessors[0].sparse.indices"))
+        };
+        let take = |document: &mut Document, view: usize| {
+            let edited = document.edit_element("accessors", 0, |accessor| {
+                accessor["sparse"]["indices"]["bufferView"] = view.into();
+            });
+            assert_eq!(edited.ok(), Some(true));
+        };
+        assert!(is_refused(&document));
+        let checkpoint = document.checkpoint();
+        take(&mut document, 1);
+        assert!(!is_refused(&document));
+        take(&mut document, 2);
+        assert!(is_refused(&document));
+        take(&mut document, 1);
+        assert!(!is_refused(&document));
+        document.roll_back(checkpoint);
+        assert!(is_refused(&document));
+    }
+}

@@ -327,7 +327,7 @@ impl<'a> OutputLayout<'a> {
     /// Appends an output buffer whose views keep their offsets.
     fn push_unmoved(&mut self, output_buffer: OutputBuffer) {
         let place = MovedRange { start: 0, output_buffer: self.output_buffers.len(), offset: 0 };
-        // The views of a buffer that is only marked are elsewhere.
+        // The views of a placeholder are elsewhere.
         if !matches!(output_buffer.content, BufferContent::Placeholder) {
             self.moves[output_buffer.source.unwrap_or_default()] = [place].into();
         }
