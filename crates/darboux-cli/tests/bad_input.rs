@@ -6,7 +6,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::{asset, darboux, darboux_reading, darboux_with_little_memory, names_in, text};
+use common::{asset, darboux, darboux_reading, darboux_with_little_memory, glb, names_in, text};
 use serde_json::{Value, json};
 
 /// A triangle that could get tangents: the JSON, and the buffer of 132 bytes that goes with it.
@@ -45,29 +45,17 @@ fn triangle() -> (Value, Vec<u8>) {
     (json, bytes.collect())
 }
 
-fn glb(json: &[u8], binary: &[u8]) -> Vec<u8> {
-    let mut json = json.to_vec();
-    json.resize(json.len().next_multiple_of(4), b' ');
-    let mut bytes = b"glTF".to_vec();
-    let words = [2, (28 + json.len() + binary.len()) as u32, json.len() as u32, 0x4E4F_534A];
-    words.iter().for_each(|word| bytes.extend(word.to_le_bytes()));
-    bytes.extend(json);
-    [binary.len() as u32, 0x004E_4942].iter().for_each(|word| bytes.extend(word.to_le_bytes()));
-    bytes.extend(binary);
-    bytes
-}
-
 /// The triangle as a GLB, with one place of its JSON replaced.
 fn with(pointer: &str, value: Value) -> Vec<u8> {
     let (mut json, binary) = triangle();
     *json.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer} exists")) = value;
-    glb(json.to_string().as_bytes(), &binary)
+    glb(&json, &binary)
 }
 
 /// Broken files, each with a part of the sentence that must say what is wrong.
 fn broken() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     let (json, binary) = triangle();
-    let good = glb(json.to_string().as_bytes(), &binary);
+    let good = glb(&json, &binary);
     let mut long = good.clone();
     long[8..12].copy_from_slice(&u32::MAX.to_le_bytes());
     let mut chunk = good.clone();
@@ -174,7 +162,7 @@ fn every_broken_file_gets_one_sentence_and_no_output() {
 #[test]
 fn the_triangle_that_is_broken_there_is_good() {
     let (json, binary) = triangle();
-    let good = glb(json.to_string().as_bytes(), &binary);
+    let good = glb(&json, &binary);
     let run = darboux_reading(&["tangents", "-"], &good).exits(0);
     assert_eq!(
         common::glb_json(&run.stdout)["meshes"][0]["primitives"][0]["attributes"]["TANGENT"],
@@ -242,7 +230,7 @@ fn one_bad_file_does_not_stop_the_others() {
 fn strict_refuses_what_is_repaired_otherwise() {
     let (json, mut binary) = triangle();
     binary[0..4].copy_from_slice(&f32::NAN.to_le_bytes());
-    let bytes = glb(json.to_string().as_bytes(), &binary);
+    let bytes = glb(&json, &binary);
     darboux_reading(&["tangents", "-"], &bytes).exits(0);
     let run = darboux_reading(&["tangents", "-", "--strict"], &bytes).exits(1);
     assert!(run.stdout.is_empty());

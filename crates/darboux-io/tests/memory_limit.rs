@@ -1,10 +1,13 @@
 //! Small files that ask for much memory are refused before it is allocated, by a sentence that names the
 //! option.
 
+mod support;
+
 use darboux_io::gltf::{AddNormalsOptions, Document, add_normals};
 use darboux_io::image::PngImage;
 use darboux_io::{Error, LoadOptions, MemoryLimit};
 use serde_json::json;
+use support::glb;
 
 const ADVICE: &str = "; if you trust the file, raise the limit (LoadOptions::memory_limit)";
 
@@ -73,13 +76,9 @@ fn overlapping_strips_are_refused() {
         ],
         "meshes": [{"primitives": primitives}],
     });
-    let text = json.to_string();
-    let text = format!("{text}{}", " ".repeat(text.len().next_multiple_of(4) - text.len()));
-    let word = |number: usize| (number as u32).to_le_bytes();
-    let chunks =
-        [&word(text.len()), &b"JSON"[..], text.as_bytes(), &word(data.len()), b"BIN\0", &data].concat();
-    let file = [b"glTF", &word(2)[..], &word(12 + chunks.len()), &chunks].concat();
-    let mut document = Document::from_bytes("strips.glb", file, None, &LoadOptions::default()).unwrap();
+    let mut document =
+        Document::from_bytes("strips.glb", glb(&json.to_string(), &data), None, &LoadOptions::default())
+            .unwrap();
     refused(add_normals(&mut document, &AddNormalsOptions::default(), &mut |_| {}), "284 MiB");
 }
 
