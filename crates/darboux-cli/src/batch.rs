@@ -174,7 +174,8 @@ impl<W: FileCommand> Work<'_, W> {
 
     /// Processes a file, and writes the journal. Errors: the journal cannot be written.
     fn process(&self, job: &Job) -> Result<FileReport<W::Summary>, String> {
-        let _share = self.memory.wait_for(|| job.input.memory());
+        let options = || self.command.files().reading.load_options();
+        let _share = self.memory.wait_for(|| job.input.memory(&options()));
         let entry = self.journal.map(|journal| JournalEntry::new(journal, job));
         let work = || {
             let FinishedFile { report, record } = process_file(self.command, job, entry, self.messages);

@@ -5,7 +5,7 @@ use std::ffi::OsStr;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use darboux_io::{FileKind, system_reason};
+use darboux_io::{FileKind, LoadOptions, system_reason};
 use walkdir::{DirEntry, WalkDir};
 
 use crate::memory;
@@ -39,9 +39,9 @@ impl Input {
     }
 
     /// The bytes that processing the file takes at most.
-    pub fn memory(&self) -> u64 {
+    pub fn memory(&self, options: &LoadOptions) -> u64 {
         match self {
-            Input::File(path) => memory::of_file(path),
+            Input::File(path) => memory::of_file(path, options),
             Input::Stdin => memory::of_stream(),
         }
     }

@@ -16,6 +16,7 @@ mod installing;
 mod interrupt;
 mod json;
 mod memory;
+mod model_json;
 mod net;
 mod options;
 #[cfg(unix)]

@@ -4,7 +4,7 @@ mod common;
 
 use std::fs;
 
-use common::{asset, darboux, darboux_reading, folder_with, text};
+use common::{asset, darboux, darboux_reading, folder_with, glb, glb_json, text};
 use darboux_check::Code;
 
 #[test]
@@ -121,6 +121,45 @@ fn unused_normal_maps_of_a_folder_are_named() {
     let run = darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);
     let sentence = "1 image named like a normal map is used by no model there";
     assert!(run.stderr.contains(sentence) && run.stderr.contains("Brick_Normal.png"), "{}", run.stderr);
+}
+
+/// A model whose JSON is longer than what is read of it for names may use every image.
+#[test]
+fn models_with_long_json_may_use_all_maps() {
+    let folder = folder_with(&["made/shield.glb"]);
+    fs::write(folder.path().join("brick_normal.png"), "").expect("a file");
+    let run = || darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);
+    assert!(run().stderr.contains("is used by no model there"));
+    let mut json = glb_json(&fs::read(asset("made/shield.glb")).expect("a model"));
+    json["buffers"] = serde_json::json!([]);
+    let members = ["accessors", "bufferViews", "meshes", "nodes", "scenes", "scene", "images", "materials"];
+    members.iter().for_each(|member| drop(json.as_object_mut().expect("an object").remove(*member)));
+    json["extras"] = " ".repeat(4 << 20).into();
+    json["images"] = serde_json::json!([{ "uri": "brick_normal.png" }]);
+    fs::write(folder.path().join("long.glb"), glb(&json, &[])).expect("a file");
+    let stderr = run().stderr;
+    assert!(!stderr.contains("used by no model"), "{stderr}");
+}
+
+/// No more of a file's JSON is read for names than is kept in memory beside other files.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_huge_json_is_not_read_for_names() {
+    let folder = folder_with(&["made/shield.glb"]);
+    fs::write(folder.path().join("brick_normal.png"), "").expect("a file");
+    let huge = folder.path().join("huge.glb");
+    let length = 1u32 << 30;
+    let word = |number: u32| number.to_le_bytes();
+    fs::write(&huge, [b"glTF", &word(2)[..], &word(20 + length), &word(length), b"JSON"].concat())
+        .expect("a file");
+    let file = fs::File::options().write(true).open(&huge);
+    file.and_then(|file| file.set_len(u64::from(20 + length))).expect("a file");
+    let arguments = ["check", text(folder.path()), "--fail-on", "never", "--jobs", "1", "--json"];
+    let run = common::darboux_with_addresses(512 << 20, &arguments).exits(1);
+    let report = run.json();
+    let errors: Vec<bool> =
+        report["files"].as_array().expect("files").iter().map(|file| file["error"].is_null()).collect();
+    assert_eq!(errors, [false, true], "{}", run.stderr);
 }
 
 #[test]
@@ -313,24 +352,18 @@ fn totals_add_up_to_the_findings() {
 #[test]
 fn data_of_extensions_is_compared() {
     let folder = tempfile::tempdir().expect("a folder");
-    let glb = fs::read(asset("made/shield.glb")).expect("a model");
-    let length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
-    let mut json: serde_json::Value = serde_json::from_slice(&glb[20..20 + length]).expect("JSON");
-    let mut binary = glb[28 + length..].to_vec();
+    let shield = fs::read(asset("made/shield.glb")).expect("a model");
+    let length = u32::from_le_bytes(shield[12..16].try_into().expect("four bytes")) as usize;
+    let mut json = glb_json(&shield);
+    let mut binary = shield[28 + length..].to_vec();
     let views = json["bufferViews"].as_array_mut().expect("views");
     views.push(serde_json::json!({"buffer": 0, "byteOffset": binary.len(), "byteLength": 8}));
     json["extensions"] = serde_json::json!({"VENDOR_data": {"bufferView": views.len() - 1}});
     json["extensionsUsed"] = serde_json::json!(["VENDOR_data"]);
     binary.extend(b"ORIGINAL");
     json["buffers"][0]["byteLength"] = binary.len().into();
-    let mut text_of_json = serde_json::to_vec(&json).expect("JSON");
-    text_of_json.resize(text_of_json.len().next_multiple_of(4), b' ');
-    let word = |number: usize| (number as u32).to_le_bytes();
-    let total = 28 + text_of_json.len() + binary.len();
-    let mut file = [&b"glTF"[..], &word(2), &word(total), &word(text_of_json.len()), b"JSON"].concat();
-    file.extend([&text_of_json[..], &word(binary.len()), b"BIN\0", &binary].concat());
     let model = folder.path().join("model.glb");
-    fs::write(&model, file).expect("a file");
+    fs::write(&model, glb(&json, &binary)).expect("a file");
     let run = ["check", text(&model), "--fix", "--fail-on", "never"];
     darboux(&run).exits(0);
     darboux(&run).exits(0);

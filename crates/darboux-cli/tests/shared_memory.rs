@@ -310,6 +310,59 @@ fn a_large_file_gets_its_turn() {
     assert!(place < 60, "{place} files were begun before it");
 }
 
+/// Models that fit one by one, with UV sets over the same bytes.
+#[test]
+fn models_wait_for_the_memory_of_their_uv_sets() {
+    let (vertices, sets) = (19_998, 400);
+    let attributes = (0..sets).map(|set| (format!("TEXCOORD_{set}"), json!(4 + set)));
+    let attributes: serde_json::Map<String, Value> =
+        attributes.chain([("POSITION".to_owned(), json!(4 + sets))]).collect();
+    let accessor = |component: u32, kind: &str| {
+        let normalized = component != 5126;
+        json!({ "bufferView": 4, "componentType": component, "count": vertices, "type": kind, "normalized": normalized })
+    };
+    let mut accessors = vec![accessor(5123, "VEC2"); sets];
+    accessors.push(accessor(5126, "VEC3"));
+    let members = json!({
+        "accessors": accessors,
+        "meshes": [{ "primitives": [{ "attributes": attributes }] }],
+    });
+    fit_together("glb", &square(1.0, &vec![0; 12 * vertices], members), None);
+}
+
+/// Models that fit one by one, with buffers that are less than their files.
+#[test]
+fn models_wait_for_the_memory_of_the_files_of_their_buffers() {
+    let json = json!({
+        "asset": { "version": "2.0" },
+        "buffers": [{ "byteLength": 36, "uri": "data.bin" }],
+        "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
+        "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
+    });
+    fit_together("gltf", json.to_string().as_bytes(), Some(100 << 20));
+}
+
+/// Eight files of this content are checked at the same time in memory that is enough for one. `data`: the
+/// size of a file data.bin beside them.
+#[track_caller]
+fn fit_together(ending: &str, content: &[u8], data: Option<u64>) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let names: Vec<String> = (0..8).map(|index| format!("{index}.{ending}")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    for name in &names {
+        fs::write(folder.path().join(name), content).expect("a file");
+    }
+    if let Some(size) = data {
+        let file = fs::File::create(folder.path().join("data.bin"));
+        file.and_then(|file| file.set_len(size)).expect("a file");
+    }
+    for (jobs, names) in [("1", &names[..1]), ("8", &names[..])] {
+        let arguments = [&["check", "--fail-on", "never", "--jobs", jobs], names].concat();
+        darboux_in_with_addresses(folder.path(), 300 << 20, &arguments).exits(0);
+    }
+}
+
 /// Bakes of a job that fit one by one.
 #[test]
 fn bakes_of_a_job_wait_for_the_memory_of_their_maps() {

@@ -62,6 +62,7 @@ pub use normals::{
 pub use primitives::corners::PrimitiveCorners;
 pub use primitives::name::PrimitiveName;
 pub use progress::Progress;
+pub use resources::file_of_uri;
 pub use scene::{MeshInstance, MeshInstances};
 pub use stored_elements::IndexList;
 pub use tangents::{

@@ -139,6 +139,11 @@ pub fn wrong_output(kind: Option<FileKind>) -> String {
     }
 }
 
+/// The folder that a file is in, by its path.
+pub fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
 /// The regular file to read at `path`, links resolved. Errors: there is no file, or it is not a regular file.
 pub fn resolve_input(path: &Path) -> Result<PathBuf, Error> {
     let failed = |source| Error::Read { file: path.to_owned(), source };

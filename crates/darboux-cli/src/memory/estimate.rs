@@ -1,30 +1,39 @@
 //! Estimates the memory that processing a file takes from what its head declares, before it is read.
 
+use std::collections::BTreeMap;
+use std::fmt;
 use std::fs::File;
-use std::io::{Read, Seek, SeekFrom};
-use std::path::Path;
+use std::io::Read;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use darboux_io::LoadOptions;
+use darboux_io::gltf::file_of_uri;
 use darboux_io::image::PngImage;
 use serde::Deserialize;
-use serde::de::IgnoredAny;
+use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};
+
+use crate::model_json::ModelJson;
+use crate::regular_file::{Links, open_regular};
 
 /// The largest peaks measured (`normals`), per byte of a model without compression.
 const PER_BYTE: u64 = 10;
 
+/// The largest peaks measured are 33, per byte of JSON (lists of 0).
+const PER_BYTE_OF_JSON: u64 = 36;
+
 /// What processing an empty file takes, about.
 const BASE: u64 = 16 << 20;
 
-/// What processing a corner of a face takes, and what a primitive does, as darboux-io counts them.
+/// What processing a corner of a face takes, what a primitive does, and a UV that is read, as darboux-io
+/// counts them.
 const PER_CORNER: u64 = 64;
 const PER_PRIMITIVE: u64 = 4096;
+const PER_UV: u64 = 8;
 
 /// The largest peaks measured are 18 (`convert`, 16 bits; `check --fix` of 8 bits takes 13), per texel of a
 /// PNG.
 const PER_TEXEL: u64 = 20;
-
-/// The most bytes of JSON that are read for an estimate.
-const MOST_JSON: u64 = 4 << 20;
 
 /// The most bytes that darboux-io permits by default for a file of this size with its buffers.
 fn limit_of(size: u64) -> u64 {
@@ -33,17 +42,19 @@ fn limit_of(size: u64) -> u64 {
 
 /// The bytes that processing a file takes at most. Where its head does not tell, that is the default limit.
 /// A glTF whose JSON is long or cannot be read takes all memory, since its buffers are not known.
-pub fn of_file(path: &Path) -> u64 {
-    of_model(path, true)
+pub fn of_file(path: &Path, options: &LoadOptions) -> u64 {
+    of_model(path, options, true)
 }
 
 /// As [`of_file`]. `decodes_images`: whether the images of a model are decoded, into sizes that its head does
 /// not tell; else they are counted in its bytes alone.
-pub fn of_model(path: &Path, decodes_images: bool) -> u64 {
-    let Head { files, beside } = head(path, decodes_images);
-    let size = path.metadata().map_or(0, |metadata| metadata.len()).saturating_add(files);
-    let plain = size.saturating_mul(PER_BYTE).saturating_add(BASE);
-    let limit = plain.max(limit_of(size));
+pub fn of_model(path: &Path, options: &LoadOptions, decodes_images: bool) -> u64 {
+    let Head { json, buffers, beside } = head(path, options, decodes_images);
+    let size = path.metadata().map_or(0, |metadata| metadata.len());
+    let others = size.saturating_sub(json).saturating_add(buffers.kept);
+    let of_bytes = json.saturating_mul(PER_BYTE_OF_JSON).saturating_add(others.saturating_mul(PER_BYTE));
+    let plain = of_bytes.saturating_add(BASE);
+    let limit = plain.max(limit_of(size.saturating_add(buffers.named)));
     beside.map_or(limit, |beside| plain.saturating_add(beside).min(limit))
 }
 
@@ -53,50 +64,72 @@ pub fn of_stream() -> u64 {
 }
 
 /// What the head of a file tells.
+#[derive(Default)]
 struct Head {
-    /// The bytes of its buffers that are not in the file, or encoded.
-    files: u64,
+    /// The bytes of its JSON.
+    json: u64,
+    buffers: BufferSizes,
     /// What it needs beyond its bytes and those of its buffers; none if the head does not tell.
     beside: Option<u64>,
 }
 
-fn head(path: &Path, decodes_images: bool) -> Head {
-    let other = Head { files: 0, beside: None };
-    let Some(metadata) = path.metadata().ok().filter(std::fs::Metadata::is_file) else { return other };
-    let Ok(mut file) = File::open(path) else { return other };
-    let mut head = [0; 26];
-    if file.read_exact(&mut head).is_err() {
-        return other;
-    }
-    let number =
-        |at: usize| u64::from(u32::from_be_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]));
-    if PngImage::is_png(&head) {
-        let texels = number(16).saturating_mul(number(20));
-        return Head { beside: Some(texels.saturating_mul(PER_TEXEL)), ..other };
-    }
-    let (start, length) = if head.starts_with(b"glTF") {
-        (20, u32::from_le_bytes([head[12], head[13], head[14], head[15]]).into())
-    } else if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gltf")) {
-        (0, metadata.len())
-    } else {
-        return other;
-    };
-    let declared = declared(&mut file, start, length);
-    declared.map_or(Head { files: u64::MAX, beside: None }, |declared| declared.head(decodes_images))
+/// The bytes of buffers that are not in the file, or encoded. A file counts as a whole, because all of it is
+/// read and written.
+#[derive(Default)]
+struct BufferSizes {
+    /// Each file counts once.
+    kept: u64,
+    /// Each file counts for every buffer that names it, as darboux-io counts it for the default limit.
+    named: u64,
 }
 
-/// What the JSON in a range of a file declares; none if it is long or cannot be read. One is read at a time:
-/// no job has taken memory for it.
-fn declared(file: &mut File, start: u64, length: u64) -> Option<Declared> {
-    static READING: Mutex<()> = Mutex::new(());
-    if length > MOST_JSON {
-        return None;
+fn head(path: &Path, options: &LoadOptions, decodes_images: bool) -> Head {
+    let Ok(mut file) = open_regular(path, File::options().read(true), Links::Follow) else {
+        return Head::default();
+    };
+    if let Some(texels) = texels_of_png(&mut file) {
+        return Head { beside: Some(texels.saturating_mul(PER_TEXEL)), ..Head::default() };
     }
+    let (json, declared) = match declared(&mut file, path) {
+        Ok(Some(found)) => found,
+        Ok(None) => return Head::default(),
+        Err(Unknown) => {
+            let buffers = BufferSizes { kept: u64::MAX, named: u64::MAX };
+            return Head { buffers, ..Head::default() };
+        }
+    };
+    Head {
+        json,
+        buffers: declared.sizes_of_buffers(|uri| file_of_uri(path, uri, options)),
+        beside: declared.is_complete(decodes_images).then(|| declared.bytes_of_meshes()),
+    }
+}
+
+/// The texels that the head of a PNG declares; none for other files.
+fn texels_of_png(file: &mut File) -> Option<u64> {
+    let mut head = [0; 26];
+    file.read_exact(&mut head).ok()?;
+    let number =
+        |at: usize| u64::from(u32::from_be_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]));
+    PngImage::is_png(&head).then(|| number(16).saturating_mul(number(20)))
+}
+
+/// The JSON of a glTF is long or cannot be read.
+struct Unknown;
+
+/// The bytes of the JSON of a glTF, and what it declares; none for other files. One is read at a time: no job
+/// has taken memory for it.
+fn declared(file: &mut File, path: &Path) -> Result<Option<(u64, Declared)>, Unknown> {
+    static READING: Mutex<()> = Mutex::new(());
     let _reading = READING.lock().unwrap_or_else(PoisonError::into_inner);
-    file.seek(SeekFrom::Start(start)).ok()?;
-    let mut text = Vec::new();
-    file.take(length).read_to_end(&mut text).ok()?;
-    serde_json::from_slice(&text).ok()
+    match ModelJson::of(file, path) {
+        ModelJson::Text(text) => match serde_json::from_slice(&text) {
+            Ok(declared) => Ok(Some((text.len() as u64, declared))),
+            Err(_) => Err(Unknown),
+        },
+        ModelJson::Unread => Err(Unknown),
+        ModelJson::Absent => Ok(None),
+    }
 }
 
 /// What counts of a glTF.
@@ -132,10 +165,41 @@ struct Primitive {
     extensions: Extensions,
 }
 
-#[derive(Deserialize)]
-#[serde(rename_all = "UPPERCASE")]
+/// The accessors of positions and of UV sets.
 struct Attributes {
     position: Option<usize>,
+    uvs: Vec<usize>,
+}
+
+impl<'de> Deserialize<'de> for Attributes {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct AttributesVisitor;
+
+        impl<'de> Visitor<'de> for AttributesVisitor {
+            type Value = Attributes;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Attributes, A::Error> {
+                let mut attributes = Attributes { position: None, uvs: Vec::new() };
+                while let Some(semantic) = map.next_key::<String>()? {
+                    match semantic.as_str() {
+                        "POSITION" => attributes.position = map.next_value()?,
+                        uvs if uvs.starts_with("TEXCOORD_") => attributes.uvs.push(map.next_value()?),
+                        _ => drop(map.next_value::<IgnoredAny>()?),
+                    }
+                }
+                // Semantics may share an accessor, which is read once.
+                attributes.uvs.sort_unstable();
+                attributes.uvs.dedup();
+                Ok(attributes)
+            }
+        }
+
+        deserializer.deserialize_map(AttributesVisitor)
+    }
 }
 
 #[derive(Deserialize)]
@@ -150,7 +214,7 @@ struct Node {
 struct Buffer {
     #[serde(default)]
     byte_length: u64,
-    uri: Option<IgnoredAny>,
+    uri: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -181,10 +245,33 @@ impl Extensions {
 }
 
 impl Declared {
-    fn head(&self, decodes_images: bool) -> Head {
-        let buffers = self.buffers.iter().filter(|buffer| buffer.uri.is_some());
-        let files = buffers.map(|buffer| buffer.byte_length).fold(0, u64::saturating_add);
-        Head { files, beside: self.is_complete(decodes_images).then(|| self.bytes_of_meshes()) }
+    /// `file_of_uri`: the file that may be read for a URI.
+    fn sizes_of_buffers(&self, file_of_uri: impl Fn(&str) -> Option<PathBuf>) -> BufferSizes {
+        // A URI is looked up once, however many buffers have it: how many that are, and their bytes.
+        let mut uris: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
+        for buffer in &self.buffers {
+            let Some(uri) = &buffer.uri else { continue };
+            let (count, bytes) = uris.entry(uri).or_default();
+            (*count, *bytes) = (*count + 1, buffer.byte_length.max(*bytes));
+        }
+        let mut sizes = BufferSizes::default();
+        let mut files: BTreeMap<PathBuf, u64> = BTreeMap::new();
+        for (uri, (count, bytes)) in uris {
+            let file = file_of_uri(uri);
+            let size =
+                file.as_ref().and_then(|file| file.metadata().ok()).map_or(0, |metadata| metadata.len());
+            let size = size.max(bytes);
+            sizes.named = sizes.named.saturating_add(size.saturating_mul(count));
+            match file {
+                Some(file) => {
+                    let kept = files.entry(file).or_default();
+                    *kept = size.max(*kept);
+                }
+                None => sizes.kept = sizes.kept.saturating_add(size.saturating_mul(count)),
+            }
+        }
+        sizes.kept = files.into_values().fold(sizes.kept, u64::saturating_add);
+        sizes
     }
 
     /// Whether all that needs memory has its size in the JSON. Images have it elsewhere.
@@ -204,14 +291,23 @@ impl Declared {
         let count = |accessor: Option<usize>| {
             accessor.and_then(|index| self.accessors.get(index)).map_or(0, |accessor| accessor.count)
         };
-        let of_primitive = |primitive: &Primitive| {
+        let of_corners = |primitive: &Primitive| {
             let corners = count(primitive.indices).max(count(primitive.attributes.position));
             let shapes = 1 + primitive.targets.len() as u64;
             corners.saturating_mul(PER_CORNER).saturating_mul(shapes).saturating_add(PER_PRIMITIVE)
         };
+        // The vertices that a primitive uses are read once, however many places it has.
+        let of_uvs = |primitive: &Primitive| {
+            let Primitive { attributes, indices, .. } = primitive;
+            let vertices =
+                count(attributes.position).min(indices.map_or(u64::MAX, |indices| count(Some(indices))));
+            vertices.saturating_mul(attributes.uvs.len() as u64).saturating_mul(PER_UV)
+        };
+        let sum = |mesh: &Mesh, of: &dyn Fn(&Primitive) -> u64| {
+            mesh.primitives.iter().map(of).fold(0, u64::saturating_add)
+        };
         let of_mesh = |(mesh, places): (&Mesh, u64)| {
-            let once = mesh.primitives.iter().map(of_primitive).fold(0, u64::saturating_add);
-            once.saturating_mul(places.max(1))
+            sum(mesh, &of_corners).saturating_mul(places.max(1)).saturating_add(sum(mesh, &of_uvs))
         };
         self.meshes.iter().zip(places).map(of_mesh).fold(0, u64::saturating_add)
     }
@@ -227,10 +323,20 @@ mod tests {
 
     /// The estimate of a `.gltf`, and its size.
     fn of_gltf(text: &str) -> (u64, u64) {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("m.gltf");
+        of_gltf_beside(&[], &LoadOptions::default(), text)
+    }
+
+    /// As [`of_gltf`], with files of these sizes at paths relative to its folder.
+    fn of_gltf_beside(files: &[(&str, u64)], options: &LoadOptions, text: &str) -> (u64, u64) {
+        let outside = tempfile::tempdir().expect("a folder");
+        let folder = outside.path().join("models");
+        fs::create_dir(&folder).expect("a folder");
+        for (name, size) in files {
+            File::create(folder.join(name)).and_then(|file| file.set_len(*size)).expect("a file");
+        }
+        let path = folder.join("m.gltf");
         fs::write(&path, text).expect("a file");
-        (of_file(&path), text.len() as u64)
+        (of_file(&path, options), text.len() as u64)
     }
 
     fn of_primitives(primitive: &str, members: &str) -> (u64, u64) {
@@ -241,7 +347,7 @@ mod tests {
 
     /// A file with `beside` bytes that its JSON declares.
     fn declares((estimate, size): (u64, u64), files: u64, beside: u64) {
-        assert_eq!(estimate, BASE + PER_BYTE * (size + files) + beside);
+        assert_eq!(estimate, BASE + PER_BYTE_OF_JSON * size + PER_BYTE * files + beside);
     }
 
     fn has_the_limit((estimate, size): (u64, u64), files: u64) {
@@ -256,6 +362,61 @@ mod tests {
         declares(of_primitives(primitive, r#","nodes":[{"mesh":0},{},{"mesh":0},{"mesh":7}]"#), 0, 2 * once);
         let targets = r#"{"attributes":{"POSITION":0},"targets":[{},{},{}]}"#;
         declares(of_primitives(targets, ""), 0, once + 3 * 1000 * PER_CORNER);
+    }
+
+    #[test]
+    fn uv_sets_are_counted_once_for_each_accessor_and_vertex_that_is_used() {
+        let uvs = |sets: &str, more: &str| {
+            of_primitives(
+                &format!(r#"{{"attributes":{{"POSITION":0{sets}}}{more}}}"#),
+                r#","nodes":[{"mesh":0}]"#,
+            )
+        };
+        let once = PER_PRIMITIVE + 1000 * PER_CORNER;
+        declares(uvs(r#","TEXCOORD_0":1"#, ""), 0, once + 8 * 1000);
+        declares(
+            uvs(r#","TEXCOORD_0":1,"TEXCOORD_1":1,"TEXCOORD_2":0,"NORMAL":1"#, ""),
+            0,
+            once + 2 * 8 * 1000,
+        );
+        declares(uvs(r#","TEXCOORD_0":1,"TEXCOORD_1":0"#, r#","indices":1"#), 0, once + 2 * 8 * 300);
+        let places = r#","nodes":[{"mesh":0},{"mesh":0},{"mesh":0}]"#;
+        let primitive = r#"{"attributes":{"POSITION":0,"TEXCOORD_0":1}}"#;
+        declares(of_primitives(primitive, places), 0, 3 * once + 8 * 1000);
+    }
+
+    #[test]
+    fn a_file_of_buffers_counts_as_a_whole_and_once() {
+        let files = [("a.bin", 5000), ("b c.bin", 700), ("../outside.bin", 90_000)];
+        let default = LoadOptions::default();
+        let text = |buffers: &str| format!(r#"{{"buffers":[{buffers}]}}"#);
+        let of = |buffers: &str, options| of_gltf_beside(&files, options, &text(buffers));
+        declares(of(r#"{"byteLength":36,"uri":"a.bin"}"#, &default), 5000, 0);
+        declares(of(r#"{"byteLength":5001,"uri":"a.bin"}"#, &default), 5001, 0);
+        let many = r#"{"byteLength":36,"uri":"a.bin"},{"uri":"a.bin"},{"uri":"./a.bin"},{"byteLength":1,"uri":"b%20c.bin"}"#;
+        declares(of(many, &default), 5700, 0);
+        has_the_limit(
+            of_gltf_beside(&files, &default, &format!(r#"{{"images":[{{}}],"buffers":[{many}]}}"#)),
+            15_700,
+        );
+        declares(
+            of(r#"{"byteLength":8,"uri":"none.bin"},{"byteLength":9,"uri":"data:,x"}"#, &default),
+            17,
+            0,
+        );
+        let outside = r#"{"byteLength":36,"uri":"../outside.bin"}"#;
+        declares(of(outside, &default), 36, 0);
+        declares(of(outside, &default.with_allow_outside(true)), 90_000, 0);
+    }
+
+    #[test]
+    fn the_bytes_of_a_glb_after_its_json_count_less() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("m.glb");
+        let head = b"glTF\x02\0\0\0\x1C\x10\0\0\x04\0\0\0JSON{  }\0\x10\0\0BIN\0";
+        fs::write(&path, [&head[..], &[0; 4096]].concat()).expect("a file");
+        let others = head.len() as u64 - 4 + 4096;
+        declares((of_file(&path, &LoadOptions::default()), 4), others, 0);
     }
 
     #[test]
@@ -282,8 +443,9 @@ mod tests {
         let path = folder.path().join("m.gltf");
         let text = r#"{"images":[{"uri":"a.png"}],"buffers":[{"byteLength":1000,"uri":"a.bin"}]}"#;
         fs::write(&path, text).expect("a file");
-        has_the_limit((of_model(&path, true), text.len() as u64), 1000);
-        declares((of_model(&path, false), text.len() as u64), 1000, 0);
+        let options = LoadOptions::default();
+        has_the_limit((of_model(&path, &options, true), text.len() as u64), 1000);
+        declares((of_model(&path, &options, false), text.len() as u64), 1000, 0);
     }
 
     #[test]

@@ -48,9 +48,8 @@ impl Document {
         let failed = |source| Error::Read { file: path.to_owned(), source };
         let input = paths::resolve_input(path)?;
         let bytes = access.open(&input, options.memory_limit.process()).map_err(failed)?;
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let name = path.display().to_string();
-        let mut document = Self::from_file(&name, bytes, Some(folder), options, access)?;
+        let mut document = Self::from_file(&name, bytes, Some(paths::folder_of(path)), options, access)?;
         document.input = Some(input);
         Ok(document)
     }

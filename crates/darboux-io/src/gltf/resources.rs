@@ -161,6 +161,16 @@ impl Resources {
     }
 }
 
+/// The file that a URI of the glTF at `document` names, links resolved; none where it is not a regular file
+/// that [`Document::open`](super::Document::open) reads with these options.
+pub fn file_of_uri(document: &Path, uri: &str, options: &LoadOptions) -> Option<PathBuf> {
+    let resources = Resources::new(Some(paths::folder_of(document)), *options, FileAccess::default()).ok()?;
+    match resources.resolve(uri).ok()? {
+        UriTarget::File(located) => Some(located.path),
+        UriTarget::Data(_) | UriTarget::Remote => None,
+    }
+}
+
 fn same_files(a: &Path, b: &Path) -> io::Result<bool> {
     if fs::metadata(a)?.len() != fs::metadata(b)?.len() {
         return Ok(false);
@@ -291,6 +301,28 @@ mod tests {
             assert_eq!(scheme(&uri), None, "{name:?}");
             assert_eq!(decoded_path(&uri).and_then(|path| normalised(&path)), Some(portable), "{name:?}");
         }
+    }
+
+    #[test]
+    fn files_of_uris_are_those_that_are_read() {
+        let outside = tempfile::tempdir().unwrap();
+        let folder = outside.path().canonicalize().unwrap().join("models");
+        fs::create_dir(&folder).unwrap();
+        fs::write(folder.join("a b.bin"), "").unwrap();
+        fs::write(folder.join("../c.bin"), "").unwrap();
+        let document = folder.join("m.gltf");
+        let file = |uri, allows: bool| {
+            file_of_uri(&document, uri, &LoadOptions::default().with_allow_outside(allows))
+        };
+        assert_eq!(file("a%20b.bin", false), Some(folder.join("a b.bin")));
+        for uri in ["none.bin", ".", "data:,a", "https://a/b.bin", "file:a%20b.bin"] {
+            assert_eq!([file(uri, false), file(uri, true)], [None, None], "{uri}");
+        }
+        assert_eq!(file("../c.bin", false), None);
+        assert_eq!(
+            file("../c.bin", true),
+            outside.path().canonicalize().ok().map(|folder| folder.join("c.bin"))
+        );
     }
 
     #[test]

@@ -74,7 +74,7 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, Error> {
 
 /// The folder of a file, links resolved.
 fn folder_of(path: &Path) -> Result<PathBuf, Error> {
-    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let parent = paths::folder_of(path);
     parent.canonicalize().map_err(|source| Error::Read { file: parent.to_owned(), source })
 }
 

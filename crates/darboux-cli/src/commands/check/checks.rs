@@ -54,7 +54,7 @@ impl Checks<'_> {
             loop {
                 let number = next.fetch_add(1, Ordering::Relaxed);
                 let Some(input) = inputs.get(number) else { return };
-                let _share = memory.wait_for(|| input.memory());
+                let _share = memory.wait_for(|| input.memory(&self.reading.load_options()));
                 let _progress = messages.file(&input.to_string(), input.byte_length());
                 // Every number is taken once.
                 _ = checked[number].set(self.check_file(input));

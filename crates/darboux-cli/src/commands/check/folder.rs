@@ -2,13 +2,14 @@
 //! of its models uses.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
 
 use darboux_io::FileKind;
 use darboux_io::obj::companions;
 use walkdir::WalkDir;
 
+use crate::model_json::ModelJson;
 use crate::paths::is_image;
 use crate::regular_file::{Links, open_regular};
 use crate::text::{command_line, counted};
@@ -25,7 +26,7 @@ pub fn maps_instead(folder: &Path) -> Option<String> {
 }
 
 /// Which images of a folder are named like normal maps and are used by none of its models, as a sentence;
-/// none where there are none.
+/// none where there are none, and where a model may use all of them, because its names cannot be read.
 pub fn unused_maps<'a>(folder: &Path, models: impl Iterator<Item = &'a Path>) -> Option<String> {
     let mut images = images(folder);
     images.retain(|path| is_named_like_normals(path));
@@ -33,7 +34,7 @@ pub fn unused_maps<'a>(folder: &Path, models: impl Iterator<Item = &'a Path>) ->
         return None;
     }
     for model in models {
-        let named = names_in(model);
+        let named = names_in(model)?;
         images.retain(|path| path.file_name().is_none_or(|name| !named.contains(&*name.to_string_lossy())));
     }
     let first = images.first()?.display().to_string();
@@ -46,30 +47,29 @@ pub fn unused_maps<'a>(folder: &Path, models: impl Iterator<Item = &'a Path>) ->
 }
 
 /// A text with the names of the images that a model uses: the JSON of a glTF, the textures of an OBJ's
-/// libraries, or the start of another file.
-fn names_in(model: &Path) -> String {
+/// libraries, or the start of another file. None where it cannot be read, or is the JSON of a glTF and has
+/// more than is read of one.
+fn names_in(model: &Path) -> Option<String> {
     if FileKind::of(model) == Some(FileKind::Obj) {
         let files = companions(model).unwrap_or_default();
-        return files.into_iter().map(|file| file.name + "\n").collect();
+        return Some(files.into_iter().map(|file| file.name + "\n").collect());
     }
-    String::from_utf8_lossy(&json_of(model).unwrap_or_default()).replace("%20", " ")
-}
-
-/// The most bytes of a file that is no GLB in which names are looked for.
-const MOST_TEXT: u64 = 256 << 20;
-
-/// The JSON of a model file; none where it cannot be read.
-fn json_of(model: &Path) -> Option<Vec<u8>> {
     let mut file = open_regular(model, File::options().read(true), Links::Follow).ok()?;
-    let mut head = Vec::new();
-    file.by_ref().take(20).read_to_end(&mut head).ok()?;
-    let length = match head.get(12..16).filter(|_| head.starts_with(b"glTF")) {
-        Some(length) => u64::from(u32::from_le_bytes(length.try_into().ok()?)),
-        None => MOST_TEXT,
+    let text = match ModelJson::of(&mut file, model) {
+        ModelJson::Text(text) => text,
+        ModelJson::Unread => return None,
+        ModelJson::Absent => {
+            let mut start = Vec::new();
+            file.rewind().ok()?;
+            file.take(MOST_TEXT).read_to_end(&mut start).ok()?;
+            start
+        }
     };
-    file.take(length).read_to_end(&mut head).ok()?;
-    Some(head)
+    Some(String::from_utf8_lossy(&text).replace("%20", " "))
 }
+
+/// The most bytes of a file that is no glTF in which names are looked for.
+const MOST_TEXT: u64 = 256 << 20;
 
 /// The images of a folder.
 fn images(folder: &Path) -> Vec<PathBuf> {

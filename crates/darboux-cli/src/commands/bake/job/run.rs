@@ -249,14 +249,16 @@ struct BakeMemory {
 
 impl BakeMemory {
     fn of(arguments: &BakeArguments) -> Self {
-        let BakeArguments { low, high, cage, size, report, .. } = arguments;
+        let BakeArguments { low, high, cage, size, report, reading, .. } = arguments;
+        let options = reading.load_options();
         // Pages draw all models with their textures. Where images are not decoded, they are counted in the
         // bytes.
         let draws_textures = report.is_some();
-        let high =
-            high.iter().map(|path| memory::of_model(path, draws_textures || arguments.reads_textures()));
-        let low = memory::of_model(low, draws_textures);
-        let cage = cage.iter().map(|path| memory::of_model(path, false));
+        let high = high
+            .iter()
+            .map(|path| memory::of_model(path, &options, draws_textures || arguments.reads_textures()));
+        let low = memory::of_model(low, &options, draws_textures);
+        let cage = cage.iter().map(|path| memory::of_model(path, &options, false));
         let models = high.chain([low]).chain(cage).fold(0, u64::saturating_add);
         let texels = u64::from(size[0]) * u64::from(size[1]);
         let maps = texels * (64 + 24 * arguments.baked_maps().kinds().count() as u64);
