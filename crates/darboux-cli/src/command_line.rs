@@ -43,8 +43,8 @@ wrong, what it looks like and the cure; with --fix it writes the repaired file.
 The commands that write models change what they name and leave everything else in the file as it is.
 
 Messages go to standard error, results to standard output. Exit codes: 0 done (also if there was nothing to do), 1 an input is bad or a file \
-failed, 2 wrong usage, 3 compared files differ by more than the tolerance. After Ctrl-C, SIGTERM or SIGHUP the file that is being written \
-is completed first.";
+failed, 2 wrong usage, 3 compared files differ by more than the tolerance. After Ctrl-C (exit code 130), SIGTERM or SIGHUP the file that is \
+being written is completed first.";
 
 /// The subcommands.
 #[derive(Debug, Subcommand)]

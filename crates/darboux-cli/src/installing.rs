@@ -3,7 +3,7 @@
 /// The command line that installs the command with a feature.
 #[cfg(not(all(feature = "bake", feature = "fbx", feature = "gpu", feature = "view")))]
 pub fn install_with(feature: &str) -> String {
-    format!("cargo install {} --features {feature}", package(env!("CARGO_MANIFEST_DIR")))
+    format!("cargo install --locked {} --features {feature}", package(env!("CARGO_MANIFEST_DIR")))
 }
 
 /// What `cargo install` is told to build. `folder`: where the sources of this build were. The folder of a

@@ -95,6 +95,15 @@ fn a_code_is_not_both_reported_and_allowed() {
     assert_eq!(run.stderr.trim().lines().count(), 1, "{}", run.stderr);
 }
 
+/// No finding can name what did not come into the document, so a warning does.
+#[test]
+fn textures_that_an_obj_lacks_are_warned_of() {
+    let folder = folder_with(&["blender/scene.obj", "blender/scene.mtl"]);
+    let run = darboux(&["check", text(&folder.path().join("scene.obj"))]).exits(0);
+    let is_named = |line: &str| line.starts_with("warning: ") && line.contains("scene_normal.png");
+    assert!(run.stderr.lines().any(is_named), "{}", run.stderr);
+}
+
 /// The maps of an OBJ are named in its library.
 #[test]
 fn normal_maps_of_an_obj_are_used() {

@@ -57,7 +57,7 @@ impl Checks<'_> {
                 let _share = memory.wait_for(|| input.memory(&self.reading.load_options()));
                 let _progress = messages.file(&input.to_string(), input.byte_length());
                 // Every number is taken once.
-                _ = checked[number].set(self.check_file(input));
+                _ = checked[number].set(self.check_file(input, messages));
             }
         };
         let cores = || thread::available_parallelism().map_or(1, NonZeroUsize::get);
@@ -72,7 +72,7 @@ impl Checks<'_> {
         checked.into_iter().filter_map(OnceLock::into_inner).collect()
     }
 
-    fn check_file(&self, input: &Input) -> CheckedFile {
+    fn check_file(&self, input: &Input, messages: &Messages) -> CheckedFile {
         let limit = self.reading.load_options().memory_limit;
         let options = self.findings.check_options().with_memory_limit(limit);
         let name = input.to_string();
@@ -94,12 +94,24 @@ impl Checks<'_> {
                 }
                 None => {
                     let document = source.load(&self.reading)?;
+                    warn_of_source(&document, messages);
                     let findings = check_document(&document, &options).map_err(|error| error.to_string())?;
                     Ok(reported(findings, None, Some(&document)))
                 }
             }
         };
         net::catch(input, check).unwrap_or_else(|sentence: String| failed(name.clone(), sentence))
+    }
+}
+
+/// Says what of a file in another format than glTF is not in its document, as textures that are missing:
+/// no finding can name it.
+fn warn_of_source(document: &Document, messages: &Messages) {
+    if document.provenance().is_some() {
+        document
+            .warnings()
+            .iter()
+            .for_each(|warning| messages.warn(&format!("{}: {warning}", document.name())));
     }
 }
 
