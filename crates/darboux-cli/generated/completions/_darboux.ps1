@@ -26,7 +26,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('-V', '-V ', [CompletionResultType]::ParameterName, 'Print version')
             [CompletionResult]::new('--version', '--version', [CompletionResultType]::ParameterName, 'Print version')
             [CompletionResult]::new('tangents', 'tangents', [CompletionResultType]::ParameterValue, 'Add tangents to models')
-            [CompletionResult]::new('normals', 'normals', [CompletionResultType]::ParameterValue, 'Add normals to glTF and GLB files')
+            [CompletionResult]::new('normals', 'normals', [CompletionResultType]::ParameterValue, 'Add normals to models')
             [CompletionResult]::new('convert', 'convert', [CompletionResultType]::ParameterValue, 'Convert normal maps and models between conventions')
             [CompletionResult]::new('check', 'check', [CompletionResultType]::ParameterValue, 'Say what is wrong with models and normal maps')
             [CompletionResult]::new('report', 'report', [CompletionResultType]::ParameterValue, 'Write what is wrong with models as one HTML file with pictures')

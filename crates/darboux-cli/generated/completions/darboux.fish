@@ -27,7 +27,7 @@ end
 complete -c darboux -n "__fish_darboux_needs_command" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_needs_command" -s V -l version -d 'Print version'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "tangents" -d 'Add tangents to models'
-complete -c darboux -n "__fish_darboux_needs_command" -f -a "normals" -d 'Add normals to glTF and GLB files'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "normals" -d 'Add normals to models'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "convert" -d 'Convert normal maps and models between conventions'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "check" -d 'Say what is wrong with models and normal maps'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "report" -d 'Write what is wrong with models as one HTML file with pictures'
