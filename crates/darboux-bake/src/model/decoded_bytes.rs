@@ -1,5 +1,5 @@
-//! [`DecodedBytes`]: the decoded images of a document, normal maps and all others, share the document's memory
-//! limit.
+//! [`DecodedBytes`]: the decoded images of a document, normal maps and all others, share the document's
+//! memory limit.
 
 use std::borrow::Cow;
 
