@@ -9,7 +9,7 @@ use crate::run::{Outcome, output_of, program, run, shown, target_folder};
 
 const MODEL: &str = "assets/NormalTangentTest/NormalTangentTest.glb";
 /// What the command prints about a subcommand or option that this build lacks.
-const INSTALL: &str = "cargo install --path crates/darboux-cli --features full";
+const INSTALL: &str = "cargo install --locked --path crates/darboux-cli --features full";
 /// Command lines that need other features.
 const MISSING: [&str; 4] = [
     "render a.glb -o a.png --view tangent",
@@ -38,7 +38,7 @@ pub fn check() -> Outcome {
 /// Errors: the command does not say that a file is FBX, and how to install what reads it; or the help lists
 /// the ending of a format that is not read.
 fn names_fbx(darboux: &Path) -> Outcome {
-    let install = "cargo install --path crates/darboux-cli --features fbx";
+    let install = "cargo install --locked --path crates/darboux-cli --features fbx";
     let file = "assets/blender/scene.fbx";
     for arguments in [&["check", file][..], &["inspect", "assets/blender"]] {
         let mut command = Command::new(darboux);
