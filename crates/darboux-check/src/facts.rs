@@ -77,15 +77,17 @@ impl<'a> SurfaceFacts<'a> {
         self.surface.ineligible.is_none() && !is_undecided
     }
 
-    /// Whether the tangents of all corners of a triangle are those of MikkTSpace, up to rounding.
+    /// Whether the tangents of all corners of a triangle are those of MikkTSpace, up to rounding, or those with
+    /// all three signs flipped.
     pub fn has_expected_tangents(&self, triangle: usize) -> bool {
         let (Some(tangents), Some(expected)) = (&self.surface.tangents, &self.expected) else { return false };
-        let corners = 3 * triangle..3 * triangle + 3;
-        let mut vertices = self.surface.vertex_of_corner[corners.clone()].iter().zip(&expected[corners]);
-        vertices.all(|(&vertex, expected)| {
-            let difference = CornerDifference::between(*expected, tangents[vertex as usize]);
+        let flips = |corner: usize| {
+            let vertex = self.surface.vertex_of_corner[3 * triangle + corner] as usize;
+            let difference = CornerDifference::between(expected[3 * triangle + corner], tangents[vertex]);
             let is_close = difference.angle.is_some_and(|angle| angle <= rounding(self.surface));
-            is_close && !difference.flips_sign
-        })
+            is_close.then_some(difference.flips_sign)
+        };
+        let of_corners = [0, 1, 2].map(flips);
+        of_corners[0].is_some() && of_corners == [of_corners[0]; 3]
     }
 }
