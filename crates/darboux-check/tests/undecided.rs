@@ -5,7 +5,8 @@ mod support;
 
 use darboux::Method;
 use darboux_check::{
-    AssumedMap, CheckOptions, Code, Finding, FixOptions, Severity, check_document, fix_document,
+    AssumedMap, CheckOptions, Code, Finding, FixOptions, ReportedFinding, Severity, check_document,
+    diagnosis, fix_document,
 };
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
@@ -136,6 +137,11 @@ fn an_image_elsewhere_is_not_checked_and_one_that_is_absent_is_an_error() {
         let map = findings.iter().find(|finding| finding.code == Code::MapUnreadable).expect("the finding");
         assert_eq!(map.severity, severity, "{}", map.text);
         assert!(map.cure.starts_with(cure) && map.evidence.is_empty(), "{map:?}");
+        if severity == Severity::NotChecked {
+            let reported: Vec<ReportedFinding> = findings.iter().cloned().map(Into::into).collect();
+            let sentence = diagnosis(&reported);
+            assert!(sentence.ends_with("1 normal map was not checked, for the reason below."), "{sentence}");
+        }
         let others = findings.iter().filter(|finding| finding.code != Code::MapUnreadable);
         assert!(others.clone().all(|finding| finding.severity <= Severity::Info), "{findings:#?}");
     }

@@ -113,6 +113,12 @@ fn textures_of_blender_lie_as_in_its_gltf() {
     let [fbx, gltf] = ["mapping.fbx", "mapping.glb"]
         .map(|name| Document::open(&folder.join(name), &LoadOptions::default()).unwrap());
     assert_eq!(fbx.provenance().unwrap().not_carried, [""; 0]);
+    // A node of the type Point has the same numbers in the FBX.
+    assert!(
+        fbx.warnings().iter().any(|warning| warning.contains("of the type Texture")),
+        "{:?}",
+        fbx.warnings()
+    );
     let textures = |document: &Document| -> Vec<(String, [f64; 5], [u64; 2])> {
         let json = document.json();
         let of_material = |material: &Value| {

@@ -32,7 +32,7 @@ fn files_of_other_programs_are_named() {
         ("a.blend", b"\x1F\x8B\x08\0", "is a Blender file"),
         ("a.gz", b"\x1F\x8B\x08\0", "is compressed with gzip"),
         ("a.max", b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "is a scene of 3ds Max"),
-        ("a.3ds", b"\x4D\x4D\x10\x00\x00\x00\x3D\x3D", "is a 3DS file"),
+        ("a.3ds", b"\x4D\x4D\x08\x00\x00\x00\x3D\x3D", "is a 3DS file"),
         ("a.ma", b"//Maya ASCII 2025 scene", "is a scene of Maya"),
         ("a.mb", b"FOR8\0\0\0\0", "is a scene of Maya"),
         ("a.dae", b"<?xml version=\"1.0\"?>\n<COLLADA xmlns=\"\">", "is a COLLADA file"),
@@ -88,6 +88,15 @@ fn unknown_contents_are_named_by_the_ending() {
             )
         );
     }
+    // A text with letters beyond ASCII has no header of an STL.
+    let text =
+        "SOLID W\u{fc}rfel\nfacet normal 0 0 1 und so weiter, bis der Kopf von 84 Bytes voll ist, und mehr\n";
+    let latin: Vec<u8> = text.chars().map(|c| c as u8).collect();
+    for bytes in [text.as_bytes(), &latin, &latin[..30]] {
+        let sentence = refusal("a.stl", bytes);
+        assert!(sentence.starts_with("is named as STL, but its content is"), "{sentence}");
+    }
+    assert!(refusal("a.txt", b"MMhello world").starts_with("is of no format that is read"));
     for name in ["index.html", "model"] {
         assert_eq!(
             refusal(name, b"hello\n"),
@@ -152,4 +161,14 @@ fn files_of_almost_nothing_are_named() {
 fn a_ply_without_faces_is_named() {
     let header = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n";
     assert!(refusal("a.ply", header.as_bytes()).contains("without faces"));
+}
+
+/// Statements that say nothing about faces may come first.
+#[test]
+fn an_obj_may_begin_with_any_of_its_statements() {
+    for first in ["mg 1 1", "bevel off", "lod 2", "c_interp off", "usemap off"] {
+        let text = format!("{first}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        let read = Document::from_bytes("a.obj", text.into_bytes(), None, &LoadOptions::default());
+        assert_eq!(read.expect(first).meshes().len(), 1, "{first}");
+    }
 }

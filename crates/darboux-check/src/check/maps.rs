@@ -340,7 +340,10 @@ fn defects_of_image(
         Err(_) if document.is_remote_image(image) => {
             return unread(Unread::LeftOut("is on another machine".to_owned()));
         }
-        Err(error) => return unread(Unread::Absent(format!("cannot be read ({error})"))),
+        Err(error @ Error::Resource { .. }) => {
+            return unread(Unread::Absent(format!("cannot be read ({error})")));
+        }
+        Err(error) => return unread(Unread::Damaged(format!("cannot be read ({error})"))),
     };
     let key = document.image_source(image).map(|source| (source, users.hash_of_uses(image)));
     let same = key.as_ref().and_then(|key| decoded.judged.get(key));

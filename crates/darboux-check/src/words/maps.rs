@@ -109,7 +109,7 @@ fn unread(why: &Unread, bytes: f64) -> Said {
     match why {
         Unread::Damaged(problem) => Said::new(format!("it {problem}")).with("file", bytes, "bytes"),
         Unread::Absent(problem) => Said::new(format!("it {problem}"))
-            .with_cure("Put the image where the model refers to it, or correct the reference."),
+            .with_cure("Put the image where the model refers to it, or correct the reference; in the command, --allow-outside reads images of other folders."),
         Unread::OtherFormat(problem) => Said::new(format!("it was not checked, because it {problem}"))
             .with_cure("None needed. To check the map, check the model before its images are compressed.")
             .with("file", bytes, "bytes"),

@@ -88,10 +88,11 @@ pub fn run(arguments: &CheckArguments) -> u8 {
             };
             let good = report.files.iter().filter(|file| file.error.is_none());
             let mut text: String = good.map(describe).collect();
+            let lists_some = !text.is_empty();
             if !is_quiet && report.files.len() > 1 {
                 text += &text::total(&report.totals);
             }
-            if !is_quiet && is_brief && !arguments.files.verbose {
+            if !is_quiet && is_brief && !arguments.files.verbose && lists_some {
                 text += text::HOW_TO_SEE_MORE;
             }
             Ok(text.into_bytes())

@@ -160,6 +160,8 @@ struct Primitive {
     attributes: Attributes,
     indices: Option<usize>,
     #[serde(default)]
+    mode: Option<u64>,
+    #[serde(default)]
     targets: Vec<IgnoredAny>,
     #[serde(default)]
     extensions: Extensions,
@@ -254,6 +256,11 @@ impl Declared {
             let (count, bytes) = uris.entry(uri).or_default();
             (*count, *bytes) = (*count + 1, buffer.byte_length.max(*bytes));
         }
+        /// Looking up more takes longer than processing the file alone.
+        const MOST_URIS: usize = 1000;
+        if uris.len() > MOST_URIS {
+            return BufferSizes { kept: u64::MAX, named: u64::MAX };
+        }
         let mut sizes = BufferSizes::default();
         let mut files: BTreeMap<PathBuf, u64> = BTreeMap::new();
         for (uri, (count, bytes)) in uris {
@@ -292,7 +299,12 @@ impl Declared {
             accessor.and_then(|index| self.accessors.get(index)).map_or(0, |accessor| accessor.count)
         };
         let of_corners = |primitive: &Primitive| {
-            let corners = count(primitive.indices).max(count(primitive.attributes.position));
+            let listed = count(primitive.indices).max(count(primitive.attributes.position));
+            // Each element of a strip or a fan ends a triangle.
+            let corners = match primitive.mode {
+                Some(5 | 6) => listed.saturating_mul(3),
+                _ => listed,
+            };
             let shapes = 1 + primitive.targets.len() as u64;
             corners.saturating_mul(PER_CORNER).saturating_mul(shapes).saturating_add(PER_PRIMITIVE)
         };
@@ -383,6 +395,19 @@ mod tests {
         let places = r#","nodes":[{"mesh":0},{"mesh":0},{"mesh":0}]"#;
         let primitive = r#"{"attributes":{"POSITION":0,"TEXCOORD_0":1}}"#;
         declares(of_primitives(primitive, places), 0, 3 * once + 8 * 1000);
+    }
+
+    /// Each element of a strip or a fan but two ends a triangle.
+    #[test]
+    fn strips_and_fans_have_three_corners_for_each_element() {
+        let of_mode = |mode: u32| {
+            let primitive = format!(r#"{{"attributes":{{"POSITION":0}},"mode":{mode}}}"#);
+            of_primitives(&primitive, "")
+        };
+        declares(of_mode(4), 0, PER_PRIMITIVE + 1000 * PER_CORNER);
+        for mode in [5, 6] {
+            declares(of_mode(mode), 0, PER_PRIMITIVE + 3 * 1000 * PER_CORNER);
+        }
     }
 
     #[test]

@@ -186,7 +186,14 @@ impl<'a> MaterialReader<'a> {
         let losses = losses.into_iter().filter(|(is_lost, _)| *is_lost);
         self.not_carried.extend(losses.map(|(_, what)| format!("{what} {name}")));
         let transform = match placement {
-            Placement::Moved(transform) => Some(transform),
+            Placement::Moved(transform) => {
+                if self.is_blenders {
+                    self.warnings.push(format!(
+                        "{name} is placed as by a Mapping node of the type Texture; Blender's FBX does not say the type: with Point, export glTF"
+                    ));
+                }
+                Some(transform)
+            }
             Placement::Plain | Placement::Unknown => None,
         };
         let clamps = [with_file.wrap_u, with_file.wrap_v].map(|wrap| wrap == WrapMode::Clamp);

@@ -196,6 +196,7 @@ impl Run<'_, '_> {
         for (Morph { movement, old, jobs, .. }, moved) in offsets {
             let sparse = movement.accessors().all(|accessor| lacks_buffer_view(document, accessor));
             offset_accessors.insert(movement, moved.of_vertices.push(document, old, sparse));
+            limits::check_output(document)?;
             stale_corners.extend(jobs.into_iter().map(|job| (movement, job)).zip(moved.stale_corners));
         }
         let results = GroupAccessors { split: &split, lists, tangents, offsets: offset_accessors };

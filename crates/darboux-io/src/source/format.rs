@@ -85,8 +85,29 @@ fn is_stl(bytes: &[u8], text: &[u8]) -> bool {
 }
 
 /// The first words of statements that only an OBJ has.
-const STATEMENTS: [&[u8]; 12] =
-    [b"v", b"vt", b"vn", b"vp", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"l", b"p"];
+const STATEMENTS: [&[u8]; 21] = [
+    b"v",
+    b"vt",
+    b"vn",
+    b"vp",
+    b"f",
+    b"o",
+    b"g",
+    b"s",
+    b"mtllib",
+    b"usemtl",
+    b"l",
+    b"p",
+    b"mg",
+    b"bevel",
+    b"c_interp",
+    b"d_interp",
+    b"lod",
+    b"maplib",
+    b"usemap",
+    b"shadow_obj",
+    b"trace_obj",
+];
 
 /// A text whose first statement is one of OBJ.
 fn is_obj(bytes: &[u8]) -> bool {

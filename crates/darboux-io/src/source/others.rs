@@ -116,7 +116,7 @@ fn by_start(bytes: &[u8]) -> Option<&'static str> {
     let at = |offset: usize, magic: &[u8]| bytes.get(offset..).is_some_and(|rest| rest.starts_with(magic));
     let found = STARTS.iter().find(|(start, _)| bytes.starts_with(start)).map(|&(_, clause)| clause);
     found.or_else(|| {
-        Some(if at(0, b"\x4D\x4D") && bytes.len() > 6 {
+        Some(if at(0, b"\x4D\x4D") && length_of_3ds(bytes) == Some(bytes.len()) {
             "is a 3DS file, which is not read; convert it to .glb"
         } else if at(0, b"FORM") && (at(8, b"LWO") || at(8, b"LXO")) {
             LIGHTWAVE
@@ -126,6 +126,12 @@ fn by_start(bytes: &[u8]) -> Option<&'static str> {
             return None;
         })
     })
+}
+
+/// The length that the first chunk of a 3DS file states, which is that of the file.
+fn length_of_3ds(bytes: &[u8]) -> Option<usize> {
+    let length = bytes.get(2..6)?.first_chunk()?;
+    usize::try_from(u32::from_le_bytes(*length)).ok()
 }
 
 /// Texts that may begin with white space and comments.
@@ -178,7 +184,11 @@ fn part_of_stl(bytes: &[u8], kind: Option<FileKind>) -> Option<String> {
     }
     let count =
         bytes.get(80..84).and_then(|bytes| bytes.first_chunk()).map(|count| u32::from_le_bytes(*count));
+    let header = &bytes[..bytes.len().min(84)];
+    let is_control = |byte: &u8| byte.is_ascii_control() && !byte.is_ascii_whitespace();
+    let is_text = header.iter().any(u8::is_ascii_alphabetic) && !header.iter().any(is_control);
     Some(match count {
+        _ if is_text => unknown(kind),
         None => format!(
             "is named as STL and has {} bytes, fewer than the 84 of an STL's header; export or download it again",
             bytes.len()

@@ -50,7 +50,8 @@ pub fn describe_folded(file: &CheckedFile) -> String {
 pub const HOW_TO_SEE_MORE: &str =
     "  -v prints what each of these means, what it looks like and what to type\n";
 
-/// A file in one line, with the codes of its errors and warnings; nothing for a model without any.
+/// A file in one line, with the codes of its errors, its warnings and what was not checked; nothing for a model without
+/// any.
 pub fn describe_briefly(file: &CheckedFile) -> String {
     let groups = by_kind(&file.findings);
     let of_severity = |severity: Severity, one: &str, more: &str| {
@@ -62,7 +63,8 @@ pub fn describe_briefly(file: &CheckedFile) -> String {
     let verdict = file.map.as_ref().map(verdict);
     let errors = of_severity(Severity::Error, "error", "errors");
     let warnings = of_severity(Severity::Warning, "warning", "warnings");
-    let parts: Vec<String> = verdict.into_iter().chain(errors).chain(warnings).collect();
+    let unchecked = of_severity(Severity::NotChecked, "map not checked", "maps not checked");
+    let parts: Vec<String> = verdict.into_iter().chain(errors).chain(warnings).chain(unchecked).collect();
     if parts.is_empty() {
         String::new()
     } else {

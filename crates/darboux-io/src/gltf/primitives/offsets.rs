@@ -2,7 +2,7 @@
 //! those are stored.
 
 use super::append::push_vectors;
-use crate::gltf::{Document, ElementType};
+use crate::gltf::{ComponentType, Document, ElementType};
 
 /// One offset per vertex.
 #[derive(Debug)]
@@ -35,15 +35,27 @@ impl VertexOffsets {
     /// Appends an accessor of the offsets; one of all vertices is sparse if that is permitted and shorter.
     /// Returns `old` if it has the same elements.
     pub fn push(self, document: &mut Document, old: Option<usize>, sparse: bool) -> usize {
-        let all = match self {
-            Self::Few { count, offsets } if old.is_none() => {
-                return document.push_few_vectors(count, &offsets);
-            }
-            Self::Few { count, offsets } => with_zeros(count, offsets),
-            Self::All(offsets) => offsets,
-        };
-        push_vectors(document, old, ElementType::Vec3, &all, sparse)
+        match self {
+            Self::All(offsets) => push_vectors(document, old, ElementType::Vec3, &offsets, sparse),
+            Self::Few { count, offsets } => match old {
+                Some(old) if has(document, old, count, &offsets) => old,
+                _ => document.push_few_vectors(count, &offsets),
+            },
+        }
     }
+}
+
+/// Whether an accessor of floats has these offsets and otherwise zeros, bit for bit.
+fn has(document: &Document, accessor: usize, count: usize, offsets: &[(u32, [f32; 3])]) -> bool {
+    let is_of_floats =
+        document.accessors().get(accessor).is_some_and(|found| found.component_type == ComponentType::F32);
+    let Ok(vectors) = document.vectors::<3>(accessor) else { return false };
+    let mut expected = offsets.iter().peekable();
+    let mut is_same = |(vertex, vector): (usize, &[f32; 3])| {
+        let offset = expected.next_if(|(place, _)| *place as usize == vertex);
+        offset.map_or([0.0; 3], |(_, offset)| *offset).map(f32::to_bits) == vector.map(f32::to_bits)
+    };
+    is_of_floats && vectors.len() == count && vectors.iter().enumerate().all(&mut is_same)
 }
 
 fn with_zeros(count: usize, offsets: Vec<(u32, [f32; 3])>) -> Vec<[f32; 3]> {
