@@ -77,8 +77,8 @@ impl<'a> SurfaceFacts<'a> {
         self.surface.ineligible.is_none() && !is_undecided
     }
 
-    /// Whether the tangents of all corners of a triangle are those of MikkTSpace, up to rounding, or those with
-    /// all three signs flipped.
+    /// Whether the tangents of all corners of a triangle are those of MikkTSpace, up to rounding, or those
+    /// with all three signs flipped.
     pub fn has_expected_tangents(&self, triangle: usize) -> bool {
         let (Some(tangents), Some(expected)) = (&self.surface.tangents, &self.expected) else { return false };
         let flips = |corner: usize| {

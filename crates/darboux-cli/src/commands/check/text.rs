@@ -50,8 +50,8 @@ pub fn describe_folded(file: &CheckedFile) -> String {
 pub const HOW_TO_SEE_MORE: &str =
     "  -v prints what each of these means, what it looks like and what to type\n";
 
-/// A file in one line, with the codes of its errors, its warnings and what was not checked; nothing for a model without
-/// any.
+/// A file in one line, with the codes of its errors, its warnings and what was not checked; nothing for a
+/// model without any.
 pub fn describe_briefly(file: &CheckedFile) -> String {
     let groups = by_kind(&file.findings);
     let of_severity = |severity: Severity, one: &str, more: &str| {
