@@ -297,3 +297,36 @@ fn textures_name_their_uv_set() {
         assert_eq!(tangents[0], expected, "{set}");
     }
 }
+
+/// Meshes that share a material may have the set that its texture names at other places, or not at all.
+#[test]
+fn a_uv_set_is_looked_up_in_each_mesh() {
+    let uv_set = "Properties70:  {\nP: \"UVSet\", \"KString\", \"\", \"\", \"second\"\n}\n";
+    let (textures, connections) = texture(12, "bumps", "NormalMap", uv_set);
+    for (name, place, warnings) in [("second", 0, 0), ("other", 0, 1)] {
+        let other = format!(
+            "Geometry: 6, \"Geometry::Other\", \"Mesh\" {{\nVertices: *9 {{\na: 0,0,0,1,0,0,0,1,0\n}}\nPolygonVertexIndex: *3 {{\na: 0,1,-3\n}}\nGeometryVersion: 124\n\
+            LayerElementUV: 0 {{\nVersion: 101\nName: \"{name}\"\nMappingInformationType: \"ByVertice\"\nReferenceInformationType: \"Direct\"\nUV: *6 {{\na: 0,0,1,0,0,1\n}}\n}}\n\
+            Layer: 0 {{\nVersion: 100\nLayerElement:  {{\nType: \"LayerElementUV\"\nTypedIndex: 0\n}}\n}}\n}}\n\
+            Model: 7, \"Model::Other\", \"Mesh\" {{\nVersion: 232\n}}\n"
+        );
+        let objects = format!("{other}{textures}");
+        let connections = format!("C: \"OO\",7,0\nC: \"OO\",6,7\nC: \"OO\",4,7\n{connections}");
+        let document = open(Parts { objects: &objects, connections: &connections, ..Parts::default() });
+        let json = document.json();
+        let set_of_mesh = |name: &str| {
+            let meshes = json["meshes"].as_array().unwrap();
+            let mesh = meshes.iter().find(|mesh| mesh["name"] == name).unwrap();
+            let material = mesh["primitives"][0]["material"].as_u64().unwrap() as usize;
+            json["materials"][material]["normalTexture"]
+                .get("texCoord")
+                .and_then(|set| set.as_u64())
+                .unwrap_or(0)
+        };
+        assert_eq!((set_of_mesh("Plate"), set_of_mesh("Other")), (1, place), "{name}");
+        assert_eq!(json["materials"].as_array().unwrap().len(), 2, "{name}");
+        assert_eq!(json["images"].as_array().unwrap().len(), 1, "{name}");
+        let found = document.warnings().iter().filter(|warning| warning.contains("UV set")).count();
+        assert_eq!(found, warnings, "{name}: {:?}", document.warnings());
+    }
+}

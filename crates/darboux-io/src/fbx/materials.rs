@@ -244,6 +244,13 @@ impl<'a> MaterialReader<'a> {
     }
 }
 
+/// The place of the UV set that each texture of a material names among these, which are those of a mesh; that
+/// of the first where there is none.
+pub fn places_of_uv_sets(material: &ufbx::Material, names: &[String]) -> Vec<usize> {
+    let place = |uv_set: &str| names.iter().position(|name| *name == shortened(uv_set)).unwrap_or(0);
+    material.textures.iter().map(|texture| place(&texture.texture.uv_set)).collect()
+}
+
 /// The opacity. Lambert's and Phong's materials have the opposite: a factor and a colour. Programs write 1
 /// and white for opaque materials, too, so that a material without any opacity is opaque.
 fn opacity(material: &ufbx::Material) -> f32 {

@@ -1,14 +1,14 @@
 //! From a scene of ufbx to a scene of polygons: nodes with their paths, meshes with the materials that their
 //! nodes give them, skins, shapes.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use darboux::{Axes, Axis};
 use ufbx::{CoordinateAxis, Mesh, Node, PropFlags, Scene};
 
 use super::deformers;
 use super::geometry::{self, Losses};
-use super::materials::MaterialReader;
+use super::materials::{self, MaterialReader};
 use crate::error::{ContentError, shortened};
 use crate::memory_limit::Budget;
 use crate::source::{
@@ -159,24 +159,45 @@ fn add_losses(losses: &[Losses], made: &mut SourceScene) {
 }
 
 fn add_materials(scene: &Scene, files: &ModelFiles, made: &mut SourceScene) {
-    // Textures name UV sets; those of the first mesh with the material decide.
-    let mut uv_sets: HashMap<u32, Vec<String>> = HashMap::new();
-    for mesh in &made.meshes {
-        for material in mesh.material_of_face.iter().flatten().chain(&mesh.material) {
-            uv_sets
-                .entry(*material)
-                .or_insert_with(|| mesh.uv_sets.iter().map(|set| set.name.clone()).collect());
-        }
-    }
     let mut reader = MaterialReader::new(scene, files);
-    for (index, material) in scene.materials.into_iter().enumerate() {
-        let sets = uv_sets.get(&(index as u32)).map_or(&[][..], Vec::as_slice);
-        made.materials.push(reader.material(material, sets));
+    let sets_of_materials = uv_sets_of_materials(scene, &mut made.meshes);
+    for (material, uv_sets) in &sets_of_materials {
+        made.materials.push(reader.material(&scene.materials[*material as usize], uv_sets));
     }
     made.images = reader.images;
-    made.warnings.append(&mut reader.warnings);
-    reader.not_carried.dedup();
-    made.not_carried.append(&mut reader.not_carried);
+    // A material of meshes with other UV sets was read more than once.
+    let mut known = HashSet::new();
+    let mut is_new = |line: &String| known.insert(line.clone());
+    made.warnings.extend(reader.warnings.into_iter().filter(&mut is_new));
+    made.not_carried.extend(reader.not_carried.into_iter().filter(&mut is_new));
+}
+
+/// The materials with the names of the UV sets of the meshes that have them, which their textures name. Where
+/// meshes have a set of that name at different places, further materials follow those of the file, and the
+/// meshes get these.
+fn uv_sets_of_materials(scene: &Scene, meshes: &mut [SourceMesh]) -> Vec<(u32, Vec<String>)> {
+    let mut sets: Vec<(u32, Vec<String>)> =
+        (0..scene.materials.count as u32).map(|material| (material, Vec::new())).collect();
+    let mut made: HashMap<(u32, Vec<usize>), u32> = HashMap::new();
+    let mut is_used = vec![false; sets.len()];
+    for mesh in meshes {
+        let names: Vec<String> = mesh.uv_sets.iter().map(|set| set.name.clone()).collect();
+        let mut with_sets = |material: &mut u32| {
+            let Some(found) = scene.materials.get(*material as usize) else { return };
+            let key = (*material, materials::places_of_uv_sets(found, &names));
+            *material = *made.entry(key).or_insert_with(|| {
+                if !std::mem::replace(&mut is_used[*material as usize], true) {
+                    sets[*material as usize].1.clone_from(&names);
+                    return *material;
+                }
+                sets.push((*material, names.clone()));
+                sets.len() as u32 - 1
+            });
+        };
+        mesh.material_of_face.iter_mut().flatten().for_each(&mut with_sets);
+        mesh.material.iter_mut().for_each(&mut with_sets);
+    }
+    sets
 }
 
 fn node(
