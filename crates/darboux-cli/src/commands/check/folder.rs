@@ -34,8 +34,7 @@ pub fn unused_maps<'a>(folder: &Path, models: impl Iterator<Item = &'a Path>) ->
         return None;
     }
     for model in models {
-        let named = names_in(model)?;
-        images.retain(|path| path.file_name().is_none_or(|name| !named.contains(&*name.to_string_lossy())));
+        drop_used(model, &mut images)?;
     }
     let first = images.first()?.display().to_string();
     let command = command_line(&["check"], &[&first]);
@@ -46,30 +45,50 @@ pub fn unused_maps<'a>(folder: &Path, models: impl Iterator<Item = &'a Path>) ->
     ))
 }
 
-/// A text with the names of the images that a model uses: the JSON of a glTF, the textures of an OBJ's
-/// libraries, or the start of another file. None where it cannot be read, or is the JSON of a glTF and has
-/// more than is read of one.
-fn names_in(model: &Path) -> Option<String> {
+/// Drops the images that a model names: in the JSON of a glTF, as textures of an OBJ's libraries, or anywhere
+/// in the start of another file. None where it cannot be read, or is the JSON of a glTF and has more than is
+/// read of one.
+fn drop_used(model: &Path, images: &mut Vec<PathBuf>) -> Option<()> {
     if FileKind::of(model) == Some(FileKind::Obj) {
         let files = companions(model).unwrap_or_default();
-        return Some(files.into_iter().map(|file| file.name + "\n").collect());
+        drop_named(&files.into_iter().map(|file| file.name + "\n").collect::<String>(), images);
+        return Some(());
     }
     let mut file = open_regular(model, File::options().read(true), Links::Follow).ok()?;
-    let text = match ModelJson::of(&mut file, model) {
-        ModelJson::Text(text) => text,
+    match ModelJson::of(&mut file, model) {
+        ModelJson::Text(text) => drop_named(&String::from_utf8_lossy(&text), images),
         ModelJson::Unread => return None,
         ModelJson::Absent => {
-            let mut start = Vec::new();
             file.rewind().ok()?;
-            file.take(MOST_TEXT).read_to_end(&mut start).ok()?;
-            start
+            drop_named_in_parts(file.take(MOST_TEXT), images)?;
         }
-    };
-    Some(String::from_utf8_lossy(&text).replace("%20", " "))
+    }
+    Some(())
 }
 
-/// The most bytes of a file that is no glTF in which names are looked for.
+/// The most bytes of a file that is no glTF in which names are looked for, how many of them at a time, and
+/// the longest name that is found across two such parts.
 const MOST_TEXT: u64 = 256 << 20;
+const PART: u64 = 1 << 20;
+const LONGEST_NAME: usize = 1024;
+
+fn drop_named_in_parts(mut file: impl Read, images: &mut Vec<PathBuf>) -> Option<()> {
+    let mut part = Vec::new();
+    loop {
+        part.drain(..part.len().saturating_sub(LONGEST_NAME));
+        let read = file.by_ref().take(PART).read_to_end(&mut part).ok()?;
+        drop_named(&String::from_utf8_lossy(&part), images);
+        if read == 0 || images.is_empty() {
+            return Some(());
+        }
+    }
+}
+
+/// Drops the images whose file names are in a text.
+fn drop_named(text: &str, images: &mut Vec<PathBuf>) {
+    let text = text.replace("%20", " ");
+    images.retain(|path| path.file_name().is_none_or(|name| !text.contains(&*name.to_string_lossy())));
+}
 
 /// The images of a folder.
 fn images(folder: &Path) -> Vec<PathBuf> {
@@ -84,4 +103,21 @@ fn is_named_like_normals(path: &Path) -> bool {
     ["normal", "nrm", "_nor", "_n"]
         .iter()
         .any(|part| name.contains(part) && (*part != "_n" || name.ends_with("_n")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A name may lie across two parts.
+    #[test]
+    fn names_are_found_in_parts() {
+        for before in [0, PART - 7, PART, 3 * PART - 1] {
+            let mut images = ["wall_normal.png", "floor_normal.png"].map(PathBuf::from).to_vec();
+            let name = std::io::Cursor::new(b"\xFFwall_normal.png\0");
+            let file = std::io::repeat(b'n').take(before).chain(name).chain(std::io::repeat(0).take(PART));
+            drop_named_in_parts(file, &mut images).expect("a file");
+            assert_eq!(images, [PathBuf::from("floor_normal.png")], "after {before} bytes");
+        }
+    }
 }
