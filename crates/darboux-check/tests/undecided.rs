@@ -8,8 +8,8 @@ use darboux_check::{
     AssumedMap, CheckOptions, Code, Finding, FixOptions, ReportedFinding, Severity, check_document,
     diagnosis, fix_document,
 };
-use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
+use darboux_io::{LoadOptions, MemoryLimit};
 use support::models::{Model, healthy_models};
 
 const AVIF: &[u8] = b"\0\0\0\x20ftypavif and more";
@@ -145,6 +145,24 @@ fn an_image_elsewhere_is_not_checked_and_one_that_is_absent_is_an_error() {
         let others = findings.iter().filter(|finding| finding.code != Code::MapUnreadable);
         assert!(others.clone().all(|finding| finding.severity <= Severity::Info), "{findings:#?}");
     }
+}
+
+/// An image that is larger than the memory limit is not read, and no error of the model.
+#[test]
+fn an_image_beyond_the_memory_limit_is_not_checked() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let image = folder.path().join("large.png");
+    std::fs::File::create(&image).and_then(|file| file.set_len(1 << 30)).expect("a file");
+    let path = folder.path().join("m.glb");
+    let file = with_image(&healthy_models().remove(0).glb(), "{\"uri\":\"large.png\"}");
+    std::fs::write(&path, file).expect("a file");
+    let limit = MemoryLimit::bytes(64 << 20);
+    let document = Document::open(&path, &LoadOptions::default().with_memory_limit(limit)).expect("a model");
+    let options = CheckOptions::default().with_memory_limit(limit);
+    let findings = check_document(&document, &options).expect("a valid document");
+    let map = findings.iter().find(|finding| finding.code == Code::MapUnreadable).expect("the finding");
+    assert_eq!(map.severity, Severity::NotChecked, "{}", map.text);
+    assert!(map.text.contains("is so large that it needs"), "{}", map.text);
 }
 
 /// Two mistakes that cancel on the whole model make no picture wrong: one warning says so.

@@ -343,6 +343,9 @@ fn defects_of_image(
         Err(error @ Error::Resource { .. }) => {
             return unread(Unread::Absent(format!("cannot be read ({error})")));
         }
+        Err(error @ Error::Unsupported { .. }) => {
+            return unread(Unread::LeftOut(format!("cannot be read ({error})")));
+        }
         Err(error) => return unread(Unread::Damaged(format!("cannot be read ({error})"))),
     };
     let key = document.image_source(image).map(|source| (source, users.hash_of_uses(image)));

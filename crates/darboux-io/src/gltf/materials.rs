@@ -438,6 +438,12 @@ impl Document {
                 Err(ContentError::resource(at, "is on another machine; download it and refer to the file"))
             }
             Ok(UriTarget::File(located)) => {
+                // The file is as large as its system says, and in memory already where it is no file.
+                let size = located.path.metadata().map_or(0, |metadata| metadata.len()) as usize;
+                let budget = self.options.budget(size, 0);
+                if size > budget.bytes {
+                    return Err(ContentError::unsupported(at, budget.exceeded("is so large that it needs")));
+                }
                 (self.resources.bytes(&located.path)).map(|bytes| Cow::Owned(bytes.into_vec())).map_err(
                     |error| ContentError::resource(at, format!("cannot be read: {}", system_reason(&error))),
                 )
