@@ -117,8 +117,8 @@ fn healthy(findings: &[ReportedFinding], repaired: usize) -> String {
     };
     match unchecked {
         0 => nothing,
-        1 => format!("{nothing} 1 normal map was not checked, for the reason below."),
-        count => format!("{nothing} {count} normal maps were not checked, for the reasons below."),
+        1 => format!("{nothing} 1 normal map was not checked; its finding says why."),
+        count => format!("{nothing} {count} normal maps were not checked; their findings say why."),
     }
 }
 

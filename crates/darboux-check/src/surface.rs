@@ -48,7 +48,7 @@ pub struct Surface {
     pub face_of_triangle: OncePer<Reading, Vec<u32>>,
     /// Whether the tilts of its triangles are kept, which take 240 bytes for each.
     pub keeps_tilts: bool,
-    /// How every so manieth triangle leans.
+    /// How triangles lean, by how the map is read and how many triangles are skipped between them.
     pub tilts: OncePer<(Reading, usize), Tilts>,
 }
 

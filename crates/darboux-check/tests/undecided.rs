@@ -140,7 +140,7 @@ fn an_image_elsewhere_is_not_checked_and_one_that_is_absent_is_an_error() {
         if severity == Severity::NotChecked {
             let reported: Vec<ReportedFinding> = findings.iter().cloned().map(Into::into).collect();
             let sentence = diagnosis(&reported);
-            assert!(sentence.ends_with("1 normal map was not checked, for the reason below."), "{sentence}");
+            assert!(sentence.ends_with("1 normal map was not checked; its finding says why."), "{sentence}");
         }
         let others = findings.iter().filter(|finding| finding.code != Code::MapUnreadable);
         assert!(others.clone().all(|finding| finding.severity <= Severity::Info), "{findings:#?}");

@@ -359,11 +359,14 @@ fn defects_of_image(
     }
     if decoded.are_many() {
         let texels = decoded.texels;
-        return unread(Unread::LeftOut(format!("comes after maps of {texels} texels")));
+        return unread(Unread::LeftOut(format!(
+            "comes after maps of {texels} texels, the most that one check decodes"
+        )));
     }
     if decoded.triangles > decoded.most_triangles {
         let triangles = decoded.triangles;
-        let problem = format!("comes after maps that were compared with {triangles} triangles");
+        let problem =
+            format!("comes after maps that were compared with {triangles} triangles, the most of one check");
         return unread(Unread::LeftOut(problem));
     }
     decoded.triangles = decoded.triangles.saturating_add(users.triangle_count(image));

@@ -56,7 +56,7 @@ const MIN_SHARE: f64 = 0.9;
 /// The largest share of corners whose sign may contradict the others.
 const MAX_SIGN_ERRORS: f64 = 0.01;
 
-/// The largest number of other UV sets that tangents are compared with. Programs write eight at most.
+/// The largest number of other UV sets that tangents are compared with, which bounds the time.
 const MAX_OTHER_SETS: usize = 16;
 
 /// Corners by the direction that is nearest to the file's tangent, and by sign.

@@ -15,7 +15,7 @@ pub struct MaterialReader<'a> {
     scene: &'a Scene,
     files: &'a ModelFiles,
     /// Whether Blender wrote the file.
-    is_blenders: bool,
+    is_from_blender: bool,
     /// What green means in normal maps, where the program that wrote the file decides it.
     green: Option<BitangentDirection>,
     /// The image of each texture file; none for those that cannot be read.
@@ -30,12 +30,13 @@ pub struct MaterialReader<'a> {
 impl<'a> MaterialReader<'a> {
     pub fn new(scene: &'a Scene, files: &'a ModelFiles) -> Self {
         // Blender's normal maps have green up. FBX itself does not say it, and other programs write either.
-        let is_blenders = matches!(scene.metadata.exporter, Exporter::BlenderBinary | Exporter::BlenderAscii);
+        let is_from_blender =
+            matches!(scene.metadata.exporter, Exporter::BlenderBinary | Exporter::BlenderAscii);
         Self {
             scene,
             files,
-            is_blenders,
-            green: is_blenders.then_some(BitangentDirection::Up),
+            is_from_blender,
+            green: is_from_blender.then_some(BitangentDirection::Up),
             image_of_file: HashMap::new(),
             is_grey: HashMap::new(),
             images: Vec::new(),
@@ -169,7 +170,7 @@ impl<'a> MaterialReader<'a> {
         let with_file = if texture.has_file { texture } else { texture.file_textures.into_iter().next()? };
         let image = self.image(with_file.file_index)?;
         let wanted = shortened(&texture.uv_set);
-        let uv_set = uv_sets.iter().position(|name| *name == wanted);
+        let uv_set = place_of_uv_set(texture, uv_sets);
         let name = &self.images[image].name;
         if uv_set.is_none() && !uv_sets.is_empty() && !["", "default"].contains(&&*wanted) {
             self.warnings.push(format!(
@@ -178,7 +179,7 @@ impl<'a> MaterialReader<'a> {
         }
         let uv_set = uv_set.unwrap_or(0);
         let layers = texture.file_textures.count;
-        let placement = placement::of(with_file, self.is_blenders);
+        let placement = placement::of(with_file, self.is_from_blender);
         let losses = [
             (placement == Placement::Unknown, "the scale, rotation or offset of"),
             (!texture.has_file && layers > 1, "the layers of a texture but"),
@@ -187,7 +188,7 @@ impl<'a> MaterialReader<'a> {
         self.not_carried.extend(losses.map(|(_, what)| format!("{what} {name}")));
         let transform = match placement {
             Placement::Moved(transform) => {
-                if self.is_blenders {
+                if self.is_from_blender {
                     self.warnings.push(format!(
                         "{name} is placed as by a Mapping node of the type Texture; Blender's FBX does not say the type: with Point, export glTF"
                     ));
@@ -247,8 +248,13 @@ impl<'a> MaterialReader<'a> {
 /// The place of the UV set that each texture of a material names among these, which are those of a mesh; that
 /// of the first where there is none.
 pub fn places_of_uv_sets(material: &ufbx::Material, names: &[String]) -> Vec<usize> {
-    let place = |uv_set: &str| names.iter().position(|name| *name == shortened(uv_set)).unwrap_or(0);
-    material.textures.iter().map(|texture| place(&texture.texture.uv_set)).collect()
+    let place = |texture: &Texture| place_of_uv_set(texture, names).unwrap_or(0);
+    material.textures.iter().map(|found| place(&found.texture)).collect()
+}
+
+fn place_of_uv_set(texture: &Texture, names: &[String]) -> Option<usize> {
+    let wanted = shortened(&texture.uv_set);
+    names.iter().position(|name| *name == wanted)
 }
 
 /// The opacity. Lambert's and Phong's materials have the opposite: a factor and a colour. Programs write 1

@@ -27,10 +27,10 @@ pub enum Placement {
     Unknown,
 }
 
-/// The placement of a texture. `is_blenders`: whether Blender wrote the file.
-pub fn of(texture: &Texture, is_blenders: bool) -> Placement {
+/// The placement of a texture. `is_from_blender`: whether Blender wrote the file.
+pub fn of(texture: &Texture, is_from_blender: bool) -> Placement {
     let values = Values::of(texture);
-    let transform = if is_blenders { values.of_blender() } else { values.of_others() };
+    let transform = if is_from_blender { values.of_blender() } else { values.of_others() };
     match transform {
         Some(([0.0, 0.0], 0.0, [1.0, 1.0])) => Placement::Plain,
         Some(moved) if is_finite(&moved) => Placement::Moved(moved),

@@ -172,9 +172,9 @@ fn add_materials(scene: &Scene, files: &ModelFiles, made: &mut SourceScene) {
     made.not_carried.extend(reader.not_carried.into_iter().filter(&mut is_new));
 }
 
-/// The materials with the names of the UV sets of the meshes that have them, which their textures name. Where
-/// meshes have a set of that name at different places, further materials follow those of the file, and the
-/// meshes get these.
+/// The materials of the file, each with the names of its meshes' UV sets, by which textures choose a set. A
+/// material whose meshes have the chosen set at different places is there once for each place: copies follow
+/// the materials of the file, and meshes are changed to them.
 fn uv_sets_of_materials(scene: &Scene, meshes: &mut [SourceMesh]) -> Vec<(u32, Vec<String>)> {
     let mut sets: Vec<(u32, Vec<String>)> =
         (0..scene.materials.count as u32).map(|material| (material, Vec::new())).collect();

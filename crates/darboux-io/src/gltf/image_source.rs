@@ -43,7 +43,7 @@ impl Document {
         }
     }
 
-    /// Whether an image is on another machine. Nothing is asked of other machines.
+    /// Whether an image is on another machine, from which nothing is read.
     pub fn is_remote_image(&self, index: usize) -> bool {
         let uri = self.root.images.get(index).and_then(|image| image.uri.as_deref());
         !self.image_files.contains_key(&index)

@@ -438,7 +438,7 @@ impl Document {
                 Err(ContentError::resource(at, "is on another machine; download it and refer to the file"))
             }
             Ok(UriTarget::File(located)) => {
-                // The file is as large as its system says, and in memory already where it is no file.
+                // Files that were given in memory are not on the disk, and take no more memory.
                 let size = located.path.metadata().map_or(0, |metadata| metadata.len()) as usize;
                 let budget = self.options.budget(size, 0);
                 if size > budget.bytes {

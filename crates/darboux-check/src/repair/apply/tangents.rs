@@ -39,7 +39,7 @@ pub fn correct(
     })?;
     let groups = Groups::of(document, corrections.iter().map(|correction| &correction.surface.place));
     let (mut split, mut remade) = (Vec::new(), Vec::new());
-    let mut of_accessors: BTreeMap<usize, Lists> = BTreeMap::new();
+    let mut of_accessors: BTreeMap<usize, Replacement> = BTreeMap::new();
     let mut changes = BTreeMap::new();
     for correction in corrections {
         let surface = &correction.surface;
@@ -60,12 +60,13 @@ pub fn correct(
             None => split.push((names, correction)),
         }
     }
-    let written =
-        of_accessors.iter().flat_map(|(&accessor, lists)| lists.lists.iter().map(move |_| accessor));
+    let written = of_accessors
+        .iter()
+        .flat_map(|(&accessor, replacement)| replacement.groups.iter().map(move |_| accessor));
     check_rewritten::<4>(document, written)?;
-    for (accessor, Lists { lists, .. }) in of_accessors {
+    for (accessor, Replacement { groups, .. }) in of_accessors {
         let old = document.vectors::<4>(accessor)?.into_owned();
-        for Rewritten { users, of_vertices } in lists {
+        for Rewritten { users, of_vertices } in groups {
             let mut tangents = old.clone();
             of_vertices.into_iter().for_each(|(vertex, tangent)| tangents[vertex] = tangent);
             document.set_tangents(&users, &tangents)?;
@@ -76,62 +77,60 @@ pub fn correct(
     Ok(changes)
 }
 
-/// The tangents that primitives want of vertices.
-type Wish = BTreeMap<usize, [f32; 4]>;
+/// Corrected tangents, by vertex.
+type TangentOfVertex = BTreeMap<usize, [f32; 4]>;
 
-/// Primitives that share an accessor, and the values that they want.
+/// Primitives that share an accessor, and their corrected tangents, which do not contradict each other.
 struct Rewritten {
     users: Vec<PrimitiveName>,
-    of_vertices: Wish,
+    of_vertices: TangentOfVertex,
 }
 
 impl Rewritten {
-    /// Whether no vertex is wanted with other bits.
-    fn agrees(&self, wish: &Wish) -> bool {
+    /// Whether no vertex has another tangent, by its bits.
+    fn agrees_with(&self, tangents: &TangentOfVertex) -> bool {
         let is_same = |(vertex, tangent): (&usize, &[f32; 4])| {
             self.of_vertices.get(vertex).is_none_or(|other| bits(*other) == bits(*tangent))
         };
-        wish.iter().all(is_same)
+        tangents.iter().all(is_same)
     }
 }
 
-/// The lists of values that take the place of an accessor: each is that of primitives that agree.
+/// What takes the place of one accessor: an accessor for each group of primitives that agree.
 #[derive(Default)]
-struct Lists {
-    lists: Vec<Rewritten>,
-    /// The list that was made for a wish, by the wish's hash.
-    by_wish: HashMap<u64, usize>,
+struct Replacement {
+    groups: Vec<Rewritten>,
+    /// The group that was made for a set of tangents, by the hash of the set.
+    group_of_hash: HashMap<u64, usize>,
 }
 
-impl Lists {
-    /// How many lists are asked whether they agree. Further ones are found by equal wishes alone, so that the
-    /// time is in proportion to the wishes.
-    const ASKED: usize = 4;
+impl Replacement {
+    /// How many groups are compared with each set of tangents. Further groups are found by equal sets alone,
+    /// so that the time is in proportion to the tangents.
+    const COMPARED: usize = 4;
 
-    /// Adds primitives to those that want no other values. Where all want others, they get an accessor of
-    /// their own.
-    fn add(&mut self, users: Vec<PrimitiveName>, wish: &Wish) {
-        let agrees = |lists: &[Rewritten], list: usize| lists[list].agrees(wish);
-        let asked = (0..self.lists.len().min(Self::ASKED)).find(|&list| agrees(&self.lists, list));
-        let hash = hash_of(wish);
-        let made = || self.by_wish.get(&hash).copied().filter(|&list| agrees(&self.lists, list));
-        match asked.or_else(made) {
-            Some(list) => {
-                let known = &mut self.lists[list];
-                known.users.extend(users);
-                known.of_vertices.extend(wish);
+    /// Adds primitives to the first group that agrees, or to a new group.
+    fn add(&mut self, users: Vec<PrimitiveName>, tangents: &TangentOfVertex) {
+        let agrees = |group: &usize| self.groups[*group].agrees_with(tangents);
+        let hash = hash_of(tangents);
+        let compared = 0..self.groups.len().min(Self::COMPARED);
+        match compared.chain(self.group_of_hash.get(&hash).copied()).find(agrees) {
+            Some(group) => {
+                let group = &mut self.groups[group];
+                group.users.extend(users);
+                group.of_vertices.extend(tangents);
             }
             None => {
-                self.by_wish.insert(hash, self.lists.len());
-                self.lists.push(Rewritten { users, of_vertices: wish.clone() });
+                self.group_of_hash.insert(hash, self.groups.len());
+                self.groups.push(Rewritten { users, of_vertices: tangents.clone() });
             }
         }
     }
 }
 
-fn hash_of(wish: &Wish) -> u64 {
+fn hash_of(tangents: &TangentOfVertex) -> u64 {
     let mut hasher = DefaultHasher::new();
-    wish.iter().for_each(|(vertex, tangent)| (vertex, bits(*tangent)).hash(&mut hasher));
+    tangents.iter().for_each(|(vertex, tangent)| (vertex, bits(*tangent)).hash(&mut hasher));
     hasher.finish()
 }
 

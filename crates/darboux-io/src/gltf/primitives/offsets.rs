@@ -38,7 +38,7 @@ impl VertexOffsets {
         match self {
             Self::All(offsets) => push_vectors(document, old, ElementType::Vec3, &offsets, sparse),
             Self::Few { count, offsets } => match old {
-                Some(old) if has(document, old, count, &offsets) => old,
+                Some(old) if has_offsets(document, old, count, &offsets) => old,
                 _ => document.push_few_vectors(count, &offsets),
             },
         }
@@ -46,7 +46,7 @@ impl VertexOffsets {
 }
 
 /// Whether an accessor of floats has these offsets and otherwise zeros, bit for bit.
-fn has(document: &Document, accessor: usize, count: usize, offsets: &[(u32, [f32; 3])]) -> bool {
+fn has_offsets(document: &Document, accessor: usize, count: usize, offsets: &[(u32, [f32; 3])]) -> bool {
     let is_of_floats =
         document.accessors().get(accessor).is_some_and(|found| found.component_type == ComponentType::F32);
     let Ok(vectors) = document.vectors::<3>(accessor) else { return false };
