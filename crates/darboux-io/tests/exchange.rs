@@ -150,10 +150,56 @@ fn what_is_left_out_is_listed() {
     assert!(document.left_out(FileKind::Glb).unwrap().is_empty());
 }
 
-/// An OBJ places textures by UVs only.
+/// MTL moves, scales and clamps textures, and does not rotate them. The texture's v points up in it.
 #[test]
-fn how_textures_lie_is_listed_for_an_obj() {
+fn textures_of_an_obj_lie_as_in_the_document() {
+    let folder = tempfile::tempdir().unwrap();
     let document = open(&blender("mapping.glb"));
-    let lost = document.left_out(FileKind::Obj).unwrap();
-    assert_eq!(lost, ["1 choice to clamp or mirror a texture", "KHR_texture_transform"]);
+    assert_eq!(document.left_out(FileKind::Obj).unwrap(), ["2 rotations of textures"]);
+    let obj = saved(&document, &folder.path().join("mapping.obj"));
+    assert_eq!(obj.warnings(), [""; 0]);
+    let library = fs::read_to_string(folder.path().join("mapping.mtl")).unwrap();
+    assert!(library.contains("map_Kd -o -0.5 -0.5 0 -s 2 4 1 "), "{library}");
+    let placements = |document: &Document| {
+        let names = document.json()["materials"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|material| material["name"].as_str().unwrap().replace(' ', "_"));
+        let textures = document.materials().unwrap().into_iter().map(|material| {
+            let texture = material.base_texture.unwrap();
+            let uvs = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|uv| texture.transform_uv(uv));
+            (uvs, texture.wrap)
+        });
+        names.zip(textures).collect::<BTreeMap<_, _>>()
+    };
+    let (mut wanted, found) = (placements(&document), placements(&obj));
+    let plain = wanted["plain"];
+    wanted.extend(["turned", "all"].map(|name| (name.to_owned(), plain)));
+    assert_eq!(found, wanted);
+}
+
+/// A texture may lie on other UVs than the tangents, and may be mirrored along one axis.
+#[test]
+fn what_an_obj_cannot_say_of_textures_is_listed() {
+    let gltf = json!({
+        "asset": {"version": "2.0"},
+        "samplers": [{"wrapS": 33648}],
+        "images": [{"uri": "a.png"}],
+        "textures": [{"source": 0, "sampler": 0}, {"source": 0}],
+        "materials": [{
+            "pbrMetallicRoughness": {
+                "baseColorTexture": {"index": 0},
+                "metallicRoughnessTexture": {"index": 1, "texCoord": 1},
+            },
+            "normalTexture": {"index": 1},
+        }],
+    });
+    let bytes = serde_json::to_vec(&gltf).unwrap();
+    let document = Document::from_bytes("model", bytes, None, &LoadOptions::default()).unwrap();
+    let wanted = [
+        "1 choice to mirror a texture, or to clamp it along one axis",
+        "1 texture on a UV set that is not written",
+    ];
+    assert_eq!(document.left_out(FileKind::Obj).unwrap(), wanted);
 }

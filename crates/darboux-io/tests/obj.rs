@@ -133,12 +133,17 @@ fn options_place_textures() {
         ("-o 0.25 0.5 0 -s 2 4 1 -clamp on", transform(moved), clamped),
         ("-s 2", transform(r#""offset":[0.0,0.0],"rotation":0.0,"scale":[2.0,1.0]"#), "null"),
         ("-s 1 1 1 -o 0 0 0 -clamp off", "null".to_owned(), "null"),
-        ("-o inf", "null".to_owned(), "null"),
     ] {
         assert_eq!(texture(options), (transform, samplers.to_owned(), Vec::new()), "{options}");
     }
-    let (_, _, warnings) = texture("-mm 0 2");
-    assert!(warnings.iter().any(|warning| warning.contains("options of textures")), "{warnings:?}");
+    for options in ["-mm 0 2", "-o inf", "-s 1 1e39", "-s 1 3e38 -o 0 3e38 -clamp off"] {
+        let (transform, _, warnings) = texture(options);
+        assert_eq!(transform, "null", "{options}");
+        assert!(
+            warnings.iter().any(|warning| warning.contains("options of textures")),
+            "{options} {warnings:?}"
+        );
+    }
 }
 
 #[test]

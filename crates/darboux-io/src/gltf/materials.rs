@@ -113,6 +113,11 @@ impl TextureUse {
     pub fn transform_uv(&self, uv: [f32; 2]) -> [f32; 2] {
         self.transform.map_or(uv, |transform| transform.apply(uv))
     }
+
+    /// The offset and the scale of `KHR_texture_transform`; none if it rotates the texture.
+    pub(super) fn offset_and_scale(&self) -> Option<([f32; 2], [f32; 2])> {
+        self.transform.map_or(Some(([0.0; 2], [1.0; 2])), |transform| transform.without_rotation())
+    }
 }
 
 /// The wrapping mode of UVs outside [0, 1].

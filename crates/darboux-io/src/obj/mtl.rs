@@ -43,7 +43,7 @@ pub struct MtlMap {
     pub scale: [f32; 2],
     /// Whether the option `-clamp` is on.
     pub is_clamped: bool,
-    /// Whether an option has no place in glTF: it changes the values or disturbs the texture.
+    /// Whether an option has no place in glTF: it changes the values, disturbs the texture, or is not finite.
     pub has_options: bool,
 }
 
@@ -63,13 +63,14 @@ impl Default for MtlMap {
 
 impl MtlMap {
     /// The offset, rotation and scale of `KHR_texture_transform`, whose v points down; none for a texture
-    /// that lies as UVs say, and for numbers that are not finite.
+    /// that lies as UVs say.
     pub fn transform(&self) -> Option<([f32; 2], f32, [f32; 2])> {
-        let ([x, y], [sx, sy]) = (self.offset, self.scale);
         let is_plain = self.offset == [0.0; 2] && self.scale == [1.0; 2];
-        let offset = [x, 1.0 - sy - y];
-        let is_finite = offset.iter().chain(&self.scale).all(|x| x.is_finite());
-        (!is_plain && is_finite).then_some((offset, 0.0, [sx, sy]))
+        (!is_plain).then_some((self.offset_in_gltf(), 0.0, self.scale))
+    }
+
+    fn offset_in_gltf(&self) -> [f32; 2] {
+        [self.offset[0], 1.0 - self.scale[1] - self.offset[1]]
     }
 }
 
@@ -160,5 +161,8 @@ fn map(rest: &[u8]) -> MtlMap {
         found.has_options |= ["-mm", "-t", "-imfchan"].contains(&option);
     }
     found.file = left.to_owned();
+    if found.offset_in_gltf().iter().chain(&found.scale).any(|number| !number.is_finite()) {
+        (found.offset, found.scale, found.has_options) = ([0.0; 2], [1.0; 2], true);
+    }
     found
 }

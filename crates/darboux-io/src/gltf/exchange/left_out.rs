@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::format::ExchangeFormat;
+use super::obj;
 use crate::Error;
-use crate::gltf::Document;
-use crate::json::Value;
+use crate::gltf::{Document, Wrap};
 
 /// Counts of what is left out.
 pub struct LeftOut {
@@ -14,7 +14,7 @@ pub struct LeftOut {
     some_surfaces_lack: Vec<&'static str>,
     materials: usize,
     textures: usize,
-    clamped_textures: usize,
+    textures_in_place: TexturesInPlace,
     uv_sets: usize,
     morph_targets: usize,
     skins: usize,
@@ -28,6 +28,14 @@ pub struct LeftOut {
 /// The attributes that a PLY has for all vertices or for none.
 const SHARED: [(&str, &str); 4] =
     [("NORMAL", "normals"), ("TEXCOORD_0", "UVs"), ("TANGENT", "tangents"), ("COLOR_0", "colours")];
+
+/// Uses of textures of an OBJ that lie in another way than in the document.
+#[derive(Default)]
+struct TexturesInPlace {
+    rotated: usize,
+    mirrored: usize,
+    on_other_uvs: usize,
+}
 
 /// Extensions of documents and primitives that say nothing about surfaces, or whose data is plain here.
 const HARMLESS: [&str; 7] = [
@@ -61,13 +69,16 @@ impl LeftOut {
             .collect();
         HARMLESS.iter().for_each(|name| _ = extensions.remove(name));
         let is_ply = format == ExchangeFormat::Ply;
+        if !is_ply {
+            extensions.remove("KHR_texture_transform");
+        }
         Ok(Self {
             format,
             tangents: if is_ply { 0 } else { having("TANGENT") },
             some_surfaces_lack: if is_ply { partial.collect() } else { Vec::new() },
             materials: if is_ply { length("materials") } else { 0 },
             textures: if is_ply { length("textures") } else { unspelt_textures(document)? },
-            clamped_textures: if is_ply { 0 } else { clamped_textures(document) },
+            textures_in_place: if is_ply { TexturesInPlace::default() } else { textures_in_place(document)? },
             uv_sets: (1..).take_while(|set| having(&format!("TEXCOORD_{set}")) > 0).count(),
             morph_targets: primitives.iter().map(|primitive| primitive.targets.len()).max().unwrap_or(0),
             skins: length("skins"),
@@ -101,10 +112,16 @@ impl LeftOut {
             [
                 counted(self.materials, "material", "materials"),
                 counted(self.textures, &format!("texture{elsewhere}"), &format!("textures{elsewhere}")),
+                counted(self.textures_in_place.rotated, "rotation of a texture", "rotations of textures"),
                 counted(
-                    self.clamped_textures,
-                    "choice to clamp or mirror a texture",
-                    "choices to clamp or mirror textures",
+                    self.textures_in_place.mirrored,
+                    "choice to mirror a texture, or to clamp it along one axis",
+                    "choices to mirror textures, or to clamp them along one axis",
+                ),
+                counted(
+                    self.textures_in_place.on_other_uvs,
+                    "texture on a UV set that is not written",
+                    "textures on UV sets that are not written",
                 ),
                 counted(self.uv_sets, "further UV set", "further UV sets"),
                 counted(self.morph_targets, "morph target", "morph targets"),
@@ -138,13 +155,17 @@ fn unspelt_textures(document: &Document) -> Result<usize, Error> {
     Ok(own.flatten().count())
 }
 
-/// The textures that do not repeat.
-fn clamped_textures(document: &Document) -> usize {
-    const REPEAT: u64 = 10497;
-    let json = document.json();
-    let repeats = |texture: &Value| {
-        let sampler = texture["sampler"].as_u64().map_or(&Value::Null, |at| &json["samplers"][at as usize]);
-        ["wrapS", "wrapT"].iter().all(|&wrap| sampler[wrap].as_u64().is_none_or(|wrap| wrap == REPEAT))
-    };
-    json["textures"].as_array().into_iter().flatten().filter(|texture| !repeats(texture)).count()
+/// The textures of materials that MTL cannot place as the document does.
+fn textures_in_place(document: &Document) -> Result<TexturesInPlace, Error> {
+    let mut found = TexturesInPlace::default();
+    for material in document.materials()? {
+        let textures = obj::textures(&material).filter(|(statement, _)| *statement != "map_Pm");
+        for (_, texture) in textures {
+            let can_be_written = texture.wrap == [Wrap::Repeat; 2] || texture.wrap == [Wrap::Clamp; 2];
+            found.mirrored += usize::from(!can_be_written);
+            found.rotated += usize::from(texture.offset_and_scale().is_none());
+            found.on_other_uvs += usize::from(texture.uv_set != material.tangent_uv_set);
+        }
+    }
+    Ok(found)
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::surfaces::Surface;
 use crate::Error;
-use crate::gltf::{Alpha, Document, Material, TextureUse};
+use crate::gltf::{Alpha, Document, Material, TextureUse, Wrap};
 use crate::image::linear_to_srgb;
 
 /// The materials of an OBJ.
@@ -163,7 +163,7 @@ fn one_line(name: &str, otherwise: &str) -> String {
 }
 
 /// The textures that MTL has a statement for.
-fn textures(material: &Material) -> impl Iterator<Item = (&'static str, &TextureUse)> {
+pub(super) fn textures(material: &Material) -> impl Iterator<Item = (&'static str, &TextureUse)> {
     [
         ("map_Kd", &material.base_texture),
         ("map_Ke", &material.emission_texture),
@@ -215,12 +215,28 @@ fn write_material(name: &str, material: &Material, paths: &[Option<String>], out
     _ = writeln!(out, "d {alpha}\nPr {}\nPm {}", material.roughness, material.metallic);
     for (statement, texture) in textures(material) {
         let Some(path) = texture.image.and_then(|image| paths.get(image)?.as_ref()) else { continue };
-        let scale = if statement == "norm" && material.normal_scale != 1.0 {
-            format!("-bm {} ", material.normal_scale)
-        } else {
-            String::new()
-        };
-        _ = writeln!(out, "{statement} {scale}{path}");
+        _ = write!(out, "{statement} ");
+        if statement == "norm" && material.normal_scale != 1.0 {
+            _ = write!(out, "-bm {} ", material.normal_scale);
+        }
+        write_placement(texture, out);
+        _ = writeln!(out, "{path}");
+    }
+}
+
+/// The options that place a texture. `v` points up in MTL: v' = scale * v + offset for 1 - v of glTF.
+fn write_placement(texture: &TextureUse, out: &mut String) {
+    if let Some(([x, y], [scale_u, scale_v])) = texture.offset_and_scale() {
+        let offset = [x, 1.0 - scale_v - y];
+        if offset != [0.0; 2] {
+            _ = write!(out, "-o {} {} 0 ", offset[0], offset[1]);
+        }
+        if [scale_u, scale_v] != [1.0; 2] {
+            _ = write!(out, "-s {scale_u} {scale_v} 1 ");
+        }
+    }
+    if texture.wrap == [Wrap::Clamp; 2] {
+        out.push_str("-clamp on ");
     }
 }
 

@@ -71,6 +71,11 @@ impl UvTransform {
         (!identity).then_some(Self { offset, cos: cos as f32, sin: sin as f32, scale })
     }
 
+    /// The offset and the scale; none for a transform that rotates.
+    pub fn without_rotation(&self) -> Option<([f32; 2], [f32; 2])> {
+        (self.sin == 0.0 && self.cos == 1.0).then_some((self.offset, self.scale))
+    }
+
     /// Scales, then rotates, then offsets, each in f32.
     ///
     /// The rotation is counter-clockwise with v pointing down the image, as in the text of the extension and
