@@ -276,7 +276,7 @@ fn bad_objs_are_sentences() {
     let at = |name: &str| folder.path().join(name);
     let cases = [
         ("", "is empty"),
-        ("v 0 0 0\nf 1 2 3\n", "a face refers to position 2, but there are 1"),
+        ("v 0 0 0\nf 1 2 3\n", "line 2: refers to position 2, but there are 1"),
         ("v 0 0\nf 1 1 1\n", "line 1: is a position with fewer than three numbers"),
         ("v 0 0 0\nf 1 a 1\n", "line 2: has \"a\", which is no corner of a face"),
     ];

@@ -313,3 +313,30 @@ fn corners_of_flat_faces_have_the_same_bits() {
     let normals = model.corners().unwrap()[0].vectors::<3>("NORMAL").unwrap().unwrap();
     assert!(normals[..6].iter().all(|normal| *normal == normals[0]), "{normals:?}");
 }
+
+/// Elements may follow the faces that refer to them, so the error is known at the end, and names the line.
+#[test]
+fn a_missing_element_is_reported_with_the_line_of_its_face() {
+    let problem = |obj: &str| {
+        let document = Document::from_bytes("a.obj", obj.into(), None, &LoadOptions::default());
+        document.unwrap_err().to_string()
+    };
+    let elements = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\n";
+    let good = "f 1 2 3\nl 1 2\nf 1 2\nfo 1 2 \\\n3\no b\nf 3 2 1\n";
+    for (face, wanted) in [
+        ("f 1 2 4", "line 13: refers to position 4, but there are 3"),
+        ("f 1/1 2/2 3/1", "line 13: refers to UV 2, but there are 1"),
+        ("f 1//1 2//1 3//9", "line 13: refers to normal 9, but there are 1"),
+    ] {
+        let problem = problem(&format!("{elements}{good}{face}\nf 1 2 3\n"));
+        assert_eq!(problem, format!("a.obj: {wanted}; export the file again"));
+    }
+    assert!(problem("f 1 99999999999999999999 2\n").contains("line 1: has \"99999999999999999999\""));
+}
+
+/// Indices have signs; negative ones count from the end.
+#[test]
+fn indices_have_signs() {
+    let elements = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+    assert_eq!(indices(&format!("{elements}f +1 -2 003\n")), [[0, 1, 2]]);
+}

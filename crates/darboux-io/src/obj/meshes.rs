@@ -2,27 +2,36 @@
 //! order of use.
 
 use super::text::{NONE, ObjText, Run};
-use crate::error::ContentError;
 use crate::source::{CornerValues, FaceSizes, SourceMesh, SourceUvSet};
 
+/// A corner that refers to an element that does not exist.
+#[derive(Debug)]
+pub struct MissingElement {
+    /// The corner's place in the text.
+    pub corner: usize,
+    /// A clause whose subject is the line.
+    pub problem: String,
+}
+
 /// The meshes of all objects and groups. Errors: a corner refers to an element that does not exist.
-pub fn build(text: &ObjText) -> Result<Vec<SourceMesh>, ContentError> {
+pub fn build(text: &ObjText) -> Result<Vec<SourceMesh>, MissingElement> {
     let counts = [text.positions.len(), text.uvs.len(), text.normals.len()];
     let mut numberings = counts.map(Numbering::new);
     text.runs.iter().map(|run| mesh(text, run, &mut numberings)).collect()
 }
 
-fn mesh(text: &ObjText, run: &Run, numberings: &mut [Numbering; 3]) -> Result<SourceMesh, ContentError> {
+fn mesh(text: &ObjText, run: &Run, numberings: &mut [Numbering; 3]) -> Result<SourceMesh, MissingElement> {
     let corners = &text.corners[run.corners.clone()];
     let path = format!("{} {}", run.kind, run.name).trim().to_owned();
     let mut lists: [Vec<u32>; 3] = Default::default();
     for (kind, (list, numbering)) in lists.iter_mut().zip(numberings.iter_mut()).enumerate() {
         numbering.clear();
         list.reserve(corners.len());
-        for corner in corners {
-            list.push(
-                numbering.of(corner[kind]).ok_or_else(|| missing(kind, corner[kind], numbering, &path))?,
-            );
+        for (at, corner) in corners.iter().enumerate() {
+            let index = corner[kind];
+            let new =
+                numbering.of(index).ok_or_else(|| missing(kind, index, numbering, run.corners.start + at))?;
+            list.push(new);
         }
     }
     let [positions, uvs, normals] = numberings;
@@ -62,14 +71,11 @@ fn mesh(text: &ObjText, run: &Run, numberings: &mut [Numbering; 3]) -> Result<So
     Ok(mesh)
 }
 
-fn missing(kind: usize, index: u32, numbering: &Numbering, path: &str) -> ContentError {
+fn missing(kind: usize, index: u32, numbering: &Numbering, corner: usize) -> MissingElement {
     let what = ["position", "UV", "normal"][kind];
     let count = numbering.new.len();
     let index = u64::from(index) + 1;
-    ContentError::invalid(
-        path,
-        format!("a face refers to {what} {index}, but there are {count}; export the file again"),
-    )
+    MissingElement { corner, problem: format!("refers to {what} {index}, but there are {count}") }
 }
 
 /// Numbers the elements of a list in the order of their use, for one mesh after the other.

@@ -19,15 +19,14 @@ pub fn read(bytes: &[u8], files: &ModelFiles, _: &LoadOptions) -> Result<SourceS
     let mut text = ObjText::default();
     let mut materials = Materials::new(files);
     for (line, statement, rest) in statements(bytes) {
-        text.add(statement, rest, &mut materials).map_err(|problem| {
-            ContentError::invalid(format!("line {line}"), format!("{problem}; export the file again"))
-        })?;
+        text.add(statement, rest, &mut materials).map_err(|problem| invalid(line, &problem))?;
     }
     text.end_run();
     if text.corners.is_empty() {
         return Err(ContentError::invalid("", NO_FACES));
     }
-    scene.meshes = meshes::build(&text)?;
+    scene.meshes = meshes::build(&text)
+        .map_err(|missing| invalid(line_of_corner(bytes, missing.corner), &missing.problem))?;
     materials.finish(&mut scene);
     if text.lines_and_points > 0 {
         scene.not_carried.push(format!("{} lines and points", text.lines_and_points));
@@ -36,6 +35,27 @@ pub fn read(bytes: &[u8], files: &ModelFiles, _: &LoadOptions) -> Result<SourceS
         scene.not_carried.push(format!("{} statements of curves and surfaces", text.curves));
     }
     Ok(scene)
+}
+
+/// `problem`: a clause whose subject is the line.
+fn invalid(line: usize, problem: &str) -> ContentError {
+    ContentError::invalid(format!("line {line}"), format!("{problem}; export the file again"))
+}
+
+/// The line of the face to which a corner belongs. Elements may follow the faces that refer to them, so it is
+/// known at the end of the text only that one is missing.
+fn line_of_corner(bytes: &[u8], corner: usize) -> usize {
+    let faces = statements(bytes).filter(|(_, statement, _)| is_face(statement));
+    let mut ends = faces.scan(0, |end, (line, _, rest)| {
+        let size = words(rest).count();
+        *end += if size < 3 { 0 } else { size };
+        Some((line, *end))
+    });
+    ends.find(|&(_, end)| end > corner).map_or(0, |(line, _)| line)
+}
+
+fn is_face(statement: &[u8]) -> bool {
+    matches!(statement, b"f" | b"fo")
 }
 
 /// The program of the first comment, as in `# Blender 5.0.1`.
@@ -55,7 +75,7 @@ impl ObjText {
                 self.uvs.push([u, v]);
             }
             b"vn" => self.normals.push(numbers(rest, 3)?),
-            b"f" | b"fo" => self.add_face(rest)?,
+            face if is_face(face) => self.add_face(rest)?,
             b"o" | b"g" => {
                 self.end_run();
                 self.name = String::from_utf8_lossy(rest).into_owned();
@@ -159,9 +179,27 @@ fn corner(word: &[u8], counts: [usize; 3]) -> Result<Corner, String> {
         if index.is_empty() && kind > 0 {
             continue;
         }
-        let index: i64 = str::from_utf8(index).ok().and_then(|index| index.parse().ok()).ok_or_else(wrong)?;
+        let index = whole_number(index).ok_or_else(wrong)?;
         let absolute = if index < 0 { counts[kind] as i64 + index } else { index - 1 };
         corner[kind] = u32::try_from(absolute).map_err(|_| wrong())?;
     }
     Ok(corner)
+}
+
+/// A whole number in decimal digits, with or without a sign. None for other texts, and for more digits than
+/// an index has.
+fn whole_number(text: &[u8]) -> Option<i64> {
+    let (is_negative, digits) = match text {
+        [b'-', digits @ ..] => (true, digits),
+        [b'+', digits @ ..] => (false, digits),
+        digits => (false, digits),
+    };
+    if !(1..=18).contains(&digits.len()) {
+        return None;
+    }
+    let mut number = 0;
+    for digit in digits {
+        number = 10 * number + i64::from(digit.is_ascii_digit().then_some(digit - b'0')?);
+    }
+    Some(if is_negative { -number } else { number })
 }

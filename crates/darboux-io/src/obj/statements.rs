@@ -1,5 +1,7 @@
 //! The statements of an OBJ or MTL.
 
+use memchr::memchr2;
+
 use crate::source::without_byte_order_mark;
 
 /// The statements of a text with the numbers of their lines: the first word, and the rest of the line.
@@ -15,7 +17,7 @@ pub fn statements(text: &[u8]) -> impl Iterator<Item = (usize, &[u8], &[u8])> {
         let first = number + 1;
         let mut end = 0;
         loop {
-            let length = rest[end..].iter().position(|&byte| byte == b'\n' || byte == b'\r');
+            let length = memchr2(b'\n', b'\r', &rest[end..]);
             let line_end = length.map_or(rest.len(), |length| end + length);
             let is_continued = rest[..line_end].ends_with(b"\\");
             let after = line_end + if rest[line_end..].starts_with(b"\r\n") { 2 } else { 1 };

@@ -107,14 +107,17 @@ impl FaceReader {
         let rows = values.rest().as_chunks::<ROW>().0;
         let rows = &rows[..rows.len().min(element.count)];
         let count = rows.iter().position(|row| row[0] != 3).unwrap_or(rows.len());
-        self.corners.reserve_exact(3 * count);
-        for row in &rows[..count] {
-            let index = |at: usize| {
-                let index = u32::from_le_bytes(*row[at..].first_chunk().expect("a row has 13 bytes"));
-                // Negative numbers are no vertices.
-                if is_signed && index > i32::MAX as u32 { u32::MAX } else { index }
-            };
-            self.corners.extend([index(1), index(5), index(9)]);
+        let index = |row: &[u8; ROW], at: usize| {
+            let index = u32::from_le_bytes([row[at], row[at + 1], row[at + 2], row[at + 3]]);
+            // Negative numbers are no vertices.
+            if is_signed && index > i32::MAX as u32 { u32::MAX } else { index }
+        };
+        let corners = rows[..count].iter().map(|row| [index(row, 1), index(row, 5), index(row, 9)]);
+        let triangles: Vec<[u32; 3]> = corners.collect();
+        if self.corners.is_empty() {
+            self.corners = triangles.into_flattened();
+        } else {
+            self.corners.extend_from_slice(triangles.as_flattened());
         }
         self.first_triangles += count;
         _ = values.bytes(ROW * count);

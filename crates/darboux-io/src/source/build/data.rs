@@ -40,10 +40,13 @@ impl DataBuilder {
     /// Adds an accessor of positions, with the bounds that glTF requires.
     pub fn positions(&mut self, positions: &[[f32; 3]]) -> usize {
         let accessor = self.vectors(positions);
-        let infinite = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        let (least, greatest) = positions.iter().fold(infinite, |(least, greatest), position| {
-            ([0, 1, 2].map(|i| position[i].min(least[i])), [0, 1, 2].map(|i| position[i].max(greatest[i])))
-        });
+        let (mut least, mut greatest) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for position in positions {
+            for axis in 0..3 {
+                least[axis] = position[axis].min(least[axis]);
+                greatest[axis] = position[axis].max(greatest[axis]);
+            }
+        }
         if least.iter().chain(&greatest).all(|x| x.is_finite()) {
             self.accessors[accessor]["min"] = json!(least);
             self.accessors[accessor]["max"] = json!(greatest);

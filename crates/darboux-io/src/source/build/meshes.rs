@@ -1,5 +1,6 @@
 //! Meshes of a document: each mesh of polygons becomes one mesh with a primitive per material.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 use darboux::UvOrigin;
@@ -344,18 +345,18 @@ impl<'a> PrimitiveBuilder<'a> {
         let positions = self.of_positions(&mesh.positions, found);
         let mut attributes = json!({"POSITION": self.data.positions(&positions)});
         if let Some(normals) = mesh.normals.as_ref().filter(|_| used.normals) {
-            attributes["NORMAL"] = self.push(normals, found, |normal| normal).into();
+            attributes["NORMAL"] = self.push(normals, found, None).into();
         }
         if let Some(tangents) = mesh.tangents.as_ref().filter(|_| used.tangents) {
-            attributes["TANGENT"] = self.push(tangents, found, |tangent| tangent).into();
+            attributes["TANGENT"] = self.push(tangents, found, None).into();
         }
         let flips_v = self.scene.uv_origin == UvOrigin::BottomLeft;
         for (place, &set) in used.uv_sets.iter().enumerate() {
-            let flip = if flips_v { flipped } else { |uv| uv };
+            let flip: Option<Change<2>> = flips_v.then_some(flipped);
             attributes[format!("TEXCOORD_{place}")] = self.push(&mesh.uv_sets[set].uvs, found, flip).into();
         }
         for (place, &set) in used.colors.iter().enumerate() {
-            attributes[format!("COLOR_{place}")] = self.push(&mesh.colors[set], found, |color| color).into();
+            attributes[format!("COLOR_{place}")] = self.push(&mesh.colors[set], found, None).into();
         }
         for (place, set) in mesh.weights.iter().enumerate() {
             let joints = self.of_positions(&set.joints, found);
@@ -373,7 +374,7 @@ impl<'a> PrimitiveBuilder<'a> {
             let offsets = self.of_positions(&morph.positions, found);
             let mut target = json!({"POSITION": self.data.positions(&offsets)});
             if let Some(normals) = &morph.normals {
-                target["NORMAL"] = self.push(normals, found, |normal| normal).into();
+                target["NORMAL"] = self.push(normals, found, None).into();
             }
             targets.push(target);
         }
@@ -385,16 +386,19 @@ impl<'a> PrimitiveBuilder<'a> {
         &mut self,
         values: &CornerValues<N>,
         found: Option<&FoundVertices>,
-        change: fn([f32; N]) -> [f32; N],
+        change: Option<Change<N>>,
     ) -> usize {
         let mesh = self.mesh;
-        let of_vertex: Vec<[f32; N]> = match found {
-            None => values.values.iter().map(|&value| change(value)).collect(),
+        let mut of_vertex: Cow<'_, [[f32; N]]> = match found {
+            None => values.values.as_slice().into(),
             Some(found) => {
                 let value = |&corner: &u32| values.get(corner as usize, mesh.corners[corner as usize]);
-                found.corners.iter().map(|corner| change(value(corner).unwrap_or([0.0; N]))).collect()
+                found.corners.iter().map(|corner| value(corner).unwrap_or([0.0; N])).collect()
             }
         };
+        if let Some(change) = change {
+            of_vertex = of_vertex.iter().map(|&value| change(value)).collect();
+        }
         self.data.vectors(&of_vertex)
     }
 
@@ -403,13 +407,16 @@ impl<'a> PrimitiveBuilder<'a> {
         &self,
         values: &'a [T],
         found: Option<&FoundVertices>,
-    ) -> std::borrow::Cow<'a, [T]> {
+    ) -> Cow<'a, [T]> {
         let Some(found) = found else { return values.into() };
         let position = |&corner: &u32| self.mesh.corners[corner as usize] as usize;
         let value = |corner: &u32| values.get(position(corner)).copied().unwrap_or_default();
         found.corners.iter().map(value).collect::<Vec<T>>().into()
     }
 }
+
+/// What is done to each value of an attribute.
+type Change<const N: usize> = fn([f32; N]) -> [f32; N];
 
 /// UVs whose v points up, as glTF has them.
 fn flipped([u, v]: [f32; 2]) -> [f32; 2] {
