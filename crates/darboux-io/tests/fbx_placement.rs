@@ -88,6 +88,23 @@ fn what_programs_read_differently_is_listed() {
     }
 }
 
+/// Blender up to 2.79 had no nodes for this. Its textures that are not moved are as UVs say.
+#[test]
+fn old_versions_of_blender_place_textures_in_an_unknown_way() {
+    let lost = |creator: &str, properties: &str| {
+        let text = fbx(properties).replace("By hand", creator);
+        let document = Document::from_bytes("plate.fbx", text.into_bytes(), None, &LoadOptions::default());
+        document.unwrap().provenance().unwrap().not_carried.clone()
+    };
+    let scaling = vector("Scaling", [2.0, 2.0, 1.0]);
+    let unknown = ["the scale, rotation or offset of paint.png"];
+    for creator in ["Blender (stable FBX IO) - 2.79 (sub 0) - 3.7.17", "Blender version 2.79"] {
+        assert_eq!(lost(creator, &scaling), unknown, "{creator}");
+        assert_eq!(lost(creator, ""), [""; 0], "{creator}");
+    }
+    assert_eq!(lost("Blender (stable FBX IO) - 2.80 (sub 75) - 4.14.14", &scaling), [""; 0]);
+}
+
 #[test]
 fn clamping_becomes_a_sampler() {
     for (properties, sampler) in [

@@ -3,9 +3,9 @@
 use std::collections::{HashMap, HashSet};
 
 use darboux::BitangentDirection;
-use ufbx::{Exporter, MaterialMap, Scene, ShaderType, Texture, TextureFile, WrapMode};
+use ufbx::{MaterialMap, Scene, ShaderType, Texture, TextureFile, WrapMode};
 
-use super::placement::{self, Placement};
+use super::placement::{self, Convention, Placement};
 use crate::error::shortened;
 use crate::image::{DecodeLimits, RgbaImage};
 use crate::source::{ModelFiles, NormalMap, SourceImage, SourceMaterial, SourceTexture};
@@ -14,8 +14,8 @@ use crate::source::{ModelFiles, NormalMap, SourceImage, SourceMaterial, SourceTe
 pub struct MaterialReader<'a> {
     scene: &'a Scene,
     files: &'a ModelFiles,
-    /// Whether Blender wrote the file.
-    is_from_blender: bool,
+    /// By which rule textures are placed.
+    convention: Convention,
     /// What green means in normal maps, where the program that wrote the file decides it.
     green: Option<BitangentDirection>,
     /// The image of each texture file; none for those that cannot be read.
@@ -30,12 +30,12 @@ pub struct MaterialReader<'a> {
 impl<'a> MaterialReader<'a> {
     pub fn new(scene: &'a Scene, files: &'a ModelFiles) -> Self {
         // Blender's normal maps have green up. FBX itself does not say it, and other programs write either.
-        let is_from_blender =
-            matches!(scene.metadata.exporter, Exporter::BlenderBinary | Exporter::BlenderAscii);
+        let convention = Convention::of(&scene.metadata);
+        let is_from_blender = convention != Convention::Others;
         Self {
             scene,
             files,
-            is_from_blender,
+            convention,
             green: is_from_blender.then_some(BitangentDirection::Up),
             image_of_file: HashMap::new(),
             is_grey: HashMap::new(),
@@ -179,7 +179,7 @@ impl<'a> MaterialReader<'a> {
         }
         let uv_set = uv_set.unwrap_or(0);
         let layers = texture.file_textures.count;
-        let placement = placement::of(with_file, self.is_from_blender);
+        let placement = placement::of(with_file, self.convention);
         let losses = [
             (placement == Placement::Unknown, "the scale, rotation or offset of"),
             (!texture.has_file && layers > 1, "the layers of a texture but"),
@@ -188,7 +188,7 @@ impl<'a> MaterialReader<'a> {
         self.not_carried.extend(losses.map(|(_, what)| format!("{what} {name}")));
         let transform = match placement {
             Placement::Moved(transform) => {
-                if self.is_from_blender {
+                if self.convention == Convention::Blender {
                     self.warnings.push(format!(
                         "{name} is placed as by a Mapping node of the type Texture; Blender's FBX does not say the type: with Point, export glTF"
                     ));

@@ -9,13 +9,17 @@
 //! Blender      texture coordinate = scaling * rotation * (uv - translation), the rotation in radians
 //! ```
 //!
+//! Blender up to 2.79 had textures without nodes; how its exporter placed them is not known here.
+//!
 //! The scaling is the number of repetitions in both. (ufbx's own matrix takes it for the size of the
 //! texture.)
 
-use ufbx::Texture;
+use ufbx::{Exporter, Metadata, Texture};
 
 /// Offset, rotation in radians, scale, in glTF's UVs.
 pub type Transform = ([f32; 2], f32, [f32; 2]);
+
+const PLAIN: Transform = ([0.0, 0.0], 0.0, [1.0, 1.0]);
 
 /// How a texture is placed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,12 +31,37 @@ pub enum Placement {
     Unknown,
 }
 
-/// The placement of a texture. `is_from_blender`: whether Blender wrote the file.
-pub fn of(texture: &Texture, is_from_blender: bool) -> Placement {
+/// By which rule a program places textures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Convention {
+    /// Blender from 2.80 on.
+    Blender,
+    OldBlender,
+    Others,
+}
+
+impl Convention {
+    pub fn of(metadata: &Metadata) -> Self {
+        // The version is that of the exporter, which was 3.7 in Blender 2.79 and 4.14 in 2.80.
+        const FIRST_WITH_NODES: u32 = 4_000_000;
+        match metadata.exporter {
+            Exporter::BlenderBinary if metadata.exporter_version >= FIRST_WITH_NODES => Self::Blender,
+            Exporter::BlenderBinary | Exporter::BlenderAscii => Self::OldBlender,
+            _ => Self::Others,
+        }
+    }
+}
+
+/// The placement of a texture.
+pub fn of(texture: &Texture, convention: Convention) -> Placement {
     let values = Values::of(texture);
-    let transform = if is_from_blender { values.of_blender() } else { values.of_others() };
+    let transform = match convention {
+        Convention::Blender => values.of_blender(),
+        Convention::OldBlender => values.of_blender().filter(|moved| *moved == PLAIN),
+        Convention::Others => values.of_others(),
+    };
     match transform {
-        Some(([0.0, 0.0], 0.0, [1.0, 1.0])) => Placement::Plain,
+        Some(PLAIN) => Placement::Plain,
         Some(moved) if is_finite(&moved) => Placement::Moved(moved),
         _ => Placement::Unknown,
     }
