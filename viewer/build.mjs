@@ -1,5 +1,5 @@
-// `node build.mjs DARBOUX MODULE quick|release`: builds the page into `dist`, from the npm package in the folder DARBOUX and the compiled
-// module of `wasm`, which is shrunk for a release.
+// `node build.mjs DARBOUX quick|release MODULE [FBX_MODULE]`: builds the page into `dist`, from the npm package in the folder DARBOUX and the
+// compiled modules of `wasm`, which are shrunk for a release.
 
 import { spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
@@ -11,7 +11,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 /** The WebAssembly features that rustc enables by default. */
 const FEATURES = ['bulk-memory', 'bulk-memory-opt', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals', 'reference-types', 'multivalue', 'call-indirect-overlong'];
 
-const [darboux, module, kind] = process.argv.slice(2);
+const [darboux, kind, ...modules] = process.argv.slice(2);
 
 /** Runs an installed program. Errors: it fails. */
 function run(program, ...words) {
@@ -24,27 +24,26 @@ const link = join(here, 'node_modules/darboux');
 rmSync(link, { recursive: true, force: true });
 symlinkSync(darboux, link);
 
-/** The module that the page imports. */
-const shrunk = join(here, 'src/files/darboux_viewer.wasm');
-const keyPath = `${shrunk}.key`;
-
-/** Copies the module as it is. */
-function copy() {
-  rmSync(keyPath, { force: true });
-  copyFileSync(module, shrunk);
+/** Copies a module as it is. */
+function copy(module, to) {
+  rmSync(`${to}.key`, { force: true });
+  copyFileSync(module, to);
 }
 
-/** Shrinks the module, unless the same module was shrunk before: that takes most of the time. */
-function shrink() {
+/** Shrinks a module, unless the same module was shrunk before: that takes most of the time. */
+function shrink(module, to) {
   const passes = [...FEATURES.map((name) => `--enable-${name}`), '-O3', ...['debug', 'producers', 'target-features'].map((name) => `--strip-${name}`)];
   const key = createHash('sha256').update(readFileSync(module)).update(passes.join()).digest('hex');
-  if (existsSync(shrunk) && existsSync(keyPath) && readFileSync(keyPath, 'utf8') === key) return;
-  run('wasm-opt', ...passes, module, '-o', shrunk);
+  const keyPath = `${to}.key`;
+  if (existsSync(to) && existsSync(keyPath) && readFileSync(keyPath, 'utf8') === key) return;
+  run('wasm-opt', ...passes, module, '-o', to);
   writeFileSync(keyPath, key);
 }
 
-if (kind === 'release') shrink();
-else copy();
+/** The modules that the page imports: without and with the reader of FBX. */
+const imported = ['darboux_viewer.wasm', 'darboux_viewer_fbx.wasm'].map((name) => join(here, 'src/files', name));
+for (const to of imported.slice(modules.length)) rmSync(to, { force: true });
+for (const [at, module] of modules.entries()) (kind === 'release' ? shrink : copy)(module, imported[at]);
 mkdirSync(join(here, 'public'), { recursive: true });
 copyFileSync(join(here, '../assets/made/shield.glb'), join(here, 'public/shield.glb'));
 

@@ -84,6 +84,30 @@ test('PLY and STL, by button and by drop', async () => {
   assert.match(await viewer.text('status'), /not carried over: the vertex property quality/);
 });
 
+test('an FBX with its texture, in its own words', async () => {
+  await viewer.give('files', ['blender/scene.fbx', 'blender/scene_normal.png'].map(asset));
+  assert.deepEqual([await viewer.text('error'), await viewer.text('name')], ['', 'scene.fbx']);
+  assert.equal(await viewer.text('status'), '100 triangles in 3 parts');
+  const found = await viewer.findings();
+  assert.ok(found.some(({ code, text }) => code === 'uv-degenerate' && text.includes('Body in your FBX: 1 triangle has no area')), JSON.stringify(found));
+  assert.match(await viewer.text('diagnosis'), /^Body in your FBX, meshes\[1\].* An importer of FBX that computes tangents itself, /);
+  await viewer.drop(asset('others/assimp.fbx'));
+  assert.deepEqual([await viewer.text('error'), await viewer.text('name')], ['', 'assimp.fbx']);
+  assert.match(await viewer.text('status'), /FBX does not say whether green points up or down in the normal map of material "Scales"/);
+  await viewer.click('#open-sample');
+  assert.doesNotMatch(await viewer.text('diagnosis'), /your FBX/);
+});
+
+test('what is saved of an FBX is the command\'s', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {
+  for (const paths of [['blender/scene.fbx', 'blender/scene_normal.png'], ['others/assimp.fbx']]) {
+    await viewer.give('files', paths.map(asset));
+    const { name, bytes } = await viewer.download('#save-model');
+    const ours = join(folder, name);
+    execFileSync(DARBOUX, ['tangents', '--overwrite', '--force', '--quiet', asset(paths[0]), '-o', ours], { stdio: 'pipe' });
+    assert.ok(bytes.equals(readFileSync(ours)), `${name}: the same bytes`);
+  }
+});
+
 test('what three.js cannot read is said', async () => {
   await viewer.give('files', [asset('made/quantised-sparse.glb')]);
   assert.match(await viewer.text('error'), /three\.js does not read sparse accessors/);
@@ -255,7 +279,8 @@ test('bad files get a sentence, and leave the model that is open', async () => {
     'remote.gltf': [plane.replace('TwoSidedPlane.bin', 'https://example.com/a.bin'), /^remote\.gltf: .* on another machine; download it and refer to the file\.$/],
     'empty.obj': ['# nothing\n', /^empty\.obj has no vertices/],
     'points.obj': ['v 0 0 0\nv 1 0 0\n', /no triangles/],
-    'model.fbx': [readFileSync(asset('blender/scene.fbx')), /^model\.fbx: is FBX, which this build does not read; export the model as \.glb, or convert it with the command: darboux tangents/],
+    'cut.fbx': [readFileSync(asset('blender/scene.fbx')).subarray(0, 20_000), /^cut\.fbx: is cut off; copy or export it again\.$/],
+    'damaged.fbx': [readFileSync(asset('blender/scene.fbx')).fill(255, 2000, 2100), /^damaged\.fbx: is not a valid FBX \(.*\); export it again\.$/],
     'stage.usdz': [readFileSync(asset('blender/scene.usdz')), /^stage\.usdz: is USD, which is not read here; export the model as \.glb/],
     'cloud.ply': ['ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n', /^cloud\.ply: is a PLY without faces/],
     'notes.txt': ['hello', /^There is no model in these files \(notes\.txt\)/],

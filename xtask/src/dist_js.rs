@@ -24,6 +24,7 @@ use crate::npm;
 use crate::progress::step;
 use crate::run::{Outcome, files_below, program, root, run, target_folder, to_stderr, works};
 use crate::validate::WithoutNpm;
+use crate::wasm_c::Clang;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -74,13 +75,14 @@ impl Build {
     }
 }
 
-/// Compiles a package quickly in the target folder that all quick modules share, with SIMD. Returns the
-/// folder of the module.
-pub fn compile_quickly(package: &str, features: &[&str]) -> Result<PathBuf, String> {
+/// Compiles a package quickly in the target folder that all quick modules share, with SIMD. `clang`: where it
+/// reads FBX. Returns the folder of the module.
+pub fn compile_quickly(package: &str, features: &[&str], clang: Option<&Clang>) -> Result<PathBuf, String> {
     let target = target_folder()?.join("quick-modules");
     let mut cargo = program("cargo build --quiet --profile quick --package");
     cargo.args([package, "--target", TRIPLE]).args(features);
     cargo.env("CARGO_TARGET_DIR", &target).env("RUSTFLAGS", SIMD.1);
+    clang.iter().for_each(|clang| clang.compile_ufbx(&mut cargo));
     run(to_stderr(&mut cargo))?;
     Ok(target.join(TRIPLE).join("quick"))
 }
@@ -91,27 +93,45 @@ pub fn compile_quickly(package: &str, features: &[&str]) -> Result<PathBuf, Stri
 const FLAGS: &str = "-Cllvm-args=-inline-threshold=0 -Cllvm-args=-inlinehint-threshold=30 \
     -Cllvm-args=-unroll-runtime=false -Cllvm-args=-unroll-allow-partial=false";
 
-/// A module: the entry of the npm package that embeds it, the features of `darboux-js`, compiler flags, and
-/// whether size matters more than speed outside the hot functions.
+/// A module: the entry of the npm package that embeds it, the features of `darboux-js`, compiler flags,
+/// whether size matters more than speed outside the hot functions, and whether it reads files of models.
 #[derive(Clone, Copy)]
 pub struct Module {
     entry: &'static str,
     features: &'static str,
     flags: &'static str,
     is_small: bool,
+    reads_models: bool,
+}
+
+impl Module {
+    /// The module without the reader of FBX.
+    pub const fn without_fbx(self) -> Self {
+        Self { reads_models: false, ..self }
+    }
+
+    /// Features of `darboux-js`; with the reader of FBX where its compiler is there.
+    fn all_features(self, clang: Option<&Clang>) -> String {
+        let fbx = if self.reads_models && clang.is_some() { ",fbx" } else { "" };
+        format!("{}{fbx}", self.features)
+    }
 }
 
 /// The module of `darboux`.
-pub const FULL: Module = Module { entry: "darboux", features: "full", flags: FLAGS, is_small: false };
+pub const FULL: Module =
+    Module { entry: "darboux", features: "full", flags: FLAGS, is_small: false, reads_models: false };
 
 /// The module of `darboux/tangents`.
-const SMALL: Module = Module { entry: "tangents", features: "", flags: FLAGS, is_small: true };
+const SMALL: Module =
+    Module { entry: "tangents", features: "", flags: FLAGS, is_small: true, reads_models: false };
 
 /// The module of `darboux/check`.
-pub const CHECK: Module = Module { entry: "check", features: "check", flags: FLAGS, is_small: false };
+pub const CHECK: Module =
+    Module { entry: "check", features: "check", flags: FLAGS, is_small: false, reads_models: true };
 
 /// The module of `darboux/bake`, without the flags: its rays call small functions in their innermost loops.
-pub const BAKE: Module = Module { entry: "bake", features: "bake", flags: "", is_small: false };
+pub const BAKE: Module =
+    Module { entry: "bake", features: "bake", flags: "", is_small: false, reads_models: true };
 
 /// The modules of the whole package.
 const ALL: [Module; 4] = [FULL, SMALL, CHECK, BAKE];
@@ -151,6 +171,10 @@ pub fn folder() -> Result<PathBuf, String> {
 /// Makes the package with the entries of some modules.
 pub fn make_folder(folder: &Path, modules: &[Module], build: Build) -> Outcome {
     run(to_stderr(&mut program(&format!("rustup target add {TRIPLE}"))))?;
+    let clang = match build {
+        Build::Quick => Clang::find_or_say(),
+        Build::Release => Some(Clang::find()?),
+    };
     let package = root().join("bindings/js");
     let compiled = target_folder()?.join("dist-js/modules").join(build.name());
     fs::create_dir_all(&compiled)
@@ -162,7 +186,7 @@ pub fn make_folder(folder: &Path, modules: &[Module], build: Build) -> Outcome {
     let next = || queue.lock().ok().and_then(|mut queue| queue.next());
     let compile_all = || {
         while let Some((module, form)) = next() {
-            compile(module, form, build, &compiled)?;
+            compile(module, form, build, clang.as_ref(), &compiled)?;
         }
         Ok(())
     };
@@ -182,12 +206,13 @@ pub fn make_folder(folder: &Path, modules: &[Module], build: Build) -> Outcome {
 }
 
 /// Compiles one form of a module to `FOLDER/ENTRY.FORM.wasm`.
-fn compile(module: Module, form: Form, build: Build, folder: &Path) -> Outcome {
+fn compile(module: Module, form: Form, build: Build, clang: Option<&Clang>, folder: &Path) -> Outcome {
+    let features = module.all_features(clang);
     let built = match build {
         Build::Quick => step(&format!("compile the module of {}", module.entry), || {
-            compile_quickly(PACKAGE, &["--no-default-features", "--features", module.features])
+            compile_quickly(PACKAGE, &["--no-default-features", "--features", &features], clang)
         })?,
-        Build::Release => compile_for_release(module, form)?,
+        Build::Release => compile_for_release(module, form, &features, clang)?,
     };
     let (built, out) =
         (built.join("darboux_js.wasm"), folder.join(format!("{}.{}.wasm", module.entry, form.0)));
@@ -197,14 +222,20 @@ fn compile(module: Module, form: Form, build: Build, folder: &Path) -> Outcome {
 }
 
 /// Compiles one form of a module as it is published. Returns the folder of the module.
-fn compile_for_release(module: Module, (form, form_flags): Form) -> Result<PathBuf, String> {
-    let Module { entry, features, flags, is_small } = module;
+fn compile_for_release(
+    module: Module,
+    (form, form_flags): Form,
+    features: &str,
+    clang: Option<&Clang>,
+) -> Result<PathBuf, String> {
+    let Module { entry, flags, is_small, .. } = module;
     let target = target_folder()?.join("dist-js").join(format!("{entry}-{form}"));
     let hot = if is_small { hot_functions(&target)? } else { BTreeSet::new() };
     let size = if is_small { format!(" {SIZE_FLAG}{}", excluded(&hot)) } else { String::new() };
     step(&format!("compile the module of {entry} ({form})"), || {
         let mut cargo = cargo_build(PACKAGE, &target);
         cargo.args(["--no-default-features", "--features", features]);
+        clang.iter().for_each(|clang| clang.compile_ufbx(&mut cargo));
         run(to_stderr(cargo.env("RUSTFLAGS", format!("{form_flags} {flags}{size}"))))
     })?;
     let built = target.join(TRIPLE).join("dist");

@@ -2,11 +2,15 @@
 //!
 //! ```text
 //! at the same time:  make the npm package, with the entries that the page imports
-//!                    compile the page's own WebAssembly module (reading and writing glTF)
+//!                    compile the page's own WebAssembly modules (reading and writing models)
 //!                    install the npm packages of the page
-//! then (build.mjs):  shrink the module (only for a release), check types, bundle the page
+//! then (build.mjs):  shrink the modules (only for a release), check types, bundle the page
 //! ```
+//!
+//! A release has two modules of its own: pages load the larger one, which also reads FBX, for an FBX. A quick
+//! build has one, which reads FBX where clang is there.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::thread;
 
@@ -15,6 +19,7 @@ use crate::npm;
 use crate::progress::step;
 use crate::run::{Outcome, program, root, run, target_folder, to_stderr, works};
 use crate::validate::WithoutNpm;
+use crate::wasm_c::Clang;
 
 /// The browser of the tests, unless the environment variable CHROMIUM names another.
 const CHROMIUM: &str = "/usr/bin/chromium";
@@ -32,12 +37,18 @@ pub fn make(build: Build) -> Outcome {
 pub fn make_page(build: Build) -> Result<PathBuf, String> {
     eprintln!("the viewer's page: WebAssembly modules, bundled with TypeScript and three.js");
     let package = package()?;
-    let module = thread::scope(|scope| {
-        let module = scope.spawn(|| prepare(build));
-        dist_js::make_folder(&package, &[FULL, CHECK, BAKE], build)?;
-        module.join().expect("compiling does not panic")
+    let entries = match build {
+        // With the features of the page's module, so that darboux-io is compiled once for all.
+        Build::Quick => [FULL, CHECK, BAKE],
+        // The page's module reads files, and gives the others GLBs.
+        Build::Release => [FULL, CHECK.without_fbx(), BAKE.without_fbx()],
+    };
+    let modules = thread::scope(|scope| {
+        let modules = scope.spawn(|| prepare(build));
+        dist_js::make_folder(&package, &entries, build)?;
+        modules.join().expect("compiling does not panic")
     })?;
-    bundle(&package, &module, build)
+    bundle(&package, &modules, build)
 }
 
 /// The folder of the npm package with the entries that the page imports.
@@ -53,8 +64,8 @@ pub fn test(without: WithoutNpm) -> Outcome {
         println!("skipped: the viewer needs node and npm");
         return Ok(());
     }
-    let module = prepare(Build::Release)?;
-    bundle(&dist_js::folder()?, &module, Build::Release)?;
+    let modules = prepare(Build::Release)?;
+    bundle(&dist_js::folder()?, &modules, Build::Release)?;
     let browser = std::env::var_os("CHROMIUM").unwrap_or_else(|| CHROMIUM.into());
     if can_skip && !Path::new(&browser).exists() {
         println!(
@@ -71,31 +82,53 @@ fn viewer() -> PathBuf {
     root().join("viewer")
 }
 
-/// Installs the npm packages and compiles the module of the page. Returns the path of the module.
-fn prepare(build: Build) -> Result<PathBuf, String> {
+/// Installs the npm packages and compiles the modules of the page. Returns their paths: the one without the
+/// reader of FBX first, where there are two.
+fn prepare(build: Build) -> Result<Vec<PathBuf>, String> {
     npm::install("viewer", &viewer())?;
-    let folder = step("compile the module of the page", || match build {
-        // The feature that the npm package's modules need, so that darboux-io is compiled once for all.
-        Build::Quick => dist_js::compile_quickly(PACKAGE, &["--features", "darboux-io/textures"]),
-        Build::Release => compile_for_release(),
-    })?;
-    Ok(folder.join("darboux_viewer.wasm"))
+    match build {
+        Build::Quick => step("compile the module of the page", || {
+            // The features that the npm package's modules have, so that darboux-io is compiled once for all.
+            let clang = Clang::find_or_say();
+            let features = if clang.is_some() { "fbx,darboux-io/default" } else { "darboux-io/default" };
+            let folder = dist_js::compile_quickly(PACKAGE, &["--features", features], clang.as_ref())?;
+            Ok(vec![folder.join("darboux_viewer.wasm")])
+        }),
+        Build::Release => {
+            let clang = Clang::find()?;
+            let plain =
+                step("compile the module of the page", || compile_for_release("darboux_viewer", None))?;
+            let with_fbx = step("compile the module of the page that reads FBX", || {
+                compile_for_release("darboux_viewer_fbx", Some(&clang))
+            })?;
+            Ok(vec![plain, with_fbx])
+        }
+    }
 }
 
-/// Compiles the module in a target folder of its own, at the same time as those of the npm package. Returns
-/// the folder of the module.
-fn compile_for_release() -> Result<PathBuf, String> {
+/// Compiles a module in a target folder of its own, at the same time as those of the npm package; with the
+/// reader of FBX, if there is a compiler for it. Returns the path of the module.
+fn compile_for_release(name: &str, clang: Option<&Clang>) -> Result<PathBuf, String> {
     let target = target_folder()?.join("dist-viewer/module");
     let mut cargo = program("cargo build --quiet --profile page --package");
-    run(to_stderr(cargo.args([PACKAGE, "--target", TRIPLE]).env("CARGO_TARGET_DIR", &target)))?;
-    Ok(target.join(TRIPLE).join("page"))
+    cargo.args([PACKAGE, "--target", TRIPLE]).env("CARGO_TARGET_DIR", &target);
+    if let Some(clang) = clang {
+        cargo.args(["--features", "fbx"]);
+        clang.compile_ufbx(&mut cargo);
+    }
+    run(to_stderr(&mut cargo))?;
+    let (built, kept) =
+        (target.join(TRIPLE).join("page/darboux_viewer.wasm"), target.join(name).with_extension("wasm"));
+    fs::copy(&built, &kept)
+        .map_err(|error| format!("{} cannot be copied to {}: {error}", built.display(), kept.display()))?;
+    Ok(kept)
 }
 
-/// Bundles the page with the npm package in a folder and the page's module. Returns the page's own folder.
-fn bundle(package: &Path, module: &Path, build: Build) -> Result<PathBuf, String> {
+/// Bundles the page with the npm package in a folder and the page's modules. Returns the page's own folder.
+fn bundle(package: &Path, modules: &[PathBuf], build: Build) -> Result<PathBuf, String> {
     step("check types and bundle the page", || {
         let mut node = program("node build.mjs");
-        run(to_stderr(node.args([package, module]).arg(build.name()).current_dir(viewer())))
+        run(to_stderr(node.arg(package).arg(build.name()).args(modules).current_dir(viewer())))
     })?;
     Ok(viewer().join("dist"))
 }

@@ -29,6 +29,7 @@ mod site;
 #[cfg(unix)]
 mod soak;
 mod validate;
+mod wasm_c;
 
 use std::process::ExitCode;
 
@@ -73,10 +74,11 @@ packages (the path is the last line of the output)
   site [--test]    make the documentation's site (needs what dist-js needs); --test: and test it in Chromium
   dist-c           make the folder for users of C and C++ (Linux: needs ld, objcopy, nm and ar)
   dist-js [--release]
-                   make the folder of the npm package (needs node, npm and rustup)
+                   make the folder of the npm package (needs node, npm, rustup and, for FBX, clang)
   dist-viewer [--release]
                    make the viewer's page, which darboux view serves (needs what dist-js needs);
-                   without --release both have only modules with SIMD, which are large and quick to compile
+                   without --release both have only modules with SIMD, which are large and quick to compile,
+                   and leave FBX out if clang is missing
   dist-python      build the Python wheel (needs python3 with venv, and the network)
   release          make the archive with the command and the viewer for this machine (needs what dist-viewer needs, and tar)
   release --check [--since TAG] [metadata] [msrv] [crates] [c] [python] [npm]

@@ -2,8 +2,10 @@
 
 use crate::run::{Outcome, program, run, works};
 
-/// A software Vulkan adapter, a compiler for HLSL, a browser, and tools that build and check C programs.
-pub const FOR_TESTS: &str = "chromium cmake glslang-tools libvulkan1 mesa-vulkan-drivers pkg-config valgrind";
+/// A software Vulkan adapter, a compiler for HLSL, a browser, tools that build and check C programs, and the
+/// C compiler of WebAssembly (some 50 MB to download).
+pub const FOR_TESTS: &str =
+    "chromium clang cmake glslang-tools libvulkan1 mesa-vulkan-drivers pkg-config valgrind";
 
 /// Compilers and an emulator for 64-bit Arm.
 pub const FOR_ARM: &str = "gcc-aarch64-linux-gnu g++-aarch64-linux-gnu qemu-user";

@@ -119,7 +119,7 @@ export function bake(low: LowMesh, high: HighMesh, options?: BakeOptions | null)
  * gives the content. Normals are in the frames of the tangents that the low model has, or else of MikkTSpace's. The call does not return before all
  * is done: run it in a worker, which a page can end.
  *
- * @param low The bytes of a GLB, or of a glTF whose buffers and images are embedded. Draco and meshopt compression is decoded.
+ * @param low The bytes of a GLB, of a glTF whose buffers and images are embedded, or of an FBX, OBJ, PLY or STL. Draco and meshopt compression is decoded.
  * @param high The same of one high model, or of several.
  * @throws TypeError for another type. RangeError for an unknown choice, for numbers that cannot be read, and where WebAssembly has not enough memory. Error for a file that
  * cannot be read, a model without normals, UVs or triangles, and numbers out of range.
@@ -199,7 +199,7 @@ export function convertSpace(low: LowMesh, texels: NormalTexels, options: Conver
 /**
  * As {@link convertSpace}, with the frames of a model: as `darboux convert --space` does.
  *
- * @param model The bytes of a GLB, or of a glTF whose buffers are embedded.
+ * @param model The bytes of a GLB, of a glTF whose buffers are embedded, or of an FBX, OBJ, PLY or STL.
  * @throws As {@link bakeModels}; Error for another number of texels than the size says.
  */
 export function convertSpaceOfModel(model: Uint8Array, texels: NormalTexels, options: ConvertSpaceOfModelOptions): ConvertedSpace {
@@ -232,7 +232,7 @@ export function udimTiles(low: LowMesh, options?: Pick<BakeOptions, 'meshConvent
 /**
  * As {@link udimTiles}, of a model.
  *
- * @param model The bytes of a GLB, or of a glTF whose buffers are embedded.
+ * @param model The bytes of a GLB, of a glTF whose buffers are embedded, or of an FBX, OBJ, PLY or STL.
  * @throws As {@link bakeModels}; Error for charts where no tile has a number.
  */
 export function udimTilesOfModel(model: Uint8Array, options?: Pick<BakeModelsOptions, 'material' | 'uvSet'> | null): number[] {

@@ -41,6 +41,8 @@ export interface Evidence {
 /** One thing that is wrong. docs/check.md explains every code. Indices are those of the glTF document. */
 export interface Finding {
   code: string;
+  /** Where the primitive is in a file of another format, such as `Armature/Body in your FBX`; absent for glTF. */
+  source?: string;
   /** 'not-checked': a map in a format that is not read. */
   severity: 'error' | 'warning' | 'info' | 'not-checked';
   mesh: number | null;
@@ -71,8 +73,15 @@ export interface Finding {
   change?: { kind: 'corrected_tangents'; count: number } | { kind: 'recomputed_tangents' };
 }
 
-/** The findings of a file, and what happened to it, what it looks like and what to do, in one to three sentences. */
-export type Findings = Finding[] & { diagnosis: string };
+/** The findings of a file, and words about all of it. */
+export type Findings = Finding[] & {
+  /** What happened to it, what it looks like and what to do, in one to three sentences. */
+  diagnosis: string;
+  /** What importers of another format make of the mistakes; null for glTF, and without mistakes. */
+  importer: string | null;
+  /** What a model of another format lost as it became glTF, such as textures that are not among its bytes; empty for glTF. */
+  warnings: string[];
+};
 
 /** The verdict on a normal map. Counts leave out black, white and middle grey texels. */
 export interface MapJudgement {
@@ -136,8 +145,8 @@ export const ready: Promise<void> = checkModule.ready;
 /**
  * Says what is wrong with the tangents, normals, UVs and normal maps of a model, or with a normal map.
  *
- * @param file The bytes of a GLB, of a glTF whose buffers and images are embedded, or of an image (PNG, JPEG, WebP), which is a normal map. Draco
- * and meshopt compression is decoded.
+ * @param file The bytes of a GLB, of a glTF whose buffers and images are embedded, of an FBX, OBJ, PLY or STL, or of an image (PNG, JPEG, WebP), which is
+ * a normal map. Draco and meshopt compression is decoded.
  * @returns The findings, grouped by place; empty for a healthy file.
  * @throws TypeError for another type. Error for a file that cannot be read; an image that cannot be decoded is a finding.
  */
@@ -214,9 +223,11 @@ function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, optio
   if (assume != null && !assumed) throw new RangeError(`assume is '${assume}'; it must be 'opengl', 'directx', 'red-inverted' or 'both-inverted'`);
   writeBytes(exports, file);
   const address = exports.check_file(Number(isMap), Number(green === 'down'), Number(maps ?? true), assumed, Number(repairs));
-  const checked = readJson<{ findings?: Record<string, unknown>[]; diagnosis?: string; error?: string }>(exports, address);
-  if (checked.error !== undefined) throw new Error(checked.error);
-  return Object.assign(checked.findings!.map(finding), { diagnosis: checked.diagnosis! });
+  type Checked = Pick<Findings, 'diagnosis' | 'importer' | 'warnings'> & { findings: Record<string, unknown>[] };
+  const checked = readJson<Checked | { error: string }>(exports, address);
+  if ('error' in checked) throw new Error(checked.error);
+  const { diagnosis, importer, warnings } = checked;
+  return Object.assign(checked.findings.map(finding), { diagnosis, importer, warnings });
 }
 
 /** The assumptions in the order of the module. */

@@ -4,7 +4,8 @@ use darboux::{
     BitangentDirection, Channel, Choice, MapJudgement, MapTiles, NormalMapJudge, RecipeMatch, TexelLayout,
 };
 use darboux_check::{
-    AssumedMap, CheckOptions, FixOptions, ReportedFinding, check_document, check_map, diagnosis, fix_document,
+    AssumedMap, CheckOptions, FixOptions, ReportedFinding, Severity, check_document, check_map, diagnosis,
+    fix_document,
 };
 use darboux_io::gltf::Document;
 use serde::Serialize;
@@ -47,8 +48,51 @@ pub extern "C" fn repaired_length() -> usize {
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Checked {
-    Findings { findings: Vec<ReportedFinding>, diagnosis: String },
-    Error { error: String },
+    Findings {
+        findings: Vec<NamedFinding>,
+        diagnosis: String,
+        /// What importers of a format other than glTF make of the mistakes.
+        importer: Option<&'static str>,
+        /// What a model of another format than glTF lost.
+        warnings: Vec<String>,
+    },
+    Error {
+        error: String,
+    },
+}
+
+/// A finding, and its place in the words of a file of another format than glTF.
+#[derive(Serialize)]
+struct NamedFinding {
+    #[serde(flatten)]
+    finding: ReportedFinding,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    source: Option<String>,
+}
+
+impl Checked {
+    /// `document`: the model, as it was read; none for a map.
+    fn of(findings: Vec<ReportedFinding>, document: Option<&Document>) -> Self {
+        let source = document.and_then(|document| Some((document.provenance()?, document.warnings())));
+        let is_mistake = |finding: &ReportedFinding| finding.severity >= Severity::Warning;
+        let has_mistakes = findings.iter().any(is_mistake);
+        let named = |mut finding: ReportedFinding| {
+            let source = source.and_then(|(provenance, _)| finding.name_place(provenance));
+            (finding, source)
+        };
+        let (findings, places): (Vec<_>, Vec<_>) = findings.into_iter().map(named).unzip();
+        let note = source.and_then(|(provenance, _)| provenance.format.importer_note());
+        Self::Findings {
+            diagnosis: diagnosis(&findings),
+            importer: note.filter(|_| has_mistakes),
+            warnings: source.map_or(Vec::new(), |(_, warnings)| warnings.to_vec()),
+            findings: findings
+                .into_iter()
+                .zip(places)
+                .map(|(finding, source)| NamedFinding { finding, source })
+                .collect(),
+        }
+    }
 }
 
 /// Checks the file of a model or, with `is_map`, of a normal map; with `repairs`, repairs the model.
@@ -72,14 +116,12 @@ pub extern "C" fn check_file(
         let arrays = &mut arena.check;
         arrays.repaired.clear();
         let checked = if is_map {
-            Ok(check_map(&arrays.bytes, &options).findings.into_iter().map(Into::into).collect())
+            let findings = check_map(&arrays.bytes, &options).findings;
+            Ok(Checked::of(findings.into_iter().map(Into::into).collect(), None))
         } else {
             check_model(&arrays.bytes, options, repairs, &mut arrays.repaired)
         };
-        let checked = match checked {
-            Ok(findings) => Checked::Findings { diagnosis: diagnosis(&findings), findings },
-            Err(error) => Checked::Error { error: error.to_string() },
-        };
+        let checked = checked.unwrap_or_else(|error| Checked::Error { error: error.to_string() });
         arrays.put_json(&checked)
     })
 }
@@ -89,17 +131,17 @@ fn check_model(
     options: CheckOptions,
     repairs: bool,
     repaired: &mut Vec<u8>,
-) -> Result<Vec<ReportedFinding>, darboux_io::Error> {
+) -> Result<Checked, darboux_io::Error> {
     let mut document = Document::from_bytes("the model", file.to_vec(), None, &load_options())?;
     let findings = check_document(&document, &options)?;
     if !repairs {
-        return Ok(findings.into_iter().map(Into::into).collect());
+        return Ok(Checked::of(findings.into_iter().map(Into::into).collect(), Some(&document)));
     }
     let fixed = fix_document(&mut document, findings, &FixOptions::default().with_check(options))?;
     if fixed.is_changed {
         *repaired = document.to_glb()?;
     }
-    Ok(fixed.findings.into_iter().map(Into::into).collect())
+    Ok(Checked::of(fixed.findings.into_iter().map(Into::into).collect(), Some(&document)))
 }
 
 /// The verdict on a normal map.

@@ -7,7 +7,10 @@ import { fileURLToPath } from 'node:url';
 import { formsOf } from './forms.mjs';
 
 const forms = await formsOf('darboux/bake');
-const shield = new Uint8Array(readFileSync(fileURLToPath(new URL('../../../assets/made/shield.glb', import.meta.url))));
+const { convertFile, ready } = await import('darboux/check');
+await ready;
+const asset = (path) => new Uint8Array(readFileSync(fileURLToPath(new URL(`../../../assets/${path}`, import.meta.url))));
+const shield = asset('made/shield.glb');
 
 /** A square of unit size as a glTF, bent upwards along x by a slope; without UVs where `hasUvs` is false. */
 function square(slope, { name = 'square', hasUvs = true } = {}) {
@@ -52,6 +55,17 @@ for (const [name, { bake, bakeModels, TEXEL_STATES, verify, verifyModels, conver
     assert.deepEqual([baked.report.chartedTexels, baked.report.missedTexels, baked.warnings], [2048, 0, []]);
     assert.ok(progress.at(-1) === 1 && progress.every((done, at) => done > (progress[at - 1] ?? 0)));
     results.push(baked);
+  });
+
+  test(`${name}: an FBX is baked as the same model in a GLB`, () => {
+    const [options, high] = [{ size: [64, 64], maps: ['normal', 'position'] }, asset('blender/scene.stl')];
+    for (const path of ['blender/scene.fbx', 'others/assimp.fbx']) {
+      const fbx = asset(path);
+      const [baked, expected] = [fbx, convertFile(fbx, 'gltf', 'gltf').file].map((low) => bakeModels(low, [high, fbx], options));
+      assert.ok(baked.report.chartedTexels > 1000 && baked.report.missedTexels < 100, JSON.stringify(baked.report));
+      assert.deepEqual([baked.normal, baked.position], [expected.normal, expected.position]);
+    }
+    assert.throws(() => bakeModels(asset('blender/scene.fbx').subarray(0, 9000), shield), /^Error: the low model: is cut off; copy or export it again$/);
   });
 
   test(`${name}: each option acts`, () => {

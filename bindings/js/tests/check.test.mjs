@@ -2,7 +2,9 @@
 
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { basename, extname, join } from 'node:path';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { crc32, deflateSync } from 'node:zlib';
@@ -40,6 +42,11 @@ function png(side, texels) {
   return Uint8Array.from([...signature, ...chunk('IHDR', head), ...chunk('IDAT', data), ...chunk('IEND', [])]);
 }
 
+/** Runs the command with all of its readers. */
+function command(...words) {
+  return spawnSync('cargo', ['run', '--quiet', '--package', 'darboux-cli', '--features', 'full', '--', ...words], { cwd: root, encoding: 'utf8' });
+}
+
 for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] of Object.entries(forms)) {
   test(`${name}: a broken model is named and repaired`, () => {
     const shield = asset('made/shield.glb');
@@ -53,8 +60,7 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
   });
 
   test(`${name}: findings are those of the command`, () => {
-    const words = ['run', '--quiet', '--package', 'darboux-cli', '--', 'check', 'assets/made/shield.glb', '--json'];
-    const { stdout } = spawnSync('cargo', words, { cwd: root, encoding: 'utf8' });
+    const { stdout } = command('check', 'assets/made/shield.glb', '--json');
     const underscored = (finding) => {
       const named = Object.entries(finding).map(([word, value]) => [word.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`), value]);
       return Object.fromEntries(named);
@@ -64,6 +70,52 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
     assert.deepEqual(found.map(underscored), reported.findings);
     assert.equal(found.diagnosis, reported.diagnosis);
     assert.ok(fix(asset('made/shield.glb')).findings.some(({ change }) => change));
+  });
+
+  test(`${name}: models of other formats are those of the command, with their own words`, () => {
+    const folder = mkdtempSync(join(tmpdir(), 'darboux-'));
+    for (const path of ['blender/scene.fbx', 'blender/mapping.fbx', 'others/assimp.fbx', 'blender/scene.obj', 'blender/scene.ply']) {
+      // Alone: the package reads no files beside a model.
+      const [alone, made] = [join(folder, basename(path)), join(folder, 'made.glb')];
+      writeFileSync(alone, asset(path));
+      const found = check(asset(path));
+      const { stdout, stderr } = command('check', alone, '--json');
+      const { findings, importer, diagnosis } = JSON.parse(stdout).files[0];
+      assert.deepEqual(found.map(({ code, text, first }) => [code, text, first]), findings.map(({ code, text, first }) => [code, text, first]), path);
+      assert.deepEqual([found.diagnosis, found.importer], [diagnosis, importer ?? null], path);
+      const missing = /was not looked up, because the model came without a folder/;
+      for (const warning of found.warnings) assert.ok(missing.test(warning) || stderr.includes(warning), `${warning} is not in ${stderr}`);
+      const words = new RegExp(`your ${extname(path).slice(1).toUpperCase()}$`);
+      for (const { mesh, source } of found) if (mesh !== null) assert.match(source, words);
+      command('convert', alone, '--from', 'gltf', '--to', 'unity', '--raw', '--force', '-o', made);
+      assert.ok(Buffer.from(convertFile(asset(path), 'gltf', 'unity').file).equals(readFileSync(made)), `${path}: the same bytes`);
+      command('check', '--fix', '--fail-on', 'never', '--force', alone, '-o', made);
+      const { file } = fix(asset(path));
+      if (file) assert.ok(Buffer.from(file).equals(readFileSync(made)), `${path}: the same bytes after the repair`);
+    }
+    rmSync(folder, { recursive: true });
+    const found = check(asset('others/assimp.fbx'));
+    assert.ok(found.some(({ source }) => source === 'Armature/Body in your FBX') && found.importer);
+    assert.match(found.warnings[0], /^FBX does not say whether green points up or down/);
+    assert.deepEqual([check(asset('made/shield.glb')).warnings, check(asset('made/shield.glb'))[0].source], [[], undefined]);
+  });
+
+  test(`${name}: a damaged FBX gets a sentence`, () => {
+    const whole = asset('blender/scene.fbx');
+    const isSentence = (error) => error.constructor === Error && /^the model: .*[;)]/.test(error.message) && !/fault of darboux/.test(error.message);
+    for (let length = 23; length < whole.length; length += 997) assert.throws(() => check(whole.slice(0, length)), isSentence, `${length}`);
+    let refused = 0;
+    for (let at = 100; at < whole.length; at += 499) {
+      const damaged = Uint8Array.from(whole);
+      damaged.fill(255, at, at + 4);
+      try {
+        check(damaged);
+      } catch (error) {
+        refused++;
+        assert.ok(isSentence(error), error.message);
+      }
+    }
+    assert.ok(refused > 10, `${refused}`);
   });
 
   test(`${name}: compressed models are decoded`, () => {

@@ -1,5 +1,6 @@
 //! [`ReportedFinding`]: a finding with the fields that the command's JSON, Python and npm give alike.
 
+use darboux_io::source::Provenance;
 use serde::Serialize;
 
 use crate::code::Code;
@@ -56,6 +57,16 @@ pub struct ReportedFinding {
     /// What the repair did to the tangents of the primitive.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub change: Option<Change>,
+}
+
+impl ReportedFinding {
+    /// Names the place as a file of another format than glTF does, too: `Armature/Body in your FBX,
+    /// meshes[1].primitives[0] "Body"`. Returns the words that were added.
+    pub fn name_place(&mut self, source: &Provenance) -> Option<String> {
+        let words = source.place(self.mesh?, self.primitive?)?;
+        self.place = format!("{words}, {}", self.place);
+        Some(words)
+    }
 }
 
 impl From<Finding> for ReportedFinding {

@@ -23,7 +23,9 @@ async function convert({ scene }: Model): Promise<Uint8Array<ArrayBuffer>> {
   return new Uint8Array((await new GLTFExporter().parseAsync(scene, { binary: true })) as ArrayBuffer);
 }
 
-/** Writes MikkTSpace's tangents into the model and changes nothing else. */
+/** Writes MikkTSpace's tangents into the model and changes nothing else. A model of another format is read again, because its glTF has no quads. */
 export async function withTangents(model: Model): Promise<Outcome<Summary>> {
-  return call('repair', model.name, await documentOf(model));
+  const { name, source, files } = model;
+  if (!source) return call('repair', name, await documentOf(model), new Map());
+  return call('repair', name, new Uint8Array(await files.get(name)!.arrayBuffer()), files);
 }

@@ -36,10 +36,10 @@ async function collect(entry: FileSystemEntry, bundle: FileBundle): Promise<void
 }
 
 /** Names of files that hold a model. */
-export const MODEL_NAME = /\.(glb|gltf|vrm|obj|ply|stl)$/i;
+const MODEL_NAME = /\.(glb|gltf|vrm|obj|ply|stl|fbx)$/i;
 
-/** Names of models that the page does not read: it says what to do. */
-export const UNREAD_MODEL_NAME = /\.(fbx|usd[acz]?)$/i;
+/** Names of models in the order in which they are preferred. An FBX often lies beside the same model in another format; USD is not read, and the page says what to do. */
+export const MODEL_NAMES = [/\.(glb|gltf|vrm|obj|ply|stl)$/i, /\.fbx$/i, /\.usd[acz]?$/i];
 
 /** Names of high-poly models, such as crate_high.glb. */
 const HIGH_NAME = /(^|[^a-z])(high|highpoly|hp)([^a-z]|$)/i;
@@ -56,7 +56,9 @@ export interface Pair {
  */
 export function pairOf(bundle: FileBundle): Pair {
   const models = [...bundle.keys()].filter((path) => MODEL_NAME.test(path));
-  if (models.length !== 2) return { low: bundle, high: null };
+  const stem = (path: string) => path.replace(/\.[^./]*$/, '');
+  // Of one name, they are one model in two formats.
+  if (models.length !== 2 || stem(models[0]) === stem(models[1])) return { low: bundle, high: null };
   const named = models.filter((path) => HIGH_NAME.test(path.replace(/^.*\//, '')));
   const size = (path: string) => bundle.get(path)!.size;
   const larger = bundle.size === 2 ? models.sort((a, b) => size(b) - size(a))[0] : undefined;

@@ -7,6 +7,7 @@ interface Exports extends WebAssembly.Exports {
   memory: WebAssembly.Memory;
   /** Takes 64 random bits for hash keys, before any other call. */
   seed_random(low: number, high: number): void;
+  lacks_fbx(): number;
   name(length: number): number;
   file(length: number): number;
   made(): number;
@@ -29,6 +30,15 @@ export interface Checked {
   primitives: Primitive[];
   /** What a model of another format than glTF lost, one sentence each. */
   warnings: string[];
+  source: Source | null;
+}
+
+/** The words of a model of another format than glTF. */
+export interface Source {
+  /** What importers of the format make of mistakes: a sentence, or null. */
+  importer_note: string | null;
+  /** Where primitives are in the file, such as `Armature/Body in your FBX`. */
+  places: { mesh: number; primitive: number; place: string }[];
 }
 
 /** The part of a primitive's inspection that the page shows. */
@@ -44,13 +54,20 @@ export interface Summary {
   totals: { written: number; kept: number; skipped: number };
 }
 
-let module: Promise<WebAssembly.Module> | undefined;
+/** The module that also reads FBX, at most one. A quick build has none: its one module reads FBX, or a sentence says what to do. */
+const withFbx = Object.values(import.meta.glob<string>('./darboux_viewer_fbx.wasm', { eager: true, query: '?url', import: 'default' }));
+
+/** The modules that were loaded, by address. */
+const modules = new Map<string, Promise<WebAssembly.Module>>();
+
+/** The start of a file that is enough to recognise an FBX. */
+const HEAD = 4096;
 
 /** An instance with at least this memory that traps is taken for one that lacks memory; a trap of a smaller one is a fault of the module. */
 const LARGE_MEMORY = 2 ** 29;
 
 /**
- * Reads a glTF, or a PLY or STL, which becomes one. Embeds the files of `bundle` that it refers to, decodes compressed data, and checks the data that tangents depend on. Errors: one sentence that
+ * Reads a glTF, or an FBX, PLY or STL, which becomes one. Embeds the files of `bundle` that it refers to, decodes compressed data, and checks the data that tangents depend on. Errors: one sentence that
  * names the place and the fault.
  */
 export function check(name: string, bytes: Uint8Array, bundle: FileBundle): Promise<Outcome<Checked>> {
@@ -58,8 +75,8 @@ export function check(name: string, bytes: Uint8Array, bundle: FileBundle): Prom
 }
 
 /** Writes MikkTSpace tangents to every eligible primitive and changes nothing else. Errors: those of {@link check}. */
-export function repair(name: string, bytes: Uint8Array): Promise<Outcome<Summary>> {
-  return run('repair', name, bytes);
+export function repair(name: string, bytes: Uint8Array, bundle: FileBundle): Promise<Outcome<Summary>> {
+  return run('repair', name, bytes, bundle);
 }
 
 /** Makes smooth normals where a primitive has none. Errors: those of {@link check}. */
@@ -69,7 +86,6 @@ export function makeNormals(name: string, bytes: Uint8Array): Promise<Outcome<un
 
 /** Runs a function in a new instance, because the memory of an instance never shrinks. */
 async function run<T>(task: 'check' | 'repair' | 'make_normals', name: string, bytes: Uint8Array, bundle: FileBundle = new Map()): Promise<Outcome<T>> {
-  module ??= fetch(address).then(async (response) => WebAssembly.compile(await response.arrayBuffer()));
   const read = (address: number, length: number) => new Uint8Array(exports.memory.buffer, address >>> 0, length >>> 0).slice();
   const write = (from: Uint8Array, address: number) => new Uint8Array(exports.memory.buffer, address >>> 0, from.length).set(from);
   const decoded = (address: number, length: number) => new TextDecoder().decode(read(address, length));
@@ -84,9 +100,16 @@ async function run<T>(task: 'check' | 'repair' | 'make_normals', name: string, b
       }
     },
   };
-  const exports = (await WebAssembly.instantiate(await module, { page })).exports as Exports;
-  const [low, high] = crypto.getRandomValues(new Uint32Array(2));
-  exports.seed_random(low, high);
+  const instance = async (address: string) => {
+    const { exports } = await WebAssembly.instantiate(await compiled(address), { page });
+    const [low, high] = crypto.getRandomValues(new Uint32Array(2));
+    (exports as Exports).seed_random(low, high);
+    return exports as Exports;
+  };
+  let exports = await instance(address);
+  const head = bytes.subarray(0, HEAD);
+  write(head, exports.file(head.length));
+  if (exports.lacks_fbx() && withFbx.length) exports = await instance(withFbx[0]);
   try {
     const encodedName = new TextEncoder().encode(name);
     write(encodedName, exports.name(encodedName.length));
@@ -103,4 +126,11 @@ async function run<T>(task: 'check' | 'repair' | 'make_normals', name: string, b
         : `cannot be read (${error.message}): this is a fault of darboux; please report it with the file.`;
     throw new Error(`${name} ${sentence}`, { cause: error });
   }
+}
+
+/** Fetches and compiles a module once. */
+function compiled(address: string): Promise<WebAssembly.Module> {
+  const module = modules.get(address) ?? fetch(address).then(async (response) => WebAssembly.compile(await response.arrayBuffer()));
+  modules.set(address, module);
+  return module;
 }

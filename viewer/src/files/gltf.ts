@@ -7,6 +7,7 @@ import { counted } from '../plural';
 import { TANGENT_TARGETS } from '../scene/morph-and-skin';
 import { call } from '../worker/surfaces';
 import type { FileBundle } from './file-bundle';
+import type { Source } from './gltf-wasm';
 import { setOrigin } from './origin';
 
 /** An opened .gltf or .glb. */
@@ -18,6 +19,8 @@ export interface Gltf {
   bytes: Uint8Array<ArrayBuffer>;
   /** Faults that are not errors, one sentence each. */
   warnings: string[];
+  /** The words of the file; null for glTF. */
+  source: Source | null;
 }
 
 const KTX2 = 'KHR_texture_basisu';
@@ -72,7 +75,7 @@ export async function openGltf(name: string, bytes: Uint8Array<ArrayBuffer>, bun
     if (ktx2) warnings.push(`${counted(ktx2, 'texture in KTX 2 is', 'textures in KTX 2 are')} left out, because this page has no decoder for it`);
     if (lost) warnings.push(`${counted(lost, 'texture', 'textures')} missing or not decodable`);
     if (hasMoreJoints(gltf.scene)) warnings.push('vertices have more than 4 joints, and only the first 4 are used');
-    return { scene: gltf.scene, animations: gltf.animations, cameras: gltf.cameras, bytes: file, warnings };
+    return { scene: gltf.scene, animations: gltf.animations, cameras: gltf.cameras, bytes: file, warnings, source: description.source };
   } catch (error) {
     throw new Error(`${name} cannot be shown: ${error instanceof Error ? error.message : error}.`, { cause: error });
   }

@@ -1,15 +1,18 @@
-// Opens the model in a set of files: glTF, GLB, VRM, OBJ, PLY or STL.
+// Opens the model in a set of files: glTF, GLB, VRM, OBJ, PLY, STL or FBX.
 
 import type { AnimationClip, Camera, Object3D } from 'three';
 
-import { MODEL_NAME, UNREAD_MODEL_NAME, type FileBundle } from './file-bundle';
+import { MODEL_NAMES, type FileBundle } from './file-bundle';
 import { openGltf } from './gltf';
+import type { Source } from './gltf-wasm';
 import { openObj } from './obj';
 
 /** An opened model. */
 export interface Model {
   /** The path of the model's file. */
   name: string;
+  /** The model's file and those beside it. */
+  files: FileBundle;
   scene: Object3D;
   animations: AnimationClip[];
   cameras: Camera[];
@@ -18,6 +21,8 @@ export interface Model {
   bytes: Uint8Array<ArrayBuffer> | null;
   /** Faults that are not errors, one sentence each. */
   warnings: string[];
+  /** The words of the file; null for glTF and OBJ. */
+  source: Source | null;
 }
 
 /** Receives the current task and its progress from 0 to 1, or null where that is unknown. */
@@ -26,23 +31,22 @@ export type Progress = (task: string, fraction: number | null) => void;
 /** The largest file that is read. The page holds several copies. */
 const MAX_BYTES = 1.5e9;
 
-/** Opens the model with the fewest folders in its path, and of several the first by name. Errors: one sentence to show. */
+/** Opens the model of the preferred format, of several the one with the fewest folders in its path, and of these the first by name. Errors: one sentence to show. */
 export async function openModel(bundle: FileBundle, progress: Progress): Promise<Model> {
   const depth = (path: string) => path.split('/').length;
   const first = (names: RegExp) =>
     [...bundle.keys()].filter((path) => names.test(path)).sort((a, b) => depth(a) - depth(b) || a.localeCompare(b))[0];
-  // A model that is not read is opened for the sentence about it.
-  const name = first(MODEL_NAME) ?? first(UNREAD_MODEL_NAME);
+  const name = MODEL_NAMES.map(first).find((name) => name !== undefined);
   if (!name) {
     const given = [...bundle.keys()].slice(0, 3).join(', ') || 'none';
-    throw new Error(`There is no model in these files (${given}); open a .glb, .obj, .ply or .stl, or a folder with a .gltf.`);
+    throw new Error(`There is no model in these files (${given}); open a .glb, .obj, .fbx, .ply or .stl, or a folder with a .gltf.`);
   }
   const bytes = await read(name, bundle.get(name)!, progress);
   progress(`Opening ${name}`, null);
   const isObj = /\.obj$/i.test(name);
   return isObj
-    ? { name, kind: 'obj', bytes: null, animations: [], cameras: [], ...(await openObj(name, bytes, bundle)) }
-    : { name, kind: 'gltf', ...(await openGltf(name, bytes, bundle)) };
+    ? { name, files: bundle, kind: 'obj', bytes: null, source: null, animations: [], cameras: [], ...(await openObj(name, bytes, bundle)) }
+    : { name, files: bundle, kind: 'gltf', ...(await openGltf(name, bytes, bundle)) };
 }
 
 async function read(name: string, file: Blob, progress: Progress): Promise<Uint8Array<ArrayBuffer>> {

@@ -61,10 +61,10 @@ export class Examination {
   async examine(model: Model): Promise<void> {
     try {
       const file = await documentOf(model);
-      const checked = await checker('check', file);
+      const checked = inWordsOf(model, await checker('check', file));
       if (this.model !== model) return;
       this.diagnosis = checked.diagnosis;
-      showFindings(checked, this.visit);
+      showFindings({ ...checked, diagnosis: withImporterNote(model, checked) }, this.visit);
       await this.host.checked(checked.findings);
       if (this.model !== model) return;
       const maps = await checker('judgeMaps', file);
@@ -88,7 +88,7 @@ export class Examination {
 
   /** The repaired file and what became of the findings, computed once for a model. */
   private async repairOnce(model: Model): Promise<Repaired> {
-    const found = this.repairs.get(model) ?? documentOf(model).then((file) => checker('repair', file));
+    const found = this.repairs.get(model) ?? documentOf(model).then(async (file) => inWordsOf(model, await checker('repair', file)));
     this.repairs.set(model, found);
     return found;
   }
@@ -149,3 +149,18 @@ export class Examination {
   };
 }
 
+/** Names places as the file of another format than glTF does. */
+function inWordsOf<T extends Checked>({ source }: Model, checked: T): T {
+  if (!source) return checked;
+  const places = new Map(source.places.map(({ mesh, primitive, place }) => [`meshes[${mesh}].primitives[${primitive}]`, place]));
+  const findings = checked.findings.map((finding) => ({ ...finding, source: places.get(`meshes[${finding.mesh}].primitives[${finding.primitive}]`) }));
+  const diagnosis = checked.diagnosis.replaceAll(/meshes\[\d+\]\.primitives\[\d+\]/g, (path) => (places.has(path) ? `${places.get(path)}, ${path}` : path));
+  return { ...checked, findings, diagnosis };
+}
+
+/** The diagnosis, and what importers of the format make of the mistakes, where there are any. */
+function withImporterNote({ source }: Model, { diagnosis, findings }: Checked): string {
+  const isMistake = ({ severity }: Finding) => severity === 'error' || severity === 'warning';
+  const note = source?.importer_note;
+  return note && findings.some(isMistake) ? `${diagnosis} ${note}` : diagnosis;
+}

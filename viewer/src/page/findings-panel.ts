@@ -122,9 +122,9 @@ function became({ repaired, leftBecause }: Finding): HTMLElement[] {
 }
 
 /** Where a finding is, in words. */
-export function placeOf({ mesh, meshName, primitive, sameAs, material, image }: Finding): string {
+export function placeOf({ source, mesh, meshName, primitive, sameAs, material, image }: Finding): string {
   const same = sameAs ? ` and ${sameAs} with the same data` : '';
-  if (mesh !== null) return `${meshName ?? `Mesh ${mesh}`}${primitive ? `, primitive ${primitive}` : ''}${same}`;
+  if (mesh !== null) return `${source ?? meshName ?? `Mesh ${mesh}`}${primitive ? `, primitive ${primitive}` : ''}${same}`;
   if (image !== null) return `Image ${image}`;
   return material === null ? 'The image' : `Material ${material}`;
 }

@@ -24,9 +24,9 @@ const functions = {
     return check(name, bytes, bundle);
   },
 
-  /** Writes new tangents into a glTF and returns it as GLB. */
-  repair(name: string, bytes: Uint8Array<ArrayBuffer>): Promise<Outcome<Summary>> {
-    return repair(name, bytes);
+  /** Writes new tangents into a model and returns it as GLB. */
+  repair(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: FileBundle): Promise<Outcome<Summary>> {
+    return repair(name, bytes, bundle);
   },
 
   /** Makes the normals that a glTF lacks, and returns it as GLB. */

@@ -20,6 +20,7 @@ use std::sync::Arc;
 use darboux_io::gltf::{
     AddNormalsOptions, AddTangentsOptions, Document, PrimitiveInfo, add_normals, add_tangents, inspect,
 };
+use darboux_io::source::SourceFormat;
 use darboux_io::{Error, LoadOptions, OptionNames};
 
 use page_files::PageFiles;
@@ -44,6 +45,36 @@ struct Checked<'a> {
     primitives: &'a [PrimitiveInfo],
     /// What a model of another format than glTF lost.
     warnings: &'a [String],
+    /// None for glTF.
+    source: Option<Source>,
+}
+
+/// The words of a file of another format than glTF.
+#[derive(serde::Serialize)]
+struct Source {
+    /// What importers of the format make of mistakes.
+    importer_note: Option<&'static str>,
+    /// The places of all primitives, such as `Armature/Body in your FBX`.
+    places: Vec<SourcePlace>,
+}
+
+#[derive(serde::Serialize)]
+struct SourcePlace {
+    mesh: usize,
+    primitive: usize,
+    place: String,
+}
+
+impl Source {
+    fn of(document: &Document, primitives: &[PrimitiveInfo]) -> Option<Self> {
+        let provenance = document.provenance()?;
+        let place = |info: &PrimitiveInfo| {
+            let (mesh, primitive) = (info.name.mesh, info.name.primitive);
+            Some(SourcePlace { mesh, primitive, place: provenance.place(mesh, primitive)? })
+        };
+        let places = primitives.iter().filter_map(place).collect();
+        Some(Self { importer_note: provenance.format.importer_note(), places })
+    }
 }
 
 /// What to do about a format that the page does not read.
@@ -68,6 +99,14 @@ pub extern "C" fn name(len: usize) -> *mut u8 {
 #[unsafe(no_mangle)]
 pub extern "C" fn file(len: usize) -> *mut u8 {
     BUFFERS.with_borrow_mut(|buffers| resized(&mut buffers.file, len))
+}
+
+/// Whether the given file, or its first 4,096 bytes, is an FBX and this module has no reader for it: the page
+/// has another module with one.
+#[unsafe(no_mangle)]
+pub extern "C" fn lacks_fbx() -> bool {
+    let is_fbx = |buffers: &Buffers| SourceFormat::of(&buffers.file) == Some(SourceFormat::Fbx);
+    !cfg!(feature = "fbx") && BUFFERS.with_borrow(is_fbx)
 }
 
 /// The address of the resulting file.
@@ -102,7 +141,8 @@ pub extern "C" fn check() -> u32 {
     run(|document| {
         let primitives = inspect(document)?;
         let warnings = if document.provenance().is_some() { document.warnings() } else { &[] };
-        let json = to_json(&Checked { primitives: &primitives, warnings });
+        let source = Source::of(document, &primitives);
+        let json = to_json(&Checked { primitives: &primitives, warnings, source });
         document.discard_compression();
         Ok((json, document.to_glb()?))
     })

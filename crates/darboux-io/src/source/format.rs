@@ -17,6 +17,11 @@ pub enum SourceFormat {
 }
 
 impl SourceFormat {
+    /// The format of a file by its content; none for glTF and for what is not recognised.
+    pub fn of(bytes: &[u8]) -> Option<Self> {
+        detect(without_byte_order_mark(bytes))
+    }
+
     /// The name, such as `OBJ`.
     pub fn name(self) -> &'static str {
         match self {
@@ -25,6 +30,19 @@ impl SourceFormat {
             Self::Stl => "STL",
             Self::Fbx => "FBX",
             Self::Usd => "USD",
+        }
+    }
+
+    /// What importers of the format make of mistakes in a file: a sentence, where that differs from glTF.
+    pub fn importer_note(self) -> Option<&'static str> {
+        match self {
+            Self::Fbx => Some(
+                "An importer of FBX that computes tangents itself, as Unreal and Unity do by default, meets what is wrong with positions, normals and UVs, but not what is wrong with tangents.",
+            ),
+            Self::Obj => Some(
+                "OBJ has no tangents: every importer computes its own from these positions, normals and UVs.",
+            ),
+            Self::Ply | Self::Stl | Self::Usd => None,
         }
     }
 }

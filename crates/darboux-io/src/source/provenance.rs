@@ -33,6 +33,14 @@ impl Provenance {
     pub fn primitive(&self, mesh: usize, primitive: usize) -> Option<&PrimitiveSource> {
         self.primitives.get(&(mesh, primitive))
     }
+
+    /// The same in words: `Armature/Body in your FBX`.
+    pub fn place(&self, mesh: usize, primitive: usize) -> Option<String> {
+        let PrimitiveSource { path, .. } = self.primitive(mesh, primitive)?;
+        let format = self.format.name();
+        // A PLY is one mesh without a name.
+        Some(if path.is_empty() { format!("your {format}") } else { format!("{path} in your {format}") })
+    }
 }
 
 /// Where a primitive came from.
