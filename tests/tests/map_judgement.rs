@@ -41,6 +41,27 @@ fn generated_maps_get_the_right_verdict() {
     }
 }
 
+/// Noise of one or two codes, whose mixed derivatives happen to be the larger ones, fills most tiles, and a
+/// few hold the relief: a keyboard whose screws and lettering are all that is not flat.
+#[test]
+fn faint_noise_exchanges_no_channels() {
+    const RELIEF: usize = 64;
+    for (is_down, verdict) in [(false, MapVerdict::OpenGl), (true, MapVerdict::DirectX)] {
+        let mut faint = plain();
+        faint.slope = 0.015;
+        let mut texels: Vec<[u8; 3]> = faint.texels(is_down).iter().map(|&[r, g, b]| [g, r, b]).collect();
+        assert!(judged(&texels, TexelLayout::RGB).has_exchanged_channels());
+        let relief = plain().texels(is_down);
+        for row in 0..RELIEF {
+            let of_row = 256 * row..256 * row + RELIEF;
+            texels[of_row.clone()].copy_from_slice(&relief[of_row]);
+        }
+        let judgement = judged(&texels, TexelLayout::RGB);
+        assert!(!judgement.has_exchanged_channels(), "{judgement:?}");
+        assert_eq!(judgement.verdict, verdict, "{judgement:?}");
+    }
+}
+
 /// A run that was stopped in the middle of a line gives the same outcomes as one that was not.
 #[test]
 fn a_stopped_run_goes_on_where_it_was() {

@@ -35,6 +35,9 @@ pub struct Defect {
     pub obstacle: Option<Obstacle>,
     /// The mistake elsewhere that cancels it, so that bumps look right now.
     pub cancelled: Option<Cancelled>,
+    /// The image of a flat normal map, where such maps are all that the surface has, so that nothing shows
+    /// which way its tangents point.
+    pub flat_map: Option<usize>,
     /// In percent of the model's area: what it spoils, weighted by the angle; none where its severity does
     /// not depend on that.
     pub spoiled: Option<f64>,
@@ -127,7 +130,7 @@ impl Defect {
         let code = fault.code();
         let obstacle = code.left_because().map(|_| Obstacle::NoRepair(code));
         let (place, severity) = (Place::default(), code.severity());
-        Self { place, severity, fault, obstacle, cancelled: None, spoiled: None }
+        Self { place, severity, fault, obstacle, cancelled: None, flat_map: None, spoiled: None }
     }
 
     pub fn code(&self) -> Code {
@@ -173,6 +176,18 @@ impl Defect {
     #[must_use]
     pub fn with_severity(self, severity: Severity) -> Self {
         Self { severity, ..self }
+    }
+
+    /// The same for a surface whose normal maps are all flat: information, unless the tangents have no
+    /// direction, which breaks the normals of renderers, too.
+    #[must_use]
+    pub fn under_flat_map(self, image: usize) -> Self {
+        let has_none = matches!(self.code(), Code::TangentNotFinite | Code::TangentZero);
+        if self.family() != Family::Tangents || has_none {
+            return self;
+        }
+        let severity = self.severity.min(Severity::Info);
+        Self { flat_map: Some(image), severity, spoiled: None, ..self }
     }
 
     /// Whether two defects say the same of the same place. Tangents that are not those of the method that

@@ -1,7 +1,7 @@
 //! The surfaces on which the images of a document are normal maps.
 
 use std::cell::RefCell;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, Material, PrimitiveCorners, PrimitiveName, TextureUse};
 use darboux_io::image::RgbaImage;
 
-use crate::instances::distinct;
+use crate::instances::{Key, distinct, key};
 use crate::measure::mesh_votes::MeshVotes;
 use crate::surface::Surface;
 
@@ -21,6 +21,9 @@ pub struct MapUsers<'a> {
     users: BTreeMap<usize, BTreeMap<usize, Vec<TextureUse>>>,
     /// The number of images that each primitive uses.
     images_of_primitive: Vec<usize>,
+    /// The primitives on which tangents decide more than images of normal maps: highlights, or a texture
+    /// without an image.
+    read_otherwise: BTreeSet<usize>,
     /// Why the texels of images cannot be changed.
     obstacles: HashMap<usize, &'static str>,
     read: RefCell<ReadSurfaces>,
@@ -41,13 +44,19 @@ impl<'a> MapUsers<'a> {
     /// Errors: invalid data of primitives.
     pub fn new(document: &'a Document, materials: &[Material]) -> Result<Self, Error> {
         let mut users: BTreeMap<usize, BTreeMap<usize, Vec<TextureUse>>> = BTreeMap::new();
-        let mut primitives = Vec::new();
+        let (mut primitives, mut read_otherwise) = (Vec::new(), BTreeSet::new());
         for (corners, _) in distinct(document, document.corners()?) {
             let name = corners.name();
             let of_primitive = document.meshes()[name.mesh].primitives[name.primitive].materials();
             let used = of_primitive.iter().filter_map(|&material| materials.get(material));
+            if used.clone().any(|material| material.is_anisotropic) {
+                read_otherwise.insert(primitives.len());
+            }
             for texture in used.flat_map(Material::normal_maps) {
-                let Some(image) = texture.image else { continue };
+                let Some(image) = texture.image else {
+                    read_otherwise.insert(primitives.len());
+                    continue;
+                };
                 let textures = users.entry(image).or_default().entry(primitives.len()).or_default();
                 if !textures.contains(texture) {
                     textures.push(texture.clone());
@@ -59,7 +68,7 @@ impl<'a> MapUsers<'a> {
         users.values().flat_map(BTreeMap::keys).for_each(|&primitive| images_of_primitive[primitive] += 1);
         let obstacles = document.normal_map_obstacles();
         let read = RefCell::default();
-        Ok(Self { document, primitives, users, images_of_primitive, obstacles, read })
+        Ok(Self { document, primitives, users, images_of_primitive, read_otherwise, obstacles, read })
     }
 
     /// Why the texels of an image cannot be changed, as a clause; none if they can.
@@ -71,6 +80,22 @@ impl<'a> MapUsers<'a> {
     pub fn names(&self, image: usize) -> impl Iterator<Item = &PrimitiveName> {
         let users = self.users.get(&image).into_iter().flat_map(BTreeMap::keys);
         users.map(|&primitive| self.primitives[primitive].name())
+    }
+
+    /// The primitives whose tangents only some images read, each with one of these.
+    pub fn read_only_by(&self, images: &BTreeSet<usize>) -> BTreeMap<Key, usize> {
+        let mut count = vec![0; self.primitives.len()];
+        let mut only = BTreeMap::new();
+        for &image in images {
+            for &primitive in self.users.get(&image).into_iter().flat_map(BTreeMap::keys) {
+                count[primitive] += 1;
+                let is_all = count[primitive] == self.images_of_primitive[primitive];
+                if is_all && !self.read_otherwise.contains(&primitive) {
+                    only.insert(key(self.primitives[primitive].name()), image);
+                }
+            }
+        }
+        only
     }
 
     /// Whether two images are used on the same surfaces in the same way.

@@ -27,7 +27,8 @@ use std::collections::{BTreeMap, HashSet};
 use darboux_io::Error;
 use darboux_io::gltf::Document;
 
-use crate::defect::{Defect, Sameness};
+use crate::check::defects_of;
+use crate::defect::{Defect, Obstacle, Sameness};
 use crate::finding::Finding;
 use crate::place::Place;
 use crate::words::edits;
@@ -80,7 +81,23 @@ pub fn fix_document(
     findings: Vec<Finding>,
     options: &FixOptions,
 ) -> Result<FixedDocument, Error> {
-    let before: Vec<Defect> = findings.into_iter().flat_map(|finding| finding.defects).collect();
+    let before = findings.into_iter().flat_map(|finding| finding.defects).collect();
+    let mut fixed = fix_defects(document, before, options)?;
+    if fixed.findings.iter().any(|left| waits_for_repaired_map(left, &fixed.findings)) {
+        let again = fix_defects(document, defects_of(document, &options.check)?, options)?;
+        fixed.is_changed |= again.is_changed;
+        fixed.findings = followed_by(fixed.findings, again.findings);
+    }
+    fixed.findings = outcome::joined(fixed.findings);
+    Ok(fixed)
+}
+
+/// Repairs defects of a document once.
+fn fix_defects(
+    document: &mut Document,
+    before: Vec<Defect>,
+    options: &FixOptions,
+) -> Result<FixedDocument, Error> {
     let promised: HashSet<Sameness> =
         before.iter().filter(|defect| defect.is_fixable()).map(Defect::sameness).collect();
     let (of_images, of_surfaces): (Vec<Defect>, Vec<Defect>) =
@@ -94,6 +111,35 @@ pub fn fix_document(
         let is_promised = |defect: &Defect| promised.contains(&defect.sameness());
         fixed.was_fixable |= fixed.finding.defects.iter().any(is_promised);
     }
-    fixed.findings = outcome::joined(fixed.findings);
     Ok(fixed)
+}
+
+/// Whether a finding was left because a map might cancel it, and that map was repaired: only now its texels
+/// show whether it does.
+fn waits_for_repaired_map(left: &FixedFinding, all: &[FixedFinding]) -> bool {
+    let is_repaired = |image: usize| {
+        let mut of_image = all.iter().filter(|fixed| fixed.finding.place.image == Some(image));
+        of_image.any(|fixed| fixed.repaired)
+    };
+    let waits = |defect: &Defect| matches!(defect.obstacle, Some(Obstacle::MapMayCancel { image }) if is_repaired(image));
+    !left.repaired && left.finding.defects.iter().any(waits)
+}
+
+/// The results of two repairs, one after the other: what the first one left and the second one repaired is
+/// repaired, and what the first one named is not named again.
+fn followed_by(mut first: Vec<FixedFinding>, second: Vec<FixedFinding>) -> Vec<FixedFinding> {
+    fn samenesses(fixed: &FixedFinding) -> impl Iterator<Item = Sameness> {
+        fixed.finding.defects.iter().map(Defect::sameness)
+    }
+    for later in second {
+        let same = first
+            .iter_mut()
+            .find(|known| samenesses(known).any(|same| samenesses(&later).any(|one| one == same)));
+        match same {
+            Some(known) if later.repaired && !known.repaired => *known = later,
+            Some(_) => {}
+            None => first.push(later),
+        }
+    }
+    first
 }

@@ -10,8 +10,9 @@ use crate::facts::SurfaceFacts;
 use crate::indices::Indices;
 use crate::measure::fit::Difference;
 use crate::measure::leaning::leaning;
+use crate::measure::reversed::front;
 use crate::model_area::area_of;
-use crate::surface::{Surface, length};
+use crate::surface::{Surface, dot, length};
 
 /// The degrees from which on turned tangents are seen.
 pub const SEEN: f64 = 15.0;
@@ -29,9 +30,12 @@ pub fn spoiled(fault: &Fault, facts: &SurfaceFacts<'_>) -> Option<f64> {
             let has_none = |vertex: usize| if length(normals[vertex]) < NO_LENGTH { 1.0 } else { 0.0 };
             Some(area_at(surface, &vertices.items, has_none))
         }
-        Fault::Normal(
-            NormalFault::Reversed { triangles, .. } | NormalFault::PartlyReversed { triangles, .. },
-        ) => Some(area_of_triangles(surface, &triangles.items)),
+        Fault::Normal(NormalFault::Reversed { triangles, .. }) => {
+            Some(area_of_triangles(surface, &triangles.items))
+        }
+        Fault::Normal(NormalFault::PartlyReversed { triangles, .. }) => {
+            Some(area_at_backs(surface, &triangles.items))
+        }
         Fault::Tangent(fault) => of_tangents(fault, facts),
         _ => None,
     }
@@ -56,6 +60,7 @@ fn of_tangents(fault: &TangentFault, facts: &SurfaceFacts<'_>) -> Option<f64> {
             Some(area_at(surface, &vertices.as_slice().into(), weight))
         }
         TangentFault::Differs(found) => Some(of_difference(surface, found)),
+        TangentFault::OtherRecipe { far, .. } if far.percent > 0.0 => Some(far.spoiled),
         _ => None,
     }
 }
@@ -81,6 +86,19 @@ fn area_of_triangles(surface: &Surface, triangles: &Indices) -> f64 {
     let numbered = surface.triangles().enumerate();
     let found = numbered.filter(|(number, _)| triangles.contains(*number));
     found.map(|(_, triangle)| area(surface, triangle)).sum()
+}
+
+/// A third of the area of each of some triangles for each corner whose normal points to its back.
+fn area_at_backs(surface: &Surface, triangles: &Indices) -> f64 {
+    let Some(normals) = &surface.normals else { return 0.0 };
+    let numbered = surface.triangles().enumerate();
+    let found = numbered.filter(|(number, _)| triangles.contains(*number));
+    let at_backs = |(_, triangle): (usize, [usize; 3])| {
+        let front = front(triangle.map(|vertex| surface.positions[vertex]));
+        let points_back = |vertex: &&usize| front.is_some_and(|front| dot(front, normals[**vertex]) < 0.0);
+        area(surface, triangle) * triangle.iter().filter(points_back).count() as f64 / 3.0
+    };
+    found.map(at_backs).sum()
 }
 
 /// A third of the area of each triangle at a vertex, times the weight of that vertex.

@@ -70,6 +70,9 @@ fn single(defect: Defect) -> Finding {
     if let (Some(Obstacle::MapMayCancel { .. }), None) = (&defect.obstacle, &defect.cancelled) {
         text += ", unless inverted green of the normal map cancels that";
     }
+    if let Some(image) = defect.flat_map {
+        text += &format!("; images[{image}], its normal map, is flat, so that nothing shows it");
+    }
     if let Some(cancelled) = &defect.cancelled {
         text += &format!("; {}, so that bumps look right now: repair both or none", cancels(cancelled));
     }

@@ -250,3 +250,79 @@ fn both_channels_are_inverted_back_where_the_user_says_so() {
     let of_channels = fixed.findings.iter().filter(|fixed| codes.contains(&fixed.finding.code));
     assert_eq!(of_channels.filter(|fixed| fixed.repaired).count(), 2, "{:#?}", fixed.findings);
 }
+
+/// A map whose red and green are exchanged does not say whether it cancels flipped signs, and says so once
+/// they are exchanged back: the repair goes on with the signs.
+#[test]
+fn signs_wait_for_the_repair_of_their_map() {
+    let healthy = healthy_models().remove(3);
+    let mut model = healthy.clone();
+    model.negate_signs();
+    let exchanged = model.map.texels.iter().map(|&[r, g, b]| [g, r, b]).collect();
+    model.map = model.map.with_texels(exchanged);
+    let findings = check(&model);
+    let flipped = findings.iter().find(|finding| finding.code == Code::TangentSignFlipped);
+    assert!(flipped.is_some_and(|flipped| !flipped.is_fixable()), "{findings:#?}");
+    let mut document = model.document();
+    let fixed = fix_document(&mut document, findings, &FixOptions::default()).expect("a repair");
+    let repaired: Vec<Code> =
+        fixed.findings.iter().filter(|fixed| fixed.repaired).map(|fixed| fixed.finding.code).collect();
+    assert_eq!(repaired, [Code::TangentSignFlipped, Code::MapChannelsSwapped], "{fixed:#?}");
+    let left = check_document(&document, &CheckOptions::default()).expect("a valid document");
+    assert!(left.iter().all(|finding| finding.severity <= Severity::Info), "{left:#?}");
+    let signs = |document: &Document| -> Vec<f32> {
+        let corners = document.corners().expect("valid indices");
+        let tangents = corners[0].vectors::<4>("TANGENT").expect("valid data").expect("tangents");
+        tangents.iter().map(|tangent| tangent[3]).collect()
+    };
+    assert_eq!(signs(&document), signs(&healthy.document()));
+}
+
+/// Two conventions that cancel and are left leave nothing else: the recipe of the tangents is repaired, and
+/// their signs stay flipped.
+#[test]
+fn what_is_beside_a_pair_that_is_left_is_repaired() {
+    let models = healthy_models().into_iter().filter(|model| model.name.contains("wavy"));
+    for mut model in models {
+        let by_faces = model.computed(Method::Face, model.uv_set);
+        model.tangents().copy_from_slice(&by_faces);
+        model.negate_signs();
+        let inverted = model.map.texels.iter().map(|&[r, g, b]| [r, 255 - g, b]).collect();
+        model.map = model.map.with_texels(inverted);
+        let options = FixOptions::default().with_codes([Code::TangentOtherRecipe]);
+        let findings = check(&model);
+        let codes: Vec<Code> = findings.iter().map(|finding| finding.code).collect();
+        assert!(codes.contains(&Code::ConventionsCancel), "{}: {findings:#?}", model.name);
+        let mut document = model.document();
+        let fixed = fix_document(&mut document, findings, &options).expect("a repair");
+        let is_repaired =
+            |code: Code| fixed.findings.iter().any(|fixed| fixed.repaired && fixed.finding.code == code);
+        assert!(is_repaired(Code::TangentOtherRecipe), "{}: {fixed:#?}", model.name);
+        let left = check_document(&document, &CheckOptions::default()).expect("a valid document");
+        let left: Vec<Code> = left
+            .iter()
+            .filter(|finding| finding.severity > Severity::Info)
+            .map(|finding| finding.code)
+            .collect();
+        assert_eq!(left, [Code::ConventionsCancel], "{}", model.name);
+    }
+}
+
+/// Nothing shows which way tangents point under a flat map; tangents without a direction break normals, too.
+#[test]
+fn tangents_under_a_flat_map_make_no_picture_wrong() {
+    let mut model = healthy_models().remove(3);
+    model.map = model.map.with_texels(vec![[128, 128, 255]; model.map.texels.len()]);
+    model.negate_signs();
+    let findings = check(&model);
+    let flipped = findings.iter().find(|finding| finding.code == Code::TangentSignFlipped);
+    let flipped = flipped.expect("the finding");
+    assert_eq!((flipped.severity, flipped.is_fixable()), (Severity::Info, true), "{flipped:?}");
+    assert!(flipped.text.contains("images[0], its normal map, is flat"), "{}", flipped.text);
+    let mut document = model.document();
+    let fixed = fix_document(&mut document, findings, &FixOptions::default()).expect("a repair");
+    assert!(fixed.is_changed, "{fixed:#?}");
+    model.tangents()[0] = [0.0, 0.0, 0.0, 1.0];
+    let zero = check(&model).into_iter().find(|finding| finding.code == Code::TangentZero);
+    assert!(zero.is_some_and(|zero| zero.severity > Severity::Info));
+}

@@ -11,7 +11,7 @@ use super::surfaces::{defects_of_surface, for_each_surface, weigh};
 use crate::cancelling;
 use crate::check_options::CheckOptions;
 use crate::code::Code;
-use crate::defect::{Defect, Fault, Obstacle, Unread, UvFault};
+use crate::defect::{Defect, Fault, MapFault, Obstacle, Unread, UvFault};
 use crate::finding::Finding;
 use crate::hypotheses::{self, Inverted, MapWitness, inverted, is_about_channels};
 use crate::instances::{Key, key};
@@ -220,6 +220,16 @@ pub fn defects_of_materials(
             hypotheses::leave_unidentified(found, witness, surfaces, sibling, *image);
             cancelling::mark(found, surfaces, Some(*image));
         });
+    }
+    let is_flat =
+        |found: &[Defect]| found.iter().any(|defect| matches!(defect.fault, Fault::Map(MapFault::Flat(_))));
+    let flat = judged.iter().filter(|(_, found, _)| is_flat(found)).map(|(image, ..)| *image).collect();
+    let under_flat_maps = users.read_only_by(&flat);
+    for defect in on_surfaces {
+        let image = defect.place.primitive.as_ref().and_then(|name| under_flat_maps.get(&key(name)));
+        if let Some(&image) = image {
+            *defect = defect.clone().under_flat_map(image);
+        }
     }
     defects.extend(judged.into_iter().flat_map(|(_, found, _)| found));
     Ok(defects)

@@ -59,16 +59,28 @@ pub fn for_each_surface(
 /// percent of a model that fills a screen of 1920 x 1080 is a square of a hundred pixels.
 const MIN_SPOILED: f64 = 0.5;
 
+/// The least part of what all defects of one kind spoil that is an error: the smallest ones, which are less
+/// together, are not seen beside the others.
+const MIN_PART: f64 = 0.05;
+
 /// Lowers the severity of defects that spoil too small a part of the model, all of one code together: what is
 /// cut into many primitives looks as it would in one.
 pub fn weigh(defects: &mut [Defect]) {
-    let mut of_code: BTreeMap<Code, f64> = BTreeMap::new();
-    for (code, percent) in defects.iter().filter_map(|defect| Some((defect.code(), defect.spoiled?))) {
-        *of_code.entry(code).or_default() += percent;
+    let mut of_code: BTreeMap<Code, Vec<(usize, f64)>> = BTreeMap::new();
+    for (index, defect) in defects.iter().enumerate() {
+        if let Some(percent) = defect.spoiled {
+            of_code.entry(defect.code()).or_default().push((index, percent));
+        }
     }
-    for defect in defects.iter_mut().filter(|defect| defect.spoiled.is_some()) {
-        if of_code[&defect.code()] < MIN_SPOILED {
-            defect.severity = defect.severity.min(Severity::Warning);
+    for mut found in of_code.into_values() {
+        let all: f64 = found.iter().map(|(_, percent)| percent).sum();
+        found.sort_by(|(_, a), (_, b)| a.total_cmp(b));
+        let mut below = 0.0;
+        for (index, percent) in found {
+            below += percent;
+            if all < MIN_SPOILED || below < MIN_PART * all {
+                defects[index].severity = defects[index].severity.min(Severity::Warning);
+            }
         }
     }
 }
@@ -126,5 +138,20 @@ mod tests {
         let shared = |severity| [all_of(5, severity), all_of(1, Severity::Warning)].concat();
         assert_eq!(severities(0.2), shared(Severity::Error));
         assert_eq!(severities(0.05), shared(Severity::Warning));
+    }
+
+    /// One triangle of a model beside a thousand others.
+    #[test]
+    fn what_is_not_seen_beside_others_is_no_error() {
+        let part = || Part::new(&[1], 100).expect("one triangle");
+        let defect = |percent| {
+            let fault = TangentFault::SharedAcrossMirror(part());
+            Defect { spoiled: Some(percent), ..Defect::new(fault) }
+        };
+        let mut defects = [0.001, 5.0, 0.0, 0.4].map(defect);
+        weigh(&mut defects);
+        let severities = defects.map(|defect| defect.severity);
+        let [error, warning] = [Severity::Error, Severity::Warning];
+        assert_eq!(severities, [warning, error, warning, error]);
     }
 }

@@ -176,6 +176,9 @@ pub enum MapFault {
         /// Whether the derivatives show it; otherwise the faces do.
         by_derivatives: bool,
         log_energy_ratio: f32,
+        /// The least parts of the slopes that no height field explains: of the channels as they are, and
+        /// exchanged.
+        residuals: [f32; 2],
         certainty: Certainty,
         faces: Option<FacesScore>,
     },

@@ -5,7 +5,7 @@ use darboux::Recipe;
 use crate::code::Code;
 use crate::indices::{Indices, Part};
 use crate::measure::fit::Difference;
-use crate::measure::recipe::Recognised;
+use crate::measure::recipe::{Far, Recognised};
 
 /// What is wrong with tangents.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,8 +40,8 @@ pub enum TangentFault {
     },
     OtherRecipe {
         recognised: Recognised,
-        /// Where no known method made them: the percentage of corners that are far from MikkTSpace.
-        far: f64,
+        /// Where no known method made them: those that are far from MikkTSpace.
+        far: Far,
     },
 }
 

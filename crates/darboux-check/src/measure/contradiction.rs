@@ -16,6 +16,10 @@ const BLOCKS: usize = 8;
 /// The smallest confidence of a block that counts.
 const CLEAR: f32 = 0.99;
 
+/// The largest probability that so many blocks of a map in one convention seem to be in the other one: of the
+/// 64 blocks of a large map, one is wrong in every other map if each is sure by 99 %.
+const MAX_CHANCE: f64 = 0.01;
+
 /// The smallest root of the mean squared deviation of red and green, in units of vectors, of a block that
 /// counts: two codes of 8 bits.
 const MIN_DEVIATION: f64 = 2.0 / 127.5;
@@ -74,6 +78,7 @@ impl Contradiction {
         let mut found = Self { side, parts: [Part::default(); 2] };
         let starts = |length: usize| (0..length / side).map(move |number| number * side);
         let mut block = Vec::with_capacity(side * side);
+        let mut expected_wrong = 0.0;
         for (top, left) in starts(height).flat_map(|top| starts(width).map(move |left| (top, left))) {
             block.clear();
             for row in image.texels.chunks_exact(width).skip(top).take(side) {
@@ -87,12 +92,28 @@ impl Contradiction {
             };
             let energy = deviation(&block, layout);
             if judgement.confidence >= CLEAR && energy >= MIN_DEVIATION * MIN_DEVIATION {
+                expected_wrong += 1.0 - f64::from(judgement.confidence);
                 found.parts[part].add(side, [left, top], judgement.z_score, energy);
             }
         }
         let all = found.parts.iter().map(|part| part.energy).sum::<f64>();
-        found.parts.iter().all(|part| part.blocks > 0 && part.energy >= MIN_SHARE * all).then_some(found)
+        let is_more = |part: &Part| part.blocks > 0 && part.energy >= MIN_SHARE * all;
+        let fewer = found.parts.iter().map(|part| part.blocks).min().unwrap_or(0);
+        let is_chance = chance_of(fewer, expected_wrong) > MAX_CHANCE;
+        (found.parts.iter().all(is_more) && !is_chance).then_some(found)
     }
+}
+
+/// The probability of at least so many independent events of which `expected` are expected: the tail of
+/// Poisson's distribution.
+fn chance_of(events: usize, expected: f64) -> f64 {
+    let mut term = (-expected).exp();
+    let mut fewer = 0.0;
+    for count in 1..=events {
+        fewer += term;
+        term *= expected / count as f64;
+    }
+    1.0 - fewer
 }
 
 /// The mean squared deviation of x and y from their means.
@@ -104,4 +125,19 @@ fn deviation(block: &[[u8; 4]], layout: TexelLayout<4>) -> f64 {
     }
     let [x, y, squared_x, squared_y] = sums.map(|sum| sum / block.len().max(1) as f64);
     squared_x - x * x + squared_y - y * y
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_unsure_block_of_many_is_chance() {
+        assert_eq!(chance_of(0, 0.5), 1.0);
+        assert!((chance_of(1, 0.5) - 0.393).abs() < 1e-3);
+        assert!((chance_of(2, 0.5) - 0.0902).abs() < 1e-3);
+        assert!(chance_of(1, 43.0 * 0.001) > MAX_CHANCE);
+        assert!(chance_of(1, 16.0 * 0.0002) < MAX_CHANCE);
+        assert!(chance_of(4, 64.0 * 0.005) < MAX_CHANCE);
+    }
 }

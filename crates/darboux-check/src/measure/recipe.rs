@@ -7,6 +7,7 @@ use crate::measure::expected::is_measured;
 use crate::measure::fit::{Difference, Fit};
 use crate::measure::outliers::{FAR, Outliers, tangents_without_other_mistakes};
 use crate::measure::values::{has_length, is_unit};
+use crate::model_area::area_of;
 use crate::surface::{Surface, cross, dot, length, xyz};
 
 /// The percentage of close corners from which on tangents are those of MikkTSpace.
@@ -22,6 +23,15 @@ pub struct Recognised {
     pub mikktspace: RecipeMatch,
     /// Whether the recipe shows only with normals of length 1, which the file does not have.
     pub with_unit_normals: bool,
+}
+
+/// The corners whose tangents are far from MikkTSpace's.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Far {
+    /// In percent of all corners.
+    pub percent: f64,
+    /// Their area by the angle, in the units of the positions: a right angle counts whole.
+    pub spoiled: f64,
 }
 
 /// The recipes of a surface.
@@ -60,15 +70,15 @@ impl Recipes {
         }
     }
 
-    /// The corners that are more than [`FAR`] from MikkTSpace around the normal, in percent of those that lie
-    /// in triangles with an area and not on mirrored seams. Tangents that are outliers, negated or
-    /// rotated, or lean towards the normal, have findings of their own.
-    pub fn percent_far(&self, facts: &SurfaceFacts<'_>) -> f64 {
+    /// The corners that are more than [`FAR`] from MikkTSpace around the normal, of those that lie in
+    /// triangles with an area and not on mirrored seams. Tangents that are outliers, negated or rotated,
+    /// or lean towards the normal, have findings of their own.
+    pub fn far(&self, facts: &SurfaceFacts<'_>) -> Far {
         let surface = facts.surface;
         let (Some(tangents), Some(normals), Some(uvs), Some(expected)) =
             (&surface.tangents, &surface.normals, surface.uv_sets.get(&surface.uv_set), &facts.expected)
         else {
-            return 0.0;
+            return Far::default();
         };
         let mut is_other = facts.is_on_mirrored_seam.clone();
         let outliers = self.outliers.iter().flat_map(|outliers| &outliers.vertices);
@@ -84,7 +94,7 @@ impl Recipes {
             dot(cross(normals[vertex], expected), tangent).atan2(dot(expected, tangent)).to_degrees().abs()
         };
         let is_counted = |vertex: usize| has_length(tangents[vertex]) && !is_other[vertex];
-        let (mut corners, mut far) = (0usize, 0usize);
+        let (mut corners, mut far, mut spoiled) = (0usize, 0usize, 0.0);
         for (triangle, expected) in surface.triangles().zip(expected.as_chunks::<3>().0) {
             if !is_measured(surface, uvs, triangle) {
                 continue;
@@ -93,10 +103,15 @@ impl Recipes {
                 triangle.into_iter().zip(expected).filter(|(vertex, _)| is_counted(*vertex))
             {
                 corners += 1;
-                far += usize::from(angle(vertex, xyz(expected)) > FAR);
+                let angle = angle(vertex, xyz(expected));
+                if angle > FAR {
+                    far += 1;
+                    let area = area_of(triangle.map(|vertex| surface.positions[vertex]));
+                    spoiled += area / 3.0 * (angle / 90.0).min(1.0);
+                }
             }
         }
-        100.0 * far as f64 / corners.max(1) as f64
+        Far { percent: 100.0 * far as f64 / corners.max(1) as f64, spoiled }
     }
 }
 

@@ -22,6 +22,8 @@ pub struct LeftPairs {
     images: BTreeMap<usize, &'static Pair>,
     /// The primitives whose flipped signs the map in an image may cancel.
     may_cancel: BTreeMap<Key, usize>,
+    /// The primitives whose tangents nothing shows, each with its flat normal map.
+    flat_maps: BTreeMap<Key, usize>,
     /// What cancels the defects of a code of a primitive.
     cancelled: BTreeMap<(Key, Code), Cancelled>,
 }
@@ -44,7 +46,9 @@ impl LeftPairs {
             Some(((key(defect.place.primitive.as_ref()?), defect.code()), defect.cancelled.clone()?))
         };
         let cancelled = on_surfaces.iter().filter_map(cancelled).collect();
-        let mut left = Self { may_cancel, cancelled, ..Self::default() };
+        let flat_map = |defect: &Defect| Some((key(defect.place.primitive.as_ref()?), defect.flat_map?));
+        let flat_maps = on_surfaces.iter().filter_map(flat_map).collect();
+        let mut left = Self { may_cancel, cancelled, flat_maps, ..Self::default() };
         let of_images = grouped(on_images, |defect| defect.place.image);
         if of_images.is_empty() {
             return Ok(left);
@@ -81,10 +85,16 @@ impl LeftPairs {
         };
         let mark = |mut defect: Defect| {
             defect.cancelled = defect.cancelled.take().or_else(|| cancelled(&defect));
-            let pair = pair_of(&defect).map(Obstacle::PairIsLeft);
+            // Other mistakes of the place are repaired, and the pair stays as it is.
+            let pair = pair_of(&defect).filter(|pair| pair.contains(defect.code()));
+            let pair = pair.map(Obstacle::PairIsLeft);
             let map = map_of(&defect).map(|image| Obstacle::MapMayCancel { image });
             if map.is_some() || defect.cancelled.is_some() {
                 defect.severity = defect.severity.min(Severity::Warning);
+            }
+            let flat_map = defect.place.primitive.as_ref().and_then(|name| self.flat_maps.get(&key(name)));
+            if let Some(&image) = flat_map {
+                defect = defect.under_flat_map(image);
             }
             defect.with_obstacle(pair.or(map))
         };

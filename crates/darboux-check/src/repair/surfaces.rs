@@ -208,6 +208,11 @@ impl Work<'_> {
             return false;
         }
         let is_same = |known: &&&Defect| known.code() == left.code();
+        // Beside larger ones it was no error, and these are gone.
+        let no_more = |known: &&&Defect| known.spoiled.is_some() && left.spoiled <= known.spoiled;
+        if before.iter().filter(is_same).any(|known| no_more(&known)) {
+            return false;
+        }
         let known = before.iter().filter(is_same).map(|known| known.severity).max();
         match left.severity {
             Severity::Error => known != Some(Severity::Error),

@@ -241,9 +241,12 @@ fn channels_swapped(map: &Map) -> Option<Defect> {
         return None;
     }
     let is_undecided = judgement.z_score < 0.0 && map.decide(Arrangement::ExchangedAndInverted).is_none();
+    let [up, down] = judgement.residuals;
+    // What is a gradient with exchanged channels is the rest of one in the other convention.
     let found = Defect::new(MapFault::ChannelsSwapped {
         by_derivatives,
         log_energy_ratio: judgement.log_energy_ratio,
+        residuals: [up.min(down), 1.0 - up.max(down)],
         certainty: certainty(judgement, map),
         faces: by_facets.then(|| faces_score(map, candidates(judgement)[1])),
     });

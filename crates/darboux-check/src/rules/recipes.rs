@@ -7,13 +7,13 @@ use crate::defect::Obstacle;
 use crate::defect::{Defect, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::indices::Part;
-use crate::measure::recipe::{IS_KNOWN, Recipes, close, is_mikktspace};
+use crate::measure::recipe::{Far, IS_KNOWN, Recipes, close, is_mikktspace};
 use crate::severity::Severity;
 
 pub const RULES: &[SurfaceRule] = &[other_recipe];
 
 /// The share of corners far from MikkTSpace, in percent, above which tangents of no known method are an
-/// error: one in a hundred is seen on a model that fills the screen.
+/// error where they spoil enough of the model.
 const MAX_PERCENT_FAR: f64 = 1.0;
 
 /// The largest angle to MikkTSpace in degrees that cannot be seen.
@@ -34,8 +34,8 @@ fn of_all(facts: &SurfaceFacts<'_>, recipes: &Recipes) -> Option<Defect> {
     let recognised = recipes.of_all.filter(|recognised| !recognised.is_of_mikktspace())?;
     let best = &recognised.best;
     let is_known = !is_mikktspace(best) && close(best) >= IS_KNOWN;
-    let far = if is_known { 0.0 } else { recipes.percent_far(facts) };
-    let severity = if far > MAX_PERCENT_FAR {
+    let far = if is_known { Far::default() } else { recipes.far(facts) };
+    let severity = if far.percent > MAX_PERCENT_FAR {
         Severity::Error
     } else if recognised.mikktspace.worst > MAX_UNSEEN {
         Severity::Warning

@@ -59,13 +59,17 @@ pub fn said(fault: &MapFault) -> Said {
             with_faces(Said::new(text), Some(score))
         }
         MapFault::DetailFlipped { is_relief_up, evidence } => detail_flipped(*is_relief_up, evidence),
-        MapFault::ChannelsSwapped { by_derivatives, log_energy_ratio, certainty, faces } => {
+        MapFault::ChannelsSwapped { by_derivatives, log_energy_ratio, residuals, certainty, faces } => {
             let text = if *by_derivatives {
                 "its red changes from texel to texel as green should, and its green as red should: they are exchanged"
             } else {
                 "its texels follow the faces of the mesh with red and green exchanged"
             };
-            let said = Said::new(text).with(RATIO, f64::from(*log_energy_ratio), "");
+            let [as_they_are, exchanged] = residuals.map(|residual| 100.0 * f64::from(residual));
+            let said = Said::new(text)
+                .with(RATIO, f64::from(*log_energy_ratio), "")
+                .with("part of the slopes that no height field explains, as they are", as_they_are, "%")
+                .with("exchanged", exchanged, "%");
             with_faces(with_certainty(said, certainty), faces.as_ref())
         }
         MapFault::NotUnit { texels, mean_length, doubt } => not_unit(texels, *mean_length, *doubt),

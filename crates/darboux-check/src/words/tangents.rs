@@ -8,7 +8,7 @@ use crate::defect::{TangentDifference, TangentFault};
 use crate::indices::Part;
 use crate::measure::fit::Difference;
 use crate::measure::outliers::FAR;
-use crate::measure::recipe::{IS_KNOWN, Recognised, close, is_mikktspace};
+use crate::measure::recipe::{Far, IS_KNOWN, Recognised, close, is_mikktspace};
 use crate::severity::Severity;
 
 pub fn said(fault: &TangentFault, severity: Severity) -> Said {
@@ -114,7 +114,7 @@ fn outliers(recipe: &Recipe, part: &Part) -> Said {
         .with_cure("Compute these tangents again as the others were: `darboux check --fix`.")
 }
 
-fn other_recipe(recognised: &Recognised, far: f64, severity: Severity) -> Said {
+fn other_recipe(recognised: &Recognised, far: Far, severity: Severity) -> Said {
     let Recognised { best, mikktspace, with_unit_normals } = recognised;
     let (mut text, nearest) = description(best);
     if *with_unit_normals {
@@ -123,7 +123,7 @@ fn other_recipe(recognised: &Recognised, far: f64, severity: Severity) -> Said {
     let said = if severity == Severity::Error {
         Said::new(text + ", and bumps are lit from wrong directions where they differ most")
             .with_cure("Compute the tangents again: `darboux tangents --overwrite`.")
-            .with("corners more than 20 degrees from MikkTSpace", far, "%")
+            .with("corners more than 20 degrees from MikkTSpace", far.percent, "%")
     } else {
         Said::new(text)
     };

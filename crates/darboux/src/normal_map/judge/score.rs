@@ -57,6 +57,14 @@ const MAX_EXCHANGED_RATIO: f64 = -0.02;
 const MAX_EXCHANGED_RATIO_Z_SCORE: f64 = -4.0;
 const MIN_EXCHANGED_Z_SCORE: f64 = 2.0;
 
+/// The smallest sum of both residuals of exchanged channels: where the log energy ratio is clear, and where
+/// it is not. Exchanging red and green makes each residual the rest to one of the other convention's, so that
+/// the channels fit a height field better as they are where the sum is below one, less what noise adds. Of
+/// 60 generated maps with exchanged channels, the least have 0.95 and 1.14. Noise of one code in most tiles
+/// outvotes a relief in few, but has no energy: real maps in their order had 0.68, and 1.10 after reduction.
+const MIN_EXCHANGED_RESIDUALS: [f64; 2] = [0.9, 1.12];
+const CLEAR_EXCHANGED_RATIO: f64 = -0.3;
+
 /// The largest log energy ratio of a map without a sign that is called no gradient: it is 0 for noise, whose
 /// derivatives are independent, and for pictures, whose red and green change together. Slopes of threads or
 /// grooves along u and v have little mixed energy and much more unmixed energy.
@@ -201,6 +209,15 @@ impl Evidence {
         self.log_energy_ratio <= MAX_EXCHANGED_RATIO
             && self.ratio_z_score <= MAX_EXCHANGED_RATIO_Z_SCORE
             && self.z_score.abs() >= MIN_EXCHANGED_Z_SCORE
+            && !self.fits_in_order()
+    }
+
+    /// Whether a height field explains more of the slopes with the channels in their order than with red and
+    /// green exchanged.
+    fn fits_in_order(&self) -> bool {
+        let [clear, unclear] = MIN_EXCHANGED_RESIDUALS;
+        let least = if self.log_energy_ratio <= CLEAR_EXCHANGED_RATIO { clear } else { unclear };
+        self.spectrum.residuals().iter().sum::<f64>() < least
     }
 
     /// The logarithm of the odds that green points up.
@@ -273,7 +290,9 @@ impl Evidence {
     /// to generated maps (`cargo xtask maps`).
     pub fn confidence(&self) -> f64 {
         let of_sign = self.sign_probability();
-        let of_order = logistic(EXCHANGE_ODDS + EXCHANGE_STEEPNESS * self.ratio_z_score);
+        let ratio_z_score =
+            if self.fits_in_order() { self.ratio_z_score.max(0.0) } else { self.ratio_z_score };
+        let of_order = logistic(EXCHANGE_ODDS + EXCHANGE_STEEPNESS * ratio_z_score);
         match self.verdict() {
             MapVerdict::NoGradient if self.is_exchanged() => 1.0 - of_order,
             MapVerdict::NoGradient => CONFIDENCE_WITHOUT_SIGN,
