@@ -60,11 +60,14 @@ impl<'a, W: FileCommand> Tally<'a, W> {
         self.errors.iter().chain(&self.remaining).for_each(|error| messages.error(error));
         let totals = self.report.totals();
         if processed.is_ok() && (totals.failed < totals.files || totals.files > 1) {
-            let done = counted(totals.files - totals.failed, "file", "files");
-            let failed = nonzero_counts([(totals.failed, "file failed", "files failed")]);
+            let done = counted(totals.files - totals.failed - totals.up_to_date, "file", "files");
+            let others = nonzero_counts([
+                (totals.up_to_date, "file was up to date", "files were up to date"),
+                (totals.failed, "file failed", "files failed"),
+            ]);
             let seconds = start.elapsed().as_secs_f32();
             let total = W::total(&self.totals);
-            messages.summary(&format!("{total} in {done}{failed}; {seconds:.2} s{}", self.hidden_warnings()));
+            messages.summary(&format!("{total} in {done}{others}; {seconds:.2} s{}", self.hidden_warnings()));
         }
         let written = self.report.end();
         if let Err(error) = &written {

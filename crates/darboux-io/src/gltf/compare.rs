@@ -91,7 +91,16 @@ pub fn pair_tangents<'a>(a: &'a Document, b: &'a Document) -> Result<Vec<Pair<'a
         document.meshes().iter().map(|mesh| mesh.primitives.len()).collect()
     };
     if shape(a) != shape(b) {
-        let problem = format!("has other meshes or primitives than {}; compare files of one model", a.name());
+        let sizes = [b, a].map(|document| {
+            let shape = shape(document);
+            format!("{} primitives in {} meshes", shape.iter().sum::<usize>(), shape.len())
+        });
+        let problem = format!(
+            "has {}, but {} has {}; compare files of one model with the same meshes (a PLY or STL has one for all)",
+            sizes[0],
+            a.name(),
+            sizes[1]
+        );
         return Err(b.invalid("meshes", problem));
     }
     let options = AddTangentsOptions::default().with_overwrite(true);

@@ -108,7 +108,9 @@ fn details(primitive: &InspectedPrimitive, indent: usize) -> String {
     };
     let mut text = String::new();
     let attributes = format!("{name}{}{targets}", info.attributes.join(" "));
-    let ineligible = info.ineligible.as_ref().map(|reason| format!("no tangents: {reason}"));
+    let has_tangents = info.attributes.iter().any(|attribute| attribute == "TANGENT");
+    let outcome = if has_tangents { "its tangents cannot be computed again" } else { "no tangents" };
+    let ineligible = info.ineligible.as_ref().map(|reason| format!("{outcome}: {reason}"));
     for line in [Some(attributes), made_by.as_ref().map(MadeBy::describe), ineligible] {
         let line = line.filter(|line| !line.is_empty());
         line.iter().for_each(|line| text += &format!("{:indent$}{GAP}{}\n", "", printable(line)));
