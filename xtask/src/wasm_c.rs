@@ -1,5 +1,7 @@
 //! The C compiler of the WebAssembly modules that read FBX: ufbx, the reader, is C code.
 
+use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::process::Command;
 
 use crate::run::{program, root, works};
@@ -34,6 +36,10 @@ impl Clang {
         // The last level of optimisation counts. The code is a tenth smaller than with `-O3`, which Cargo
         // asks for.
         let flags = format!("-nostdlibinc -Os '-DUFBX_CONFIG_HEADER=\"{}\"'", header.display());
+        // Cargo notices other flags, and no other header.
+        let mut hasher = DefaultHasher::new();
+        fs::read(&header).unwrap_or_default().hash(&mut hasher);
+        let flags = format!("{flags} -DDARBOUX_HASH_OF_CONFIG_HEADER={}", hasher.finish());
         cargo.env("CC_wasm32_unknown_unknown", self.0).env("CFLAGS_wasm32_unknown_unknown", flags);
         // Lets a path have spaces.
         cargo.env("CC_SHELL_ESCAPED_FLAGS", "1");
