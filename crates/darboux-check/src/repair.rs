@@ -22,7 +22,7 @@ pub use maps::{FixedMap, fix_map, fix_map_on_model};
 pub use options::FixOptions;
 pub use outcome::{Change, FixedDocument, FixedFinding};
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use darboux_io::Error;
 use darboux_io::gltf::Document;
@@ -131,12 +131,13 @@ fn followed_by(mut first: Vec<FixedFinding>, second: Vec<FixedFinding>) -> Vec<F
     fn samenesses(fixed: &FixedFinding) -> impl Iterator<Item = Sameness> {
         fixed.finding.defects.iter().map(Defect::sameness)
     }
+    let places =
+        first.iter().enumerate().flat_map(|(at, fixed)| samenesses(fixed).map(move |same| (same, at)));
+    let place_of: HashMap<Sameness, usize> = places.collect();
     for later in second {
-        let same = first
-            .iter_mut()
-            .find(|known| samenesses(known).any(|same| samenesses(&later).any(|one| one == same)));
-        match same {
-            Some(known) if later.repaired && !known.repaired => *known = later,
+        let place = samenesses(&later).find_map(|same| place_of.get(&same).copied());
+        match place {
+            Some(at) if later.repaired && !first[at].repaired => first[at] = later,
             Some(_) => {}
             None => first.push(later),
         }
