@@ -61,7 +61,7 @@ const MIN_SPOILED: f64 = 0.5;
 
 /// The least part of what all defects of one kind spoil that is an error: the smallest ones, which are less
 /// together, are not seen beside the others.
-const MIN_PART: f64 = 0.05;
+const MIN_PART: f64 = 0.1;
 
 /// Lowers the severity of defects that spoil too small a part of the model, all of one code together: what is
 /// cut into many primitives looks as it would in one.
@@ -148,7 +148,7 @@ mod tests {
             let fault = TangentFault::SharedAcrossMirror(part());
             Defect { spoiled: Some(percent), ..Defect::new(fault) }
         };
-        let mut defects = [0.001, 5.0, 0.0, 0.4].map(defect);
+        let mut defects = [0.001, 5.0, 0.0, 0.8].map(defect);
         weigh(&mut defects);
         let severities = defects.map(|defect| defect.severity);
         let [error, warning] = [Severity::Error, Severity::Warning];
