@@ -155,7 +155,10 @@ fn what_is_left_out_is_listed() {
 fn textures_of_an_obj_lie_as_in_the_document() {
     let folder = tempfile::tempdir().unwrap();
     let document = open(&blender("mapping.glb"));
-    assert_eq!(document.left_out(FileKind::Obj).unwrap(), ["2 rotations of textures"]);
+    assert_eq!(
+        document.left_out(FileKind::Obj).unwrap(),
+        ["2 placements of textures, which are rotated", "8 double-sided materials"]
+    );
     let obj = saved(&document, &folder.path().join("mapping.obj"));
     assert_eq!(obj.warnings(), [""; 0]);
     let library = fs::read_to_string(folder.path().join("mapping.mtl")).unwrap();
@@ -184,10 +187,12 @@ fn textures_of_an_obj_lie_as_in_the_document() {
 fn what_an_obj_cannot_say_of_textures_is_listed() {
     let gltf = json!({
         "asset": {"version": "2.0"},
-        "samplers": [{"wrapS": 33648}],
+        "samplers": [{"wrapS": 33648, "magFilter": 9728}],
         "images": [{"uri": "a.png"}],
         "textures": [{"source": 0, "sampler": 0}, {"source": 0}],
         "materials": [{
+            "alphaMode": "MASK",
+            "doubleSided": true,
             "pbrMetallicRoughness": {
                 "baseColorTexture": {"index": 0},
                 "metallicRoughnessTexture": {"index": 1, "texCoord": 1},
@@ -200,6 +205,9 @@ fn what_an_obj_cannot_say_of_textures_is_listed() {
     let wanted = [
         "1 choice to mirror a texture, or to clamp it along one axis",
         "1 texture on a UV set that is not written",
+        "1 texture filter of single texels",
+        "1 alpha mask, which is a transparency here",
+        "1 double-sided material",
     ];
     assert_eq!(document.left_out(FileKind::Obj).unwrap(), wanted);
 }

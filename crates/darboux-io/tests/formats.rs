@@ -185,14 +185,17 @@ fn cut_off_and_untrue_counts_are_errors() {
         }
     }
     let huge = String::from_utf8(square("ascii")).unwrap().replace("vertex 4", "vertex 4000000000");
-    assert!(refusal(huge).contains("vertex 0: is missing or no number, of 4000000000"));
+    assert!(
+        refusal(huge)
+            .contains("element vertex: the file is cut off: its header says that there are 4000000000")
+    );
     let outside = String::from_utf8(square("ascii")).unwrap().replace("4 0 1 2 3", "4 0 1 2 9");
     assert!(refusal(outside).contains("a face refers to position 9, but there are 4"));
     // Elements that could each be there, but not all.
     let faces = "element face 20\nproperty list uchar int vertex_indices\n".repeat(300);
     let many =
         String::from_utf8(square("ascii")).unwrap().replace("end_header", &format!("{faces}end_header"));
-    assert!(refusal(many).contains("face 0: is missing or no number, of 20"));
+    assert!(refusal(many).contains("element face: the file is cut off: its header says that there are 20"));
 }
 
 /// A million of them would otherwise take a second each, and memory as faces.
@@ -499,4 +502,11 @@ fn normals_and_colours_of_facets_are_listed() {
     assert_eq!(lost, ["the colour of all facets in the header"]);
     let ascii = "solid a\nfacet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
     assert_eq!(not_carried(ascii.into()).1, [against]);
+}
+
+/// A model without triangles would be a glTF with empty lists, which are invalid.
+#[test]
+fn a_ply_of_edges_has_no_faces() {
+    let edge = String::from_utf8(square("ascii")).unwrap().replace("4 0 1 2 3", "2 0 1");
+    assert!(refusal(edge).contains("is a PLY without faces"));
 }

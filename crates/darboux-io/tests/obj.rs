@@ -340,3 +340,49 @@ fn indices_have_signs() {
     let elements = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
     assert_eq!(indices(&format!("{elements}f +1 -2 003\n")), [[0, 1, 2]]);
 }
+
+/// Names in other encodings than UTF-8 are compared as bytes.
+#[test]
+fn materials_are_found_by_the_bytes_of_their_names() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.mtl"), b"newmtl caf\xe8\nKd 1 0 0\nnewmtl caf\xe9\nKd 0 1 0\n").unwrap();
+    let obj = b"mtllib a.mtl\nv 0 0 0\nusemtl caf\xe9\nf 1 1 1\nusemtl caf\xe8\nf 1 1 1\n";
+    fs::write(folder.path().join("a.obj"), obj).unwrap();
+    let model = open(&folder.path().join("a.obj"));
+    assert_eq!(model.warnings(), [""; 0]);
+    let primitives = model.json()["meshes"][0]["primitives"].as_array().unwrap().clone();
+    assert_eq!([0, 1].map(|at| primitives[at]["material"].as_u64()), [Some(1), Some(0)]);
+}
+
+#[test]
+fn what_a_library_lacks_is_a_warning() {
+    let of_library = |library: &[u8]| {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("a.mtl"), library).unwrap();
+        fs::write(folder.path().join("a.obj"), "mtllib a.mtl\nv 0 0 0\nusemtl a\nf 1 1 1\n").unwrap();
+        let model = open(&folder.path().join("a.obj"));
+        (model.warnings().to_vec(), model.json().to_string())
+    };
+    for library in [&b""[..], b"\xff\xfen\0e\0w\0m\0t\0l\0 \0a\0", b"\x01\x02"] {
+        assert_eq!(of_library(library).0, ["no library has the material a; its faces have none"]);
+    }
+    for statement in ["Kd 0.5 nan 0.5", "Kd 0.5 x", "Ns abc", "Ke inf 0 0", "d"] {
+        let (warnings, _) = of_library(format!("newmtl a\n{statement}\n").as_bytes());
+        assert_eq!(warnings, ["not carried over: broken numbers of 1 material"], "{statement}");
+    }
+    let (warnings, json) = of_library(b"newmtl a\nKe 2 1 0\nd -halo 0.5\n");
+    assert_eq!(warnings, [""; 0]);
+    assert!(json.contains("emissiveStrength") && json.contains("\"emissiveFactor\":[1.0,"), "{json}");
+}
+
+#[test]
+fn indices_of_nothing_are_errors() {
+    let problem = |face: &str| {
+        let obj = format!("v 0 0 0\nv 1 0 0\nv 1 1 0\n{face}\n");
+        let document = Document::from_bytes("a.obj", obj.into(), None, &LoadOptions::default());
+        document.unwrap_err().to_string()
+    };
+    assert!(problem("f 0 1 2").contains("line 4: has the index 0, but indices begin at 1; "));
+    assert!(problem("f -1 -2 -5").contains("line 4: refers to position -5, but there are 3 before it; "));
+    assert!(problem("f 1 2 x").contains("line 4: has \"x\", which is no corner of a face; "));
+}

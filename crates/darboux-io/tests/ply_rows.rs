@@ -173,6 +173,9 @@ fn faces_that_are_cut_off_are_counted() {
     let whole = Strip::new(|column| column < 4).ply(&USUAL, ("uchar", "int"), false, None);
     for cut in [1, 17, 18, 40, 60, 90] {
         let error = open(whole[..whole.len() - cut].to_vec()).unwrap_err();
-        assert!(error.starts_with("a.ply: face ") && error.contains("is missing or no number"), "{error}");
+        assert!(
+            error.starts_with("a.ply: face ") && error.contains("is missing, cut off or no number"),
+            "{error}"
+        );
     }
 }

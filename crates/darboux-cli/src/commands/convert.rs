@@ -8,7 +8,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use darboux::Convention;
+use darboux::{Convention, UvOrigin};
 use darboux_io::FileKind;
 use darboux_io::gltf::{ConversionSummary, Document, Progress, convert_vertices};
 use darboux_io::image::{PngImage, convert_normal_map, count_invalid_normals};
@@ -235,6 +235,13 @@ impl ConvertArguments {
             ));
         }
         let mut warnings = document.warnings().to_vec();
+        // Readers of formats whose v points up have turned it for glTF.
+        if document.provenance().is_some() && from.convention.uv_origin != UvOrigin::TopLeft {
+            let name = &from.name;
+            warnings.push(format!(
+                "v points down since this file was read, and --from {name} turns it again; unless that is wanted, add v0=top: --from {name},v0=top"
+            ));
+        }
         let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
         let mut summary = convert_vertices(&mut document, from.convention, to.convention, &mut on_progress)
             .map_err(|error| error.to_string())?;

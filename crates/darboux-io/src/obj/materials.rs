@@ -96,16 +96,19 @@ impl<'a> Materials<'a> {
 
     fn add(&mut self, library: &str, material: &MtlMaterial) {
         let made = self.material(library, material);
-        self.index_of_name.insert(material.name.clone().into_bytes(), self.materials.len() as u32);
+        self.index_of_name.insert(material.name_bytes.clone(), self.materials.len() as u32);
         self.materials.push(made);
     }
 
     fn material(&mut self, library: &str, material: &MtlMaterial) -> SourceMaterial {
-        let linear = |color: [f32; 3]| color.map(|x| srgb_to_linear(finite(x)) as f32);
-        let [r, g, b] = linear(material.diffuse.unwrap_or([1.0; 3]));
+        let linear = |color: [f32; 3]| color.map(|x| srgb_to_linear(f64::from(x.max(0.0))) as f32);
+        let [r, g, b] = linear(material.diffuse.unwrap_or([1.0; 3]).map(|x| x.min(1.0)));
         let alpha = material.opacity.filter(|opacity| *opacity > 0.0 && *opacity < 1.0);
         for statement in &material.other_maps {
             *self.lost.entry(statement.clone()).or_default() += 1;
+        }
+        if material.has_broken_numbers {
+            *self.lost.entry("broken numbers".to_owned()).or_default() += 1;
         }
         let is_packed = material.roughness_map.is_some() && material.roughness_map == material.metallic_map;
         for (statement, map) in [("map_Pr", &material.roughness_map), ("map_Pm", &material.metallic_map)] {
@@ -222,7 +225,7 @@ impl<'a> Materials<'a> {
     /// Moves everything into a scene.
     pub fn finish(self, scene: &mut SourceScene) {
         scene.warnings.extend(self.warnings);
-        if !self.materials.is_empty() {
+        if !self.loaded.is_empty() {
             let mut unknown: Vec<String> =
                 self.unknown.iter().map(|name| shortened(&String::from_utf8_lossy(name))).collect();
             unknown.sort_unstable();
@@ -241,11 +244,6 @@ impl<'a> Materials<'a> {
         scene.materials = self.materials;
         scene.images = self.images;
     }
-}
-
-/// A channel from 0 to 1; numbers that are not finite count as 1.
-fn finite(channel: f32) -> f64 {
-    if channel.is_finite() { f64::from(channel.clamp(0.0, 1.0)) } else { 1.0 }
 }
 
 /// The roughness of a shininess, as Blender relates them.

@@ -1,6 +1,7 @@
 //! Makes a mesh of each object and group: its positions, UVs and normals are those that its faces use, in the
 //! order of use.
 
+use super::read::KINDS;
 use super::text::{NONE, ObjText, Run};
 use crate::source::{CornerValues, FaceSizes, SourceMesh, SourceUvSet};
 
@@ -72,7 +73,7 @@ fn mesh(text: &ObjText, run: &Run, numberings: &mut [Numbering; 3]) -> Result<So
 }
 
 fn missing(kind: usize, index: u32, numbering: &Numbering, corner: usize) -> MissingElement {
-    let what = ["position", "UV", "normal"][kind];
+    let what = KINDS[kind];
     let count = numbering.new.len();
     let index = u64::from(index) + 1;
     MissingElement { corner, problem: format!("refers to {what} {index}, but there are {count}") }

@@ -7,6 +7,10 @@ use super::statements::{statements, words};
 #[derive(Clone, Debug, Default)]
 pub struct MtlMaterial {
     pub name: String,
+    /// The bytes of the name, by which faces refer to it.
+    pub name_bytes: Vec<u8>,
+    /// Whether a statement has a number that is none or not finite.
+    pub has_broken_numbers: bool,
     /// `Kd` and `Ke`, in sRGB.
     pub diffuse: Option<[f32; 3]>,
     pub emissive: Option<[f32; 3]>,
@@ -80,7 +84,7 @@ pub fn parse(text: &[u8]) -> Vec<MtlMaterial> {
     for (_, statement, rest) in statements(text) {
         if statement == b"newmtl" {
             let name = String::from_utf8_lossy(rest).into_owned();
-            materials.push(MtlMaterial { name, ..MtlMaterial::default() });
+            materials.push(MtlMaterial { name, name_bytes: rest.to_vec(), ..MtlMaterial::default() });
         } else if let Some(material) = materials.last_mut() {
             material.add(statement, rest);
         }
@@ -89,16 +93,32 @@ pub fn parse(text: &[u8]) -> Vec<MtlMaterial> {
 }
 
 impl MtlMaterial {
+    /// The first number, as in `d 0.5` and `d -halo 0.5`.
+    fn number(&mut self, rest: &[u8]) -> Option<f32> {
+        let number = words(rest).find_map(finite_number);
+        self.has_broken_numbers |= number.is_none();
+        number
+    }
+
+    /// A colour of three numbers, or of one for all channels. None for `spectral` and `xyz`.
+    fn color(&mut self, rest: &[u8]) -> Option<[f32; 3]> {
+        let numbers: Vec<f32> = words(rest).map_while(finite_number).collect();
+        self.has_broken_numbers |= words(rest).take(3).count() > numbers.len();
+        let r = *numbers.first()?;
+        let g = *numbers.get(1).unwrap_or(&r);
+        Some([r, g, *numbers.get(2).unwrap_or(&g)])
+    }
+
     fn add(&mut self, statement: &[u8], rest: &[u8]) {
         let lower = statement.to_ascii_lowercase();
         match &lower[..] {
-            b"kd" => self.diffuse = color(rest),
-            b"ke" => self.emissive = color(rest),
-            b"ns" => self.shininess = number(rest),
-            b"pr" => self.roughness = number(rest),
-            b"pm" => self.metallic = number(rest),
-            b"d" => self.opacity = number(rest),
-            b"tr" => self.opacity = number(rest).map(|transparency| 1.0 - transparency),
+            b"kd" => self.diffuse = self.color(rest),
+            b"ke" => self.emissive = self.color(rest),
+            b"ns" => self.shininess = self.number(rest),
+            b"pr" => self.roughness = self.number(rest),
+            b"pm" => self.metallic = self.number(rest),
+            b"d" => self.opacity = self.number(rest),
+            b"tr" => self.opacity = self.number(rest).map(|transparency| 1.0 - transparency),
             b"map_kd" => self.diffuse_map = Some(map(rest)),
             b"map_ke" => self.emissive_map = Some(map(rest)),
             b"map_pr" => self.roughness_map = Some(map(rest)),
@@ -116,16 +136,9 @@ impl MtlMaterial {
     }
 }
 
-fn number(rest: &[u8]) -> Option<f32> {
-    words(rest).filter_map(|word| str::from_utf8(word).ok()?.parse().ok()).next()
-}
-
-/// A colour of three numbers, or of one for all channels. None for `spectral` and `xyz`.
-fn color(rest: &[u8]) -> Option<[f32; 3]> {
-    let mut numbers = words(rest).map_while(|word| str::from_utf8(word).ok()?.parse::<f32>().ok());
-    let r = numbers.next()?;
-    let g = numbers.next().unwrap_or(r);
-    Some([r, g, numbers.next().unwrap_or(g)])
+/// A finite number.
+fn finite_number(word: &[u8]) -> Option<f32> {
+    str::from_utf8(word).ok()?.parse().ok().filter(|number: &f32| number.is_finite())
 }
 
 /// A texture: its options, and the name after them.

@@ -181,10 +181,17 @@ fn corner(word: &[u8], counts: [usize; 3]) -> Result<Corner, String> {
         }
         let index = whole_number(index).ok_or_else(wrong)?;
         let absolute = if index < 0 { counts[kind] as i64 + index } else { index - 1 };
-        corner[kind] = u32::try_from(absolute).map_err(|_| wrong())?;
+        corner[kind] = u32::try_from(absolute).map_err(|_| match index {
+            0 => "has the index 0, but indices begin at 1".to_owned(),
+            ..0 => format!("refers to {} {index}, but there are {} before it", KINDS[kind], counts[kind]),
+            _ => wrong(),
+        })?;
     }
     Ok(corner)
 }
+
+/// The kinds of elements that a corner refers to.
+pub const KINDS: [&str; 3] = ["position", "UV", "normal"];
 
 /// A whole number in decimal digits, with or without a sign. None for other texts, and for more digits than
 /// an index has.

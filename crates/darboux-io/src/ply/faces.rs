@@ -44,6 +44,11 @@ fn face_property(property: &Property) -> FaceProperty {
 }
 
 impl FaceReader {
+    /// Whether there is a face of three or more corners.
+    pub fn has_surface(&self) -> bool {
+        self.first_triangles > 0 || self.sizes.iter().any(|&size| size >= 3)
+    }
+
     /// Reads an element of faces or strips.
     pub fn read(
         &mut self,

@@ -28,11 +28,21 @@ pub fn properties<'a>(element: &str, names: impl Iterator<Item = &'a str>) -> Op
     })
 }
 
+/// An element that is not there, or has a text that is no number.
 pub fn cut_off(element: &Element, index: usize) -> ContentError {
     let place = format!("{} {index}", element.name);
-    let count = element.count;
-    ContentError::invalid(
-        place,
-        format!("is missing or no number, of {count}; export or download the file again"),
-    )
+    let problem = format!(
+        "is missing, cut off or no number; the header says that there are {}; export or download the file again",
+        element.count
+    );
+    ContentError::invalid(place, problem)
+}
+
+/// Elements for which the file has too few bytes.
+pub fn too_short(element: &Element) -> ContentError {
+    let problem = format!(
+        "the file is cut off: its header says that there are {}; export or download it again",
+        element.count
+    );
+    ContentError::invalid(format!("element {}", element.name), problem)
 }

@@ -3,7 +3,7 @@
 use super::faces::FaceReader;
 use super::header::{self, Element, Encoding, Header, NumberType};
 use super::layout::{VertexLayout, VertexProperty, layout};
-use super::property::{cut_off, next, properties};
+use super::property::{cut_off, next, properties, too_short};
 use super::textures;
 use super::values::{Values, decode};
 use crate::error::{ContentError, shortened};
@@ -25,7 +25,7 @@ pub fn read(bytes: &[u8], files: &ModelFiles) -> Result<SourceScene, ContentErro
         let least = element.least_bytes(header.encoding).max(1);
         needed = needed.saturating_add(element.count.saturating_mul(least));
         if needed > present {
-            return Err(cut_off(element, 0));
+            return Err(too_short(element));
         }
         match &*element.name {
             "vertex" if mesh.positions.is_empty() => {
@@ -35,7 +35,7 @@ pub fn read(bytes: &[u8], files: &ModelFiles) -> Result<SourceScene, ContentErro
             _ => skip(element, &mut values, &mut scene)?,
         }
     }
-    if faces.corners.is_empty() {
+    if !faces.has_surface() {
         let advice = "bake and tangents need faces; export the model as a mesh";
         return Err(ContentError::invalid("", format!("is a PLY without faces, a point cloud; {advice}")));
     }
@@ -82,7 +82,7 @@ fn read_vertices(
     lists.tangents.resize(if has_tangents { count } else { 0 }, [0.0; 4]);
     match (encoding, row_size(element)) {
         (Encoding::LittleEndian | Encoding::BigEndian, Some(size)) => {
-            let rows = values.bytes(size * element.count).ok_or_else(|| cut_off(element, 0))?;
+            let rows = values.bytes(size * element.count).ok_or_else(|| too_short(element))?;
             lists.read_rows(element, &kinds, encoding, rows, size);
         }
         _ => {

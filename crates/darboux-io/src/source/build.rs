@@ -67,11 +67,14 @@ pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Resu
             "generator": provenance.generator,
         }}},
         "scene": 0,
-        "scenes": [{"nodes": nodes.roots}],
-        "nodes": nodes.nodes,
-        "meshes": meshes.json,
+        "scenes": [{}],
     });
+    if !nodes.roots.is_empty() {
+        root["scenes"][0]["nodes"] = json!(nodes.roots);
+    }
     let lists = [
+        ("nodes", nodes.nodes),
+        ("meshes", meshes.json),
         ("materials", materials.materials),
         ("textures", materials.textures),
         ("images", materials.images),

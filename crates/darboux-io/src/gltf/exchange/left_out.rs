@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use super::format::ExchangeFormat;
 use super::obj;
 use crate::Error;
-use crate::gltf::{Document, Wrap};
+use crate::gltf::{Alpha, Document, Wrap};
+use crate::json::Value;
 
 /// Counts of what is left out.
 pub struct LeftOut {
@@ -14,7 +15,7 @@ pub struct LeftOut {
     some_surfaces_lack: Vec<&'static str>,
     materials: usize,
     textures: usize,
-    textures_in_place: TexturesInPlace,
+    material_losses: MaterialLosses,
     uv_sets: usize,
     morph_targets: usize,
     skins: usize,
@@ -29,12 +30,17 @@ pub struct LeftOut {
 const SHARED: [(&str, &str); 4] =
     [("NORMAL", "normals"), ("TEXCOORD_0", "UVs"), ("TANGENT", "tangents"), ("COLOR_0", "colours")];
 
-/// Uses of textures of an OBJ that lie in another way than in the document.
+/// What the materials of an OBJ say in another way than the document.
 #[derive(Default)]
-struct TexturesInPlace {
+struct MaterialLosses {
     rotated: usize,
     mirrored: usize,
     on_other_uvs: usize,
+    /// Textures whose magnification shows single texels.
+    nearest: usize,
+    /// Materials whose alpha is a mask, and those that are seen from both sides.
+    masks: usize,
+    double_sided: usize,
 }
 
 /// Extensions of documents and primitives that say nothing about surfaces, or whose data is plain here.
@@ -78,7 +84,7 @@ impl LeftOut {
             some_surfaces_lack: if is_ply { partial.collect() } else { Vec::new() },
             materials: if is_ply { length("materials") } else { 0 },
             textures: if is_ply { length("textures") } else { unspelt_textures(document)? },
-            textures_in_place: if is_ply { TexturesInPlace::default() } else { textures_in_place(document)? },
+            material_losses: if is_ply { MaterialLosses::default() } else { material_losses(document)? },
             uv_sets: (1..).take_while(|set| having(&format!("TEXCOORD_{set}")) > 0).count(),
             morph_targets: primitives.iter().map(|primitive| primitive.targets.len()).max().unwrap_or(0),
             skins: length("skins"),
@@ -112,18 +118,33 @@ impl LeftOut {
             [
                 counted(self.materials, "material", "materials"),
                 counted(self.textures, &format!("texture{elsewhere}"), &format!("textures{elsewhere}")),
-                counted(self.textures_in_place.rotated, "rotation of a texture", "rotations of textures"),
                 counted(
-                    self.textures_in_place.mirrored,
+                    self.material_losses.rotated,
+                    "placement of a texture, which is rotated",
+                    "placements of textures, which are rotated",
+                ),
+                counted(
+                    self.material_losses.mirrored,
                     "choice to mirror a texture, or to clamp it along one axis",
                     "choices to mirror textures, or to clamp them along one axis",
                 ),
                 counted(
-                    self.textures_in_place.on_other_uvs,
+                    self.material_losses.on_other_uvs,
                     "texture on a UV set that is not written",
                     "textures on UV sets that are not written",
                 ),
                 counted(self.uv_sets, "further UV set", "further UV sets"),
+                counted(
+                    self.material_losses.nearest,
+                    "texture filter of single texels",
+                    "texture filters of single texels",
+                ),
+                counted(
+                    self.material_losses.masks,
+                    "alpha mask, which is a transparency here",
+                    "alpha masks, which are transparencies here",
+                ),
+                counted(self.material_losses.double_sided, "double-sided material", "double-sided materials"),
                 counted(self.morph_targets, "morph target", "morph targets"),
                 counted(self.skins, "skin", "skins"),
                 counted(self.animations, "animation", "animations"),
@@ -155,17 +176,23 @@ fn unspelt_textures(document: &Document) -> Result<usize, Error> {
     Ok(own.flatten().count())
 }
 
-/// The textures of materials that MTL cannot place as the document does.
-fn textures_in_place(document: &Document) -> Result<TexturesInPlace, Error> {
-    let mut found = TexturesInPlace::default();
+/// What MTL cannot say of the materials.
+fn material_losses(document: &Document) -> Result<MaterialLosses, Error> {
+    let mut found = MaterialLosses::default();
     for material in document.materials()? {
-        let textures = obj::textures(&material).filter(|(statement, _)| *statement != "map_Pm");
-        for (_, texture) in textures {
+        let once = |(statement, _): &(&str, _)| *statement != "map_Pm";
+        let all = obj::all_textures(&material).filter(once).count();
+        found.on_other_uvs += all - obj::textures(&material).filter(once).count();
+        found.masks += usize::from(matches!(material.alpha, Alpha::Mask(_)));
+        for (_, texture) in obj::textures(&material).filter(once) {
             let can_be_written = texture.wrap == [Wrap::Repeat; 2] || texture.wrap == [Wrap::Clamp; 2];
             found.mirrored += usize::from(!can_be_written);
             found.rotated += usize::from(texture.offset_and_scale().is_none());
-            found.on_other_uvs += usize::from(texture.uv_set != material.tangent_uv_set);
+            found.nearest += usize::from(texture.is_nearest);
         }
     }
+    let materials = document.json()["materials"].as_array();
+    let is_double_sided = |material: &&Value| matches!(material["doubleSided"], Value::Bool(true));
+    found.double_sided = materials.into_iter().flatten().filter(is_double_sided).count();
     Ok(found)
 }

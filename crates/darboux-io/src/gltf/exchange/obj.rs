@@ -162,8 +162,13 @@ fn one_line(name: &str, otherwise: &str) -> String {
     if name.is_empty() { otherwise.to_owned() } else { name }
 }
 
-/// The textures that MTL has a statement for.
+/// The textures that are written: MTL has a statement for them, and they lie on the UVs that are written.
 pub(super) fn textures(material: &Material) -> impl Iterator<Item = (&'static str, &TextureUse)> {
+    all_textures(material).filter(|(_, texture)| texture.uv_set == material.tangent_uv_set)
+}
+
+/// The textures that MTL has a statement for.
+pub(super) fn all_textures(material: &Material) -> impl Iterator<Item = (&'static str, &TextureUse)> {
     [
         ("map_Kd", &material.base_texture),
         ("map_Ke", &material.emission_texture),

@@ -101,9 +101,12 @@ impl DataBuilder {
     ///
     /// Errors: more than the 4 GiB that a GLB can hold.
     pub fn finish(mut self, mut root: Value) -> Result<(Vec<u8>, usize), ContentError> {
-        root["accessors"] = self.accessors.into();
-        root["bufferViews"] = self.views.into();
-        root["buffers"] = json!([{"byteLength": self.bytes.len() - ROOM}]);
+        // glTF has no empty lists and no empty buffers.
+        if self.bytes.len() > ROOM {
+            root["accessors"] = self.accessors.into();
+            root["bufferViews"] = self.views.into();
+            root["buffers"] = json!([{"byteLength": self.bytes.len() - ROOM}]);
+        }
         let chunk = vec![Segment::Borrowed(&self.bytes[ROOM..])];
         let parts = container::glb(root.to_string().into_bytes(), Some(chunk), Vec::new())?;
         // The last two are the chunk and its padding.

@@ -21,6 +21,7 @@ pub struct Materials {
 }
 
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
+const EMISSIVE_STRENGTH: &str = "KHR_materials_emissive_strength";
 const WEBP: &str = "EXT_texture_webp";
 const CLAMP_TO_EDGE: u32 = 33071;
 
@@ -82,7 +83,7 @@ impl MaterialBuilder<'_> {
         self.set(&mut json, "occlusionTexture", material.occlusion_texture.as_ref());
         self.set(&mut json, "emissiveTexture", material.emissive_texture.as_ref());
         if let Some(emissive) = material.emissive {
-            json["emissiveFactor"] = json!(emissive.map(unit));
+            self.set_emission(&mut json, emissive);
         }
         if material.is_double_sided {
             json["doubleSided"] = true.into();
@@ -91,6 +92,16 @@ impl MaterialBuilder<'_> {
             json["alphaMode"] = "BLEND".into();
         }
         json
+    }
+
+    /// Light of more than 1 has its strength in an extension.
+    fn set_emission(&mut self, json: &mut Value, color: [f32; 3]) {
+        let strength = color.into_iter().filter(|channel| channel.is_finite()).fold(1.0, f32::max);
+        json["emissiveFactor"] = json!(color.map(|channel| unit(channel / strength)));
+        if strength > 1.0 {
+            json["extensions"] = json!({EMISSIVE_STRENGTH: {"emissiveStrength": strength}});
+            self.built.extensions.insert(EMISSIVE_STRENGTH);
+        }
     }
 
     fn set(&mut self, json: &mut Value, key: &str, texture: Option<&SourceTexture>) {
