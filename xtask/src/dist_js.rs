@@ -145,8 +145,9 @@ const HOT_FUNCTION: &str = "5Width3run";
 
 /// Makes the folder and runs the tests of the package.
 pub fn test(without: WithoutNpm) -> Outcome {
-    if matches!(without, WithoutNpm::Skip) && !works(&mut program("npm --version")) {
-        println!("skipped: the npm package needs node and npm");
+    let has_tools = || works(&mut program("npm --version")) && Clang::find().is_ok();
+    if matches!(without, WithoutNpm::Skip) && !has_tools() {
+        println!("skipped: the npm package needs node, npm and clang");
         return Ok(());
     }
     make_folder(&folder()?, &ALL, Build::Release)?;

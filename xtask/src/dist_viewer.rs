@@ -60,8 +60,8 @@ pub fn package() -> Result<PathBuf, String> {
 /// command's server and outputs.
 pub fn test(without: WithoutNpm) -> Outcome {
     let can_skip = matches!(without, WithoutNpm::Skip);
-    if can_skip && !works(&mut program("npm --version")) {
-        println!("skipped: the viewer needs node and npm");
+    if can_skip && (!works(&mut program("npm --version")) || Clang::find().is_err()) {
+        println!("skipped: the viewer needs node, npm and clang");
         return Ok(());
     }
     let modules = prepare(Build::Release)?;

@@ -84,7 +84,9 @@ pub fn fix_document(
     let before = findings.into_iter().flat_map(|finding| finding.defects).collect();
     let mut fixed = fix_defects(document, before, options)?;
     if fixed.findings.iter().any(|left| waits_for_repaired_map(left, &fixed.findings)) {
-        let again = fix_defects(document, defects_of(document, &options.check)?, options)?;
+        // What is assumed of a map was applied by the first repair.
+        let later = options.clone().with_check(options.check.with_assumed_map(None));
+        let again = fix_defects(document, defects_of(document, &later.check)?, &later)?;
         fixed.is_changed |= again.is_changed;
         fixed.findings = followed_by(fixed.findings, again.findings);
     }

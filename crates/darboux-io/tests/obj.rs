@@ -136,7 +136,7 @@ fn options_place_textures() {
     ] {
         assert_eq!(texture(options), (transform, samplers.to_owned(), Vec::new()), "{options}");
     }
-    for options in ["-mm 0 2", "-o inf", "-s 1 1e39", "-s 1 3e38 -o 0 3e38 -clamp off"] {
+    for options in ["-mm 0 2", "-bm nan", "-o inf", "-s 1 1e39", "-s 1 3e38 -o 0 3e38 -clamp off"] {
         let (transform, _, warnings) = texture(options);
         assert_eq!(transform, "null", "{options}");
         assert!(

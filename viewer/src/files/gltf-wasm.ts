@@ -128,9 +128,16 @@ async function run<T>(task: 'check' | 'repair' | 'make_normals', name: string, b
   }
 }
 
-/** Fetches and compiles a module once. */
+/** Fetches and compiles a module once; again after a failure. */
 function compiled(address: string): Promise<WebAssembly.Module> {
-  const module = modules.get(address) ?? fetch(address).then(async (response) => WebAssembly.compile(await response.arrayBuffer()));
+  const module = modules.get(address) ?? fetchModule(address);
   modules.set(address, module);
+  module.catch(() => modules.delete(address));
   return module;
+}
+
+async function fetchModule(address: string): Promise<WebAssembly.Module> {
+  const response = await fetch(address).catch(() => null);
+  if (!response?.ok) throw new Error('The reader of this format cannot be loaded; check the connection and open the file again.');
+  return WebAssembly.compile(await response.arrayBuffer());
 }

@@ -209,8 +209,9 @@ impl Work<'_> {
         }
         let is_same = |known: &&&Defect| known.code() == left.code();
         // Beside larger ones it was no error, and these are gone.
-        let no_more = |known: &&&Defect| known.spoiled.is_some() && left.spoiled <= known.spoiled;
-        if before.iter().filter(is_same).any(|known| no_more(&known)) {
+        let spoils_no_more =
+            |known: &&Defect| left.spoiled.zip(known.spoiled).is_some_and(|(left, known)| left <= known);
+        if before.iter().filter(is_same).any(spoils_no_more) {
             return false;
         }
         let known = before.iter().filter(is_same).map(|known| known.severity).max();

@@ -91,20 +91,31 @@ pub fn pair_tangents<'a>(a: &'a Document, b: &'a Document) -> Result<Vec<Pair<'a
         document.meshes().iter().map(|mesh| mesh.primitives.len()).collect()
     };
     if shape(a) != shape(b) {
-        let sizes = [b, a].map(|document| {
-            let shape = shape(document);
-            format!("{} primitives in {} meshes", shape.iter().sum::<usize>(), shape.len())
-        });
-        let problem = format!(
-            "has {}, but {} has {}; compare files of one model with the same meshes (a PLY or STL has one for all)",
-            sizes[0],
-            a.name(),
-            sizes[1]
-        );
-        return Err(b.invalid("meshes", problem));
+        return Err(other_meshes(a, b, &shape(a), &shape(b)));
     }
     let options = AddTangentsOptions::default().with_overwrite(true);
     select(a, &options, &|_| true)?.candidates.iter().map(|candidate| pair(a, b, candidate)).collect()
+}
+
+/// The error of documents whose meshes do not pair. `of_a`, `of_b`: the number of primitives of each mesh.
+fn other_meshes(a: &Document, b: &Document, of_a: &[usize], of_b: &[usize]) -> Error {
+    let advice =
+        "compare files of one model with the same meshes (a PLY has one for all, an STL one per solid)";
+    let counted = |count: usize, one: &str, many: &str| {
+        if count == 1 { format!("1 {one}") } else { format!("{count} {many}") }
+    };
+    let mut pairs = of_a.iter().zip(of_b).enumerate();
+    match pairs.find(|(_, (a, b))| a != b) {
+        Some((mesh, (of_a, of_b))) if a.meshes().len() == b.meshes().len() => {
+            let primitives = counted(*of_b, "primitive", "primitives");
+            let problem = format!("has {primitives}, but {of_a} in {}; {advice}", a.name());
+            b.invalid(format!("meshes[{mesh}]"), problem)
+        }
+        _ => {
+            let meshes = counted(of_b.len(), "mesh", "meshes");
+            b.invalid("meshes", format!("has {meshes}, but {} has {}; {advice}", a.name(), of_a.len()))
+        }
+    }
 }
 
 /// The number of triangles of every primitive with tangents, by the counts of its accessors.

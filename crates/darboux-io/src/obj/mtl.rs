@@ -163,7 +163,10 @@ fn map(rest: &[u8]) -> MtlMap {
                 break;
             }
             match (option, number) {
-                ("-bm", number) => found.multiplier = number,
+                ("-bm", number) => {
+                    found.multiplier = number.filter(|number| number.is_finite());
+                    found.has_options |= found.multiplier.is_none();
+                }
                 ("-o", Some(number)) if place < 2 => found.offset[place] = number,
                 ("-s", Some(number)) if place < 2 => found.scale[place] = number,
                 ("-clamp", _) => found.is_clamped = word == "on",

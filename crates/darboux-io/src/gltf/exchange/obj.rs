@@ -232,7 +232,7 @@ fn write_material(name: &str, material: &Material, paths: &[Option<String>], out
 /// The options that place a texture. `v` points up in MTL: v' = scale * v + offset for 1 - v of glTF.
 fn write_placement(texture: &TextureUse, out: &mut String) {
     if let Some(([x, y], [scale_u, scale_v])) = texture.offset_and_scale() {
-        let offset = [x, 1.0 - scale_v - y];
+        let offset = [x, (1.0 - f64::from(scale_v) - f64::from(y)) as f32];
         if offset != [0.0; 2] {
             _ = write!(out, "-o {} {} 0 ", offset[0], offset[1]);
         }
