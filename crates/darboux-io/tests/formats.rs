@@ -510,3 +510,20 @@ fn a_ply_of_edges_has_no_faces() {
     let edge = String::from_utf8(square("ascii")).unwrap().replace("4 0 1 2 3", "2 0 1");
     assert!(refusal(edge).contains("is a PLY without faces"));
 }
+
+#[test]
+fn models_with_other_meshes_are_not_compared() {
+    let square = || String::from_utf8(square("ascii")).unwrap();
+    let solids = |names: &[&str]| {
+        let face =
+            "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\n";
+        names.iter().map(|name| format!("solid {name}\n{face}endsolid {name}\n")).collect::<String>()
+    };
+    let [one, two] = [square(), solids(&["a", "b"])].map(read);
+    let problem = darboux_io::gltf::pair_tangents(&one, &two).unwrap_err().to_string();
+    assert!(
+        problem.contains("meshes: has 2 meshes, but model has 1; compare files of one model"),
+        "{problem}"
+    );
+    assert!(darboux_io::gltf::pair_tangents(&one, &one).is_ok());
+}

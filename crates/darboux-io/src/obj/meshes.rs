@@ -1,8 +1,7 @@
 //! Makes a mesh of each object and group: its positions, UVs and normals are those that its faces use, in the
 //! order of use.
 
-use super::read::KINDS;
-use super::text::{NONE, ObjText, Run};
+use super::text::{KINDS, NONE, ObjText, Run};
 use crate::source::{CornerValues, FaceSizes, SourceMesh, SourceUvSet};
 
 /// A corner that refers to an element that does not exist.

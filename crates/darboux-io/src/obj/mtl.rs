@@ -47,7 +47,8 @@ pub struct MtlMap {
     pub scale: [f32; 2],
     /// Whether the option `-clamp` is on.
     pub is_clamped: bool,
-    /// Whether an option has no place in glTF: it changes the values, disturbs the texture, or is not finite.
+    /// Whether an option has no place in glTF: it changes the values, disturbs the texture, or is not
+    /// finite.
     pub has_options: bool,
 }
 

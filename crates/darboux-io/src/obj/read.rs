@@ -4,7 +4,7 @@ use super::companions::NO_FACES;
 use super::materials::Materials;
 use super::meshes;
 use super::statements::{statements, words};
-use super::text::{Corner, ObjText, Run};
+use super::text::{Corner, KINDS, ObjText, Run};
 use crate::LoadOptions;
 use crate::error::ContentError;
 use crate::image::srgb_to_linear;
@@ -189,9 +189,6 @@ fn corner(word: &[u8], counts: [usize; 3]) -> Result<Corner, String> {
     }
     Ok(corner)
 }
-
-/// The kinds of elements that a corner refers to.
-pub const KINDS: [&str; 3] = ["position", "UV", "normal"];
 
 /// A whole number in decimal digits, with or without a sign. None for other texts, and for more digits than
 /// an index has.

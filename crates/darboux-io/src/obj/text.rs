@@ -33,6 +33,9 @@ pub struct ObjText {
 #[derive(Clone, Copy, Debug)]
 pub struct Corner([u32; 3]);
 
+/// The kinds of elements that a corner refers to, in the order of its indices.
+pub const KINDS: [&str; 3] = ["position", "UV", "normal"];
+
 /// No UV or normal.
 pub const NONE: u32 = u32::MAX;
 
