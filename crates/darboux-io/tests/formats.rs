@@ -277,6 +277,30 @@ fn textures_with_paths_of_windows_are_found_by_name() {
     );
 }
 
+/// Windows does not tell cases apart, so files that were made there may not either.
+#[test]
+#[cfg(target_os = "linux")]
+fn textures_in_other_letters_case_are_found() {
+    let [outside, folder] = [(), ()].map(|()| tempfile::tempdir().unwrap());
+    fs::create_dir(folder.path().join("textures")).unwrap();
+    std::os::unix::fs::symlink(outside.path(), folder.path().join("linked")).unwrap();
+    fs::write(folder.path().join("a.obj"), "mtllib A.MTL\nv 0 0 0\nusemtl a\nf 1 1 1\n").unwrap();
+    let library = "newmtl a\nnorm Textures\\Scene_Normal.PNG\nmap_Kd Linked/Secret.png\n";
+    fs::write(folder.path().join("a.mtl"), library).unwrap();
+    fs::copy(blender("scene_normal.png"), folder.path().join("textures/scene_normal.png")).unwrap();
+    fs::copy(blender("scene_normal.png"), outside.path().join("secret.png")).unwrap();
+    let document = open(&folder.path().join("a.obj"));
+    let warnings = [
+        "\"A.MTL\" was found as a.mtl, by its name",
+        "\"Textures\\\\Scene_Normal.PNG\" was found as textures/scene_normal.png, by its name",
+        "a.mtl: \"Linked/Secret.png\" is not in the model's folder; the texture is left out",
+    ];
+    let mut found = document.warnings().to_vec();
+    found.sort_unstable();
+    assert_eq!(found, warnings);
+    assert_eq!(document.json()["images"].as_array().unwrap().len(), 1);
+}
+
 /// The rules cut the same faces into other triangles, all of which cover them.
 #[test]
 fn polygons_are_cut_by_the_rule_that_is_asked_for() {

@@ -230,7 +230,7 @@ impl ConvertArguments {
         let (from, to) = (&self.from, &self.to);
         if to.convention != Convention::GLTF && !self.raw {
             return Err(format!(
-                "{}: a glTF file must be in glTF's convention; use --to gltf, or --raw for a program that uses the numbers as they are",
+                "{}: what is written must be in glTF's convention; use --to gltf, or, for a .glb or .gltf and a program that uses its numbers as they are, --raw",
                 job.input
             ));
         }

@@ -2,12 +2,15 @@
 //! outside the model's folder, unless the caller allows it.
 //!
 //! Other formats often hold absolute paths of another machine, or paths of Windows. Such a file is looked up
-//! by its name in the model's folder.
+//! by its name in the model's folder. Where the letters' case differs from the file's, as on Windows it may,
+//! the file is found, too.
 
 use std::cell::{Cell, RefCell};
-use std::io;
+use std::collections::HashMap;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::{fs, io};
 
 #[cfg(any(feature = "fbx", feature = "obj"))]
 use crate::MemoryLimit;
@@ -16,6 +19,9 @@ use crate::{Files, LoadOptions, files, paths};
 
 /// The most paths that are looked up for one model. Each lookup asks the operating system.
 const MAX_LOOKUPS: usize = 100_000;
+
+/// The most files of a folder whose names are compared without regard to case.
+const MAX_LISTED: usize = 100_000;
 
 /// No path has more bytes.
 const LONGEST_PATH: usize = 4096;
@@ -42,6 +48,8 @@ pub struct ModelFiles {
     lookups_left: Cell<usize>,
     /// The files that were read from the disk.
     read: RefCell<Vec<PathBuf>>,
+    /// The names in folders below the model's that were listed, by their lower case.
+    listed: RefCell<HashMap<PathBuf, HashMap<String, OsString>>>,
 }
 
 /// A file that exists and may be read.
@@ -51,7 +59,7 @@ pub struct FoundFile {
     pub name: String,
     /// The path on this machine, links resolved; the name among given files.
     pub path: PathBuf,
-    /// Whether it was found by its name alone.
+    /// Whether it was found by its name alone, or by a name in other letters' case.
     pub is_by_name: bool,
 }
 
@@ -65,6 +73,7 @@ impl ModelFiles {
             memory_limit: options.memory_limit,
             lookups_left: Cell::new(MAX_LOOKUPS),
             read: RefCell::default(),
+            listed: RefCell::default(),
         }
     }
 
@@ -91,9 +100,29 @@ impl ModelFiles {
         let as_written = (!is_absolute).then(|| self.inside(&relative, false)).flatten();
         as_written.or_else(|| {
             let name = reference.rsplit('/').next()?;
-            let beside = self.inside(&Path::new(folder).join(name), true);
-            beside.or_else(|| self.inside(Path::new(name), true))
+            let beside = Path::new(folder).join(name);
+            let by_name = self.inside(&beside, true).or_else(|| self.inside(Path::new(name), true));
+            by_name.or_else(|| {
+                let mut paths = [&*relative, &*beside, Path::new(name)].into_iter();
+                paths.find_map(|path| self.inside(&self.in_other_case(path)?, true))
+            })
         })
+    }
+
+    /// The path, relative to the model's folder, of a file whose name differs in the case of letters only.
+    fn in_other_case(&self, relative: &Path) -> Option<PathBuf> {
+        let FileSource::Folder(folder) = &self.source else { return None };
+        let mut found = PathBuf::new();
+        for part in files::normalised(relative)?.iter() {
+            let mut listed = self.listed.borrow_mut();
+            let names = listed.entry(found.clone()).or_insert_with_key(|relative| {
+                let inside = |path: &PathBuf| path.starts_with(folder) && self.may_look_up();
+                let path = folder.join(relative).canonicalize().ok().filter(inside);
+                path.map_or_else(HashMap::new, |path| names_by_lower_case(&path))
+            });
+            found.push(names.get(&part.to_str()?.to_lowercase())?);
+        }
+        Some(found)
     }
 
     /// The file at a path relative to the model's folder.
@@ -172,8 +201,21 @@ impl ModelFiles {
         }
     }
 
-    /// A sentence about a file that was found by its name only.
+    /// A sentence about a file that was found by its name only, or in other letters' case.
     pub fn by_name_warning(reference: &str, file: &FoundFile) -> Option<String> {
         file.is_by_name.then(|| format!("{:?} was found as {}, by its name", shortened(reference), file.name))
     }
+}
+
+/// The names in a folder by their lower case, the first in order of those that are equal without case. Empty
+/// for a folder that cannot be read.
+fn names_by_lower_case(folder: &Path) -> HashMap<String, OsString> {
+    let mut names: Vec<OsString> = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .take(MAX_LISTED)
+        .filter_map(|entry| Some(entry.ok()?.file_name()))
+        .collect();
+    names.sort_unstable();
+    names.into_iter().rev().filter_map(|name| Some((name.to_str()?.to_lowercase(), name))).collect()
 }

@@ -81,8 +81,13 @@ impl Checks<'_> {
             let mut findings: Vec<ReportedFinding> = wanted.map(Into::into).collect();
             document.iter().for_each(|document| source::name_places(document, &mut findings));
             let importer = document.and_then(|document| source::importer_note(document, &findings));
-            let diagnosis = diagnosis(&findings);
-            CheckedFile { input: name.clone(), error: None, map, importer, diagnosis, findings }
+            let of_format = document.filter(|document| document.provenance().is_some());
+            let warnings = of_format.map_or(Vec::new(), |document| document.warnings().to_vec());
+            let mut diagnosis = diagnosis(&findings);
+            if !warnings.is_empty() {
+                diagnosis += " The warnings say what was lost when it was read.";
+            }
+            CheckedFile { input: name.clone(), error: None, map, importer, diagnosis, findings, warnings }
         };
         let check = || {
             let source = Source::new(input)?;
@@ -123,5 +128,6 @@ fn failed(input: String, sentence: String) -> CheckedFile {
         importer: None,
         diagnosis: String::new(),
         findings: Vec::new(),
+        warnings: Vec::new(),
     }
 }

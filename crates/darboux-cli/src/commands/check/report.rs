@@ -83,6 +83,9 @@ pub struct CheckedFile {
     /// What happened, what it looks like and what to do; empty for a file that cannot be read.
     pub diagnosis: String,
     pub findings: Vec<ReportedFinding>,
+    /// What was lost when a file of a format other than glTF was read, which no finding can name.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
 }
 
 /// The judgement on an image.
