@@ -12,7 +12,7 @@ use std::process::Command;
 
 mod common;
 
-use common::{asset, darboux, text};
+use common::{asset, darboux, folder_with, glb, glb_json, text};
 use darboux_io::image::PngImage;
 
 fn flat(side: usize) -> Vec<u8> {
@@ -90,4 +90,50 @@ fn a_long_check_has_a_progress_bar_on_a_terminal_only() {
         assert_eq!(quiet, "");
     }
     assert_eq!(darboux(&arguments(&[])).exits(0).stderr, "");
+}
+
+/// The maps of an OBJ are named in its library.
+#[test]
+fn normal_maps_of_an_obj_are_used() {
+    let folder = folder_with(&["blender/scene.obj", "blender/scene.mtl", "blender/scene_normal.png"]);
+    let run = darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);
+    assert!(!run.stderr.contains("used by no model"), "{}", run.stderr);
+    fs::rename(folder.path().join("scene_normal.png"), folder.path().join("other_normal.png"))
+        .expect("a name");
+    let run = darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);
+    assert!(run.stderr.contains("is used by no model there"), "{}", run.stderr);
+}
+
+/// Images in a folder are not checked, and those that look like normal maps and that no model uses are named.
+#[test]
+fn unused_normal_maps_of_a_folder_are_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let plane = asset("TwoSidedPlane");
+    for entry in fs::read_dir(&plane).expect("files").flatten() {
+        fs::copy(entry.path(), folder.path().join(entry.file_name())).expect("a copy");
+    }
+    let run = darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);
+    assert!(!run.stderr.contains("used by no model"), "{}", run.stderr);
+    fs::copy(plane.join("TwoSidedPlane_Normal.png"), folder.path().join("Brick_Normal.png")).expect("a copy");
+    let run = darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);
+    let sentence = "1 image named like a normal map is used by no model there";
+    assert!(run.stderr.contains(sentence) && run.stderr.contains("Brick_Normal.png"), "{}", run.stderr);
+}
+
+/// A model whose JSON is longer than what is read of it for names may use every image.
+#[test]
+fn models_with_long_json_may_use_all_maps() {
+    let folder = folder_with(&["made/shield.glb"]);
+    fs::write(folder.path().join("brick_normal.png"), "").expect("a file");
+    let run = || darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);
+    assert!(run().stderr.contains("is used by no model there"));
+    let mut json = glb_json(&fs::read(asset("made/shield.glb")).expect("a model"));
+    json["buffers"] = serde_json::json!([]);
+    let members = ["accessors", "bufferViews", "meshes", "nodes", "scenes", "scene", "images", "materials"];
+    members.iter().for_each(|member| drop(json.as_object_mut().expect("an object").remove(*member)));
+    json["extras"] = " ".repeat(4 << 20).into();
+    json["images"] = serde_json::json!([{ "uri": "brick_normal.png" }]);
+    fs::write(folder.path().join("long.glb"), glb(&json, &[])).expect("a file");
+    let stderr = run().stderr;
+    assert!(!stderr.contains("used by no model"), "{stderr}");
 }
