@@ -127,8 +127,8 @@ fn waits_for_repaired_map(left: &FixedFinding, all: &[FixedFinding]) -> bool {
     !left.repaired && left.finding.defects.iter().any(waits)
 }
 
-/// The results of two repairs, one after the other: what the first one left and the second one repaired is
-/// repaired, and what the first one named is not named again.
+/// The results of two repairs, one after the other: the second one says what became of what both of them
+/// name.
 fn followed_by(mut first: Vec<FixedFinding>, second: Vec<FixedFinding>) -> Vec<FixedFinding> {
     fn samenesses(fixed: &FixedFinding) -> impl Iterator<Item = Sameness> {
         fixed.finding.defects.iter().map(Defect::sameness)
@@ -139,7 +139,7 @@ fn followed_by(mut first: Vec<FixedFinding>, second: Vec<FixedFinding>) -> Vec<F
     for later in second {
         let place = samenesses(&later).find_map(|same| place_of.get(&same).copied());
         match place {
-            Some(at) if later.repaired && !first[at].repaired => first[at] = later,
+            Some(at) if later.repaired != first[at].repaired => first[at] = later,
             Some(_) => {}
             None => first.push(later),
         }
