@@ -251,6 +251,31 @@ fn both_channels_are_inverted_back_where_the_user_says_so() {
     assert_eq!(of_channels.filter(|fixed| fixed.repaired).count(), 2, "{:#?}", fixed.findings);
 }
 
+/// Exchanged channels of which both are inverted, too: both are inverted back, or none.
+#[test]
+fn no_half_of_an_assumption_is_carried_out() {
+    let models = healthy_models();
+    for (number, signs) in (0..models.len()).flat_map(|number| [(number, false), (number, true)]) {
+        let mut model = models[number].clone();
+        if signs {
+            model.negate_signs();
+        }
+        let damaged = model.map.texels.iter().map(|&[r, g, b]| [255 - g, 255 - r, b]).collect();
+        model.map = model.map.with_texels(damaged);
+        let check = CheckOptions::default().with_assumed_map(Some(AssumedMap::BothInverted));
+        let mut document = model.document();
+        let findings = check_document(&document, &check).expect("a valid document");
+        let fixed = fix_document(&mut document, findings, &FixOptions::default().with_check(check));
+        let fixed = fixed.expect("a repair").findings;
+        let repaired = |code: Code| fixed.iter().any(|fixed| fixed.finding.code == code && fixed.repaired);
+        assert_eq!(
+            repaired(Code::MapRedFlipped),
+            repaired(Code::MapGreenFlipped),
+            "model {number}, flipped signs {signs}: {fixed:#?}"
+        );
+    }
+}
+
 /// A map whose red and green are exchanged does not say whether it cancels flipped signs, and says so once
 /// they are exchanged back: the repair goes on with the signs.
 #[test]

@@ -123,6 +123,13 @@ fn fix_checked(
     if let Some(worse) = remaining.iter().find(is_worse) {
         return Ok(all_left(known, &Obstacle::WouldEndIn(worse.code())));
     }
+    // One of two channels inverted back would turn all bumps into dents.
+    let inverted = [Code::MapRedFlipped, Code::MapGreenFlipped];
+    let is_left = |code: &Code| remaining.iter().any(|left| left.code() == *code);
+    let half = inverted.iter().find(|code| !done.contains(code) && is_left(code));
+    if let Some(half) = half.filter(|_| is_both_assumed && inverted.iter().any(|code| done.contains(code))) {
+        return Ok(all_left(known, &Obstacle::WouldEndIn(*half)));
+    }
     let findings: Vec<FixedFinding> =
         all.into_iter().map(|defect| outcome(defect, remaining.iter(), options)).collect();
     let is_any_repaired = findings.iter().any(|finding| finding.repaired);
