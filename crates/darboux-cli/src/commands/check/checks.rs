@@ -83,10 +83,7 @@ impl Checks<'_> {
             let importer = document.and_then(|document| source::importer_note(document, &findings));
             let of_format = document.filter(|document| document.provenance().is_some());
             let warnings = of_format.map_or(Vec::new(), |document| document.warnings().to_vec());
-            let mut diagnosis = diagnosis(&findings);
-            if !warnings.is_empty() {
-                diagnosis += " The warnings say what was lost when it was read.";
-            }
+            let diagnosis = diagnosis(&findings);
             CheckedFile { input: name.clone(), error: None, map, importer, diagnosis, findings, warnings }
         };
         let check = || {

@@ -83,6 +83,9 @@ fn with_count(group: &[&ReportedFinding]) -> String {
 /// The name of a file, the diagnosis and the verdict on an image.
 fn head(file: &CheckedFile) -> String {
     let mut text = format!("{}\n  {}\n", printable(&file.input), printable(&file.diagnosis));
+    if !file.warnings.is_empty() {
+        text += "  The warnings say what was lost when it was read.\n";
+    }
     text.extend(file.importer.map(|note| format!("  {note}\n")));
     if let Some(map) = &file.map {
         text += &format!("  {}\n", verdict(map));
