@@ -68,7 +68,7 @@ def test_the_command_goes_on_with_a_batch(tmp_path: Path) -> None:
     darboux.batch(models, out, threshold=180, normals="keep", progress=False)
     command = [sys.executable, "-m", "darboux", "tangents", str(models), "--out-dir", str(out), "--resume"]
     ran = subprocess.run(command, check=True, stderr=subprocess.PIPE, text=True)
-    assert ran.stderr.count("up to date") == 3
+    assert ran.stderr.count(": up to date") == 3
 
 
 def test_failures_are_collected(tmp_path: Path) -> None:
