@@ -68,7 +68,7 @@ impl Default for MtlMap {
 
 impl MtlMap {
     /// The offset, rotation and scale of `KHR_texture_transform`, whose v points down; none for a texture
-    /// that lies as UVs say.
+    /// that is not moved.
     pub fn transform(&self) -> Option<([f32; 2], f32, [f32; 2])> {
         let is_plain = self.offset == [0.0; 2] && self.scale == [1.0; 2];
         (!is_plain).then_some((self.offset_in_gltf(), 0.0, self.scale))

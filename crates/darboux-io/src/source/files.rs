@@ -2,8 +2,8 @@
 //! outside the model's folder, unless the caller allows it.
 //!
 //! Other formats often hold absolute paths of another machine, or paths of Windows. Such a file is looked up
-//! by its name in the model's folder. Where the letters' case differs from the file's, as on Windows it may,
-//! the file is found, too.
+//! by its name in the model's folder. Names may differ from the file's in the case of letters, which Windows
+//! ignores.
 
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
@@ -59,7 +59,7 @@ pub struct FoundFile {
     pub name: String,
     /// The path on this machine, links resolved; the name among given files.
     pub path: PathBuf,
-    /// Whether it was found by its name alone, or by a name in other letters' case.
+    /// Whether it was found by its name alone, or with letters of another case.
     pub is_by_name: bool,
 }
 
@@ -201,7 +201,7 @@ impl ModelFiles {
         }
     }
 
-    /// A sentence about a file that was found by its name only, or in other letters' case.
+    /// A sentence about a file that was found by its name only, or with letters of another case.
     pub fn by_name_warning(reference: &str, file: &FoundFile) -> Option<String> {
         file.is_by_name.then(|| format!("{:?} was found as {}, by its name", shortened(reference), file.name))
     }
