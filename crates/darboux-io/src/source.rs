@@ -5,6 +5,7 @@
 //! others      what a file is that no reader takes
 //! scene       what a reader returns: nodes, meshes of polygons, materials, skins, as the file has them
 //! files       the textures and libraries that a model refers to, under the rules of glTF
+//! other_case  finds those whose names differ in the case of letters only
 //! smoothing   normals by smoothing groups, where a file has none
 //! polygons/   faces of more than three corners are cut
 //! vertices    corners with the same attributes become one vertex
@@ -17,6 +18,7 @@
 mod build;
 mod files;
 mod format;
+mod other_case;
 mod others;
 mod polygons;
 mod provenance;
@@ -29,9 +31,7 @@ pub use polygons::PolygonRule;
 pub use provenance::{FaceCounts, PrimitiveSource, Provenance};
 
 pub(crate) use build::{Built, build};
-#[cfg(feature = "obj")]
-pub(crate) use files::FoundFile;
-pub(crate) use files::{FileSource, ModelFiles};
+pub(crate) use files::{FileSource, FoundFile, ModelFiles};
 pub(crate) use format::{detect, without_byte_order_mark};
 pub(crate) use others::problem as problem_of_other;
 #[cfg(any(feature = "fbx", feature = "obj"))]

@@ -301,6 +301,32 @@ fn textures_in_other_letters_case_are_found() {
     assert_eq!(document.json()["images"].as_array().unwrap().len(), 1);
 }
 
+/// A path that differs in its letters' case is nearer than a name elsewhere, and a name that is written so
+/// nearer than one in another case.
+#[test]
+#[cfg(target_os = "linux")]
+fn the_nearest_texture_is_found() {
+    let found = |reference: &str, files: &[&str]| {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("textures")).unwrap();
+        for (number, file) in files.iter().enumerate() {
+            // Different images.
+            let image = [fs::read(blender("scene_normal.png")).unwrap(), vec![0; number]].concat();
+            fs::write(folder.path().join(file), image).unwrap();
+        }
+        fs::write(folder.path().join("a.obj"), "mtllib a.mtl\nv 0 0 0\nusemtl a\nf 1 1 1\n").unwrap();
+        fs::write(folder.path().join("a.mtl"), format!("newmtl a\nmap_Kd {reference}\n")).unwrap();
+        open(&folder.path().join("a.obj")).json()["images"][0]["name"].as_str().unwrap().to_owned()
+    };
+    let [lower, upper] = ["textures/wood.png", "textures/Wood.png"];
+    assert_eq!(found("Textures/wood.png", &[lower, upper]), lower);
+    assert_eq!(found("Textures/Wood.png", &[lower, upper]), upper);
+    assert_eq!(found("Textures/WOOD.png", &[lower, upper]), upper);
+    assert_eq!(found("Textures/Wood.png", &["Wood.png", lower]), lower);
+    assert_eq!(found("C:\\textures\\Wood.png", &["Wood.png", lower]), "Wood.png");
+    assert_eq!(found("maps/WOOD.png", &["Wood.png", lower]), "Wood.png");
+}
+
 /// The rules cut the same faces into other triangles, all of which cover them.
 #[test]
 fn polygons_are_cut_by_the_rule_that_is_asked_for() {

@@ -132,11 +132,19 @@ fn options_place_textures() {
     for (options, transform, samplers) in [
         ("-o 0.25 0.5 0 -s 2 4 1 -clamp on", transform(moved), clamped),
         ("-s 2", transform(r#""offset":[0.0,0.0],"rotation":0.0,"scale":[2.0,1.0]"#), "null"),
-        ("-s 1 1 1 -o 0 0 0 -clamp off", "null".to_owned(), "null"),
+        ("-s 1 1 1 -o 0 0 0 -clamp off -mm 0 1 -t 0 0 0", "null".to_owned(), "null"),
     ] {
         assert_eq!(texture(options), (transform, samplers.to_owned(), Vec::new()), "{options}");
     }
-    for options in ["-mm 0 2", "-bm nan", "-o inf", "-s 1 1e39", "-s 1 3e38 -o 0 3e38 -clamp off"] {
+    for options in [
+        "-mm 0 2",
+        "-t 0 1",
+        "-imfchan r",
+        "-bm nan",
+        "-o inf",
+        "-s 1 1e39",
+        "-s 1 3e38 -o 0 3e38 -clamp off",
+    ] {
         let (transform, _, warnings) = texture(options);
         assert_eq!(transform, "null", "{options}");
         assert!(
@@ -366,13 +374,51 @@ fn what_a_library_lacks_is_a_warning() {
     for library in [&b""[..], b"\xff\xfen\0e\0w\0m\0t\0l\0 \0a\0", b"\x01\x02"] {
         assert_eq!(of_library(library).0, ["no library has the material a; its faces have none"]);
     }
-    for statement in ["Kd 0.5 nan 0.5", "Kd 0.5 x", "Ns abc", "Ke inf 0 0", "d"] {
+    for (statement, lost) in [
+        ("Kd 0.5 nan 0.5", "Kd (broken numbers)"),
+        ("Kd 0.5 x", "Kd (broken numbers)"),
+        ("Kd", "Kd (broken numbers)"),
+        ("Ns abc", "Ns (broken numbers)"),
+        ("Ke inf 0 0", "Ke (broken numbers)"),
+        ("d", "d (broken numbers)"),
+        ("Kd spectral a.rfl 1", "Kd (spectral)"),
+        ("Ke xyz 0.1 0.2 0.3", "Ke (xyz)"),
+        // Once for each material.
+        ("map_Ks a.png\nmap_Ks b.png", "map_Ks"),
+        ("map_Kd -mm 0 2 a.mtl\nmap_Ke -mm 0 2 a.mtl", "options of textures"),
+    ] {
         let (warnings, _) = of_library(format!("newmtl a\n{statement}\n").as_bytes());
-        assert_eq!(warnings, ["not carried over: broken numbers of 1 material"], "{statement}");
+        let expected = format!("not carried over: {lost} of 1 material");
+        assert!(warnings.contains(&expected), "{statement}: {warnings:?}");
     }
+    let (warnings, json) =
+        of_library(b"# Blender 5.0.1 MTL File: 'None'\nnewmtl a\nKd 0.25 0.5 2\nKe 0.5 0 0\n");
+    assert_eq!(warnings, [""; 0]);
+    assert!(json.contains("[0.25,0.5,1.0,1.0]") && json.contains("[0.5,0.0,0.0]"), "{json}");
     let (warnings, json) = of_library(b"newmtl a\nKe 2 1 0\nd -halo 0.5\n");
     assert_eq!(warnings, [""; 0]);
     assert!(json.contains("emissiveStrength") && json.contains("\"emissiveFactor\":[1.0,"), "{json}");
+}
+
+#[test]
+fn materials_that_no_library_has_are_counted() {
+    let faces: String = (1..=7).map(|i| format!("usemtl m{i}\nf 1 1 1\n")).collect();
+    let of = |faces: &str| warnings(&format!("v 0 0 0\n{faces}"), "newmtl a\n");
+    assert_eq!(
+        of(&faces),
+        ["no library has the materials m1, m2, m3, m4, m5 and 2 more; their faces have none"]
+    );
+    assert_eq!(of(&faces[..36]), ["no library has the materials m1, m2; their faces have none"]);
+}
+
+/// Blender writes the linear numbers that its glTF has.
+#[test]
+fn colours_of_blender_are_those_of_its_gltf() {
+    let color = |name: &str| {
+        let model = open(&Path::new("../../assets/blender").join(name));
+        model.materials().unwrap()[0].base_color
+    };
+    assert_eq!(color("scene.obj"), color("scene.glb"));
 }
 
 #[test]

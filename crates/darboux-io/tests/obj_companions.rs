@@ -28,6 +28,14 @@ fn lines_longer_than_paths_are_ignored() {
     assert!(names_of(&format!("mtllib {}a.mtl", " - ".repeat(60_000)), "", &["a.mtl"]).is_empty());
 }
 
+#[test]
+#[cfg(target_os = "linux")]
+fn companions_are_found_as_the_reader_finds_them() {
+    let library = "norm -bm 1 A_Normal.PNG\nmap_Kd C:\\work\\b.png\n";
+    let names = names_of("mtllib A.MTL", library, &["a.mtl", "a_normal.png", "b.png"]);
+    assert_eq!(names, ["a_normal.png", "b.png", "a.mtl"]);
+}
+
 /// Every line would be looked up at every one of its words, which takes minutes.
 #[test]
 fn libraries_of_many_words_are_looked_up_to_a_limit() {

@@ -1,21 +1,18 @@
 //! Finds the files that an OBJ refers to: its material libraries, and the textures that these name.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
 use std::io;
 use std::path::{Path, PathBuf};
 
 use super::statements::statements;
 use crate::error::ContentError;
-use crate::{Error, paths};
+use crate::source::{FileSource, FoundFile, ModelFiles};
+use crate::{Error, LoadOptions, paths};
 
 /// References in longer lines are ignored: no path has more bytes, and a reference may begin at every word of
 /// a line.
 const LONGEST_LINE: usize = 4096;
-
-/// The most paths that are looked up for one OBJ. Every word of a library may be a path, and each lookup asks
-/// the operating system.
-const MAX_LOOKUPS: usize = 100_000;
 
 /// What is wrong with a file without faces.
 pub const NO_FACES: &str = "has no faces; is it an OBJ? Export it again";
@@ -38,8 +35,8 @@ impl Companion {
     }
 }
 
-/// The libraries and textures that the OBJ at `path` refers to. Files outside its folder and missing files
-/// are left out.
+/// The libraries and textures that the OBJ at `path` refers to, found as its reader finds them. Files outside
+/// its folder and missing files are left out.
 ///
 /// Errors: the file cannot be read; it has no faces.
 pub fn companions(path: &Path) -> Result<Vec<Companion>, Error> {
@@ -83,28 +80,28 @@ type TextureLine = (String, Vec<u8>);
 
 /// Looks up the files that lines refer to, each distinct line once.
 struct FileLookup {
-    folder: PathBuf,
+    files: ModelFiles,
     libraries: RefCell<HashMap<Vec<u8>, Vec<Companion>>>,
     textures: RefCell<HashMap<TextureLine, Option<Companion>>>,
-    /// The number of paths that may still be looked up.
-    left: Cell<usize>,
 }
 
 impl FileLookup {
     /// Files are looked up in `folder`, links resolved.
     fn new(folder: PathBuf) -> Self {
         let (libraries, textures) = Default::default();
-        Self { folder, libraries, textures, left: Cell::new(MAX_LOOKUPS) }
+        let files = ModelFiles::new(FileSource::Folder(folder), &LoadOptions::default());
+        Self { files, libraries, textures }
     }
 
     /// The libraries that a `mtllib` line names: one whose name may contain spaces, or several.
     fn libraries(&self, line: &[u8]) -> Vec<Companion> {
+        let Ok(text) = str::from_utf8(line) else { return Vec::new() };
         if line.len() > LONGEST_LINE {
             return Vec::new();
         }
         let find = || {
-            let words = line.split(u8::is_ascii_whitespace).filter_map(|word| self.find("", word));
-            self.find("", line).map_or_else(|| words.collect(), |library| vec![library])
+            let one = |reference| self.files.find("", reference).map(Companion::from);
+            one(text).map_or_else(|| text.split_ascii_whitespace().filter_map(one).collect(), |one| vec![one])
         };
         self.libraries.borrow_mut().entry(line.to_owned()).or_insert_with(find).clone()
     }
@@ -114,44 +111,24 @@ impl FileLookup {
     /// Options may stand before the name, and the name may contain spaces, so the longest end of the line
     /// that names a file is taken.
     fn texture(&self, library: &str, line: &[u8]) -> Option<Companion> {
-        if line.len() > LONGEST_LINE {
-            return None;
-        }
+        let text = str::from_utf8(line).ok().filter(|text| text.len() <= LONGEST_LINE)?;
         let find = || {
             let is_start = |&i: &usize| i == 0 || line[i - 1].is_ascii_whitespace();
-            (0..line.len()).filter(is_start).find_map(|start| self.find(library, &line[start..]))
+            let mut ends = (0..line.len()).filter(is_start).filter_map(|start| text.get(start..));
+            let in_place = ends.clone().find_map(|end| self.files.find_in_place(library, end));
+            in_place.or_else(|| ends.find_map(|end| self.files.find(library, end))).map(Companion::from)
         };
         self.textures.borrow_mut().entry((library.to_owned(), line.to_owned())).or_insert_with(find).clone()
     }
+}
 
-    /// The file that `reference` names, relative to the file `base`; none unless it is a file in the folder
-    /// or below, links followed.
-    fn find(&self, base: &str, reference: &[u8]) -> Option<Companion> {
-        self.left.set(self.left.get().checked_sub(1)?);
-        inside(&self.folder, base, reference)
+impl From<FoundFile> for Companion {
+    fn from(FoundFile { name, path, .. }: FoundFile) -> Self {
+        Self { name, path }
     }
 }
 
 fn is_texture(word: &[u8]) -> bool {
     let word = word.to_ascii_lowercase();
     word.starts_with(b"map_") || [&b"norm"[..], b"bump", b"disp", b"decal", b"refl"].contains(&&word[..])
-}
-
-/// The file that `reference` names, relative to the file `base`; none unless it is a file in `folder` or
-/// below, links followed.
-fn inside(folder: &Path, base: &str, reference: &[u8]) -> Option<Companion> {
-    let reference = str::from_utf8(reference).ok()?.replace('\\', "/");
-    let mut parts: Vec<&str> = base.split('/').collect();
-    parts.pop();
-    for part in reference.split('/') {
-        match part {
-            "" | "." => {}
-            ".." => _ = parts.pop()?,
-            part => parts.push(part),
-        }
-    }
-    let name = parts.join("/");
-    let path = folder.join(&name).canonicalize().ok()?;
-    let is_inside = !reference.starts_with('/') && path.starts_with(folder) && path.is_file();
-    is_inside.then_some(Companion { name, path })
 }

@@ -1,6 +1,6 @@
 //! The materials of an OBJ: loads the libraries that it names, and finds their textures.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::path::PathBuf;
 
 use super::mtl::{self, MtlMap, MtlMaterial};
@@ -83,7 +83,9 @@ impl<'a> Materials<'a> {
             self.warnings.extend(ModelFiles::by_name_warning(&reference, &library));
             match self.files.read(&library) {
                 Ok(text) => {
-                    mtl::parse(&text).into_iter().for_each(|material| self.add(&library.name, &material))
+                    let is_linear = mtl::has_linear_colors(&text);
+                    let materials = mtl::parse(&text).into_iter();
+                    materials.for_each(|material| self.add(&library.name, &material, is_linear));
                 }
                 Err(error) => self.warnings.push(format!(
                     "{}: cannot be read: {}; its materials are left out",
@@ -94,28 +96,20 @@ impl<'a> Materials<'a> {
         }
     }
 
-    fn add(&mut self, library: &str, material: &MtlMaterial) {
-        let made = self.material(library, material);
+    fn add(&mut self, library: &str, material: &MtlMaterial, is_linear: bool) {
+        let made = self.material(library, material, is_linear);
+        self.count_lost(material);
         self.index_of_name.insert(material.name_bytes.clone(), self.materials.len() as u32);
         self.materials.push(made);
     }
 
-    fn material(&mut self, library: &str, material: &MtlMaterial) -> SourceMaterial {
-        let linear = |color: [f32; 3]| color.map(|x| srgb_to_linear(f64::from(x.max(0.0))) as f32);
+    fn material(&mut self, library: &str, material: &MtlMaterial, is_linear: bool) -> SourceMaterial {
+        let linear = |color: [f32; 3]| {
+            color.map(|x| x.max(0.0)).map(|x| if is_linear { x } else { srgb_to_linear(f64::from(x)) as f32 })
+        };
         let [r, g, b] = linear(material.diffuse.unwrap_or([1.0; 3]).map(|x| x.min(1.0)));
         let alpha = material.opacity.filter(|opacity| *opacity > 0.0 && *opacity < 1.0);
-        for statement in &material.other_maps {
-            *self.lost.entry(statement.clone()).or_default() += 1;
-        }
-        if material.has_broken_numbers {
-            *self.lost.entry("broken numbers".to_owned()).or_default() += 1;
-        }
-        let is_packed = material.roughness_map.is_some() && material.roughness_map == material.metallic_map;
-        for (statement, map) in [("map_Pr", &material.roughness_map), ("map_Pm", &material.metallic_map)] {
-            if map.is_some() && !is_packed {
-                *self.lost.entry(statement.to_owned()).or_default() += 1;
-            }
-        }
+        let is_packed = is_packed(material);
         let emissive_texture = self.texture(library, material.emissive_map.as_ref());
         let emissive = material.emissive.map(linear).filter(|color| *color != [0.0; 3]);
         let packed = material.roughness_map.as_ref().filter(|_| is_packed);
@@ -133,6 +127,20 @@ impl<'a> Materials<'a> {
             is_transparent: alpha.is_some(),
             ..SourceMaterial::default()
         }
+    }
+
+    /// Counts what a material loses.
+    fn count_lost(&mut self, material: &MtlMaterial) {
+        let mut lost: BTreeSet<&str> = material.lost.iter().map(String::as_str).collect();
+        for (statement, map) in [("map_Pr", &material.roughness_map), ("map_Pm", &material.metallic_map)] {
+            if map.is_some() && !is_packed(material) {
+                lost.insert(statement);
+            }
+        }
+        if material.maps().any(|map| map.has_options) {
+            lost.insert("options of textures");
+        }
+        lost.into_iter().for_each(|what| *self.lost.entry(what.to_owned()).or_default() += 1);
     }
 
     /// The map of `norm`, or of the bump statements, unless its texels are grey, as those of height maps are.
@@ -160,9 +168,6 @@ impl<'a> Materials<'a> {
 
     fn texture(&mut self, library: &str, map: Option<&MtlMap>) -> Option<SourceTexture> {
         let map = map?;
-        if map.has_options {
-            *self.lost.entry("options of textures".to_owned()).or_default() += 1;
-        }
         let key = (library.to_owned(), map.statement.clone());
         let image = match self.image_of_statement.get(&key) {
             Some(image) => *image,
@@ -226,14 +231,8 @@ impl<'a> Materials<'a> {
     pub fn finish(self, scene: &mut SourceScene) {
         scene.warnings.extend(self.warnings);
         if !self.loaded.is_empty() {
-            let mut unknown: Vec<String> =
-                self.unknown.iter().map(|name| shortened(&String::from_utf8_lossy(name))).collect();
-            unknown.sort_unstable();
-            unknown.truncate(5);
-            if !unknown.is_empty() {
-                let names = unknown.join(", ");
-                scene.warnings.push(format!("no library has the material {names}; its faces have none"));
-            }
+            let names = self.unknown.iter().map(|name| shortened(&String::from_utf8_lossy(name)));
+            scene.warnings.extend(unknown_warning(names.collect()));
         }
         let lost = self.lost.into_iter().map(|(statement, materials)| {
             let materials =
@@ -244,6 +243,29 @@ impl<'a> Materials<'a> {
         scene.materials = self.materials;
         scene.images = self.images;
     }
+}
+
+/// A sentence about materials that no library has; none for none.
+fn unknown_warning(mut names: Vec<String>) -> Option<String> {
+    const MOST: usize = 5;
+    names.sort_unstable();
+    let (shown, others) = names.split_at(names.len().min(MOST));
+    Some(match (shown, others.len()) {
+        ([], _) => return None,
+        ([name], _) => format!("no library has the material {name}; its faces have none"),
+        (_, 0) => format!("no library has the materials {}; their faces have none", shown.join(", ")),
+        (_, others) => {
+            format!(
+                "no library has the materials {} and {others} more; their faces have none",
+                shown.join(", ")
+            )
+        }
+    })
+}
+
+/// Whether one file holds roughness and metalness, as glTF has them.
+fn is_packed(material: &MtlMaterial) -> bool {
+    material.roughness_map.is_some() && material.roughness_map == material.metallic_map
 }
 
 /// The roughness of a shininess, as Blender relates them.

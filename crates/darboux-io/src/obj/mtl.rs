@@ -1,7 +1,11 @@
 //! Parses material libraries (MTL), with the metallic-roughness statements that Blender and other programs
 //! write.
 
+use std::collections::BTreeSet;
+
 use super::statements::{statements, words};
+use crate::error::shortened;
+use crate::source::without_byte_order_mark;
 
 /// A material of a library.
 #[derive(Clone, Debug, Default)]
@@ -9,9 +13,7 @@ pub struct MtlMaterial {
     pub name: String,
     /// The bytes of the name, by which faces refer to it.
     pub name_bytes: Vec<u8>,
-    /// Whether a statement has a number that is none or not finite.
-    pub has_broken_numbers: bool,
-    /// `Kd` and `Ke`, in sRGB.
+    /// `Kd` and `Ke`, in the library's [colour space](has_linear_colors).
     pub diffuse: Option<[f32; 3]>,
     pub emissive: Option<[f32; 3]>,
     /// `Ns`, from 0 to 1000.
@@ -29,8 +31,8 @@ pub struct MtlMaterial {
     pub normal_map: Option<MtlMap>,
     /// The statements for heights, where many programs write normal maps.
     pub bump_map: Option<MtlMap>,
-    /// Statements of textures that have no place in glTF.
-    pub other_maps: Vec<String>,
+    /// What has no place in glTF: a noun phrase each.
+    pub lost: BTreeSet<String>,
 }
 
 /// A texture of a material.
@@ -79,6 +81,11 @@ impl MtlMap {
     }
 }
 
+/// Whether `Kd` and `Ke` are linear: Blender writes them so. Other programs write what a screen shows, sRGB.
+pub fn has_linear_colors(text: &[u8]) -> bool {
+    without_byte_order_mark(text).starts_with(b"# Blender ")
+}
+
 /// The materials of a library. Statements before the first `newmtl`, and unknown ones, are ignored.
 pub fn parse(text: &[u8]) -> Vec<MtlMaterial> {
     let mut materials: Vec<MtlMaterial> = Vec::new();
@@ -94,43 +101,62 @@ pub fn parse(text: &[u8]) -> Vec<MtlMaterial> {
 }
 
 impl MtlMaterial {
+    /// The textures that have a place in glTF.
+    pub fn maps(&self) -> impl Iterator<Item = &MtlMap> {
+        let Self { diffuse_map, emissive_map, roughness_map, metallic_map, normal_map, bump_map, .. } = self;
+        [diffuse_map, emissive_map, roughness_map, metallic_map, normal_map, bump_map].into_iter().flatten()
+    }
+
     /// The first number, as in `d 0.5` and `d -halo 0.5`.
-    fn number(&mut self, rest: &[u8]) -> Option<f32> {
+    fn number(&mut self, statement: &str, rest: &[u8]) -> Option<f32> {
         let number = words(rest).find_map(finite_number);
-        self.has_broken_numbers |= number.is_none();
+        if number.is_none() {
+            self.lose_broken(statement);
+        }
         number
     }
 
     /// A colour of three numbers, or of one for all channels. None for `spectral` and `xyz`.
-    fn color(&mut self, rest: &[u8]) -> Option<[f32; 3]> {
-        let numbers: Vec<f32> = words(rest).map_while(finite_number).collect();
-        self.has_broken_numbers |= words(rest).take(3).count() > numbers.len();
+    fn color(&mut self, statement: &str, rest: &[u8]) -> Option<[f32; 3]> {
+        let space = words(rest).next().unwrap_or_default();
+        if [&b"spectral"[..], b"xyz"].contains(&space) {
+            self.lost.insert(format!("{statement} ({})", String::from_utf8_lossy(space)));
+            return None;
+        }
+        let numbers: Vec<f32> = words(rest).map_while(finite_number).take(3).collect();
+        if numbers.len() < words(rest).take(3).count().max(1) {
+            self.lose_broken(statement);
+        }
         let r = *numbers.first()?;
         let g = *numbers.get(1).unwrap_or(&r);
         Some([r, g, *numbers.get(2).unwrap_or(&g)])
     }
 
+    /// A statement with a number that is none or not finite.
+    fn lose_broken(&mut self, statement: &str) {
+        self.lost.insert(format!("{statement} (broken numbers)"));
+    }
+
     fn add(&mut self, statement: &[u8], rest: &[u8]) {
+        let name = &*shortened(&String::from_utf8_lossy(statement));
         let lower = statement.to_ascii_lowercase();
         match &lower[..] {
-            b"kd" => self.diffuse = self.color(rest),
-            b"ke" => self.emissive = self.color(rest),
-            b"ns" => self.shininess = self.number(rest),
-            b"pr" => self.roughness = self.number(rest),
-            b"pm" => self.metallic = self.number(rest),
-            b"d" => self.opacity = self.number(rest),
-            b"tr" => self.opacity = self.number(rest).map(|transparency| 1.0 - transparency),
+            b"kd" => self.diffuse = self.color(name, rest),
+            b"ke" => self.emissive = self.color(name, rest),
+            b"ns" => self.shininess = self.number(name, rest),
+            b"pr" => self.roughness = self.number(name, rest),
+            b"pm" => self.metallic = self.number(name, rest),
+            b"d" => self.opacity = self.number(name, rest),
+            b"tr" => self.opacity = self.number(name, rest).map(|transparency| 1.0 - transparency),
             b"map_kd" => self.diffuse_map = Some(map(rest)),
             b"map_ke" => self.emissive_map = Some(map(rest)),
             b"map_pr" => self.roughness_map = Some(map(rest)),
             b"map_pm" => self.metallic_map = Some(map(rest)),
             b"norm" | b"map_norm" | b"map_kn" => self.normal_map = Some(map(rest)),
             b"bump" | b"map_bump" => self.bump_map = Some(map(rest)),
-            b"disp" | b"decal" | b"refl" => {
-                self.other_maps.push(String::from_utf8_lossy(statement).into_owned())
-            }
+            b"disp" | b"decal" | b"refl" => _ = self.lost.insert(name.to_owned()),
             other if other.starts_with(b"map_") && other != b"map_aat" => {
-                self.other_maps.push(String::from_utf8_lossy(statement).into_owned());
+                self.lost.insert(name.to_owned());
             }
             _ => {}
         }
@@ -171,11 +197,14 @@ fn map(rest: &[u8]) -> MtlMap {
                 ("-o", Some(number)) if place < 2 => found.offset[place] = number,
                 ("-s", Some(number)) if place < 2 => found.scale[place] = number,
                 ("-clamp", _) => found.is_clamped = word == "on",
+                // What changes nothing, as 3ds Max writes it.
+                ("-mm", number) => found.has_options |= number != Some([0.0, 1.0][place]),
+                ("-t", number) => found.has_options |= number != Some(0.0),
+                ("-imfchan", _) => found.has_options = true,
                 _ => {}
             }
             left = after.trim_start();
         }
-        found.has_options |= ["-mm", "-t", "-imfchan"].contains(&option);
     }
     found.file = left.to_owned();
     if found.offset_in_gltf().iter().chain(&found.scale).any(|number| !number.is_finite()) {

@@ -6,12 +6,11 @@
 //! ignores.
 
 use std::cell::{Cell, RefCell};
-use std::collections::HashMap;
-use std::ffi::OsString;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::{fs, io};
 
+use super::other_case::OtherCase;
 #[cfg(any(feature = "fbx", feature = "obj"))]
 use crate::MemoryLimit;
 use crate::error::shortened;
@@ -19,9 +18,6 @@ use crate::{Files, LoadOptions, files, paths};
 
 /// The most paths that are looked up for one model. Each lookup asks the operating system.
 const MAX_LOOKUPS: usize = 100_000;
-
-/// The most files of a folder whose names are compared without regard to case.
-const MAX_LISTED: usize = 100_000;
 
 /// No path has more bytes.
 const LONGEST_PATH: usize = 4096;
@@ -48,8 +44,7 @@ pub struct ModelFiles {
     lookups_left: Cell<usize>,
     /// The files that were read from the disk.
     read: RefCell<Vec<PathBuf>>,
-    /// The names in folders below the model's that were listed, by their lower case.
-    listed: RefCell<HashMap<PathBuf, HashMap<String, OsString>>>,
+    other_case: RefCell<OtherCase>,
 }
 
 /// A file that exists and may be read.
@@ -73,56 +68,52 @@ impl ModelFiles {
             memory_limit: options.memory_limit,
             lookups_left: Cell::new(MAX_LOOKUPS),
             read: RefCell::default(),
-            listed: RefCell::default(),
+            other_case: RefCell::default(),
         }
     }
 
     /// The file that a reference names, relative to the folder of the file `base`; empty is the model itself.
-    /// `\` separates folders as `/` does.
+    /// `\` separates folders as `/` does. Where the path leads nowhere, its name is looked up.
     pub fn find(&self, base: &str, reference: &str) -> Option<FoundFile> {
-        let reference = reference.trim();
-        // Callers try many ends of long lines.
-        if reference.is_empty() || reference.len() > LONGEST_PATH || self.lookups_left.get() == 0 {
-            return None;
-        }
-        let reference = reference.replace('\\', "/");
-        let is_absolute = reference.starts_with('/') || reference.as_bytes().get(1) == Some(&b':');
-        if is_absolute && self.allow_outside && self.may_look_up() {
-            let path = PathBuf::from(&reference);
-            if let (FileSource::Folder(_), Ok(path), true) =
-                (&self.source, path.canonicalize(), path.is_file())
-            {
-                return Some(FoundFile { name: reference, path, is_by_name: false });
-            }
-        }
-        let folder = base.rsplit_once('/').map_or("", |(folder, _)| folder);
-        let relative = Path::new(folder).join(reference.trim_start_matches('/'));
-        let as_written = (!is_absolute).then(|| self.inside(&relative, false)).flatten();
-        as_written.or_else(|| {
+        self.find_in_place(base, reference).or_else(|| {
+            let reference = self.usable(reference)?;
             let name = reference.rsplit('/').next()?;
-            let beside = Path::new(folder).join(name);
-            let by_name = self.inside(&beside, true).or_else(|| self.inside(Path::new(name), true));
-            by_name.or_else(|| {
-                let mut paths = [&*relative, &*beside, Path::new(name)].into_iter();
-                paths.find_map(|path| self.inside(&self.in_other_case(path)?, true))
-            })
+            let [beside, at_root] = [folder_of(base).join(name), PathBuf::from(name)];
+            let by_name = self.inside(&beside, true).or_else(|| self.inside(&at_root, true));
+            by_name.or_else(|| [&beside, &at_root].into_iter().find_map(|path| self.in_other_case(path)))
         })
     }
 
-    /// The path, relative to the model's folder, of a file whose name differs in the case of letters only.
-    fn in_other_case(&self, relative: &Path) -> Option<PathBuf> {
-        let FileSource::Folder(folder) = &self.source else { return None };
-        let mut found = PathBuf::new();
-        for part in files::normalised(relative)?.iter() {
-            let mut listed = self.listed.borrow_mut();
-            let names = listed.entry(found.clone()).or_insert_with_key(|relative| {
-                let inside = |path: &PathBuf| path.starts_with(folder) && self.may_look_up();
-                let path = folder.join(relative).canonicalize().ok().filter(inside);
-                path.map_or_else(HashMap::new, |path| names_by_lower_case(&path))
-            });
-            found.push(names.get(&part.to_str()?.to_lowercase())?);
+    /// As [`ModelFiles::find`], but at the path itself only, in whatever case its letters are.
+    pub fn find_in_place(&self, base: &str, reference: &str) -> Option<FoundFile> {
+        let reference = self.usable(reference)?;
+        let is_absolute = reference.starts_with('/') || reference.as_bytes().get(1) == Some(&b':');
+        if is_absolute {
+            let is_on_disk = matches!(self.source, FileSource::Folder(_));
+            if !(is_on_disk && self.allow_outside && self.may_look_up()) {
+                return None;
+            }
+            let path = PathBuf::from(&reference).canonicalize().ok().filter(|path| path.is_file())?;
+            return Some(FoundFile { name: reference, path, is_by_name: false });
         }
-        Some(found)
+        let relative = folder_of(base).join(reference);
+        self.inside(&relative, false).or_else(|| self.in_other_case(&relative))
+    }
+
+    /// The reference with `/` between its parts; none for one that is not looked up: callers try many ends of
+    /// long lines.
+    fn usable(&self, reference: &str) -> Option<String> {
+        let reference = reference.trim();
+        let is_usable =
+            !reference.is_empty() && reference.len() <= LONGEST_PATH && self.lookups_left.get() > 0;
+        is_usable.then(|| reference.replace('\\', "/"))
+    }
+
+    /// The file at a path relative to the model's folder whose parts differ in the case of letters only.
+    fn in_other_case(&self, relative: &Path) -> Option<FoundFile> {
+        let FileSource::Folder(folder) = &self.source else { return None };
+        let found = self.other_case.borrow_mut().find(folder, relative, || self.may_look_up())?;
+        self.inside(&found, true)
     }
 
     /// The file at a path relative to the model's folder.
@@ -207,15 +198,7 @@ impl ModelFiles {
     }
 }
 
-/// The names in a folder by their lower case, the first in order of those that are equal without case. Empty
-/// for a folder that cannot be read.
-fn names_by_lower_case(folder: &Path) -> HashMap<String, OsString> {
-    let mut names: Vec<OsString> = fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .take(MAX_LISTED)
-        .filter_map(|entry| Some(entry.ok()?.file_name()))
-        .collect();
-    names.sort_unstable();
-    names.into_iter().rev().filter_map(|name| Some((name.to_str()?.to_lowercase(), name))).collect()
+/// The folder of a file named `name`.
+fn folder_of(name: &str) -> &Path {
+    Path::new(name.rsplit_once('/').map_or("", |(folder, _)| folder))
 }
