@@ -1,4 +1,4 @@
-// `node build.mjs DARBOUX quick|release MODULE [FBX_MODULE]`: builds the page into `dist`, from the npm package in the folder DARBOUX and the
+// `node build.mjs DARBOUX quick|release MODULE [LARGER_MODULE]`: builds the page into `dist`, from the npm package in the folder DARBOUX and the
 // compiled modules of `wasm`, which are shrunk for a release.
 
 import { spawnSync } from 'node:child_process';
@@ -40,8 +40,8 @@ function shrink(module, to) {
   writeFileSync(keyPath, key);
 }
 
-/** The modules that the page imports: without and with the reader of FBX. */
-const imported = ['darboux_viewer.wasm', 'darboux_viewer_fbx.wasm'].map((name) => join(here, 'src/files', name));
+/** The modules that the page imports: the one for glTF, PLY and STL, and the larger one, which reads all formats. */
+const imported = ['darboux_viewer.wasm', 'darboux_viewer_larger.wasm'].map((name) => join(here, 'src/files', name));
 for (const to of imported.slice(modules.length)) rmSync(to, { force: true });
 for (const [at, module] of modules.entries()) (kind === 'release' ? shrink : copy)(module, imported[at]);
 mkdirSync(join(here, 'public'), { recursive: true });

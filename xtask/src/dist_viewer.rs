@@ -7,8 +7,8 @@
 //! then (build.mjs):  shrink the modules (only for a release), check types, bundle the page
 //! ```
 //!
-//! A release has two modules of its own: pages load the larger one, which also reads FBX, for an FBX. A quick
-//! build has one, which reads FBX where clang is there.
+//! A release has two modules of its own: pages load the larger one, which decodes textures, for FBX and OBJ. A
+//! quick build has one, which reads FBX where clang is there.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -56,16 +56,14 @@ pub fn package() -> Result<PathBuf, String> {
     Ok(target_folder()?.join("dist-viewer/darboux"))
 }
 
-/// Makes the page with the npm package that [`dist_js::test`] has made, and tests it in a browser with the
-/// command's server and outputs.
+/// Makes the page as it is released, and tests it in a browser with the command's server and outputs.
 pub fn test(without: WithoutNpm) -> Outcome {
     let can_skip = matches!(without, WithoutNpm::Skip);
     if can_skip && (!works(&mut program("npm --version")) || Clang::find().is_err()) {
         println!("skipped: the viewer needs node, npm and clang");
         return Ok(());
     }
-    let modules = prepare(Build::Release)?;
-    bundle(&dist_js::folder()?, &modules, Build::Release)?;
+    make_page(Build::Release)?;
     let browser = std::env::var_os("CHROMIUM").unwrap_or_else(|| CHROMIUM.into());
     if can_skip && !Path::new(&browser).exists() {
         println!(
@@ -82,38 +80,38 @@ fn viewer() -> PathBuf {
     root().join("viewer")
 }
 
-/// Installs the npm packages and compiles the modules of the page. Returns their paths: the one without the
-/// reader of FBX first, where there are two.
+/// Installs the npm packages and compiles the modules of the page. Returns their paths: the smaller one first,
+/// where there are two.
 fn prepare(build: Build) -> Result<Vec<PathBuf>, String> {
     npm::install("viewer", &viewer())?;
     match build {
         Build::Quick => step("compile the module of the page", || {
             // The features that the npm package's modules have, so that darboux-io is compiled once for all.
             let clang = Clang::find_or_say();
-            let features = if clang.is_some() { "fbx,darboux-io/default" } else { "darboux-io/default" };
+            let features = if clang.is_some() { "larger,darboux-io/default" } else { "darboux-io/default" };
             let folder = dist_js::compile_quickly(PACKAGE, &["--features", features], clang.as_ref())?;
             Ok(vec![folder.join("darboux_viewer.wasm")])
         }),
         Build::Release => {
             let clang = Clang::find()?;
-            let plain =
+            let smaller =
                 step("compile the module of the page", || compile_for_release("darboux_viewer", None))?;
-            let with_fbx = step("compile the module of the page that reads FBX", || {
-                compile_for_release("darboux_viewer_fbx", Some(&clang))
+            let larger = step("compile the module of the page that reads FBX and OBJ", || {
+                compile_for_release("darboux_viewer_larger", Some(&clang))
             })?;
-            Ok(vec![plain, with_fbx])
+            Ok(vec![smaller, larger])
         }
     }
 }
 
-/// Compiles a module in a target folder of its own, at the same time as those of the npm package; with the
-/// reader of FBX, if there is a compiler for it. Returns the path of the module.
+/// Compiles a module in a target folder of its own, at the same time as those of the npm package: the larger
+/// one with a compiler for the reader of FBX. Returns the path of the module.
 fn compile_for_release(name: &str, clang: Option<&Clang>) -> Result<PathBuf, String> {
     let target = target_folder()?.join("dist-viewer/module");
     let mut cargo = program("cargo build --quiet --profile page --package");
     cargo.args([PACKAGE, "--target", TRIPLE]).env("CARGO_TARGET_DIR", &target);
     if let Some(clang) = clang {
-        cargo.args(["--features", "fbx"]);
+        cargo.args(["--features", "larger"]);
         clang.compile_ufbx(&mut cargo);
     }
     run(to_stderr(&mut cargo))?;

@@ -74,6 +74,7 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
 
   test(`${name}: models of other formats are those of the command, with their own words`, () => {
     const folder = mkdtempSync(join(tmpdir(), 'darboux-'));
+    const seen = { findings: 0, importers: 0, sources: 0, repaired: 0 };
     for (const path of ['blender/scene.fbx', 'blender/mapping.fbx', 'others/assimp.fbx', 'blender/scene.obj', 'blender/scene.ply']) {
       // Alone: the package reads no files beside a model.
       const [alone, made] = [join(folder, basename(path)), join(folder, 'made.glb')];
@@ -86,13 +87,19 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
       const missing = /was not looked up, because the model came without a folder/;
       for (const warning of found.warnings) assert.ok(missing.test(warning) || stderr.includes(warning), `${warning} is not in ${stderr}`);
       const words = new RegExp(`your ${extname(path).slice(1).toUpperCase()}$`);
-      for (const { mesh, source } of found) if (mesh !== null) assert.match(source, words);
+      const inMeshes = found.filter(({ mesh }) => mesh !== null);
+      for (const { source } of inMeshes) assert.match(source, words);
       command('convert', alone, '--from', 'gltf', '--to', 'unity', '--raw', '--force', '-o', made);
       assert.ok(Buffer.from(convertFile(asset(path), 'gltf', 'unity').file).equals(readFileSync(made)), `${path}: the same bytes`);
       command('check', '--fix', '--fail-on', 'never', '--force', alone, '-o', made);
       const { file } = fix(asset(path));
       if (file) assert.ok(Buffer.from(file).equals(readFileSync(made)), `${path}: the same bytes after the repair`);
+      seen.findings += found.length;
+      seen.importers += Number(found.importer !== null);
+      seen.sources += inMeshes.length;
+      seen.repaired += Number(Boolean(file));
     }
+    for (const [name, count] of Object.entries(seen)) assert.ok(count > 0, `no ${name} were compared`);
     rmSync(folder, { recursive: true });
     const found = check(asset('others/assimp.fbx'));
     assert.ok(found.some(({ source }) => source === 'Armature/Body in your FBX') && found.importer);
@@ -116,6 +123,12 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
       }
     }
     assert.ok(refused > 10, `${refused}`);
+  });
+
+  test(`${name}: the memory limit leads to the command, because the package has no such option`, () => {
+    const accessors = [{ componentType: 5126, type: 'VEC3', count: 2 ** 31 }];
+    const model = { asset: { version: '2.0' }, accessors, meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }] };
+    assert.throws(() => check(Buffer.from(JSON.stringify(model))), /raise the limit \(--memory-limit of the command darboux\)/);
   });
 
   test(`${name}: compressed models are decoded`, () => {

@@ -47,6 +47,17 @@ impl Default for OptionNames {
 }
 
 impl OptionNames {
+    /// The names for a program that has none of these options: messages lead to the command `darboux`.
+    #[must_use]
+    pub const fn of_command() -> Self {
+        Self {
+            memory_limit: "--memory-limit of the command darboux",
+            allow_outside: "--allow-outside of the command darboux",
+            apply_texture_transform: "--apply-texture-transform of the command darboux",
+            missing_reader: "export the model as .glb, or convert it with the command: darboux tangents model.fbx -o model.glb",
+        }
+    }
+
     /// These names with another one for [`OptionNames::memory_limit`].
     #[must_use]
     pub const fn with_memory_limit(self, memory_limit: &'static str) -> Self {

@@ -7,7 +7,7 @@ interface Exports extends WebAssembly.Exports {
   memory: WebAssembly.Memory;
   /** Takes 64 random bits for hash keys, before any other call. */
   seed_random(low: number, high: number): void;
-  lacks_fbx(): number;
+  needs_larger_module(): number;
   name(length: number): number;
   file(length: number): number;
   made(): number;
@@ -54,20 +54,20 @@ export interface Summary {
   totals: { written: number; kept: number; skipped: number };
 }
 
-/** The module that also reads FBX, at most one. A quick build has none: its one module reads FBX, or a sentence says what to do. */
-const withFbx = Object.values(import.meta.glob<string>('./darboux_viewer_fbx.wasm', { eager: true, query: '?url', import: 'default' }));
+/** The module that also reads FBX and OBJ, at most one. A quick build has none: its one module reads them, or a sentence says what to do. */
+const larger = Object.values(import.meta.glob<string>('./darboux_viewer_larger.wasm', { eager: true, query: '?url', import: 'default' }));
 
 /** The modules that were loaded, by address. */
 const modules = new Map<string, Promise<WebAssembly.Module>>();
 
-/** The start of a file that is enough to recognise an FBX. */
-const HEAD = 4096;
+/** The start of a file that is enough to recognise its format: an OBJ may begin with a long comment. */
+const HEAD = 65536;
 
 /** An instance with at least this memory that traps is taken for one that lacks memory; a trap of a smaller one is a fault of the module. */
 const LARGE_MEMORY = 2 ** 29;
 
 /**
- * Reads a glTF, or an FBX, PLY or STL, which becomes one. Embeds the files of `bundle` that it refers to, decodes compressed data, and checks the data that tangents depend on. Errors: one sentence that
+ * Reads a glTF, or an OBJ, FBX, PLY or STL, which becomes one. Embeds the files of `bundle` that it refers to, decodes compressed data, and checks the data that tangents depend on. Errors: one sentence that
  * names the place and the fault.
  */
 export function check(name: string, bytes: Uint8Array, bundle: FileBundle): Promise<Outcome<Checked>> {
@@ -109,7 +109,7 @@ async function run<T>(task: 'check' | 'repair' | 'make_normals', name: string, b
   let exports = await instance(address);
   const head = bytes.subarray(0, HEAD);
   write(head, exports.file(head.length));
-  if (exports.lacks_fbx() && withFbx.length) exports = await instance(withFbx[0]);
+  if (larger.length && exports.needs_larger_module()) exports = await instance(larger[0]);
   try {
     const encodedName = new TextEncoder().encode(name);
     write(encodedName, exports.name(encodedName.length));

@@ -4,8 +4,8 @@ import type { AnimationClip, Camera, Object3D } from 'three';
 
 import { MODEL_NAMES, type FileBundle } from './file-bundle';
 import { openGltf } from './gltf';
-import type { Source } from './gltf-wasm';
-import { openObj } from './obj';
+import { call } from '../worker/surfaces';
+import type { Outcome, Source, Summary } from './gltf-wasm';
 
 /** An opened model. */
 export interface Model {
@@ -16,12 +16,11 @@ export interface Model {
   scene: Object3D;
   animations: AnimationClip[];
   cameras: Camera[];
-  kind: 'gltf' | 'obj';
-  /** The self-contained glTF that an export starts from. Null for other formats. */
-  bytes: Uint8Array<ArrayBuffer> | null;
+  /** The model as a self-contained GLB. */
+  bytes: Uint8Array<ArrayBuffer>;
   /** Faults that are not errors, one sentence each. */
   warnings: string[];
-  /** The words of the file; null for glTF and OBJ. */
+  /** The words of the file; null for glTF. */
   source: Source | null;
 }
 
@@ -43,10 +42,13 @@ export async function openModel(bundle: FileBundle, progress: Progress): Promise
   }
   const bytes = await read(name, bundle.get(name)!, progress);
   progress(`Opening ${name}`, null);
-  const isObj = /\.obj$/i.test(name);
-  return isObj
-    ? { name, files: bundle, kind: 'obj', bytes: null, source: null, animations: [], cameras: [], ...(await openObj(name, bytes, bundle)) }
-    : { name, files: bundle, kind: 'gltf', ...(await openGltf(name, bytes, bundle)) };
+  return { name, files: bundle, ...(await openGltf(name, bytes, bundle)) };
+}
+
+/** Writes MikkTSpace's tangents into the model and changes nothing else. A model of another format is read again, because its GLB has no quads. */
+export async function withTangents({ name, source, bytes, files }: Model): Promise<Outcome<Summary>> {
+  if (!source) return call('repair', name, bytes, new Map());
+  return call('repair', name, new Uint8Array(await files.get(name)!.arrayBuffer()), files);
 }
 
 async function read(name: string, file: Blob, progress: Progress): Promise<Uint8Array<ArrayBuffer>> {

@@ -1,6 +1,6 @@
 // Where meshes of the scene come from: the primitive of the glTF document that the check and the export read.
 
-import { Mesh, type Object3D } from 'three';
+import type { Mesh } from 'three';
 
 /** Indices in the document: of a mesh, of its primitive, and of its material, if it has one. */
 export interface Origin {
@@ -20,10 +20,4 @@ export function setOrigin(mesh: Mesh, origin: Origin): void {
 /** The origin of a mesh; null where it is unknown. */
 export function originOf(mesh: Mesh): Origin | null {
   return mesh.userData[KEY] ?? null;
-}
-
-/** Stores the origins of a scene that three.js exports: meshes are exported in the order of the scene. */
-export function setExportedOrigins(scene: Object3D): void {
-  let mesh = 0;
-  scene.traverse((object) => object instanceof Mesh && setOrigin(object, { mesh: mesh++, primitive: 0, material: null }));
 }

@@ -4,8 +4,7 @@ import type { Finding } from 'darboux/check';
 import { Box3, Matrix3, Vector3 } from 'three';
 
 import { openGltf } from '../files/gltf';
-import { openModel, type Model } from '../files/model';
-import { documentOf, withTangents } from '../files/export-glb';
+import { openModel, withTangents, type Model } from '../files/model';
 import type { FileBundle } from '../files/file-bundle';
 import { oddities } from '../scene/oddities';
 import { BakedMap } from '../scene/baked-map';
@@ -212,7 +211,7 @@ export class App {
       showProgress('Searching for a model', null);
       const { low, high } = await find();
       const model = await openModel(low, (task, fraction) => isOutdated() || showProgress(task, fraction));
-      const parts = partsOf(model.scene, model.kind);
+      const parts = partsOf(model.scene);
       if (isOutdated()) return;
       // Stops the comparison of the model before.
       this.comparing++;
@@ -288,7 +287,7 @@ export class App {
     try {
       while (this.isMoved && this.model) {
         this.isMoved = false;
-        this.parts = partsOf(this.model.scene, this.model.kind);
+        this.parts = partsOf(this.model.scene);
         await call('open', 'given', this.parts.map((part) => part.surface));
         await this.compare();
       }
@@ -354,10 +353,10 @@ export class App {
     showProgress('Opening the high model', null);
     if (!model) throw new Error('There is no low model to bake onto; open it first.');
     const high = await openModel(bundle, showProgress);
-    const parts = partsOf(high.scene, high.kind);
+    const parts = partsOf(high.scene);
     await call('open', 'high', parts.map((part) => part.surface));
     const comparisons = await Promise.all(parts.map((_, at) => call('compare', 'high', at, ['file', 'file'])));
-    const models = { low: await documentOf(model), high: [await documentOf(high)] };
+    const models = { low: model.bytes, high: [high.bytes] };
     if (opening !== this.opening || turn !== this.openingHigh) return;
     this.highView.setParts(parts, comparisons);
     chooseBaked();

@@ -5,7 +5,6 @@ import type { Finding } from 'darboux/check';
 import type { Checked } from '../check/checker';
 import { checker } from '../check/client';
 import { call } from '../worker/surfaces';
-import { documentOf } from '../files/export-glb';
 import type { Model } from '../files/model';
 import { nameLike, save } from './download';
 import { element } from './elements';
@@ -60,7 +59,7 @@ export class Examination {
   /** Checks the announced model. An error of the check is shown in place of the findings: the model stays usable. */
   async examine(model: Model): Promise<void> {
     try {
-      const file = await documentOf(model);
+      const file = model.bytes;
       const checked = inWordsOf(model, await checker('check', file));
       if (this.model !== model) return;
       this.diagnosis = checked.diagnosis;
@@ -81,14 +80,14 @@ export class Examination {
   async costOfRepair(): Promise<Cost | null> {
     const { model } = this;
     if (!model) return null;
-    const before = await documentOf(model);
+    const before = model.bytes;
     const { file } = await this.repairOnce(model);
     return file && { vertices: verticesIn(file) - verticesIn(before), bytes: file.byteLength - before.byteLength };
   }
 
   /** The repaired file and what became of the findings, computed once for a model. */
   private async repairOnce(model: Model): Promise<Repaired> {
-    const found = this.repairs.get(model) ?? documentOf(model).then(async (file) => inWordsOf(model, await checker('repair', file)));
+    const found = this.repairs.get(model) ?? checker('repair', model.bytes).then((repaired) => inWordsOf(model, repaired));
     this.repairs.set(model, found);
     return found;
   }
@@ -123,7 +122,7 @@ export class Examination {
     if (!model) return;
     setBusy(true);
     try {
-      const { bytes } = await call('makeNormals', model.name, await documentOf(model));
+      const { bytes } = await call('makeNormals', model.name, model.bytes);
       if (this.model !== model) return;
       this.repaired = bytes;
       await this.host.showRepaired(bytes);

@@ -52,7 +52,7 @@ export class BakedMap {
     const found = this.placed.get(own);
     if (found) return found;
     const { width, height, normals, misses } = this.bake;
-    const made = { normals: placedLike(new DataTexture(normals, width, height), own, surface.vDown), misses: placedLike(new DataTexture(misses, width, height), own, surface.vDown) };
+    const made = { normals: placedLike(new DataTexture(normals, width, height), own), misses: placedLike(new DataTexture(misses, width, height), own) };
     Object.assign(made.normals, { magFilter: LinearFilter, minFilter: LinearMipmapLinearFilter, generateMipmaps: true, anisotropy: 8 });
     Object.assign(made.misses, { magFilter: NearestFilter, minFilter: NearestFilter });
     this.placed.set(own, made);
@@ -61,17 +61,13 @@ export class BakedMap {
 }
 
 /** Places a texture, whose first row is the top, as the file's own one. */
-function placedLike(texture: DataTexture, own: Texture | null, vDown: boolean): DataTexture {
+function placedLike(texture: DataTexture, own: Texture | null): DataTexture {
   texture.wrapS = texture.wrapT = RepeatWrapping;
   if (own) {
     texture.channel = own.channel;
     texture.offset.copy(own.offset);
     texture.repeat.copy(own.repeat);
     texture.rotation = own.rotation;
-  }
-  if (!vDown) {
-    texture.repeat.y = -1;
-    texture.offset.y = 1;
   }
   texture.needsUpdate = true;
   return texture;

@@ -37,22 +37,22 @@ export interface Part {
   uvName: string;
   copies: Copy[];
   surface: GivenSurface;
-  /** Whether three.js negated the normal map's green channel, as it does for glTF without tangents. */
+  /** Whether three.js negated the normal map's green channel, as it does where there are no tangents. */
   isGreenNegated: boolean;
 }
 
 /** The parts of a model, in the order of the scene. Errors: there are none. */
-export function partsOf(scene: Object3D, kind: 'gltf' | 'obj'): Part[] {
+export function partsOf(scene: Object3D): Part[] {
   scene.updateMatrixWorld(true);
   const parts: Part[] = [];
   scene.traverse((object) => {
-    if (object instanceof Mesh && object.geometry.getAttribute('position')?.count) parts.push(...partsOfMesh(object, kind));
+    if (object instanceof Mesh && object.geometry.getAttribute('position')?.count) parts.push(...partsOfMesh(object));
   });
   if (!parts.length) throw new Error('The model has no triangles to show.');
   return parts;
 }
 
-function partsOfMesh(mesh: Mesh, kind: 'gltf' | 'obj'): Part[] {
+function partsOfMesh(mesh: Mesh): Part[] {
   const materials = [mesh.material].flat();
   const geometry = mesh.geometry as BufferGeometry;
   const count = geometry.index?.count ?? geometry.getAttribute('position').count;
@@ -64,16 +64,16 @@ function partsOfMesh(mesh: Mesh, kind: 'gltf' | 'obj'): Part[] {
     const material = found instanceof MeshStandardMaterial ? found : new MeshStandardMaterial({ roughness: 0.6 });
     const channel = material.normalMap?.channel ?? 0;
     const uvName = channel ? `uv${channel}` : 'uv';
-    const surface = surfaceOf(mesh, uvName, start, count, kind === 'gltf');
+    const surface = surfaceOf(mesh, uvName, start, count);
     const name = [mesh.name || 'mesh', ranges.length > 1 && (material.name || at + 1)].filter(Boolean).join(' / ');
-    const isGreenNegated = kind === 'gltf' && !surface.tangents;
+    const isGreenNegated = !surface.tangents;
     const own = originOf(mesh);
     const origin = own && { ...own, primitive: own.primitive + (ranges.length > 1 ? at : 0) };
     return { name, origin, geometry, material, uvName, copies, surface, isGreenNegated };
   });
 }
 
-function surfaceOf(mesh: Mesh, uvName: string, start: number, count: number, vDown: boolean): GivenSurface {
+function surfaceOf(mesh: Mesh, uvName: string, start: number, count: number): GivenSurface {
   const geometry = mesh.geometry as BufferGeometry;
   const floats = (name: string, width: number) => {
     const attribute = geometry.getAttribute(name) as Attribute | undefined;
@@ -83,7 +83,7 @@ function surfaceOf(mesh: Mesh, uvName: string, start: number, count: number, vDo
   const whole = count - (count % 3);
   const indices = Uint32Array.from({ length: whole }, (_, corner) => (list ? list.getX(start + corner) : start + corner));
   const vectors = { positions: floats('position', 3)!, normals: floats('normal', 3), tangents: floats('tangent', 4) };
-  return { ...vectors, uvs: floats(uvName, 2), indices, shape: morphedShape(mesh, vectors), skin: skinOf(mesh), vDown };
+  return { ...vectors, uvs: floats(uvName, 2), indices, shape: morphedShape(mesh, vectors), skin: skinOf(mesh) };
 }
 
 /** The copies of a mesh. Mirrored instances are a copy of their own, because three.js derives the winding from the node's matrix alone. */
@@ -126,7 +126,7 @@ export function uvSquare(parts: Part[]): [number, number, number] {
   for (const { surface } of parts) {
     const uvs = surface.uvs ?? [];
     for (let at = 0; at < uvs.length; at += 2) {
-      const [x, y] = [uvs[at], surface.vDown ? 1 - uvs[at + 1] : uvs[at + 1]];
+      const [x, y] = [uvs[at], 1 - uvs[at + 1]];
       if (!Number.isFinite(x + y)) continue;
       [left, right, bottom, top] = [Math.min(left, x), Math.max(right, x), Math.min(bottom, y), Math.max(top, y)];
     }

@@ -144,7 +144,7 @@ function addLayout(side: Side, part: Part, geometry: BufferGeometry, paint: Sett
   if (texture && !side.layout.children.length) {
     const square = new Mesh(new PlaneGeometry().translate(0.5, 0.5, 0), new MeshBasicMaterial({ map: texture, toneMapped: false, depthTest: false }));
     // Rows of images count downwards in glTF.
-    if (part.surface.vDown) square.geometry.getAttribute('uv').array.forEach((x, at, uvs) => at % 2 && (uvs[at] = 1 - x));
+    square.geometry.getAttribute('uv').array.forEach((x, at, uvs) => at % 2 && (uvs[at] = 1 - x));
     side.layout.add(square);
   }
   const { place } = part.copies[0];

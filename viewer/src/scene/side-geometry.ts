@@ -20,7 +20,7 @@ export function sharedAttributes(part: Part, comparison: Comparison): SharedAttr
   const add = (name: string, array: Float32Array, width: number) => shared.set(name, new BufferAttribute(array, width));
   add('position', positions, 3);
   add('normal', normals, 3);
-  add('chart', layoutPositions(uvs, part.surface.vDown), 2);
+  add('chart', layoutPositions(uvs), 2);
   add('angle', angles ?? new Float32Array(sourceOfVertex.length).fill(NO_ANGLE), 1);
   for (const name of ['uv', 'uv1', 'uv2', 'uv3', 'color']) {
     const attribute = part.geometry.getAttribute(name);
@@ -36,8 +36,8 @@ export function sharedAttributes(part: Part, comparison: Comparison): SharedAttr
 }
 
 /** UVs as positions on the upright image: v points up. */
-function layoutPositions(uvs: Float32Array, vDown: boolean): Float32Array {
-  return vDown ? uvs.map((x, at) => (at % 2 ? 1 - x : x)) : uvs;
+function layoutPositions(uvs: Float32Array): Float32Array {
+  return uvs.map((x, at) => (at % 2 ? 1 - x : x));
 }
 
 /** Makes the geometry. `frames` has 4 floats per vertex, and `hasTangents` says whether the renderer gets them as tangents. */
@@ -75,12 +75,11 @@ export function takesBumps({ material }: Part): boolean {
 /** Makes the material. `hasBumps`: whether test bumps stand for a missing normal map; `baked`: the map in place of the file's own, or null. */
 export function sideMaterial(part: Part, hasTangents: boolean, hasBumps: boolean, mistakes: Mistakes, baked: BakedMap | null): MeshStandardMaterial {
   const material = part.material.clone();
-  const { vDown } = part.surface;
   const isBumpy = hasBumps && takesBumps(part) && !baked;
-  if (isBumpy) withBumps(material, vDown);
+  if (isBumpy) withBumps(material);
   baked?.applyTo(material, part);
-  // Without tangents, three.js takes green along the derivative by v. In glTF v points down, so green has to be negated.
-  const isNegated = vDown && !hasTangents;
+  // Without tangents, three.js takes green along the derivative by v. v points down the image, so green has to be negated.
+  const isNegated = !hasTangents;
   const wasNegated = part.isGreenNegated && !isBumpy && !baked;
   if (isNegated !== wasNegated) material.normalScale.y *= -1;
   if (mistakes.green) material.normalScale.y *= -1;

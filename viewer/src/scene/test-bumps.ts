@@ -11,10 +11,10 @@ const RADIUS = 0.36;
 let texture: DataTexture | undefined;
 
 /** Sets the bumps as the normal map of a material: eight of them across the UV square. */
-export function withBumps(material: MeshStandardMaterial, vDown: boolean): void {
+export function withBumps(material: MeshStandardMaterial): void {
   texture ??= pattern();
   material.normalMap = texture;
-  material.normalScale.set(1, vDown ? 1 : -1);
+  material.normalScale.set(1, 1);
 }
 
 /** Makes the texture. Its first row is the top, and green points up, as where v points down the image. */

@@ -7,7 +7,7 @@ import { cross, dot, edges, type Vector } from './vectors';
 
 /** The tangent of every corner. Its xyz is zero where all UVs of the triangle are equal. */
 export function derivativeTangents(surface: Surface): Float32Array<ArrayBuffer> {
-  const { indices, normals, uvs, vDown } = surface;
+  const { indices, normals, uvs } = surface;
   const out = new Float32Array(indices.length * 4);
   for (let face = 0; face + 2 < indices.length; face += 3) {
     const [p1, p2] = edges(surface.positions, 3, indices, face);
@@ -21,7 +21,7 @@ export function derivativeTangents(surface: Surface): Float32Array<ArrayBuffer> 
       const length = Math.hypot(...tangent);
       if (length > 0) out.set(tangent.map((x) => x / length), corner * 4);
       const isRight = dot(cross(normal, tangent), bitangent) >= 0;
-      out[corner * 4 + 3] = isRight === vDown ? -1 : 1;
+      out[corner * 4 + 3] = isRight ? -1 : 1;
     }
   }
   return out;

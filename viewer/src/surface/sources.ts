@@ -65,11 +65,12 @@ export function tangentsFrom(surface: Surface, source: Source): Float32Array | n
 
 /** The tangents of a method, likewise. */
 function computedTangents(
-  { positions, normals, uvs, indices, vDown }: Surface,
+  { positions, normals, uvs, indices }: Surface,
   method: Method,
   mode?: Mode,
 ): Float32Array<ArrayBuffer> {
   const tangents = generateTangents(positions, normals, uvs, indices, { method, mode });
-  if (vDown) for (let w = 3; w < tangents.length; w += 4) tangents[w] = -tangents[w];
+  // v points down the image, as in glTF, so that signs are the negated signs of MikkTSpace.
+  for (let w = 3; w < tangents.length; w += 4) tangents[w] = -tangents[w];
   return tangents;
 }

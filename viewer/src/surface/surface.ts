@@ -29,8 +29,6 @@ export interface GivenSurface {
   /** The vertices after morph targets with the weights of the file; null where all weights are 0. */
   shape: Shape | null;
   skin: Skin | null;
-  /** Whether v points down the image, as in glTF. Signs are then the negated signs of MikkTSpace. */
-  vDown: boolean;
 }
 
 /** A surface with normals and UVs. */

@@ -77,10 +77,6 @@ impl Source {
     }
 }
 
-/// What to do about a format that the page does not read.
-const MISSING_READER: &str =
-    "export the model as .glb, or convert it with the command: darboux tangents model.fbx -o model.glb";
-
 /// Seeds the hash keys with 64 random bits, in two halves. The page calls this first, because WebAssembly
 /// itself has no randomness.
 #[cfg(target_family = "wasm")]
@@ -101,12 +97,13 @@ pub extern "C" fn file(len: usize) -> *mut u8 {
     BUFFERS.with_borrow_mut(|buffers| resized(&mut buffers.file, len))
 }
 
-/// Whether the given file, or its first 4,096 bytes, is an FBX and this module has no reader for it: the page
-/// has another module with one.
+/// Whether the given file, or its start, is an FBX or OBJ and this is the smaller module of a page: the larger
+/// one reads it.
 #[unsafe(no_mangle)]
-pub extern "C" fn lacks_fbx() -> bool {
-    let is_fbx = |buffers: &Buffers| SourceFormat::of(&buffers.file) == Some(SourceFormat::Fbx);
-    !cfg!(feature = "fbx") && BUFFERS.with_borrow(is_fbx)
+pub extern "C" fn needs_larger_module() -> bool {
+    let needs = |format: SourceFormat| matches!(format, SourceFormat::Fbx | SourceFormat::Obj);
+    !cfg!(feature = "larger")
+        && BUFFERS.with_borrow(|buffers| SourceFormat::of(&buffers.file).is_some_and(needs))
 }
 
 /// The address of the resulting file.
@@ -174,8 +171,7 @@ fn run(work: impl FnOnce(&mut Document) -> Result<(Vec<u8>, Vec<u8>), Error>) ->
     BUFFERS.with_borrow_mut(|buffers| {
         let name = String::from_utf8_lossy(&buffers.name).into_owned();
         let file = take(&mut buffers.file);
-        let names = OptionNames::default().with_missing_reader(MISSING_READER);
-        let options = LoadOptions::default().with_option_names(names);
+        let options = LoadOptions::default().with_option_names(OptionNames::of_command());
         let opened = Document::from_files(&name, file, Arc::new(PageFiles), &options);
         match opened.and_then(|mut document| work(&mut document)) {
             Ok((text, file)) => {
