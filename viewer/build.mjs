@@ -4,7 +4,7 @@
 import { spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
-import { dirname, join } from 'node:path';
+import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -45,7 +45,7 @@ const imported = ['darboux_viewer.wasm', 'darboux_viewer_larger.wasm'].map((name
 for (const to of imported.slice(modules.length)) rmSync(to, { force: true });
 for (const [at, module] of modules.entries()) (kind === 'release' ? shrink : copy)(module, imported[at]);
 mkdirSync(join(here, 'public'), { recursive: true });
-copyFileSync(join(here, '../assets/made/shield.glb'), join(here, 'public/shield.glb'));
+for (const path of ['assets/made/shield.glb', 'LICENSE-APACHE', 'LICENSE-MIT', 'ATTRIBUTION.md']) copyFileSync(join(here, '..', path), join(here, 'public', basename(path)));
 
 run('tsc', '-p', '.');
 run('vite', 'build');

@@ -236,7 +236,7 @@ await step('bundle the package and write its types', async () => {
 const manifest = JSON.parse(readFileSync(join(here, 'lib/package.json'), 'utf8'));
 writeFileSync(join(out, 'package.json'), JSON.stringify({ ...manifest, version }, null, 2) + '\n');
 copyFileSync(join(here, 'README.md'), join(out, 'README.md'));
-for (const license of ['LICENSE-APACHE', 'LICENSE-MIT']) copyFileSync(join(here, '../..', license), join(out, license));
+for (const name of ['LICENSE-APACHE', 'LICENSE-MIT', 'ATTRIBUTION.md']) copyFileSync(join(here, '../..', name), join(out, name));
 
 // Tests and examples import the package as users do, beside the libraries that it extends.
 const installed = join(here, 'node_modules/darboux');

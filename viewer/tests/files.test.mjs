@@ -98,8 +98,8 @@ test('an FBX with its texture, in its own words', async () => {
   assert.doesNotMatch(await viewer.text('diagnosis'), /your FBX/);
 });
 
-test('what is saved of an FBX is the command\'s', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {
-  for (const paths of [['blender/scene.fbx', 'blender/scene_normal.png'], ['others/assimp.fbx']]) {
+test('what is saved of an FBX or OBJ is the command\'s', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {
+  for (const paths of [['blender/scene.fbx', 'blender/scene_normal.png'], ['others/assimp.fbx'], ['blender/scene.obj', 'blender/scene.mtl', 'blender/scene_normal.png']]) {
     await viewer.give('files', paths.map(asset));
     const { name, bytes } = await viewer.download('#save-model');
     const ours = join(folder, name);
@@ -277,8 +277,8 @@ test('bad files get a sentence, and leave the model that is open', async () => {
     'index.gltf': [readFileSync(asset('made/shared-vertices-two-uv-sets.gltf'), 'utf8').replace(/"POSITION": *\d+/, '"POSITION": 99'), /^index\.gltf: .*99.*\.$/],
     'alone.gltf': [plane, /^alone\.gltf: buffers\[0\]\.uri: the file .TwoSidedPlane.* is not among the files; give the whole folder\.$/],
     'remote.gltf': [plane.replace('TwoSidedPlane.bin', 'https://example.com/a.bin'), /^remote\.gltf: .* on another machine; download it and refer to the file\.$/],
-    'empty.obj': ['# nothing\n', /^empty\.obj has no vertices/],
-    'points.obj': ['v 0 0 0\nv 1 0 0\n', /no triangles/],
+    'empty.obj': ['# nothing\n', /^empty\.obj: is named as OBJ, but .*\.$/],
+    'points.obj': ['v 0 0 0\nv 1 0 0\n', /^points\.obj: is an OBJ without faces.*\.$/],
     'cut.fbx': [readFileSync(asset('blender/scene.fbx')).subarray(0, 20_000), /^cut\.fbx: is cut off; copy or export it again\.$/],
     'damaged.fbx': [readFileSync(asset('blender/scene.fbx')).fill(255, 2000, 2100), /^damaged\.fbx: is not a valid FBX \(.*\); export it again\.$/],
     'stage.usdz': [readFileSync(asset('blender/scene.usdz')), /^stage\.usdz: is USD, which is not read here; export the model as \.glb/],
@@ -346,10 +346,10 @@ test('darboux view shows an OBJ with its materials and textures', { skip: !DARBO
   });
   // Alone it is shown, and what it lacks is said.
   await viewer.give('files', [join(place, 'quad.obj')]);
-  assert.match(await viewer.text('status'), /; dress\/quad one\.mtl is not among the files, and its materials are missing$/);
+  assert.match(await viewer.text('status'), /; "dress\/quad one\.mtl" is not among the files; its materials are left out/);
   rmSync(join(place, 'normal 1.png'));
   await viewer.give('folder', place);
-  assert.match(await viewer.text('status'), /; 1 texture missing or not decodable$/);
+  assert.match(await viewer.text('status'), /; dress\/quad one\.mtl: "\.\.\/normal 1\.png" is not among the files; the texture is left out/);
 });
 
 /** The normal map of the model that the page opens with: scales, which look otherwise upside down. */

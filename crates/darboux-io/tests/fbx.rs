@@ -242,7 +242,17 @@ fn ascii_with_polygons_smoothing_units_and_paths_of_windows() {
 fn damaged_files_are_errors_or_warnings() {
     let bytes = std::fs::read(asset("scene.fbx")).unwrap();
     let half = from_bytes(&bytes[..bytes.len() / 2], &LoadOptions::default());
-    assert_eq!(half.unwrap_err(), "model.fbx: is cut off; copy or export it again");
+    let cut_off = "model.fbx: is cut off; copy or export it again";
+    assert_eq!(half.unwrap_err(), cut_off);
+    // An ASCII file that ends in a block, in a string or in an array.
+    for part in ["GeometryVersion: 124\n", "\"Model::Gro", "a: 0,0,0, 1,0,0, 1"] {
+        let start = &ASCII[..ASCII.find(part).unwrap() + part.len()];
+        assert_eq!(from_bytes(start.as_bytes(), &LoadOptions::default()).unwrap_err(), cut_off, "{part}");
+    }
+    // Braces in comments and strings do not count.
+    let braces =
+        ASCII.replacen('\n', "\n; a comment with { and \"\n", 1).replace("Model::Plate", "Model::Plate{");
+    from_bytes(braces.as_bytes(), &LoadOptions::default()).unwrap();
     let options = LoadOptions::default().with_memory_limit(MemoryLimit::bytes(100_000));
     let error = from_bytes(&bytes, &options).unwrap_err();
     assert!(

@@ -1,5 +1,6 @@
 //! Parses an FBX with ufbx, within a memory limit, and words its errors and warnings.
 
+use memchr::memchr;
 use ufbx::{
     AllocatorOpts, ErrorType, FileFormat, GeometryTransformHandling, InheritModeHandling, LoadOpts,
     SceneRoot, WarningType,
@@ -7,6 +8,8 @@ use ufbx::{
 
 use crate::error::ContentError;
 use crate::memory_limit::Budget;
+
+const CUT_OFF: &str = "is cut off; copy or export it again";
 
 /// How deep nodes may be nested. Real scenes have fewer than a hundred levels.
 const MAX_DEPTH: u32 = 500;
@@ -36,28 +39,56 @@ pub fn load(bytes: &[u8], budget: &Budget) -> Result<SceneRoot, ContentError> {
         inherit_mode_handling: InheritModeHandling::HelperNodes,
         ..LoadOpts::default()
     };
-    ufbx::load_memory(bytes, options).map_err(|error| {
-        let invalid = |problem: &str| ContentError::invalid("", problem);
-        match error.type_ {
-            ErrorType::EmptyFile => invalid("is empty; export it again"),
-            ErrorType::UnrecognizedFileFormat => invalid("is not an FBX file; check what it is"),
-            ErrorType::TruncatedFile | ErrorType::Io => invalid("is cut off; copy or export it again"),
-            ErrorType::MemoryLimit | ErrorType::AllocationLimit | ErrorType::OutOfMemory => {
-                ContentError::unsupported("", budget.exceeded("the scene needs"))
-            }
-            ErrorType::NodeDepthLimit => {
-                invalid(&format!("has nodes nested more than {MAX_DEPTH} levels deep; flatten its hierarchy"))
-            }
-            ErrorType::UnsupportedVersion => ContentError::unsupported(
-                "",
-                format!(
-                    "has a version of FBX that cannot be read{}; export it as FBX 7.4 (2014)",
-                    version(error.info())
-                ),
-            ),
-            _ => invalid(&format!("is not a valid FBX ({}); export it again", &*error.description)),
+    let invalid = |problem: &str| ContentError::invalid("", problem);
+    let loaded = ufbx::load_memory(bytes, options).map_err(|error| match error.type_ {
+        ErrorType::EmptyFile => invalid("is empty; export it again"),
+        ErrorType::UnrecognizedFileFormat => invalid("is not an FBX file; check what it is"),
+        ErrorType::TruncatedFile | ErrorType::Io => invalid(CUT_OFF),
+        ErrorType::MemoryLimit | ErrorType::AllocationLimit | ErrorType::OutOfMemory => {
+            ContentError::unsupported("", budget.exceeded("the scene needs"))
         }
-    })
+        ErrorType::NodeDepthLimit => {
+            invalid(&format!("has nodes nested more than {MAX_DEPTH} levels deep; flatten its hierarchy"))
+        }
+        ErrorType::UnsupportedVersion => ContentError::unsupported(
+            "",
+            format!(
+                "has a version of FBX that cannot be read{}; export it as FBX 7.4 (2014)",
+                version(error.info())
+            ),
+        ),
+        _ if ends_early(bytes) => invalid(CUT_OFF),
+        _ => invalid(&format!("is not a valid FBX ({}); export it again", &*error.description)),
+    })?;
+    if ends_early(bytes) {
+        return Err(invalid(CUT_OFF));
+    }
+    Ok(loaded)
+}
+
+/// Whether the file is an ASCII one that ends inside of a block or a string, which ufbx takes for the end of the
+/// file.
+fn ends_early(text: &[u8]) -> bool {
+    if text.starts_with(b"Kaydara FBX Binary") {
+        return false;
+    }
+    let mut open_blocks = 0_usize;
+    let mut rest = text;
+    while let Some(place) = rest.iter().position(|byte| b"\"{};".contains(byte)) {
+        let (byte, after) = (rest[place], &rest[place + 1..]);
+        rest = match byte {
+            b'{' | b'}' => {
+                open_blocks = if byte == b'{' { open_blocks + 1 } else { open_blocks.saturating_sub(1) };
+                after
+            }
+            b'"' => match memchr(b'"', after) {
+                Some(end) => &after[end + 1..],
+                None => return true,
+            },
+            _ => memchr(b'\n', after).map_or(&[][..], |end| &after[end..]),
+        };
+    }
+    open_blocks > 0
 }
 
 /// The version in an error's details, as a clause in brackets.
