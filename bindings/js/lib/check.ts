@@ -78,7 +78,7 @@ export type Findings = Finding[] & {
   /** What happened to it, what it looks like and what to do, in one to three sentences. */
   diagnosis: string;
   /** What importers of another format make of the mistakes; null for glTF, and without mistakes. */
-  importer: string | null;
+  importerNote: string | null;
   /** What a model of another format lost as it became glTF, such as textures that are not among its bytes; empty for glTF. */
   warnings: string[];
 };
@@ -223,11 +223,11 @@ function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, optio
   if (assume != null && !assumed) throw new RangeError(`assume is '${assume}'; it must be 'opengl', 'directx', 'red-inverted' or 'both-inverted'`);
   writeBytes(exports, file);
   const address = exports.check_file(Number(isMap), Number(green === 'down'), Number(maps ?? true), assumed, Number(repairs));
-  type Checked = Pick<Findings, 'diagnosis' | 'importer' | 'warnings'> & { findings: Record<string, unknown>[] };
+  type Checked = Pick<Findings, 'diagnosis' | 'warnings'> & { importer_note: string | null; findings: Record<string, unknown>[] };
   const checked = readJson<Checked | { error: string }>(exports, address);
   if ('error' in checked) throw new Error(checked.error);
-  const { diagnosis, importer, warnings } = checked;
-  return Object.assign(checked.findings.map(finding), { diagnosis, importer, warnings });
+  const { diagnosis, importer_note: importerNote, warnings } = checked;
+  return Object.assign(checked.findings.map(finding), { diagnosis, importerNote, warnings });
 }
 
 /** The assumptions in the order of the module. */

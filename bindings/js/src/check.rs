@@ -4,8 +4,8 @@ use darboux::{
     BitangentDirection, Channel, Choice, MapJudgement, MapTiles, NormalMapJudge, RecipeMatch, TexelLayout,
 };
 use darboux_check::{
-    AssumedMap, CheckOptions, FixOptions, ReportedFinding, Severity, check_document, check_map, diagnosis,
-    fix_document,
+    AssumedMap, CheckOptions, FixOptions, ReportedFinding, check_document, check_map, diagnosis,
+    fix_document, importer_note,
 };
 use darboux_io::gltf::Document;
 use serde::Serialize;
@@ -52,7 +52,7 @@ enum Checked {
         findings: Vec<NamedFinding>,
         diagnosis: String,
         /// What importers of a format other than glTF make of the mistakes.
-        importer: Option<&'static str>,
+        importer_note: Option<&'static str>,
         /// What a model of another format than glTF lost.
         warnings: Vec<String>,
     },
@@ -74,17 +74,14 @@ impl Checked {
     /// `document`: the model, as it was read; none for a map.
     fn of(findings: Vec<ReportedFinding>, document: Option<&Document>) -> Self {
         let source = document.and_then(|document| Some((document.provenance()?, document.warnings())));
-        let is_mistake = |finding: &ReportedFinding| finding.severity >= Severity::Warning;
-        let has_mistakes = findings.iter().any(is_mistake);
         let named = |mut finding: ReportedFinding| {
             let source = source.and_then(|(provenance, _)| finding.name_place(provenance));
             (finding, source)
         };
         let (findings, places): (Vec<_>, Vec<_>) = findings.into_iter().map(named).unzip();
-        let note = source.and_then(|(provenance, _)| provenance.format.importer_note());
         Self::Findings {
             diagnosis: diagnosis(&findings),
-            importer: note.filter(|_| has_mistakes),
+            importer_note: source.and_then(|(provenance, _)| importer_note(provenance, &findings)),
             warnings: source.map_or(Vec::new(), |(_, warnings)| warnings.to_vec()),
             findings: findings
                 .into_iter()

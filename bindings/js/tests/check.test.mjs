@@ -81,9 +81,9 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
       writeFileSync(alone, asset(path));
       const found = check(asset(path));
       const { stdout, stderr } = command('check', alone, '--json');
-      const { findings, importer, diagnosis } = JSON.parse(stdout).files[0];
+      const { findings, importer_note, diagnosis } = JSON.parse(stdout).files[0];
       assert.deepEqual(found.map(({ code, text, first }) => [code, text, first]), findings.map(({ code, text, first }) => [code, text, first]), path);
-      assert.deepEqual([found.diagnosis, found.importer], [diagnosis, importer ?? null], path);
+      assert.deepEqual([found.diagnosis, found.importerNote], [diagnosis, importer_note ?? null], path);
       const missing = /was not looked up, because the model came without a folder/;
       for (const warning of found.warnings) assert.ok(missing.test(warning) || stderr.includes(warning), `${warning} is not in ${stderr}`);
       const words = new RegExp(`your ${extname(path).slice(1).toUpperCase()}$`);
@@ -95,14 +95,14 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
       const { file } = fix(asset(path));
       if (file) assert.ok(Buffer.from(file).equals(readFileSync(made)), `${path}: the same bytes after the repair`);
       seen.findings += found.length;
-      seen.importers += Number(found.importer !== null);
+      seen.importers += Number(found.importerNote !== null);
       seen.sources += inMeshes.length;
       seen.repaired += Number(Boolean(file));
     }
     for (const [name, count] of Object.entries(seen)) assert.ok(count > 0, `no ${name} were compared`);
     rmSync(folder, { recursive: true });
     const found = check(asset('others/assimp.fbx'));
-    assert.ok(found.some(({ source }) => source === 'Armature/Body in your FBX') && found.importer);
+    assert.ok(found.some(({ source }) => source === 'Armature/Body in your FBX') && found.importerNote);
     assert.match(found.warnings[0], /^FBX does not say whether green points up or down/);
     assert.deepEqual([check(asset('made/shield.glb')).warnings, check(asset('made/shield.glb'))[0].source], [[], undefined]);
   });

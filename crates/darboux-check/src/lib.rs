@@ -64,5 +64,5 @@ pub use repair::{
     Change, FixOptions, FixedDocument, FixedFinding, FixedMap, PlannedEdit, fix_document, fix_map,
     fix_map_on_model, plan_repair,
 };
-pub use report::ReportedFinding;
+pub use report::{ReportedFinding, importer_note};
 pub use severity::Severity;

@@ -69,6 +69,12 @@ impl ReportedFinding {
     }
 }
 
+/// What importers of a format other than glTF make of the mistakes in a model: a sentence, where there are any.
+pub fn importer_note(source: &Provenance, findings: &[ReportedFinding]) -> Option<&'static str> {
+    let is_mistake = |finding: &ReportedFinding| finding.severity >= Severity::Warning;
+    source.format.importer_note().filter(|_| findings.iter().any(is_mistake))
+}
+
 impl From<Finding> for ReportedFinding {
     fn from(finding: Finding) -> Self {
         let place = finding.place.to_string();

@@ -80,11 +80,20 @@ impl Checks<'_> {
             let wanted = findings.into_iter().filter(|finding| self.findings.reports(finding.code));
             let mut findings: Vec<ReportedFinding> = wanted.map(Into::into).collect();
             document.iter().for_each(|document| source::name_places(document, &mut findings));
-            let importer = document.and_then(|document| source::importer_note(document, &findings));
+            let importer_note =
+                document.and_then(|document| darboux_check::importer_note(document.provenance()?, &findings));
             let of_format = document.filter(|document| document.provenance().is_some());
             let warnings = of_format.map_or(Vec::new(), |document| document.warnings().to_vec());
             let diagnosis = diagnosis(&findings);
-            CheckedFile { input: name.clone(), error: None, map, importer, diagnosis, findings, warnings }
+            CheckedFile {
+                input: name.clone(),
+                error: None,
+                map,
+                importer_note,
+                diagnosis,
+                findings,
+                warnings,
+            }
         };
         let check = || {
             let source = Source::new(input)?;
@@ -122,7 +131,7 @@ fn failed(input: String, sentence: String) -> CheckedFile {
         input,
         error: Some(sentence),
         map: None,
-        importer: None,
+        importer_note: None,
         diagnosis: String::new(),
         findings: Vec::new(),
         warnings: Vec::new(),

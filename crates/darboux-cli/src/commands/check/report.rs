@@ -79,7 +79,7 @@ pub struct CheckedFile {
     pub map: Option<ReportedMap>,
     /// What importers of a format other than glTF make of the mistakes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub importer: Option<&'static str>,
+    pub importer_note: Option<&'static str>,
     /// What happened, what it looks like and what to do; empty for a file that cannot be read.
     pub diagnosis: String,
     pub findings: Vec<ReportedFinding>,

@@ -86,7 +86,7 @@ fn head(file: &CheckedFile) -> String {
     if !file.warnings.is_empty() {
         text += "  The warnings say what was lost when it was read.\n";
     }
-    text.extend(file.importer.map(|note| format!("  {note}\n")));
+    text.extend(file.importer_note.map(|note| format!("  {note}\n")));
     if let Some(map) = &file.map {
         text += &format!("  {}\n", verdict(map));
     }
