@@ -105,11 +105,6 @@ pub struct Module {
 }
 
 impl Module {
-    /// The module without the reader of FBX.
-    pub const fn without_fbx(self) -> Self {
-        Self { reads_models: false, ..self }
-    }
-
     /// Features of `darboux-js`; with the reader of FBX where its compiler is there.
     fn all_features(self, clang: Option<&Clang>) -> String {
         let fbx = if self.reads_models && clang.is_some() { ",fbx" } else { "" };

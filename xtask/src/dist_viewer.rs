@@ -37,15 +37,9 @@ pub fn make(build: Build) -> Outcome {
 pub fn make_page(build: Build) -> Result<PathBuf, String> {
     eprintln!("the viewer's page: WebAssembly modules, bundled with TypeScript and three.js");
     let package = package()?;
-    let entries = match build {
-        // With the features of the page's module, so that darboux-io is compiled once for all.
-        Build::Quick => [FULL, CHECK, BAKE],
-        // The page's module reads files, and gives the others GLBs.
-        Build::Release => [FULL, CHECK.without_fbx(), BAKE.without_fbx()],
-    };
     let modules = thread::scope(|scope| {
         let modules = scope.spawn(|| prepare(build));
-        dist_js::make_folder(&package, &entries, build)?;
+        dist_js::make_folder(&package, &[FULL, CHECK, BAKE], build)?;
         modules.join().expect("compiling does not panic")
     })?;
     bundle(&package, &modules, build)
@@ -56,14 +50,16 @@ pub fn package() -> Result<PathBuf, String> {
     Ok(target_folder()?.join("dist-viewer/darboux"))
 }
 
-/// Makes the page as it is released, and tests it in a browser with the command's server and outputs.
+/// Makes the page as it is released, with the npm package that [`dist_js::test`] has made, and tests it in a
+/// browser with the command's server and outputs.
 pub fn test(without: WithoutNpm) -> Outcome {
     let can_skip = matches!(without, WithoutNpm::Skip);
     if can_skip && (!works(&mut program("npm --version")) || Clang::find().is_err()) {
         println!("skipped: the viewer needs node, npm and clang");
         return Ok(());
     }
-    make_page(Build::Release)?;
+    let modules = prepare(Build::Release)?;
+    bundle(&dist_js::folder()?, &modules, Build::Release)?;
     let browser = std::env::var_os("CHROMIUM").unwrap_or_else(|| CHROMIUM.into());
     if can_skip && !Path::new(&browser).exists() {
         println!(

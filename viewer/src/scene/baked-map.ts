@@ -47,7 +47,7 @@ export class BakedMap {
     for (const { normals, misses } of this.placed.values()) [normals, misses].forEach((texture) => texture.dispose());
   }
 
-  private texturesOf({ material, surface }: Part): Placed {
+  private texturesOf({ material }: Part): Placed {
     const own = material.normalMap;
     const found = this.placed.get(own);
     if (found) return found;
