@@ -52,10 +52,12 @@ const TEXTURES: &[(&str, (MaterialProperty, bool))] = &[
 ///     The low mesh, as for generate_tangents; triangles only.
 /// tangents : (C, 4) array_like
 ///     One per corner, as generate_tangents returns them. The sign w in a glTF file's TANGENT is the opposite
-/// of theirs: negate it first. high_positions : (W, 3) array_like
+///     of theirs: negate it first.
+/// high_positions : (W, 3) array_like
 /// high_indices : (D,) or (G, 3) array_like of integers, optional
 ///     Triangles, counter-clockwise seen from the front. Without indices, every vertex is a corner of its
-/// own. high_normals : (W, 3) array_like, optional
+///     own.
+/// high_normals : (W, 3) array_like, optional
 ///     Without, every triangle is flat.
 /// size : (int, int)
 ///     Width and height in texels.
@@ -63,10 +65,11 @@ const TEXTURES: &[(&str, (MaterialProperty, bool))] = &[
 ///     How far outside the low mesh rays begin and how far inside they end, in units of the positions.
 /// cage : (V, 3) array_like or float, optional
 ///     Rays begin on the low mesh with its vertices moved to these positions, or outwards by this distance
-/// along smooth normals, so that hard edges     leave no gaps; they end inside as `distance` says.
+///     along smooth normals, so that hard edges leave no gaps; they end inside as `distance` says.
 /// maps : sequence of str
 ///     Names of maps: 'normal', 'ao', 'curvature', 'base-color' and so on, as `darboux bake --map` has them.
-/// They share rays. samples : int
+///     They share rays.
+/// samples : int
 ///     Samples per texel and axis, 1 to 16.
 /// source, target : str
 ///     The conventions of the meshes and of the maps, each one of CONVENTIONS.
@@ -80,24 +83,31 @@ const TEXTURES: &[(&str, (MaterialProperty, bool))] = &[
 ///     Rays per sample of occlusion, bent normals and thickness, and how far surfaces occlude each other.
 /// ao_falloff, ao_weights : str
 ///     How occlusion fades up to `ao_distance`: 'none', 'linear' or 'quadratic'; how directions are weighted:
-/// 'cosine' or 'uniform'. thickness_distance : float
+///     'cosine' or 'uniform'.
+/// thickness_distance : float
 ///     How far the other side is looked for. Rays that meet nothing count as this distance; where it is
-/// infinite they do not count. curvature_radius : float, curvature_unit : str
-///     The radius in which curvature is measured, in 'texels' or as a 'distance' in units of the positions.
+///     infinite they do not count.
+/// curvature_radius : float
+///     The radius in which curvature is measured.
+/// curvature_unit : str
+///     The unit of that radius: 'texels', or 'distance' for units of the positions.
 /// world_direction : (float, float, float)
 ///     The direction of the map 'world-direction', along the axes of the source's convention.
 /// skew : float, (F,) array_like or (N, M) uint8 array, optional
 ///     How far rays turn from the smooth direction (0) to the normal of the triangle (1): everywhere, per
-/// triangle, or by a map over the UVs of the image,     in which 255 is 1.
+///     triangle, or by a map over the UVs of the image, in which 255 is 1.
 /// udim : int, optional
 ///     The tile of the UV plane that is baked, 1001 + column + 10 * row. Without, all tiles lie over each
-/// other. high_colors : (W, 4) array_like, optional
+///     other.
+/// high_colors : (W, 4) array_like, optional
 ///     Red, green, blue and alpha of the high mesh's vertices, in linear light: the map 'vertex-color', and a
-/// factor of 'base-color' and 'opacity'. high_uvs : (W, 2) array_like, optional
+///     factor of 'base-color' and 'opacity'.
+/// high_uvs : (W, 2) array_like, optional
 ///     Where `high_textures` are read; the origin is that of glTF, above left.
 /// high_textures : dict of str to (N, M, 4) uint8 array, optional
 ///     Of 'base-color' and 'emission' (in sRGB), 'metallic-roughness' (green, blue) and 'texture', the top
-/// row first. threads : int, optional
+///     row first.
+/// threads : int, optional
 ///     At most so many threads. The result has the same bits for every number.
 ///
 /// Returns

@@ -37,7 +37,8 @@ const SPACES: &[(&str, NormalSpace)] = &[("tangent", NormalSpace::Tangent), ("ob
 ///     What bake returned for these meshes and options, with the map 'normal'.
 /// written : (H, W, 3) array_like, optional
 ///     The map as it is in its file: uint8 or uint16 codes, or floats from -1 to 1. Without, the map of
-/// `baked`. distance, cage, source, target, bitangent, back_faces, skew, udim, threads
+///     `baked`.
+/// distance, cage, source, target, bitangent, back_faces, skew, udim, threads
 ///     As for bake.
 ///
 /// Returns
@@ -250,7 +251,7 @@ pub fn auto_cage<'py>(
 ///     The mesh, as for bake.
 /// source : str
 ///     Its convention, one of CONVENTIONS: rows of tiles count upwards in the image, where glTF's v points
-/// down.
+///     down.
 ///
 /// Raises
 /// ------

@@ -32,20 +32,22 @@ const CONVENTIONS: &[(&str, BitangentDirection)] =
 /// ----------
 /// source : path-like or Document
 ///     A .glb or .gltf file, or an image (.png, .jpg, .webp), which is checked as a normal map; or a document
-/// that load has read. convention : str
+///     that load has read.
+/// convention : str
 ///     Where the green of normal maps should point: 'opengl' (up, as in glTF) or 'directx' (down).
 /// maps : bool
 ///     Decode and judge the normal maps of a model. Without it they are taken to be right.
 /// assume : str, optional
 ///     What normal maps are where neither their texels nor the faces decide it: 'opengl', 'directx',
-/// 'red-inverted' or 'both-inverted'. allow_outside, memory_limit
+///     'red-inverted' or 'both-inverted'.
+/// allow_outside, memory_limit
 ///     As in load; for files.
 ///
 /// Returns
 /// -------
 /// Findings
 ///     A list of Finding, empty for a healthy file. Its `diagnosis` says what happened, what it looks like
-/// and what to do.
+///     and what to do.
 ///
 /// Raises
 /// ------

@@ -26,8 +26,9 @@ pub fn convention(what: &str, text: &str) -> PyResult<Convention> {
 /// ----------
 /// source, target : str
 ///     One of CONVENTIONS, optionally with changes: 'gltf,green=down'. The changes are axes=-x/y/z (right,
-/// up, front), fronts=ccw or cw, v0=bottom     or top, red=right or left, green=up or down, w=n-cross-t or
-/// t-cross-n. positions, normals : (V, 3) array_like, optional
+///     up, front), fronts=ccw or cw, v0=bottom or top, red=right or left, green=up or down, w=n-cross-t or
+///     t-cross-n.
+/// positions, normals : (V, 3) array_like, optional
 ///     Vectors; offsets of morph targets are converted in the same way.
 /// uvs : (V, 2) array_like, optional
 /// indices : (C,), (F, 3) or (F, 4) array_like of integers, optional
@@ -43,7 +44,7 @@ pub fn convention(what: &str, text: &str) -> PyResult<Convention> {
 /// -------
 /// Converted
 ///     New arrays, None for missing arguments; and whether the red and green channels of the normal map must
-/// be inverted.
+///     be inverted.
 ///
 /// Raises
 /// ------

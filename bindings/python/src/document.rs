@@ -37,7 +37,7 @@ pub struct Document {
 ///     Also read files outside the document's folder.
 /// memory_limit : int, optional
 ///     The most memory for decoding the file and computing from it, in MiB. By default 256 MiB plus 64 times
-/// the size of the file, and at most what the process may still use by ulimit -v or its control groups.
+///     the size of the file, and at most what the process may still use by ulimit -v or its control groups.
 ///
 /// Raises
 /// ------
@@ -67,7 +67,8 @@ pub fn load(
 ///     The name of the file in messages.
 /// base : path-like, optional
 ///     The folder of external files. Without it, buffers must be embedded, and references to images stay as
-/// they are. memory_limit : int, optional
+///     they are.
+/// memory_limit : int, optional
 ///     As in load.
 ///
 /// Raises
@@ -174,7 +175,7 @@ impl Document {
     /// -------
     /// dict
     ///     Per attribute, such as 'POSITION', a float32 array with one row per vertex (normalized integers
-    /// are decoded); 'indices', (C,)     uint32, if the primitive has indices.
+    ///     are decoded); 'indices', (C,) uint32, if the primitive has indices.
     ///
     /// Raises
     /// ------

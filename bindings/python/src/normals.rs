@@ -35,11 +35,13 @@ pub fn normal_options(shading: &str, weight: &str, crease: f32, seams: &str) -> 
 ///     The vertex of each corner. Without indices, every vertex is a corner of its own.
 /// faces : 3, 4 or (F,) array_like of integers, optional
 ///     Corners per face, of any size from 3 on. Without, indices of shape (F, 4) are quads, all else
-/// triangles. shading : str
+///     triangles.
+/// shading : str
 ///     'smooth', or 'flat': every corner has its face's normal.
 /// weight : str
 ///     How much each face counts at a vertex: 'angle', 'area', or 'angle-area', which keeps wide faces flat
-/// beside bevels. crease : float
+///     beside bevels.
+/// crease : float
 ///     Degrees: smooth shading stops at edges whose faces' normals differ by more.
 /// seams : str
 ///     'ignored': vertices at equal positions share normals; 'respected': only vertices of the index list do.

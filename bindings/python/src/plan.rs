@@ -110,7 +110,7 @@ impl Plan {
     ///     Of the moved vertices, in the same order.
     /// threads, out
     ///     As for generate_tangents. With `out`, nothing is allocated unless some vertices need the exact
-    /// stages.
+    ///     stages.
     ///
     /// Returns
     /// -------

@@ -29,20 +29,23 @@ use crate::threads::cancellable;
 ///     The vertex of each corner. Without, every vertex is a corner of its own.
 /// faces : 3, 4 or (F,) array_like of integers, optional
 ///     Corners per face. By default indices of shape (F, 4) are quads and all others triangles. Faces with
-/// more corners get tangents from their     normals only, and are counted.
+///     more corners get tangents from their normals only, and are counted.
 /// method : str
 ///     'mikktspace', which bakers use, 'angle-area', 'angle-edge', 'lengyel', 'lengyel-per-vertex',
-/// 'average', 'area', 'face' or 'from-normal'. mode : str
+///     'average', 'area', 'face' or 'from-normal'.
+/// mode : str
 ///     For 'mikktspace'. 'reference': the bits of mikktspace.c, its defects included; 'repaired': the same,
-/// with unusable tangents replaced;     'corrected': repaired, and the known defects corrected.
+///     with unusable tangents replaced; 'corrected': repaired, and the known defects corrected.
 /// threshold : float
 ///     For 'mikktspace', in degrees: faces around a vertex share a tangent if their tangents and bitangents
-/// differ by less.     Below 180 the faces are compared in pairs: a vertex with 20,000 faces takes about 2 s,
-/// one with 100,000 about a minute. full : bool
+///     differ by less. Below 180 the faces are compared in pairs: a vertex with 20,000 faces takes about 2 s,
+///     one with 100,000 about a minute.
+/// full : bool
 ///     Return Frames instead: tangent, bitangent and magnitude.
 /// threads : int, optional
 ///     The number of threads for large meshes; by default all hardware threads. The result does not depend on
-/// it. out : (C, 4) float32 array, optional
+///     it.
+/// out : (C, 4) float32 array, optional
 ///     The result is written here and returned. Calls with `out` reuse their working memory.
 /// return_report : bool
 ///     Return (result, Report). The report counts non-finite and degenerate input and more.

@@ -23,7 +23,7 @@ type Columns = [[f32; 3]; 3];
 /// ----------
 /// matrix : (3, 3), (3, 4) or (4, 4) array_like
 ///     For column vectors: new = matrix @ old. Only the upper left 3 by 3 is read. The matrices of glTF are
-/// stored by columns: transpose     them.
+///     stored by columns: transpose them.
 /// normals : (V, 3) array_like
 ///     Unit length.
 /// tangents : (V, 4) array_like
@@ -62,7 +62,8 @@ pub fn transform_frames<'py>(
 /// ----------
 /// bones : (B, 3, 3), (B, 3, 4) or (B, 4, 4) array_like
 ///     The matrix of each bone, from the pose of the given frames to the current pose, for column vectors as
-/// in transform_frames. joints : (V, K) array_like of integers
+///     in transform_frames.
+/// joints : (V, K) array_like of integers
 ///     The bones of each vertex.
 /// weights : (V, K) array_like
 ///     The weight of each of these bones.

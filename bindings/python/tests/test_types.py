@@ -2,10 +2,11 @@
 
 import doctest
 import inspect
+import re
 import subprocess
 import sys
 from pathlib import Path
-from typing import List
+from typing import Any, Dict, Iterator, List, Tuple
 
 import darboux
 
@@ -56,3 +57,43 @@ def test_everything_public_is_documented() -> None:
     members = [member for member in vars(darboux.Document).items() if not member[0].startswith("_")]
     assert len(members) > 5
     assert all(value.__doc__ for _, value in members)
+
+
+def documented() -> Iterator[Tuple[str, Any]]:
+    """Every public function, class and method."""
+    for module in (darboux, darboux.encode):
+        for name in module.__all__:
+            thing = getattr(module, name)
+            yield f"{module.__name__}.{name}", thing
+            if inspect.isclass(thing):
+                members = [member for member in vars(thing) if not member.startswith("_")]
+                yield from ((f"{name}.{member}", getattr(thing, member)) for member in members)
+
+
+def section(docstring: str, title: str) -> List[str]:
+    """The lines of a section of a numpydoc docstring, up to the next blank line before a title."""
+    lines = docstring.splitlines()
+    starts = [at for at in range(1, len(lines)) if set(lines[at]) == {"-"}]
+    bounds = zip(starts, [start - 1 for start in starts[1:]] + [len(lines)])
+    return [line for first, last in bounds if lines[first - 1] == title for line in lines[first + 1 : last] if line]
+
+
+def test_every_parameter_has_a_heading_of_its_own() -> None:
+    heading = re.compile(r"(?P<names>(\*\*)?[a-z]\w*(, [a-z]\w*)*)( : [^:]+)?")
+    wrong: Dict[str, List[str]] = {}
+    tested = 0
+    for name, thing in documented():
+        lines = section(inspect.getdoc(thing) or "", "Parameters")
+        if not callable(thing) or not lines:
+            continue
+        tested += 1
+        headings = [heading.fullmatch(line) for line in lines if not line.startswith("    ")]
+        told = [told.lstrip("*") for found in headings if found for told in found["names"].split(", ")]
+        taken = [taken.lstrip("*") for taken in inspect.signature(thing).parameters if taken != "self"]
+        problems = [line for line in lines if "  " in line.strip() or not (line.startswith("    ") or heading.fullmatch(line))]
+        problems += [f"has no heading: {missing}" for missing in taken if missing not in told]
+        problems += [f"is no parameter: {extra}" for extra in told if extra not in taken]
+        if problems:
+            wrong[name] = problems
+    assert not wrong, "\n".join(f"{name}: {problem}" for name, problems in wrong.items() for problem in problems)
+    assert tested >= 30
