@@ -223,21 +223,15 @@ function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, optio
   if (assume != null && !assumed) throw new RangeError(`assume is '${assume}'; it must be 'opengl', 'directx', 'red-inverted' or 'both-inverted'`);
   writeBytes(exports, file);
   const address = exports.check_file(Number(isMap), Number(green === 'down'), Number(maps ?? true), assumed, Number(repairs));
-  type Checked = Pick<Findings, 'diagnosis' | 'warnings'> & { importer_note: string | null; findings: Record<string, unknown>[] };
+  type Checked = Pick<Findings, 'diagnosis' | 'importerNote' | 'warnings'> & { findings: Finding[] };
   const checked = readJson<Checked | { error: string }>(exports, address);
   if ('error' in checked) throw new Error(checked.error);
-  const { diagnosis, importer_note: importerNote, warnings } = checked;
-  return Object.assign(checked.findings.map(finding), { diagnosis, importerNote, warnings });
+  const { findings, ...words } = checked;
+  return Object.assign(findings, words);
 }
 
 /** The assumptions in the order of the module. */
 const ASSUMPTIONS = ['opengl', 'directx', 'red-inverted', 'both-inverted'] as const;
-
-/** A finding as the module writes it, with the names of `darboux check --json`, in which words are separated by underscores. */
-function finding(stored: Record<string, unknown>): Finding {
-  const named = Object.entries(stored).map(([name, value]) => [name.replace(/_./g, (end) => end[1]!.toUpperCase()), value]);
-  return Object.fromEntries(named) as Finding;
-}
 
 /** Whether a file starts as a PNG, a JPEG or a WebP image does. */
 function isImage(file: Uint8Array): boolean {
@@ -306,7 +300,15 @@ function writeBytes(exports: CheckExports, bytes: Uint8Array): void {
   new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes);
 }
 
+/** What the module wrote. Its names are those of `darboux check --json`, in which words are separated by underscores. */
 function readJson<T>(exports: CheckExports, address: number): T {
   const bytes = new Uint8Array(exports.memory.buffer, address >>> 0, exports.json_length() >>> 0);
-  return JSON.parse(new TextDecoder().decode(bytes)) as T;
+  return JSON.parse(new TextDecoder().decode(bytes), camelCase) as T;
+}
+
+/** Names the fields of an object as JavaScript does. */
+function camelCase(_: string, value: unknown): unknown {
+  if (value === null || typeof value !== 'object' || Array.isArray(value)) return value;
+  const named = Object.entries(value).map(([name, field]) => [name.replace(/_./g, (end) => end[1]!.toUpperCase()), field]);
+  return Object.fromEntries(named);
 }

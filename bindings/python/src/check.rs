@@ -2,25 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use darboux::{
-    BitangentDirection, Choice, Context, MapJudgement, Mode, RecipeMatch, TexelLayout, recognise_recipe_with,
-};
+use darboux::{BitangentDirection, Choice, Context, Mode, recognise_recipe_with};
 use darboux_check::{
-    AssumedMap, Change, CheckOptions, Code, FixOptions, ReportedFinding, check_document, check_map,
-    diagnosis, fix_document,
+    AssumedMap, CheckOptions, Code, FixOptions, ReportedFindings, ReportedJudgement, ReportedRecipe,
+    check_document, check_map, fix_document,
 };
 use darboux_io::{FileKind, LoadOptions, gltf, read_regular};
 use numpy::prelude::*;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 use crate::arrays::{Rows, array_of, packed, shape_text};
 use crate::choices::{choice, tangent_options};
 use crate::document::{Document, file_error, load_options};
 use crate::mesh::{MeshArrays, value_error};
 use crate::numbers::Natural;
-use crate::results::{named, results_class};
+use crate::results::result_of;
 use crate::threads::cancellable;
 
 const CONVENTIONS: &[(&str, BitangentDirection)] =
@@ -68,14 +65,14 @@ pub fn check<'py>(
     let found = match source {
         CheckSource::Document(document) => {
             let document = document.whole()?;
-            py.detach(|| check_document(document, &options)).map_err(file_error)?
+            py.detach(|| check_model(document, &options))
         }
         CheckSource::Path(path) => {
             let loading = load_options(memory_limit).with_allow_outside(allow_outside);
-            py.detach(|| check_path(&path, &loading, &options)).map_err(file_error)?
+            py.detach(|| check_path(&path, &loading, &options))
         }
     };
-    findings(py, found.into_iter().map(Into::into).collect())
+    result_of(py, "findings_of", &found.map_err(file_error)?)
 }
 
 /// What `check` checks.
@@ -101,12 +98,20 @@ fn check_path(
     path: &Path,
     loading: &LoadOptions,
     options: &CheckOptions,
-) -> Result<Vec<darboux_check::Finding>, darboux_io::Error> {
+) -> Result<ReportedFindings, darboux_io::Error> {
     if FileKind::of(path).is_some_and(FileKind::is_decoded_image) {
-        Ok(check_map(&read_regular(path)?, &options.with_memory_limit(loading.memory_limit)).findings)
+        let checked = check_map(&read_regular(path)?, &options.with_memory_limit(loading.memory_limit));
+        Ok(ReportedFindings::new(checked.findings, None))
     } else {
-        check_document(&gltf::Document::open(path, loading)?, options)
+        check_model(&gltf::Document::open(path, loading)?, options)
     }
+}
+
+fn check_model(
+    document: &gltf::Document,
+    options: &CheckOptions,
+) -> Result<ReportedFindings, darboux_io::Error> {
+    Ok(ReportedFindings::new(check_document(document, options)?, Some(document)))
 }
 
 fn check_options(convention: &str, maps: bool, assume: Option<&str>) -> PyResult<CheckOptions> {
@@ -163,47 +168,10 @@ pub fn fix<'py>(
     };
     let fixed = document.change(py, |document| {
         let findings = check_document(document, &options.check)?;
-        fix_document(document, findings, &options)
+        let fixed = fix_document(document, findings, &options)?;
+        Ok(ReportedFindings::new(fixed.findings, Some(document)))
     })?;
-    findings(py, fixed.findings.into_iter().map(Into::into).collect())
-}
-
-/// The findings as a list with the diagnosis.
-fn findings(py: Python<'_>, found: Vec<ReportedFinding>) -> PyResult<Bound<'_, PyAny>> {
-    let diagnosis = diagnosis(&found);
-    let listed: PyResult<Vec<_>> = found.into_iter().map(|found| finding(py, found)).collect();
-    results_class(py, "Findings")?.call1((listed?, diagnosis))
-}
-
-fn finding<'py>(py: Python<'py>, finding: ReportedFinding) -> PyResult<Bound<'py, PyAny>> {
-    let evidence =
-        finding.evidence.iter().map(|number| named(py, "Evidence", (number.what, number.value, number.unit)));
-    let change = match finding.change {
-        Some(Change::CorrectedTangents { count }) => Some(("corrected_tangents", Some(count))),
-        Some(Change::RecomputedTangents) => Some(("recomputed_tangents", None)),
-        _ => None,
-    };
-    let fields = PyDict::new(py);
-    fields.set_item("code", finding.code.name())?;
-    fields.set_item("severity", finding.severity.to_string())?;
-    fields.set_item("mesh", finding.mesh)?;
-    fields.set_item("mesh_name", finding.mesh_name)?;
-    fields.set_item("primitive", finding.primitive)?;
-    fields.set_item("same_as", finding.same_as)?;
-    fields.set_item("material", finding.material)?;
-    fields.set_item("image", finding.image)?;
-    fields.set_item("count", finding.count)?;
-    fields.set_item("first", finding.first)?;
-    fields.set_item("first_are", finding.first_are)?;
-    fields.set_item("evidence", evidence.collect::<PyResult<Vec<_>>>()?)?;
-    fields.set_item("text", finding.text)?;
-    fields.set_item("looks_like", finding.looks_like)?;
-    fields.set_item("cure", finding.cure)?;
-    fields.set_item("fixable", finding.fixable)?;
-    fields.set_item("left_because", finding.left_because)?;
-    fields.set_item("repaired", finding.repaired)?;
-    fields.set_item("change", change.map(|change| named(py, "Change", change)).transpose()?)?;
-    results_class(py, "Finding")?.call((), Some(&fields))
+    result_of(py, "findings_of", &fixed)
 }
 
 /// Judge a normal map by its texels: whether green points up (OpenGL) or down (DirectX), and whether they are
@@ -235,52 +203,19 @@ pub fn judge_normal_map<'py>(py: Python<'py>, texels: &Bound<'py, PyAny>) -> PyR
         (b'u', 1) => {
             let texels = packed::<u8>(&array)?;
             let texels = texels.as_slice()?;
-            py.detach(|| judged(texels, size, channels))
+            py.detach(|| ReportedJudgement::of_texels(texels, size, channels))
         }
         (b'u', 2) => {
             let texels = packed::<u16>(&array)?;
             let texels = texels.as_slice()?;
-            py.detach(|| judged(texels, size, channels))
+            py.detach(|| ReportedJudgement::of_texels(texels, size, channels))
         }
         _ => {
             let kind = array.dtype();
             return Err(PyTypeError::new_err(format!("texels must hold uint8 or uint16, not {kind}")));
         }
     };
-    judgement(py, &judged.map_err(value_error)?)
-}
-
-fn judged<C: darboux::Channel>(
-    texels: &[C],
-    size: [usize; 2],
-    channels: usize,
-) -> Result<MapJudgement, darboux::Error> {
-    match channels {
-        2 => darboux::judge_normal_map(texels.as_chunks().0, size, TexelLayout::RG),
-        3 => darboux::judge_normal_map(texels.as_chunks().0, size, TexelLayout::RGB),
-        _ => darboux::judge_normal_map(texels.as_chunks().0, size, TexelLayout::RGBA),
-    }
-}
-
-fn judgement<'py>(py: Python<'py>, judgement: &MapJudgement) -> PyResult<Bound<'py, PyAny>> {
-    let verdict = judgement.verdict.name();
-    let numbers =
-        [judgement.confidence, judgement.correlation, judgement.z_score, judgement.log_energy_ratio];
-    let [confidence, correlation, z_score, log_energy_ratio] = numbers.map(f64::from);
-    let fields = (
-        verdict,
-        confidence,
-        correlation,
-        z_score,
-        log_energy_ratio,
-        judgement.texels,
-        judgement.background,
-        judgement.not_unit,
-        judgement.negative_z,
-        judgement.grey,
-        judgement.not_normal,
-    );
-    named(py, "MapJudgement", fields)
+    result_of(py, "judgement_of", &judged.map_err(value_error)?)
 }
 
 /// Rank the ways in which the tangents of a mesh could have been computed, the best one first.
@@ -316,23 +251,5 @@ pub fn recognise_recipe<'py>(
     let (mesh, tangents) = (arrays.view()?, tangents.packed()?);
     let work = |context: &mut Context| recognise_recipe_with(&mesh, &tangents, context);
     let matches = cancellable(py, None, (mesh.corner_count(), false), &mut Context::new(), work)?;
-    matches.iter().map(|found| recipe(py, found)).collect()
-}
-
-fn recipe<'py>(py: Python<'py>, found: &RecipeMatch) -> PyResult<Bound<'py, PyAny>> {
-    let recipe = found.recipe;
-    let fields = (
-        recipe.method.name(),
-        recipe.mode().map(Choice::name),
-        recipe.flips_v,
-        recipe.from_quads,
-        recipe.writing.name(),
-        recipe.rounding.bits(),
-        found.corners,
-        found.identical,
-        found.close,
-        found.sign_flips,
-        found.worst,
-    );
-    named(py, "RecipeMatch", fields)
+    matches.iter().map(|found| result_of(py, "RecipeMatch", &ReportedRecipe::from(found))).collect()
 }

@@ -17,6 +17,7 @@ use crate::choices::{named_choice, tangent_options};
 use crate::convention::convention;
 use crate::normals::normal_options;
 use crate::numbers::{Natural, degrees, place};
+use crate::results::python_of;
 use crate::threads::run_interruptibly;
 
 /// A glTF document in memory: read by load, edited by its methods, written by save. Everything that no method
@@ -427,12 +428,6 @@ impl Document {
         self.is_half_done = false;
         python_of(py, &summary)
     }
-}
-
-/// Converts a serialisable value to plain Python objects.
-fn python_of<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
-    let text = serde_json::to_string(value).map_err(|error| PyValueError::new_err(error.to_string()))?;
-    py.import("json")?.call_method1("loads", (text,))
 }
 
 /// Converts an error of darboux-io: an OSError for errors of the operating system, otherwise a ValueError.

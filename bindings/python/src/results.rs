@@ -2,15 +2,28 @@
 
 use darboux::Report;
 use pyo3::call::PyCallArgs;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use serde::Serialize;
 
 /// A named tuple of type `name` with these fields.
 pub fn named<'py>(py: Python<'py>, name: &str, fields: impl PyCallArgs<'py>) -> PyResult<Bound<'py, PyAny>> {
-    results_class(py, name)?.call1(fields)
+    attribute(py, name)?.call1(fields)
 }
 
-/// The class of a named tuple.
-pub fn results_class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+/// What the function or class `name` makes of the fields of a serialisable value.
+pub fn result_of<'py>(py: Python<'py>, name: &str, value: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
+    let fields = python_of(py, value)?;
+    attribute(py, name)?.call((), Some(fields.cast()?))
+}
+
+/// A serialisable value as plain Python objects.
+pub fn python_of<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
+    let text = serde_json::to_string(value).map_err(|error| PyValueError::new_err(error.to_string()))?;
+    py.import("json")?.call_method1("loads", (text,))
+}
+
+fn attribute<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("darboux._results")?.getattr(name)
 }
 

@@ -65,14 +65,27 @@ def test_findings_are_those_of_the_command(tmp_path: Path) -> None:
         for row in found:
             row["evidence"] = [number._asdict() for number in row["evidence"]]
             row["change"] = row["change"] and {name: value for name, value in row["change"]._asdict().items() if value is not None}
-            for name in ("repaired", "change"):
+            for name in ("source", "repaired", "change"):
                 if row[name] is None:
                     del row[name]
         return found
 
+    def compare(model: Path) -> darboux.Findings:
+        found, report = darboux.check(model), reported(model)
+        assert (rows(found), found.diagnosis) == (report["findings"], report["diagnosis"]), model
+        assert (found.importer_note, found.warnings) == (report.get("importer_note"), report.get("warnings", [])), model
+        return found
+
     model = ASSETS / "made/shield.glb"
-    found, report = darboux.check(model), reported(model)
-    assert (rows(found), found.diagnosis) == (report["findings"], report["diagnosis"])
+    found = compare(model)
+    assert (found.importer_note, found.warnings, found[0].source) == (None, [], None)
+    found = compare(ASSETS / "others/assimp.fbx")
+    assert found.importer_note and found.warnings and "Armature/Body in your FBX" in [finding.source for finding in found]
+    (tmp_path / "alone.obj").write_bytes((ASSETS / "blender/scene.obj").read_bytes())
+    assert compare(tmp_path / "alone.obj").warnings
+    document = darboux.load(ASSETS / "others/assimp.fbx")
+    fixed, checked = darboux.fix(document), darboux.check(ASSETS / "others/assimp.fbx")
+    assert [finding.source for finding in fixed] == [finding.source for finding in checked]
     repaired, report = darboux.fix(darboux.load(model)), reported(model, "--fix", "-o", tmp_path / "fixed.glb")
     fixed = rows(repaired)
     assert any("change" in row for row in fixed)
@@ -103,6 +116,10 @@ def test_maps_are_checked_and_judged(tmp_path: Path) -> None:
         for given in (texels, texels[..., :2], np.dstack([texels, texels[..., 0]]), wide):
             judgement = darboux.judge_normal_map(given)
             assert judgement.verdict == verdict and judgement.texels == 128 * 128
+            tiles = judgement.tiles
+            assert len(tiles.correlations) == tiles.columns * (128 // tiles.side) > 1
+            votes = [vote for vote in tiles.correlations if vote is not None]
+            assert votes and all(vote * up > 0 for vote in votes)
     assert darboux.judge_normal_map(np.full((32, 32, 3), 128, np.uint8)).verdict != "opengl"
 
 

@@ -36,6 +36,7 @@ mod finding;
 mod hypotheses;
 mod indices;
 mod instances;
+mod judged;
 mod map_users;
 mod measure;
 mod model_area;
@@ -44,6 +45,7 @@ mod once_per;
 mod place;
 mod repair;
 mod report;
+mod reported_findings;
 mod rules;
 mod severity;
 mod spoiled;
@@ -58,11 +60,13 @@ pub use check_options::{AssumedMap, CheckOptions};
 pub use code::Code;
 pub use diagnosis::diagnosis;
 pub use finding::{Evidence, Finding};
+pub use judged::{ReportedJudgement, ReportedRecipe, ReportedTiles};
 pub use measure::map::MapDirections;
 pub use place::Place;
 pub use repair::{
     Change, FixOptions, FixedDocument, FixedFinding, FixedMap, PlannedEdit, fix_document, fix_map,
     fix_map_on_model, plan_repair,
 };
-pub use report::{ReportedFinding, importer_note};
+pub use report::ReportedFinding;
+pub use reported_findings::ReportedFindings;
 pub use severity::Severity;

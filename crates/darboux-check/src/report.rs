@@ -26,6 +26,10 @@ pub struct ReportedFinding {
     pub mesh_name: Option<String>,
     /// The index of the primitive in the mesh.
     pub primitive: Option<usize>,
+    /// The place of the primitive in the words of a file of another format than glTF, such as
+    /// `Armature/Body in your FBX`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub source: Option<String>,
     /// The number of further primitives with the same data.
     pub same_as: usize,
     /// The index of the material.
@@ -61,18 +65,13 @@ pub struct ReportedFinding {
 
 impl ReportedFinding {
     /// Names the place as a file of another format than glTF does, too: `Armature/Body in your FBX,
-    /// meshes[1].primitives[0] "Body"`. Returns the words that were added.
-    pub fn name_place(&mut self, source: &Provenance) -> Option<String> {
-        let words = source.place(self.mesh?, self.primitive?)?;
-        self.place = format!("{words}, {}", self.place);
-        Some(words)
+    /// meshes[1].primitives[0] "Body"`.
+    pub(crate) fn name_place(&mut self, source: &Provenance) {
+        self.source = self.mesh.zip(self.primitive).and_then(|(mesh, number)| source.place(mesh, number));
+        if let Some(words) = &self.source {
+            self.place = format!("{words}, {}", self.place);
+        }
     }
-}
-
-/// What importers of a format other than glTF make of the mistakes in a model: a sentence, where there are any.
-pub fn importer_note(source: &Provenance, findings: &[ReportedFinding]) -> Option<&'static str> {
-    let is_mistake = |finding: &ReportedFinding| finding.severity >= Severity::Warning;
-    source.format.importer_note().filter(|_| findings.iter().any(is_mistake))
 }
 
 impl From<Finding> for ReportedFinding {
@@ -88,6 +87,7 @@ impl From<Finding> for ReportedFinding {
             mesh,
             mesh_name: primitive.and_then(|name| name.shown_mesh_name()),
             primitive: number,
+            source: None,
             same_as,
             material,
             image,

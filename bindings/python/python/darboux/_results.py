@@ -1,6 +1,6 @@
 """The named tuples that functions return. V: vertices before splitting, W: after splitting, C: corners."""
 
-from typing import Iterable, List, NamedTuple, Optional, Tuple
+from typing import Any, Dict, Iterable, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -136,7 +136,7 @@ class Change(NamedTuple):
 
     kind: str
     """'corrected_tangents': some were corrected, and the others kept; 'recomputed_tangents': all were computed again."""
-    count: Optional[int]  # type: ignore[assignment]
+    count: Optional[int] = None  # type: ignore[assignment]
     """The number of vertices whose tangents were corrected; None where all were computed again."""
 
 
@@ -177,21 +177,54 @@ class Finding(NamedTuple):
     """Whether fix and `darboux check --fix` repair it."""
     left_because: Optional[str]
     """Why they leave it, as a clause; None where they repair it."""
-    repaired: Optional[bool]
+    source: Optional[str] = None
+    """Where the primitive is in a file of another format, such as 'Armature/Body in your FBX'; None for glTF."""
+    repaired: Optional[bool] = None
     """Whether fix repaired it; None from check."""
-    change: Optional[Change]
+    change: Optional[Change] = None
     """What fix did to the tangents of the primitive; None for other findings, and where only signs were negated."""
 
 
 class Findings(List[Finding]):
-    """The findings of a file, with a diagnosis."""
+    """The findings of a file, and words about all of it."""
 
     diagnosis: str
     """What happened to the file, what it looks like and what to do, in one to three sentences."""
+    importer_note: Optional[str]
+    """What importers of another format make of the mistakes; None for glTF, and without mistakes."""
+    warnings: List[str]
+    """What a model of another format lost as it was read, such as textures that are missing; empty for glTF."""
 
-    def __init__(self, findings: Iterable[Finding] = (), diagnosis: str = "") -> None:
+    def __init__(
+        self,
+        findings: Iterable[Finding] = (),
+        diagnosis: str = "",
+        importer_note: Optional[str] = None,
+        warnings: Iterable[str] = (),
+    ) -> None:
         super().__init__(findings)
-        self.diagnosis = diagnosis
+        self.diagnosis, self.importer_note, self.warnings = diagnosis, importer_note, list(warnings)
+
+
+def findings_of(findings: List[Dict[str, Any]], **words: Any) -> Findings:
+    """Findings from the fields of `darboux check --json`."""
+
+    def finding(evidence: List[Dict[str, Any]], change: Optional[Dict[str, Any]] = None, **fields: Any) -> Finding:
+        numbers = [Evidence(**number) for number in evidence]
+        return Finding(**fields, evidence=numbers, change=Change(**change) if change else None)
+
+    return Findings((finding(**fields) for fields in findings), **words)
+
+
+class MapTiles(NamedTuple):
+    """The tiles of a normal map and how each votes, at the size of the map whose mean is the correlation of the MapJudgement."""
+
+    side: int
+    """The texels of the map along a side of a tile."""
+    columns: int
+    """The tiles of a row. Tile i begins side * (i % columns) texels from the left and side * (i // columns) from the top."""
+    correlations: List[Optional[float]]
+    """From -1 (DirectX) to 1 (OpenGL), the top row first; None where a tile has no vote: one value, or mostly background or borders."""
 
 
 class MapJudgement(NamedTuple):
@@ -219,6 +252,13 @@ class MapJudgement(NamedTuple):
     """Texels whose three channels are nearly equal."""
     not_normal: int
     """Texels that cannot be normals."""
+    tiles: MapTiles
+    """The tiles and their votes."""
+
+
+def judgement_of(tiles: Dict[str, Any], **fields: Any) -> MapJudgement:
+    """A judgement from its fields."""
+    return MapJudgement(**fields, tiles=MapTiles(**tiles))
 
 
 class RecipeMatch(NamedTuple):

@@ -8,7 +8,6 @@ mod groups;
 pub mod html;
 pub mod model;
 pub mod report;
-mod source;
 mod text;
 
 use std::path::Path;

@@ -5,14 +5,13 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use darboux_check::{Finding, ReportedFinding, check_document, diagnosis};
+use darboux_check::{Finding, ReportedFindings, check_document};
 use darboux_io::gltf::Document;
 
 use super::arguments::FindingOptions;
 use super::folder;
 use super::model::Model;
 use super::report::{CheckedFile, ReportedMap};
-use super::source;
 use crate::documents::Source;
 use crate::inputs::{FoundInputs, Input};
 use crate::memory::JobMemory;
@@ -78,22 +77,10 @@ impl Checks<'_> {
         let name = input.to_string();
         let reported = |findings: Vec<Finding>, map: Option<ReportedMap>, document: Option<&Document>| {
             let wanted = findings.into_iter().filter(|finding| self.findings.reports(finding.code));
-            let mut findings: Vec<ReportedFinding> = wanted.map(Into::into).collect();
-            document.iter().for_each(|document| source::name_places(document, &mut findings));
-            let importer_note =
-                document.and_then(|document| darboux_check::importer_note(document.provenance()?, &findings));
-            let of_format = document.filter(|document| document.provenance().is_some());
-            let warnings = of_format.map_or(Vec::new(), |document| document.warnings().to_vec());
-            let diagnosis = diagnosis(&findings);
-            CheckedFile {
-                input: name.clone(),
-                error: None,
-                map,
-                importer_note,
-                diagnosis,
-                findings,
-                warnings,
-            }
+            let ReportedFindings { findings, diagnosis, importer_note, warnings, .. } =
+                ReportedFindings::new(wanted, document);
+            let input = name.clone();
+            CheckedFile { input, error: None, map, importer_note, diagnosis, findings, warnings }
         };
         let check = || {
             let source = Source::new(input)?;
