@@ -40,7 +40,7 @@ function shrink(module, to) {
   writeFileSync(keyPath, key);
 }
 
-/** The modules that the page imports: the one for glTF, PLY and STL, and the larger one, which reads all formats. */
+/** The modules that the page imports: the one for glTF, and the larger one, which reads all formats. */
 const imported = ['darboux_viewer.wasm', 'darboux_viewer_larger.wasm'].map((name) => join(here, 'src/files', name));
 for (const to of imported.slice(modules.length)) rmSync(to, { force: true });
 for (const [at, module] of modules.entries()) (kind === 'release' ? shrink : copy)(module, imported[at]);

@@ -7,8 +7,8 @@
 //! then (build.mjs):  shrink the modules (only for a release), check types, bundle the page
 //! ```
 //!
-//! A release has two modules of its own: pages load the larger one, which decodes textures, for FBX and OBJ. A
-//! quick build has one, which reads FBX where clang is there.
+//! A release has two modules of its own: pages load the larger one for other formats than glTF. A quick build
+//! has one, which reads FBX where clang is there.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -84,7 +84,7 @@ fn prepare(build: Build) -> Result<Vec<PathBuf>, String> {
         Build::Quick => step("compile the module of the page", || {
             // The features that the npm package's modules have, so that darboux-io is compiled once for all.
             let clang = Clang::find_or_say();
-            let features = if clang.is_some() { "larger,darboux-io/default" } else { "darboux-io/default" };
+            let features = if clang.is_some() { "larger" } else { "darboux-io/default" };
             let folder = dist_js::compile_quickly(PACKAGE, &["--features", features], clang.as_ref())?;
             Ok(vec![folder.join("darboux_viewer.wasm")])
         }),
@@ -92,7 +92,7 @@ fn prepare(build: Build) -> Result<Vec<PathBuf>, String> {
             let clang = Clang::find()?;
             let smaller =
                 step("compile the module of the page", || compile_for_release("darboux_viewer", None))?;
-            let larger = step("compile the module of the page that reads FBX and OBJ", || {
+            let larger = step("compile the module of the page that reads all formats", || {
                 compile_for_release("darboux_viewer_larger", Some(&clang))
             })?;
             Ok(vec![smaller, larger])

@@ -42,6 +42,10 @@ mod paths;
 mod ply;
 mod process_memory;
 mod readers;
+#[cfg_attr(
+    not(any(feature = "fbx", feature = "obj", feature = "ply", feature = "stl")),
+    allow(dead_code, unused_imports, reason = "only readers of other formats than glTF use it")
+)]
 pub mod source;
 mod staging;
 #[cfg(feature = "stl")]

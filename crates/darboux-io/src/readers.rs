@@ -49,7 +49,7 @@ fn scene(
         )),
         #[allow(unreachable_patterns, reason = "with all readers, no format is left")]
         other => {
-            _ = files;
+            _ = (bytes, files);
             let advice = options.option_names.missing_reader;
             let problem = format!("is {}, which this build does not read; {advice}", other.name());
             Err(ContentError::unsupported("", problem))

@@ -54,14 +54,14 @@ export interface Summary {
   totals: { written: number; kept: number; skipped: number };
 }
 
-/** The module that also reads FBX and OBJ, at most one. A quick build has none: its one module reads them, or a sentence says what to do. */
+/** The module that also reads other formats than glTF, at most one. A quick build has none: its one module reads them, or a sentence says what to do. */
 const larger = Object.values(import.meta.glob<string>('./darboux_viewer_larger.wasm', { eager: true, query: '?url', import: 'default' }));
 
 /** The modules that were loaded, by address. */
 const modules = new Map<string, Promise<WebAssembly.Module>>();
 
-/** The start of a file that is enough to recognise its format: an OBJ may begin with a long comment. */
-const HEAD = 65536;
+/** The start of a file that is enough to recognise a glTF. */
+const HEAD = 4096;
 
 /** An instance with at least this memory that traps is taken for one that lacks memory; a trap of a smaller one is a fault of the module. */
 const LARGE_MEMORY = 2 ** 29;

@@ -377,7 +377,7 @@ export class App {
     const turn = this.opening;
     showProgress('Opening the repaired model', null);
     const { scene } = await openGltf('the repaired model', file, new Map());
-    const parts = partsOf(scene, 'gltf');
+    const parts = partsOf(scene);
     await call('open', 'repaired', parts.map((part) => part.surface));
     const comparisons = await Promise.all(parts.map((_, at) => call('compare', 'repaired', at, ['file', 'file'])));
     if (turn !== this.opening) return;

@@ -1,4 +1,4 @@
-//! Reading and writing of glTF for the viewer's page, with the same code as the command.
+//! Reading models and writing glTF for the viewer's page, with the same code as the command.
 //!
 //! JavaScript writes a file name and a file into memory that this side owns, calls `check`, `repair` or
 //! `make_normals`, and reads a text and a file. The files that the model refers to are asked for meanwhile
@@ -20,7 +20,6 @@ use std::sync::Arc;
 use darboux_io::gltf::{
     AddNormalsOptions, AddTangentsOptions, Document, PrimitiveInfo, add_normals, add_tangents, inspect,
 };
-use darboux_io::source::SourceFormat;
 use darboux_io::{Error, LoadOptions, OptionNames};
 
 use page_files::PageFiles;
@@ -97,13 +96,16 @@ pub extern "C" fn file(len: usize) -> *mut u8 {
     BUFFERS.with_borrow_mut(|buffers| resized(&mut buffers.file, len))
 }
 
-/// Whether the given file, or its start, is an FBX or OBJ and this is the smaller module of a page: the larger
-/// one reads it.
+/// Whether this is the smaller module of a page, and the start of the given file is not that of a glTF: the
+/// larger module reads the other formats.
 #[unsafe(no_mangle)]
 pub extern "C" fn needs_larger_module() -> bool {
-    let needs = |format: SourceFormat| matches!(format, SourceFormat::Fbx | SourceFormat::Obj);
-    !cfg!(feature = "larger")
-        && BUFFERS.with_borrow(|buffers| SourceFormat::of(&buffers.file).is_some_and(needs))
+    const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
+    let is_gltf = |file: &[u8]| {
+        let start = file.strip_prefix(BYTE_ORDER_MARK).unwrap_or(file).trim_ascii_start();
+        start.starts_with(b"glTF") || start.starts_with(b"{")
+    };
+    !cfg!(feature = "larger") && BUFFERS.with_borrow(|buffers| !is_gltf(&buffers.file))
 }
 
 /// The address of the resulting file.
