@@ -184,13 +184,13 @@ test('a coloured bump map of an OBJ is its normal map, and a grey one is said', 
   };
   writeFileSync(join(path, 'heights.png'), Buffer.from(GREY, 'base64'));
   const [right, quiet] = await shown('norm normal.png');
-  for (const statement of ['map_Bump normal.png', 'bump -bm 0.5 normal.png', 'map_bump heights.png\nnorm normal.png']) {
+  for (const statement of ['map_Bump normal.png', 'bump -bm 1 normal.png', 'map_bump heights.png\nnorm normal.png']) {
     const [same, status] = await shown(statement);
     assert.ok(same.differs(right) < 0.002, statement);
     assert.equal(status, quiet);
   }
   const [, status] = await shown('map_Bump heights.png');
-  assert.match(status, /the bump map of plane is grey, so it is a height map, which is not shown/);
+  assert.match(status, /the bump map of plane is grey, so it holds heights and is left out/);
   assert.equal(await viewer.text('error'), '');
 });
 
@@ -278,7 +278,7 @@ test('bad files get a sentence, and leave the model that is open', async () => {
     'alone.gltf': [plane, /^alone\.gltf: buffers\[0\]\.uri: the file .TwoSidedPlane.* is not among the files; give the whole folder\.$/],
     'remote.gltf': [plane.replace('TwoSidedPlane.bin', 'https://example.com/a.bin'), /^remote\.gltf: .* on another machine; download it and refer to the file\.$/],
     'empty.obj': ['# nothing\n', /^empty\.obj: is named as OBJ, but .*\.$/],
-    'points.obj': ['v 0 0 0\nv 1 0 0\n', /^points\.obj: is an OBJ without faces.*\.$/],
+    'points.obj': ['v 0 0 0\nv 1 0 0\n', /^points\.obj: has no faces; is it an OBJ\? Export it again\.$/],
     'cut.fbx': [readFileSync(asset('blender/scene.fbx')).subarray(0, 20_000), /^cut\.fbx: is cut off; copy or export it again\.$/],
     'damaged.fbx': [readFileSync(asset('blender/scene.fbx')).fill(255, 2000, 2100), /^damaged\.fbx: is not a valid FBX \(.*\); export it again\.$/],
     'stage.usdz': [readFileSync(asset('blender/scene.usdz')), /^stage\.usdz: is USD, which is not read here; export the model as \.glb/],
@@ -349,7 +349,7 @@ test('darboux view shows an OBJ with its materials and textures', { skip: !DARBO
   assert.match(await viewer.text('status'), /; "dress\/quad one\.mtl" is not among the files; its materials are left out/);
   rmSync(join(place, 'normal 1.png'));
   await viewer.give('folder', place);
-  assert.match(await viewer.text('status'), /; dress\/quad one\.mtl: "\.\.\/normal 1\.png" is not among the files; the texture is left out/);
+  assert.match(await viewer.text('status'), /; dressed\/dress\/quad one\.mtl: "\.\.\/normal 1\.png" is not among the files; the texture is left out/);
 });
 
 /** The normal map of the model that the page opens with: scales, which look otherwise upside down. */
