@@ -76,7 +76,7 @@ test('nothing leaves the machine', async () => {
     const textures = [{ source: 0 }, { source: 1 }];
     writeFileSync(join(folder, 'image.gltf'), gltf({ primitive: { material: 0 }, json: () => ({ images, materials, textures }) }));
     writeFileSync(join(folder, 'buffer.gltf'), gltf({ attributes: QUAD, json: () => ({ buffers: [{ byteLength: 9, uri: elsewhere('a.bin') }] }) }));
-    writeFileSync(join(folder, 'quad.obj'), `mtllib ${elsewhere('a.mtl')}\nmtllib quad.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n`);
+    writeFileSync(join(folder, 'quad.obj'), `mtllib ${elsewhere('a.mtl')}\nmtllib quad.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n`);
     writeFileSync(join(folder, 'quad.mtl'), `newmtl a\nmap_Kd ${elsewhere('color.png')}\nnorm //elsewhere.example/normal.png\n`);
     for (const files of [['image.gltf'], ['buffer.gltf'], ['quad.obj', 'quad.mtl']]) {
       await viewer.give('files', files.map((name) => join(folder, name)));

@@ -45,15 +45,18 @@ test('coordinates that nothing can draw are said', async () => {
   assert.match(await viewer.text('status'), /; all positions are nearly the same, so that there is nothing to see; scale the model$/);
 });
 
-test('an OBJ without normals says that it is flat, and is saved with an index', async () => {
-  const rows = [0, 1, 2].flatMap((y) => [0, 1, 2].map((x) => `v ${x} ${y} 0\nvt ${x / 2} ${y / 2}`));
+test('an OBJ without normals is flat until normals are made', async () => {
+  const rows = [0, 1, 2].flatMap((y) => [0, 1, 2].map((x) => `v ${x} ${y} ${x * y}\nvt ${x / 2} ${y / 2}`));
   const quads = [1, 2, 4, 5].map((a) => `f ${[a, a + 1, a + 4, a + 3].map((at) => `${at}/${at}`).join(' ')}`);
   await open('flat.obj', [...rows, ...quads].join('\n'));
-  assert.match(await viewer.text('status'), /^8 triangles in 1 part; the file has no normals, so every triangle is shown and saved flat$/);
-  const { bytes } = await viewer.download('#save-model');
+  assert.match(await viewer.text('status'), /^8 triangles in 1 part/);
+  await viewer.click('#save-model');
+  assert.match(await viewer.text('error'), /^No part of flat\.obj can have tangents, so nothing is saved; /);
+  await viewer.click('#make-normals');
+  const { bytes } = await viewer.download('#save-repaired');
   const { json } = parts(bytes);
   const [{ attributes, indices }] = json.meshes[0].primitives;
-  assert.deepEqual([json.accessors[attributes.POSITION].count, json.accessors[indices].count], [9, 24]);
+  assert.deepEqual([json.accessors[attributes.NORMAL].count, json.accessors[indices].count], [9, 24]);
 });
 
 test('nothing is saved where there is nothing to write', async () => {
