@@ -22,7 +22,7 @@ pub use maps::{FixedMap, fix_map, fix_map_on_model};
 pub use options::FixOptions;
 pub use outcome::{Change, FixedDocument, FixedFinding};
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashSet};
 
 use darboux_io::Error;
 use darboux_io::gltf::Document;
@@ -30,6 +30,7 @@ use darboux_io::gltf::Document;
 use crate::check::defects_of;
 use crate::defect::{Defect, Obstacle, Sameness};
 use crate::finding::Finding;
+use crate::hypotheses::is_about_channels;
 use crate::place::Place;
 use crate::words::edits;
 use pairs::LeftPairs;
@@ -88,7 +89,8 @@ pub fn fix_document(
         let later = options.clone().with_check(options.check.with_assumed_map(None));
         let again = fix_defects(document, defects_of(document, &later.check)?, &later)?;
         fixed.is_changed |= again.is_changed;
-        fixed.findings = followed_by(fixed.findings, again.findings);
+        let is_hidden = |defect: &Defect| options.check.assumed_map.is_some() && is_about_channels(defect);
+        fixed.findings = outcome::of_both(fixed.findings, again.findings, is_hidden);
     }
     fixed.findings = outcome::joined(fixed.findings);
     Ok(fixed)
@@ -125,24 +127,4 @@ fn waits_for_repaired_map(left: &FixedFinding, all: &[FixedFinding]) -> bool {
     };
     let waits = |defect: &Defect| matches!(defect.obstacle, Some(Obstacle::MapMayCancel { image }) if is_repaired(image));
     !left.repaired && left.finding.defects.iter().any(waits)
-}
-
-/// The results of two repairs, one after the other: the second one says what became of what both of them
-/// name.
-fn followed_by(mut first: Vec<FixedFinding>, second: Vec<FixedFinding>) -> Vec<FixedFinding> {
-    fn samenesses(fixed: &FixedFinding) -> impl Iterator<Item = Sameness> {
-        fixed.finding.defects.iter().map(Defect::sameness)
-    }
-    let places =
-        first.iter().enumerate().flat_map(|(at, fixed)| samenesses(fixed).map(move |same| (same, at)));
-    let place_of: HashMap<Sameness, usize> = places.collect();
-    for later in second {
-        let place = samenesses(&later).find_map(|same| place_of.get(&same).copied());
-        match place {
-            Some(at) if later.repaired != first[at].repaired => first[at] = later,
-            Some(_) => {}
-            None => first.push(later),
-        }
-    }
-    first
 }

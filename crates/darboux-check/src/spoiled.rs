@@ -8,7 +8,7 @@
 use crate::defect::{Fault, NormalFault, TangentDifference, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::indices::Indices;
-use crate::measure::fit::Difference;
+use crate::measure::fit::{Difference, flips_signs};
 use crate::measure::leaning::leaning;
 use crate::measure::reversed::front;
 use crate::model_area::area_of;
@@ -59,14 +59,20 @@ fn of_tangents(fault: &TangentFault, facts: &SurfaceFacts<'_>) -> Option<f64> {
             };
             Some(area_at(surface, &vertices.as_slice().into(), weight))
         }
-        TangentFault::Differs(found) => Some(of_difference(surface, found)),
+        TangentFault::Differs(found) => Some(of_difference(facts, found)),
         TangentFault::OtherRecipe { far, .. } if far.percent > 0.0 => Some(far.spoiled),
         _ => None,
     }
 }
 
-fn of_difference(surface: &Surface, found: &TangentDifference) -> f64 {
+fn of_difference(facts: &SurfaceFacts<'_>, found: &TangentDifference) -> f64 {
+    let surface = facts.surface;
     match found.difference {
+        // The side with more corners may be the smaller one.
+        Difference::SignFlippedWhereMirrored => {
+            let are_opposite = flips_signs(facts.reversal);
+            area_of_corners(facts, |differs, _| differs != are_opposite)
+        }
         Difference::SignPartlyFlipped => area_of_triangles(surface, &found.items),
         Difference::PartlyNegated | Difference::PartlyRotated => area_at(surface, &found.items, |_| 1.0),
         _ => {
@@ -111,15 +117,27 @@ fn area_at(surface: &Surface, vertices: &Indices, weight: impl Fn(usize) -> f64)
     surface.triangles().map(of_triangle).sum()
 }
 
-/// The area of the corners on mirrored seams whose tangent has the sign of the other side.
+/// The area of the corners on mirrored seams whose tangent has the sign of the other side. Where most signs
+/// of the surface differ from those of MikkTSpace, which is a defect of its own, the others are those of the
+/// other side.
 fn area_with_other_sign(facts: &SurfaceFacts<'_>) -> f64 {
+    let beside_seams = |vertex: usize| !facts.is_on_mirrored_seam[vertex];
+    let differing = area_of_corners(facts, |differs, vertex| differs && beside_seams(vertex));
+    let all = area_of_corners(facts, |_, vertex| beside_seams(vertex));
+    let are_flipped = 2.0 * differing > all;
+    area_of_corners(facts, |differs, vertex| !beside_seams(vertex) && differs != are_flipped)
+}
+
+/// A third of the area of each triangle for each of its corners that counts, by whether the sign of its
+/// tangent differs from MikkTSpace's, and by its vertex.
+fn area_of_corners(facts: &SurfaceFacts<'_>, counts: impl Fn(bool, usize) -> bool) -> f64 {
     let (Some(tangents), Some(expected)) = (&facts.surface.tangents, &facts.expected) else { return 0.0 };
     let of_triangle = |(triangle, expected): ([usize; 3], &[[f32; 4]; 3])| {
-        let corners = triangle.into_iter().zip(expected);
-        let wrong = corners.filter(|(vertex, expected)| {
-            facts.is_on_mirrored_seam[*vertex] && (expected[3] < 0.0) != (tangents[*vertex][3] < 0.0)
-        });
-        area(facts.surface, triangle) * wrong.count() as f64 / 3.0
+        let counts = |(vertex, expected): &(usize, &[f32; 4])| {
+            counts((expected[3] < 0.0) != (tangents[*vertex][3] < 0.0), *vertex)
+        };
+        let count = triangle.into_iter().zip(expected).filter(counts).count();
+        area(facts.surface, triangle) * count as f64 / 3.0
     };
     facts.surface.triangles().zip(expected.as_chunks::<3>().0).map(of_triangle).sum()
 }

@@ -12,6 +12,7 @@ use darboux_io::gltf::Document;
 use serde_json::{Value, json};
 use support::baked::baked_models;
 use support::container::with_json;
+use support::mistakes::MISTAKES;
 use support::models::{Model, healthy_models};
 use support::table::without_maps;
 
@@ -410,4 +411,30 @@ fn clear_coats_and_variants_are_checked() {
         }
     };
     assert_eq!(errors(variant), [(Code::MapRedFlipped, Some(1))]);
+}
+
+/// What a vertex on a mirrored seam spoils is the side whose sign it does not have, whether or not the signs
+/// of the whole surface are flipped.
+#[test]
+fn flipped_signs_spoil_no_more_at_mirrored_seams() {
+    let mistake = MISTAKES.iter().find(|mistake| mistake.code == Code::TangentSharedAcrossMirror);
+    let mistake = mistake.expect("a mistake for every code");
+    let spoiled = |model: &Model| {
+        let findings = check_document(&model.document(), &without_maps()).expect("a valid document");
+        let found = findings.iter().find(|finding| finding.code == Code::TangentSharedAcrossMirror);
+        let evidence = &found.expect("the mistake is named").evidence;
+        evidence.iter().find(|evidence| evidence.what.contains("looks wrong")).map(|evidence| evidence.value)
+    };
+    let mut count = 0;
+    for mut model in healthy_models() {
+        if !(mistake.make)(&mut model) {
+            continue;
+        }
+        let unflipped = spoiled(&model).expect("a part of the area");
+        model.negate_signs();
+        let flipped = spoiled(&model).expect("a part of the area");
+        assert!((unflipped - flipped).abs() < 1e-9, "{}: {unflipped} and {flipped}", model.name);
+        count += 1;
+    }
+    assert!(count > 0);
 }

@@ -296,6 +296,45 @@ fn a_repair_that_makes_a_map_worse_is_not_kept() {
     assert!(!left.repaired && reason.contains("would end in map-channels-swapped"), "{reason}");
 }
 
+/// Half of the vectors point below the surface and are too long: with length 1, the map would be called one
+/// in object space. Green is inverted in the others, and inverted back.
+#[test]
+fn only_the_repair_that_makes_a_map_worse_is_left() {
+    let map = healthy_models().remove(0).map;
+    let texel = |(index, [r, g, b]): (usize, &[u8; 3])| match index * 100 / map.texels.len() {
+        0..12 => [27, 27, 121],
+        12..24 => [228, 228, 121],
+        24..36 => [27, 228, 121],
+        36..48 => [228, 27, 121],
+        48..56 => [128, 128, 200],
+        _ => [*r, 255 - *g, *b],
+    };
+    let texels = map.texels.iter().enumerate().map(texel).collect();
+    let file = map.with_texels(texels).file;
+    let fixed = fix_map("map.png", &file, &LoadOptions::default(), &assuming_directx()).expect("a map");
+    let outcomes: Vec<_> = fixed.findings.iter().map(|fixed| (fixed.finding.code, fixed.repaired)).collect();
+    assert!(outcomes.contains(&(Code::MapGreenFlipped, true)), "{outcomes:?}");
+    assert!(outcomes.contains(&(Code::MapNotUnit, false)), "{outcomes:?}");
+    assert!(fixed.image.is_some());
+}
+
+/// Black background of two channels becomes (-1, -1, 0) once z is computed: no vectors, which are neither
+/// below the surface nor of another length, and stay as they are.
+#[test]
+fn background_without_z_is_no_normal() {
+    let map = healthy_models().remove(0).map;
+    let texel = |(index, [r, g, b]): (usize, &[u8; 3])| match index % map.texels.len().isqrt() {
+        column if 3 * column < map.texels.len().isqrt() => [0, 0, 126],
+        _ => [*r, 255 - *g, *b],
+    };
+    let texels: Vec<[u8; 3]> = map.texels.iter().enumerate().map(texel).collect();
+    let file = map.with_texels(texels).file;
+    let found = check_map(&file, &CheckOptions::default()).findings;
+    let codes: Vec<Code> = found.iter().map(|finding| finding.code).collect();
+    assert!(!codes.contains(&Code::MapNotUnit) && !codes.contains(&Code::MapNegativeZ), "{codes:?}");
+    assert!(codes.contains(&Code::MapGreenFlipped), "{codes:?}");
+}
+
 /// Later mistakes are compared with the faces, too, which tell inverted red from inverted green.
 #[test]
 fn a_chain_of_repairs_keeps_the_evidence_of_the_mesh() {

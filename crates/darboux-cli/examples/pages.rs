@@ -295,15 +295,6 @@ const SAID: &[(Code, &str)] = &[
 /// Why a code has no picture.
 const NO_PICTURE: &[(Code, &str)] = &[
     (
-        Code::UvStretched,
-        "this mistake moves all details of the map, so that the pictures could not be compared",
-    ),
-    (Code::UvCoarse, "this mistake moves all details of the map, so that the pictures could not be compared"),
-    (
-        Code::UvHardEdge,
-        "faces have to be flat for it, so that the pictures would differ by more than these lines",
-    ),
-    (
         Code::NormalMissing,
         "renderers shade it flat, which is hardly seen on faces as small as those of the model in these pictures",
     ),

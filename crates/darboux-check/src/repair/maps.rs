@@ -1,6 +1,6 @@
 //! Rewrites the texels of normal maps at their bit depth.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use darboux::{
     BitangentDirection, Convention, Conversion, MapJudgement, MapVerdict, SrgbMistake, TangentDirection,
@@ -71,69 +71,153 @@ fn with_limit_of(options: &FixOptions, loading: &LoadOptions) -> FixOptions {
 type Check<'a> = dyn Fn(&[u8]) -> MapDefects + 'a;
 
 /// Repairs an image file whose findings are known: meshes may have helped to find them.
+///
+/// A repair that ends in an error that was not there is refused, and the others are tried again without it:
+/// every round refuses one more code at least.
 fn fix_checked(
     name: &str,
     file: &[u8],
-    mut checked: MapDefects,
+    checked: MapDefects,
     check: &Check<'_>,
     loading: &LoadOptions,
     options: &FixOptions,
 ) -> Result<FixedMap, Error> {
-    let known = checked.defects.clone();
+    let known = &checked.defects;
     if known.iter().any(|defect| defect.code() == Code::MapRedFlipped && !options.repairs(defect)) {
-        return Ok(all_left(known, &Obstacle::OnlyInvertedRedIsCertain));
+        return Ok(all_left(known.clone(), &Obstacle::OnlyInvertedRedIsCertain));
     }
-    // No repair of other texels inverts a channel, but it may reveal that one is inverted.
-    let has_directions =
-        |judgement: &MapJudgement| matches!(judgement.verdict, MapVerdict::OpenGl | MapVerdict::DirectX);
-    let directions_were_hidden = !checked.judgement.as_ref().is_some_and(has_directions);
-    // With both inverted back the texels show what they showed before, and the assumption would be said of
-    // them again.
-    let assumed = options.check.assumed_map.map(|assumed| relative(assumed, options.check.green));
-    let is_both_assumed = assumed == Some(Inverted::Both);
-    let mut image: Option<PngImage> = None;
-    let mut done = BTreeSet::new();
-    let mut all = known.clone();
-    let remaining = loop {
-        let is_next = |defect: &&Defect| options.repairs(defect) && !done.contains(&defect.code());
-        let Some(next) = checked.defects.iter().find(is_next).map(Defect::code) else {
-            break checked.defects;
-        };
-        done.insert(next);
-        let mut changed = match image.take() {
-            Some(image) => image,
-            None => open(name, file, loading)?,
-        };
-        repair(&mut changed, next, checked.srgb_mistake, options)?;
-        checked = check(&changed.to_bytes()?);
-        if is_both_assumed {
-            checked.defects.retain(|left| !(is_about_channels(left) && done.contains(&left.code())));
+    let repair = ImageRepair { name, file, checked: &checked, check, loading, options };
+    // Each with the error that its repair would end in.
+    let mut refused: BTreeMap<Code, Code> = BTreeMap::new();
+    let attempt = loop {
+        let attempt = repair.attempt(&refused)?;
+        let more = repair.refused_after(&attempt);
+        if more.is_empty() {
+            break attempt;
         }
-        keep_reasons(&known, &mut checked.defects);
-        image = Some(changed);
-        for defect in &checked.defects {
-            if !all.iter().any(|known| known.is_same(defect)) {
-                all.push(defect.clone());
-            }
+        refused.extend(more);
+    };
+    let remaining = attempt.remaining(known);
+    let is_left = |defect: &Defect| remaining.iter().any(|left| left.is_same(defect));
+    let outcome_of = |defect: &Defect| match refused.get(&defect.code()) {
+        Some(code) if options.repairs(defect) && is_left(defect) => {
+            FixedFinding::left(defect.clone(), Obstacle::WouldEndIn(*code))
         }
+        _ => outcome(defect.clone(), remaining.iter(), options),
     };
-    let is_worse = |left: &&Defect| {
-        is_new_error(left, &known) && !(directions_were_hidden && left.code() == Code::MapGreenFlipped)
-    };
-    if let Some(worse) = remaining.iter().find(is_worse) {
-        return Ok(all_left(known, &Obstacle::WouldEndIn(worse.code())));
+    let mut findings: Vec<FixedFinding> = Vec::new();
+    let mut seen: Vec<&Defect> = Vec::new();
+    for defect in known.iter().chain(attempt.steps.iter().flat_map(|step| &step.left)) {
+        if !seen.iter().any(|known| known.is_same(defect)) {
+            seen.push(defect);
+            findings.push(outcome_of(defect));
+        }
     }
-    // One of two channels inverted back would turn all bumps into dents.
-    let inverted = [Code::MapRedFlipped, Code::MapGreenFlipped];
-    let is_left = |code: &Code| remaining.iter().any(|left| left.code() == *code);
-    let half = inverted.iter().find(|code| !done.contains(code) && is_left(code));
-    if let Some(half) = half.filter(|_| is_both_assumed && inverted.iter().any(|code| done.contains(code))) {
-        return Ok(all_left(known, &Obstacle::WouldEndIn(*half)));
-    }
-    let findings: Vec<FixedFinding> =
-        all.into_iter().map(|defect| outcome(defect, remaining.iter(), options)).collect();
     let is_any_repaired = findings.iter().any(|finding| finding.repaired);
-    Ok(FixedMap { image: image.filter(|_| is_any_repaired), findings })
+    Ok(FixedMap { image: attempt.image.filter(|_| is_any_repaired), findings })
+}
+
+/// A repair of one code, and the defects after it.
+struct Step {
+    code: Code,
+    left: Vec<Defect>,
+}
+
+/// The repairs of an image, one after the other.
+struct Attempt {
+    image: Option<PngImage>,
+    steps: Vec<Step>,
+}
+
+impl Attempt {
+    /// The defects at the end.
+    fn remaining<'a>(&'a self, known: &'a [Defect]) -> &'a [Defect] {
+        self.steps.last().map_or(known, |step| &step.left)
+    }
+
+    fn repaired(&self, code: Code) -> bool {
+        self.steps.iter().any(|step| step.code == code)
+    }
+
+    /// The repair since which a defect is there.
+    fn cause(&self, defect: &Defect) -> Option<Code> {
+        let has = |step: &&Step| step.left.iter().any(|left| left.is_same(defect));
+        self.steps.iter().rev().take_while(has).last().map(|step| step.code)
+    }
+}
+
+/// An image to repair, with what is known about it.
+struct ImageRepair<'a> {
+    name: &'a str,
+    file: &'a [u8],
+    checked: &'a MapDefects,
+    check: &'a Check<'a>,
+    loading: &'a LoadOptions,
+    options: &'a FixOptions,
+}
+
+impl ImageRepair<'_> {
+    /// Repairs one code after the other until none is left that can be repaired and is not refused.
+    fn attempt(&self, refused: &BTreeMap<Code, Code>) -> Result<Attempt, Error> {
+        let mut attempt = Attempt { image: None, steps: Vec::new() };
+        let mut mistake = self.checked.srgb_mistake;
+        loop {
+            let is_next = |defect: &&Defect| {
+                let code = defect.code();
+                self.options.repairs(defect) && !attempt.repaired(code) && !refused.contains_key(&code)
+            };
+            let remaining = attempt.remaining(&self.checked.defects);
+            let Some(next) = remaining.iter().find(is_next).map(Defect::code) else { return Ok(attempt) };
+            let mut changed = match attempt.image.take() {
+                Some(image) => image,
+                None => open(self.name, self.file, self.loading)?,
+            };
+            repair(&mut changed, next, mistake, self.options)?;
+            let mut checked = (self.check)(&changed.to_bytes()?);
+            if self.is_both_assumed() {
+                // With both inverted back the texels show what they showed before, and the assumption would
+                // be said of them again.
+                checked.defects.retain(|left| {
+                    !is_about_channels(left) || left.code() != next && !attempt.repaired(left.code())
+                });
+            }
+            keep_reasons(&self.checked.defects, &mut checked.defects);
+            mistake = checked.srgb_mistake;
+            attempt.image = Some(changed);
+            attempt.steps.push(Step { code: next, left: checked.defects });
+        }
+    }
+
+    /// The repairs that may not be carried out, each with the error that it would end in.
+    fn refused_after(&self, attempt: &Attempt) -> BTreeMap<Code, Code> {
+        let known = &self.checked.defects;
+        let remaining = attempt.remaining(known);
+        // No repair of other texels inverts a channel, but it may reveal that one is inverted.
+        let has_directions =
+            |judgement: &MapJudgement| matches!(judgement.verdict, MapVerdict::OpenGl | MapVerdict::DirectX);
+        let were_hidden = !self.checked.judgement.as_ref().is_some_and(has_directions);
+        let is_worse = |left: &&Defect| {
+            is_new_error(left, known) && !(were_hidden && left.code() == Code::MapGreenFlipped)
+        };
+        let mut refused: BTreeMap<Code, Code> = BTreeMap::new();
+        for worse in remaining.iter().filter(is_worse) {
+            refused.extend(attempt.cause(worse).map(|cause| (cause, worse.code())));
+        }
+        // One of two channels inverted back would turn all bumps into dents.
+        let inverted = [Code::MapRedFlipped, Code::MapGreenFlipped];
+        let is_left = |code: &&Code| remaining.iter().any(|left| left.code() == **code);
+        let half = inverted.iter().filter(is_left).find(|code| !attempt.repaired(**code));
+        if self.is_both_assumed() && inverted.iter().any(|code| attempt.repaired(*code)) {
+            refused.extend(half.into_iter().flat_map(|half| inverted.map(|code| (code, *half))));
+        }
+        refused
+    }
+
+    /// Whether the user says that both channels are inverted.
+    fn is_both_assumed(&self) -> bool {
+        let check = &self.options.check;
+        check.assumed_map.map(|assumed| relative(assumed, check.green)) == Some(Inverted::Both)
+    }
 }
 
 /// What was known to be left is left for the same reason after other repairs: other images and surfaces may
@@ -211,13 +295,15 @@ fn green(wanted: BitangentDirection) -> Conversion {
     }
 }
 
-/// A texel with a vector of length 1. Black, white and middle grey texels are background, and keep their
-/// values.
+/// A texel with a vector of length 1. Background keeps its values: black, white and middle grey, and what a
+/// black one of two channels becomes once z is computed, which is no vector and has z = 0.
 fn unit(texel: [f64; 3]) -> [f64; 3] {
     let vector = texel.map(|x| 2.0 * x - 1.0);
     let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
     let is_grey = texel.iter().all(|x| (x - texel[0]).abs() < 1.0 / 512.0);
-    if is_grey || length < 0.05 { texel } else { vector.map(|x| (x / length + 1.0) / 2.0) }
+    let [x, y, z] = vector;
+    let is_without_z = x * x + y * y > 1.3 && z.abs() < 0.1;
+    if is_grey || is_without_z || length < 0.05 { texel } else { vector.map(|x| (x / length + 1.0) / 2.0) }
 }
 
 /// Repairs the images of a document that defects name.

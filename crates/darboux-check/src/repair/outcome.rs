@@ -1,5 +1,7 @@
 //! The results of repairs: each finding with whether it was repaired.
 
+use std::collections::{HashMap, HashSet};
+
 use serde::Serialize;
 
 use super::options::FixOptions;
@@ -79,6 +81,17 @@ impl FixedFinding {
         Self { finding: words::of_group(defects), ..self }
     }
 
+    /// The same after a second repair, which found the defect again: `later` is what became of it.
+    fn after_second(self, later: Self) -> Self {
+        let was_fixable = self.was_fixable || later.was_fixable;
+        let change = match (self.change, later.change) {
+            (Some(first), Some(second)) => Some(first.followed_by(second)),
+            (first, second) => second.or(first),
+        };
+        let finding = if self.repaired && later.repaired { self.finding } else { later.finding };
+        Self { finding, repaired: later.repaired, change: change.filter(|_| later.repaired), was_fixable }
+    }
+
     /// A defect that is still there; `reason` is that of one that could have been repaired.
     pub(super) fn left(defect: Defect, reason: Obstacle) -> Self {
         let was_fixable = defect.is_fixable();
@@ -106,6 +119,28 @@ pub fn outcome<'a>(
     FixedFinding::left(defect, reason)
 }
 
+/// The outcomes of two repairs, one after the other: what the second one found and could not remove is left,
+/// and all else that was there before either of them is gone, but for what `is_hidden` from the second one:
+/// there the first one is right. The outcomes are of one defect each.
+pub fn of_both(
+    first: Vec<FixedFinding>,
+    second: Vec<FixedFinding>,
+    is_hidden: impl Fn(&Defect) -> bool,
+) -> Vec<FixedFinding> {
+    let sameness = |fixed: &FixedFinding| fixed.finding.defects.first().map(Defect::sameness);
+    let known: HashSet<_> = first.iter().map(sameness).collect();
+    let (of_both, new): (Vec<FixedFinding>, Vec<FixedFinding>) =
+        second.into_iter().partition(|later| known.contains(&sameness(later)));
+    let later_of: HashMap<_, FixedFinding> =
+        of_both.into_iter().map(|later| (sameness(&later), later)).collect();
+    let followed = first.into_iter().map(|fixed| match later_of.get(&sameness(&fixed)) {
+        Some(later) => fixed.after_second(later.clone()),
+        None if fixed.finding.defects.iter().any(&is_hidden) => fixed,
+        None => FixedFinding { repaired: true, ..fixed },
+    });
+    followed.chain(new).collect()
+}
+
 /// The outcomes, of which those of defects that are one finding become one: repaired where all are.
 pub fn joined(outcomes: Vec<FixedFinding>) -> Vec<FixedFinding> {
     let joint = |fixed: &FixedFinding| fixed.finding.defects.first().and_then(Defect::joint);
@@ -124,4 +159,37 @@ fn one(mut group: Vec<FixedFinding>) -> FixedFinding {
     group.sort_by_key(|fixed| fixed.repaired);
     let defects = group.into_iter().flat_map(|fixed| fixed.finding.defects).collect();
     FixedFinding { finding: words::of_group(defects), repaired, change, was_fixable }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::defect::MapFault;
+
+    /// What became of one defect in the first repair and in the second, which may not have found it.
+    fn is_repaired(first: bool, second: Option<bool>, is_hidden: bool) -> Vec<bool> {
+        let defect = || Defect::new(MapFault::Flat(100.0));
+        let outcome = |repaired: bool| match repaired {
+            true => FixedFinding::gone(defect(), None),
+            false => FixedFinding::left(defect(), Obstacle::NotRemoved),
+        };
+        let both = of_both(vec![outcome(first)], second.map(outcome).into_iter().collect(), |_| is_hidden);
+        both.iter().map(|fixed| fixed.repaired).collect()
+    }
+
+    #[test]
+    fn what_the_second_repair_does_not_find_is_gone() {
+        assert_eq!(is_repaired(false, None, false), [true]);
+        assert_eq!(is_repaired(true, None, false), [true]);
+        assert_eq!(is_repaired(false, None, true), [false]);
+    }
+
+    #[test]
+    fn what_the_second_repair_finds_is_as_it_says() {
+        for first in [false, true] {
+            for second in [false, true] {
+                assert_eq!(is_repaired(first, Some(second), true), [second]);
+            }
+        }
+    }
 }

@@ -74,22 +74,38 @@ fn of_blocks(map: &Map, block: usize, part: f32) -> Map {
 /// A drawing of a UV layout, as SVG, for what cannot be seen on a model; none for other codes. Mirrored
 /// triangles are orange, and what lies below shows through.
 pub fn shown_layout(code: Code) -> Option<String> {
-    let triangles = match code {
-        Code::UvMirrored => quads([10.0, 10.0], 80.0).chain(quads([190.0, 10.0], -80.0)).collect(),
+    let beside = |[width, height]: [f32; 2]| {
+        quads([30.0, 10.0], [80.0; 2]).chain(quads([130.0, 10.0], [width, height]))
+    };
+    let triangles: Vec<[[f32; 2]; 3]> = match code {
+        Code::UvMirrored => {
+            quads([10.0, 10.0], [80.0; 2]).chain(quads([190.0, 10.0], [-80.0, 80.0])).collect()
+        }
         // The charts of the map are orange, and those of the mesh lie elsewhere.
-        Code::MapOtherLayout => quads([30.0, 10.0], 80.0).chain(quads([155.0, 40.0], -80.0)).collect(),
-        Code::UvOverlapping => quads([30.0, 10.0], 80.0).chain(quads([75.0, 40.0], 80.0)).collect(),
+        Code::MapOtherLayout => {
+            quads([30.0, 10.0], [80.0; 2]).chain(quads([155.0, 40.0], [-80.0, 80.0])).collect()
+        }
+        Code::UvOverlapping => quads([30.0, 10.0], [80.0; 2]).chain(quads([75.0, 40.0], [80.0; 2])).collect(),
+        // Faces of one size: those on the right are pressed together, or a small chart.
+        Code::UvStretched => beside([12.0, 80.0]).collect(),
+        Code::UvCoarse => beside([20.0; 2]).collect(),
+        Code::UvHardEdge => quads([60.0, 10.0], [80.0; 2]).collect(),
         _ => Vec::new(),
+    };
+    // The hard edge lies inside of a chart.
+    let edge = match code {
+        Code::UvHardEdge => "<path d=\"M100,10 V90\" stroke=\"#d00\" stroke-width=\"3\"/>\n",
+        _ => "",
     };
     let shapes: String = triangles.iter().map(shape).collect();
     let head = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 200 140\" width=\"220\" height=\"154\" stroke=\"#333\" stroke-width=\"0.6\">";
-    (!triangles.is_empty()).then(|| format!("{head}\n{shapes}</svg>\n"))
+    (!triangles.is_empty()).then(|| format!("{head}\n{shapes}{edge}</svg>\n"))
 }
 
 /// The triangles of four by four quads beside a corner, with the signed width given; those of a negative
 /// width are mirrored.
-fn quads([left, top]: [f32; 2], width: f32) -> impl Iterator<Item = [[f32; 2]; 3]> {
-    let at = move |i: usize, j: usize| [left + 0.25 * width * i as f32, top + 20.0 * j as f32];
+fn quads([left, top]: [f32; 2], [width, height]: [f32; 2]) -> impl Iterator<Item = [[f32; 2]; 3]> {
+    let at = move |i: usize, j: usize| [left + 0.25 * width * i as f32, top + 0.25 * height * j as f32];
     (0..16).flat_map(move |quad| {
         let (i, j) = (quad % 4, quad / 4);
         [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]]

@@ -40,7 +40,8 @@ impl MapVerdict {
 
 /// The verdict on a normal map and the counts behind it.
 ///
-/// Counts leave out the background: black, white and middle grey texels.
+/// Counts leave out the background: black, white and middle grey texels, and what black ones of two channels
+/// become once z is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MapJudgement {
@@ -80,7 +81,7 @@ pub struct MapJudgement {
     pub(super) is_exchanged: bool,
     /// The texels of the map.
     pub texels: usize,
-    /// Black, white and middle grey texels.
+    /// Black, white and middle grey texels, and those with z = 0 whose x and y are beyond the unit circle.
     pub background: usize,
     /// Texels whose length is not in [0.9, 1.1].
     pub not_unit: usize,

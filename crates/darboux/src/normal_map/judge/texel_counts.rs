@@ -19,6 +19,11 @@ const Z_TOLERANCE: f32 = 4.0 / 255.0;
 /// The length of a middle grey texel is smaller.
 const MAX_GREY_LENGTH: f32 = 0.12;
 
+/// A texel whose x and y are beyond the unit circle by this much, in squared length, and whose z is zero but
+/// for so much: where z was computed from two channels, black background becomes (-1, -1, 0).
+const MIN_SQUARE_WITHOUT_Z: f32 = 1.3;
+const MAX_Z_WITHOUT_Z: f32 = 0.1;
+
 #[derive(Debug)]
 pub struct TexelCounts {
     texels: usize,
@@ -102,7 +107,11 @@ impl TexelCounts {
                 // middle grey texels belong to it.
                 let third = if has_z { z[i] } else { x[i] };
                 let (low, high) = (x[i].min(y[i]).min(third), x[i].max(y[i]).max(third));
-                let is_background = (high < BLACK) | (low > -BLACK) | (length < MAX_GREY_LENGTH);
+                let is_without_z = has_z
+                    & (x[i] * x[i] + y[i] * y[i] > MIN_SQUARE_WITHOUT_Z)
+                    & (z[i].abs() < MAX_Z_WITHOUT_Z);
+                let is_background =
+                    (high < BLACK) | (low > -BLACK) | (length < MAX_GREY_LENGTH) | is_without_z;
                 // NaN fills the last lanes.
                 let counts_here = !is_background & (length >= 0.0);
                 counts[0][i] += u32::from(is_background);
