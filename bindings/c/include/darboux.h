@@ -685,7 +685,7 @@ typedef struct darboux_map_judgement {
   float mean_length;
   /// All texels.
   size_t texels;
-  /// Black, white and middle grey texels.
+  /// Black, white and middle grey texels, and those with z = 0 whose x and y are beyond the unit circle.
   size_t background;
   /// Texels whose length is not in [0.9, 1.1].
   size_t not_unit;

@@ -34,7 +34,7 @@ pub struct darboux_map_judgement {
     pub mean_length: f32,
     /// All texels.
     pub texels: usize,
-    /// Black, white and middle grey texels.
+    /// Black, white and middle grey texels, and those with z = 0 whose x and y are beyond the unit circle.
     pub background: usize,
     /// Texels whose length is not in [0.9, 1.1].
     pub not_unit: usize,

@@ -243,7 +243,7 @@ class MapJudgement(NamedTuple):
     texels: int
     """All texels."""
     background: int
-    """Black, white and middle grey texels."""
+    """Black, white and middle grey texels, and those with z = 0 whose x and y are beyond the unit circle."""
     not_unit: int
     """Texels whose length is not in [0.9, 1.1]."""
     negative_z: int
