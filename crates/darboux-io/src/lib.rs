@@ -51,6 +51,7 @@ mod staging;
 #[cfg(feature = "stl")]
 mod stl;
 mod temporary;
+mod words;
 
 pub use error::{Error, system_reason};
 pub use files::Files;

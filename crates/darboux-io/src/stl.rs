@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use crate::error::ContentError;
 use crate::source::{SourceFormat, SourceMesh, SourceScene};
+use crate::words::counted;
 
 /// The length of a binary header, and of a facet.
 const HEADER: usize = 84;
@@ -61,15 +62,11 @@ impl Losses {
     }
 
     fn say(&self, scene: &mut SourceScene) {
-        let facets = |count: usize| if count == 1 { "1 facet".to_owned() } else { format!("{count} facets") };
+        let facets = |count: usize| counted(count, "facet", "facets");
         match self.against {
             0 => {}
             count => {
-                let normals = if count == 1 {
-                    "1 facet's normal points".to_owned()
-                } else {
-                    format!("{count} facets' normals point")
-                };
+                let normals = counted(count, "facet's normal points", "facets' normals point");
                 scene.warnings.push(format!(
                     "{normals} against the winding, which decides; if the model looks inside out, turn its faces over"
                 ));

@@ -186,6 +186,63 @@ fn textures_of_an_obj_lie_as_in_the_document() {
 
 /// A texture may lie on other UVs than the tangents, and may be mirrored along one axis.
 #[test]
+fn attributes_without_a_place_are_listed() {
+    let accessor = |kind: &str| json!({"componentType": 5126, "count": 3, "type": kind});
+    let attributes = json!({"POSITION": 0, "COLOR_0": 1, "COLOR_1": 1, "_HEAT": 0, "_WEAR": 0});
+    let gltf = json!({
+        "asset": {"version": "2.0"},
+        "accessors": [accessor("VEC3"), accessor("VEC4")],
+        "meshes": [{"primitives": [{"attributes": attributes}]}],
+        "nodes": [{"mesh": 0}],
+        "scenes": [{"nodes": [0]}],
+    });
+    let options = LoadOptions::default();
+    let document = Document::from_bytes("a.gltf", gltf.to_string().into(), None, &options).unwrap();
+    let [colors, attributes] = ["1 further set of colours", "2 custom attributes"];
+    assert_eq!(
+        document.left_out(FileKind::Obj).unwrap(),
+        [colors, "the alpha of vertex colours", attributes]
+    );
+    assert_eq!(document.left_out(FileKind::Ply).unwrap(), [colors, attributes]);
+}
+
+/// Half a turn is a negative scale; other rotations have no option.
+#[test]
+fn half_turns_of_textures_are_written() {
+    let document = |rotation: f32| {
+        let transform = json!({"offset": [0.25, 0.5], "rotation": rotation, "scale": [2, 4]});
+        let texture = json!({"index": 0, "extensions": {"KHR_texture_transform": transform}});
+        let gltf = json!({
+            "asset": {"version": "2.0"},
+            "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"}],
+            "images": [{"uri": "scene_normal.png"}],
+            "textures": [{"source": 0}],
+            "materials": [{"pbrMetallicRoughness": {"baseColorTexture": texture}}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+            "nodes": [{"mesh": 0}],
+            "scenes": [{"nodes": [0]}],
+        });
+        let folder = blender("");
+        let (bytes, options) = (gltf.to_string().into(), LoadOptions::default());
+        Document::from_bytes("a.gltf", bytes, Some(&folder), &options).unwrap()
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let half = document(std::f32::consts::PI);
+    let obj = saved(&half, &folder.path().join("half.obj"));
+    let [ours, theirs] = [&half, &obj].map(|document| {
+        let texture = document.materials().unwrap()[0].base_texture.clone().unwrap();
+        texture.transform_uv([0.75, 0.125])
+    });
+    assert!(
+        ours.iter().zip(theirs).all(|(ours, theirs)| (ours - theirs).abs() < 1e-5),
+        "{ours:?} {theirs:?}"
+    );
+    assert_eq!(half.left_out(FileKind::Obj).unwrap(), [""; 0]);
+    let lost = document(0.5).left_out(FileKind::Obj).unwrap();
+    assert_eq!(lost, ["1 placement of a texture, which is rotated"]);
+}
+
+#[test]
 fn what_an_obj_cannot_say_of_textures_is_listed() {
     let gltf = json!({
         "asset": {"version": "2.0"},
@@ -207,8 +264,10 @@ fn what_an_obj_cannot_say_of_textures_is_listed() {
     let wanted = [
         "1 choice to mirror a texture, or to clamp it along one axis",
         "1 texture on a UV set that is not written",
+        "2 textures whose images cannot be read",
+        "1 use of a texture's alpha",
         "1 texture filter of single texels",
-        "1 alpha mask, which is a transparency here",
+        "1 alpha mask",
         "1 double-sided material",
     ];
     assert_eq!(document.left_out(FileKind::Obj).unwrap(), wanted);

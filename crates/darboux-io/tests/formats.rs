@@ -562,6 +562,13 @@ fn a_ply_of_edges_has_no_faces() {
 }
 
 #[test]
+fn faces_of_few_corners_are_listed() {
+    let header = String::from_utf8(square("ascii")).unwrap().replace("element face 1", "element face 4");
+    let document = read(header + "2 0 1\n1 0\n0\n");
+    assert_eq!(document.warnings(), ["not carried over: 2 faces of one or two corners"]);
+}
+
+#[test]
 fn models_with_other_meshes_are_not_compared() {
     let square = || String::from_utf8(square("ascii")).unwrap();
     let solids = |names: &[&str]| {

@@ -163,6 +163,11 @@ fn attributes_of_some_corners_are_a_warning() {
     let [uvs, normals] =
         ["UVs", "normals"].map(|attribute| format!("{attribute} at some corners only; they are left out"));
     assert_eq!(warnings("f 1/1/1 2//1 3/1/1\n"), [format!("1 mesh has {uvs}")]);
+    assert_eq!(warnings("o a\nf 1/1/1 2//1 3/1/1\n"), [format!("o a has {uvs}")]);
+    assert_eq!(
+        warnings("o a\nf 1/1/1 2//1 3/1/1\no b\nf 1/1/1 2//1 3/1/1\n"),
+        [format!("o a and 1 other mesh have {uvs}")]
+    );
     assert_eq!(
         warnings("f 1/1/1 2 3/1/1\no b\nf 1/1/1 2/1 3/1/1\n"),
         [format!("1 mesh has {uvs}"), format!("2 meshes have {normals}")]

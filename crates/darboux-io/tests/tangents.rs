@@ -435,6 +435,28 @@ fn strict_refuses_data_that_the_default_repairs() {
     assert!(error(&collapsed).unwrap().contains("no usable tangent"));
 }
 
+/// Of primitives that get no tangents, too.
+#[test]
+fn strict_refuses_data_of_skipped_primitives() {
+    let strict = AddTangentsOptions::default().with_strict(true);
+    let error = |change: &dyn Fn(&mut Vertices)| {
+        let mut vertices = square();
+        change(&mut vertices);
+        let mut builder = Builder::new();
+        let mut attributes = json!(vertices.attributes(&mut builder));
+        attributes.as_object_mut().unwrap().remove("NORMAL");
+        let indices = builder.indices(&SQUARE);
+        builder.mesh(&[json!({"attributes": attributes, "indices": indices})]);
+        let mut document = builder.build();
+        add_tangents(&mut document, &strict, &mut |_| {}).err().map(|error| error.to_string())
+    };
+    assert_eq!(error(&|_| {}), None);
+    let sentence = "test.gltf: meshes[0].primitives[0]: has 1 value that is not finite in TEXCOORD_0; \
+                    repair the model, or run without strict";
+    assert_eq!(error(&|vertices| vertices.uvs[1] = [f32::NAN, 0.0]).as_deref(), Some(sentence));
+    assert!(error(&|vertices| vertices.positions[0][2] = f32::INFINITY).is_some());
+}
+
 #[test]
 fn unusable_tangents_of_the_reference_are_named() {
     let mut vertices = square();

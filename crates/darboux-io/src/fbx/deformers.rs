@@ -5,6 +5,7 @@ use ufbx::{BlendShape, Matrix, Mesh, Node, SkinWeight, SkinningMethod, Vec3};
 use super::geometry::vector;
 use crate::error::shortened;
 use crate::source::{CornerValues, SourceMorph, SourceSkin, VertexWeights};
+use crate::words::counted;
 
 /// The most influences of a vertex that are kept: readers of glTF take four or eight.
 const MAX_INFLUENCES: usize = 8;
@@ -43,7 +44,7 @@ pub fn skin(mesh: &Mesh, lacks: &mut Vec<String>) -> Option<(SourceSkin, Vec<Ver
     }
     let unweighted = (0..mesh.vertices.count).filter(|&vertex| influences(vertex).is_empty()).count();
     if unweighted > 0 {
-        let vertices = if unweighted == 1 { "1 vertex".to_owned() } else { format!("{unweighted} vertices") };
+        let vertices = counted(unweighted, "vertex", "vertices");
         lacks.push(format!(
             "the place of {vertices} of {name:?} without weights, which follow the first joint"
         ));

@@ -14,6 +14,7 @@ use crate::memory_limit::Budget;
 use crate::source::{
     MadeNormals, ModelFiles, SourceFormat, SourceMesh, SourceNode, SourceScene, VertexWeights,
 };
+use crate::words::counted_if_any;
 
 /// A mesh and the materials that a node gives it. Nodes with the same share one mesh.
 type MeshUse = (u32, Vec<u32>);
@@ -137,19 +138,23 @@ fn add_meshes(
 fn add_losses(losses: &[Losses], made: &mut SourceScene) {
     let count = |is_lost: fn(&Losses) -> bool| losses.iter().filter(|lost| is_lost(lost)).count();
     let flat: usize = losses.iter().map(|lost| lost.lines_and_points).sum();
-    made.not_carried.extend(counted(flat, "face of one or two corners", "faces of one or two corners"));
+    made.not_carried.extend(counted_if_any(
+        flat,
+        "face of one or two corners",
+        "faces of one or two corners",
+    ));
     let unsigned = count(|lost| lost.has_tangents_without_sign);
-    made.not_carried.extend(counted(
+    made.not_carried.extend(counted_if_any(
         unsigned,
         "mesh's tangents, which have no bitangents and so no sign",
         "meshes' tangents, which have no bitangents and so no sign",
     ));
-    made.not_carried.extend(counted(
+    made.not_carried.extend(counted_if_any(
         count(|lost| lost.has_further_tangents),
         "mesh's tangents of UV sets after the first",
         "meshes' tangents of UV sets after the first",
     ));
-    made.not_carried.extend(counted(
+    made.not_carried.extend(counted_if_any(
         count(|lost| lost.is_subdivided),
         "subdivision surface, which is read as its cage",
         "subdivision surfaces, which are read as their cages",
@@ -259,13 +264,5 @@ fn left_out(scene: &Scene) -> impl Iterator<Item = String> {
         (with_properties, "node's custom properties", "nodes' custom properties"),
     ]
     .into_iter()
-    .filter_map(|(count, one, several)| counted(count, one, several))
-}
-
-fn counted(count: usize, one: &str, several: &str) -> Option<String> {
-    match count {
-        0 => None,
-        1 => Some(format!("1 {one}")),
-        _ => Some(format!("{count} {several}")),
-    }
+    .filter_map(|(count, one, several)| counted_if_any(count, one, several))
 }

@@ -9,6 +9,7 @@ use super::tangents::AddTangentsOptions;
 use super::tangents::select::{TangentCandidate, select};
 use super::{Document, PrimitiveName, schema};
 use crate::Error;
+use crate::words::counted;
 
 /// A primitive of both documents.
 #[derive(Clone, Debug)]
@@ -101,9 +102,6 @@ pub fn pair_tangents<'a>(a: &'a Document, b: &'a Document) -> Result<Vec<Pair<'a
 fn other_meshes(a: &Document, b: &Document, of_a: &[usize], of_b: &[usize]) -> Error {
     let advice =
         "compare files of one model with the same meshes (a PLY has one for all, an STL one per solid)";
-    let counted = |count: usize, one: &str, many: &str| {
-        if count == 1 { format!("1 {one}") } else { format!("{count} {many}") }
-    };
     let mut pairs = of_a.iter().zip(of_b).enumerate();
     match pairs.find(|(_, (a, b))| a != b) {
         Some((mesh, (of_a, of_b))) if a.meshes().len() == b.meshes().len() => {

@@ -43,6 +43,15 @@ impl Document {
         }
     }
 
+    /// Whether an image has content that may be read. Its file is not read.
+    pub(super) fn has_image(&self, index: usize) -> bool {
+        match self.image_source(index) {
+            Some(ImageSource::File(path)) => self.resources.has(&path),
+            Some(ImageSource::Range { .. }) => true,
+            None => self.image_bytes(index).is_ok(),
+        }
+    }
+
     /// Whether an image is on another machine, from which nothing is read.
     pub fn is_remote_image(&self, index: usize) -> bool {
         let uri = self.root.images.get(index).and_then(|image| image.uri.as_deref());

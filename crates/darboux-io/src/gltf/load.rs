@@ -210,7 +210,7 @@ fn image_warnings(root: &Root, resources: &Resources) -> Vec<String> {
     let uris = root.images.iter().enumerate().filter_map(|(i, image)| Some((i, image.uri.as_deref()?)));
     uris.filter_map(|(i, uri)| {
         let problem = resources.resolve(uri).err()?;
-        Some(format!("images[{i}].uri: {problem}; the reference is kept"))
+        Some(format!("images[{i}].uri: {problem}; a .gltf or .glb that is written keeps the reference"))
     })
     .collect()
 }

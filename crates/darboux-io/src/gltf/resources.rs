@@ -137,6 +137,14 @@ impl Resources {
         matches!(self.access, FileAccess::Disk { .. })
     }
 
+    /// Whether there is such a file.
+    pub fn has(&self, path: &Path) -> bool {
+        match &self.access {
+            FileAccess::Disk { .. } => path.is_file(),
+            FileAccess::Given(given) => given.has(&files::name(path)),
+        }
+    }
+
     /// The content of a file, which is not kept, in parts.
     pub fn reader(&self, path: &Path) -> io::Result<Box<dyn Read>> {
         match &self.access {

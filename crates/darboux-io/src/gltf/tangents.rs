@@ -20,6 +20,7 @@ mod options;
 pub(super) mod select;
 mod set_corners;
 mod split;
+mod strict;
 mod summary;
 pub(super) mod uv;
 mod write;
@@ -98,6 +99,9 @@ fn run(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<TangentsSummary, Error> {
     let selection = select::select(document, options, is_wanted)?;
+    if options.strict {
+        strict::refuse_unusable_rest(document, &selection)?;
+    }
     let accessors = CanonicalAccessors::new(document);
     let given_of = |candidate: usize| given.of(&selection.candidates[candidate].name);
     let groups = groups::group(&accessors, selection.chosen(), given_of);

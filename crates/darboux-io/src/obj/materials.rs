@@ -10,6 +10,7 @@ use crate::image::{DecodeLimits, RgbaImage, srgb_to_linear};
 use crate::source::{
     FoundFile, ModelFiles, NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture,
 };
+use crate::words::counted;
 
 /// Paths of more bytes are not looked up.
 const LONGEST_PATH: usize = 4096;
@@ -235,9 +236,7 @@ impl<'a> Materials<'a> {
             scene.warnings.extend(unknown_warning(names.collect()));
         }
         let lost = self.lost.into_iter().map(|(statement, materials)| {
-            let materials =
-                if materials == 1 { "1 material".to_owned() } else { format!("{materials} materials") };
-            format!("{statement} of {materials}")
+            format!("{statement} of {}", counted(materials, "material", "materials"))
         });
         scene.not_carried.extend(lost);
         scene.materials = self.materials;

@@ -9,6 +9,7 @@ use crate::LoadOptions;
 use crate::error::ContentError;
 use crate::image::srgb_to_linear;
 use crate::source::{ModelFiles, SourceFormat, SourceScene};
+use crate::words::counted;
 
 /// Reads an OBJ with the material libraries and textures in its folder or below.
 ///
@@ -29,10 +30,11 @@ pub fn read(bytes: &[u8], files: &ModelFiles, _: &LoadOptions) -> Result<SourceS
         .map_err(|missing| invalid(line_of_corner(bytes, missing.corner), &missing.problem))?;
     materials.finish(&mut scene);
     if text.lines_and_points > 0 {
-        scene.not_carried.push(format!("{} lines and points", text.lines_and_points));
+        scene.not_carried.push(counted(text.lines_and_points, "line or point", "lines and points"));
     }
     if text.curves > 0 {
-        scene.not_carried.push(format!("{} statements of curves and surfaces", text.curves));
+        let statements = ["statement of curves or surfaces", "statements of curves and surfaces"];
+        scene.not_carried.push(counted(text.curves, statements[0], statements[1]));
     }
     Ok(scene)
 }

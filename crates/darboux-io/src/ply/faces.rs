@@ -5,6 +5,7 @@ use super::property::{cut_off, next, properties};
 use super::values::Values;
 use crate::error::ContentError;
 use crate::source::{CornerValues, FaceSizes, SourceMesh, SourceScene, SourceUvSet};
+use crate::words::counted_if_any;
 
 /// A corner without UVs.
 const NONE: u32 = u32::MAX;
@@ -167,6 +168,12 @@ impl FaceReader {
 
     /// Moves everything into the mesh. `textures`: how many materials the file has, one per texture.
     pub fn finish(self, textures: usize, mesh: &mut SourceMesh, scene: &mut SourceScene) {
+        let few = self.sizes.iter().filter(|size| (1..3).contains(*size)).count();
+        scene.not_carried.extend(counted_if_any(
+            few,
+            "face of one or two corners",
+            "faces of one or two corners",
+        ));
         mesh.corners = self.corners;
         mesh.faces = if self.has_larger { FaceSizes::Sizes(self.sizes) } else { FaceSizes::Triangles };
         if !self.uvs.is_empty() {

@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use darboux::{Faces, NormalOptions, Shading, SmoothingSeams, generate_normals};
 
 use super::scene::{CornerValues, FaceSizes, SourceMesh};
+use crate::words::counted;
 
 /// The numbers of meshes whose normals were made.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,11 +21,8 @@ pub struct MadeNormals {
 
 impl MadeNormals {
     pub fn warnings(self) -> impl Iterator<Item = String> {
-        let meshes = |count, one: &str, several: &str| {
-            if count == 1 { format!("1 {one}") } else { format!("{count} {several}") }
-        };
         let all = (self.all > 0).then(|| {
-            let meshes = meshes(
+            let meshes = counted(
                 self.all,
                 "mesh has no normals; they were made by its",
                 "meshes have no normals; they were made by their",
@@ -32,7 +30,7 @@ impl MadeNormals {
             format!("{meshes} smoothing groups")
         });
         let some = (self.some > 0).then(|| {
-            let meshes = meshes(
+            let meshes = counted(
                 self.some,
                 "mesh lacks normals at some corners; those were made by its",
                 "meshes lack normals at some corners; those were made by their",

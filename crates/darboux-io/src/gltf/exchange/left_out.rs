@@ -1,12 +1,13 @@
 //! What a PLY or an OBJ does not hold of a document.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use super::format::ExchangeFormat;
 use super::obj;
 use crate::Error;
-use crate::gltf::{Alpha, Document, Wrap};
+use crate::gltf::{Alpha, Document, ElementType, Wrap, schema};
 use crate::json::Value;
+use crate::words::counted_if_any as counted;
 
 /// Counts of what is left out.
 pub struct LeftOut {
@@ -17,6 +18,10 @@ pub struct LeftOut {
     textures: usize,
     material_losses: MaterialLosses,
     uv_sets: usize,
+    color_sets: usize,
+    custom_attributes: usize,
+    /// Whether colours of an OBJ have an alpha below 1.
+    has_color_alpha: bool,
     morph_targets: usize,
     skins: usize,
     animations: usize,
@@ -36,6 +41,10 @@ struct MaterialLosses {
     rotated: usize,
     mirrored: usize,
     on_other_uvs: usize,
+    /// Textures whose image has no content here, such as a missing file.
+    without_image: usize,
+    /// Textures whose alpha is used: MTL takes it from a file of its own.
+    with_alpha: usize,
     /// Textures whose magnification shows single texels.
     nearest: usize,
     /// Materials whose alpha is a mask, and those that are seen from both sides.
@@ -74,6 +83,8 @@ impl LeftOut {
             .filter_map(|name| name.as_str())
             .collect();
         HARMLESS.iter().for_each(|name| _ = extensions.remove(name));
+        let names = surfaces.iter().flat_map(|primitive| primitive.attributes.keys());
+        let custom = names.filter(|name| name.starts_with('_'));
         let is_ply = format == ExchangeFormat::Ply;
         if !is_ply {
             extensions.remove("KHR_texture_transform");
@@ -86,6 +97,9 @@ impl LeftOut {
             textures: if is_ply { length("textures") } else { unspelt_textures(document)? },
             material_losses: if is_ply { MaterialLosses::default() } else { material_losses(document)? },
             uv_sets: (1..).take_while(|set| having(&format!("TEXCOORD_{set}")) > 0).count(),
+            color_sets: (1..).take_while(|set| having(&format!("COLOR_{set}")) > 0).count(),
+            custom_attributes: custom.collect::<BTreeSet<_>>().len(),
+            has_color_alpha: !is_ply && has_color_alpha(document, &surfaces),
             morph_targets: primitives.iter().map(|primitive| primitive.targets.len()).max().unwrap_or(0),
             skins: length("skins"),
             animations: length("animations"),
@@ -98,11 +112,6 @@ impl LeftOut {
 
     /// A noun phrase for each.
     pub fn phrases(self) -> Vec<String> {
-        let counted = |count: usize, one: &str, many: &str| match count {
-            0 => None,
-            1 => Some(format!("1 {one}")),
-            _ => Some(format!("{count} {many}")),
-        };
         let mut phrases = Vec::new();
         if self.tangents > 0 {
             phrases.push("the tangents, for which OBJ has no place: an importer computes its own".to_owned());
@@ -133,17 +142,26 @@ impl LeftOut {
                     "texture on a UV set that is not written",
                     "textures on UV sets that are not written",
                 ),
+                counted(
+                    self.material_losses.without_image,
+                    "texture whose image cannot be read",
+                    "textures whose images cannot be read",
+                ),
+                counted(
+                    self.material_losses.with_alpha,
+                    "use of a texture's alpha",
+                    "uses of textures' alpha",
+                ),
                 counted(self.uv_sets, "further UV set", "further UV sets"),
+                counted(self.color_sets, "further set of colours", "further sets of colours"),
+                self.has_color_alpha.then(|| "the alpha of vertex colours".to_owned()),
+                counted(self.custom_attributes, "custom attribute", "custom attributes"),
                 counted(
                     self.material_losses.nearest,
                     "texture filter of single texels",
                     "texture filters of single texels",
                 ),
-                counted(
-                    self.material_losses.masks,
-                    "alpha mask, which is a transparency here",
-                    "alpha masks, which are transparencies here",
-                ),
+                counted(self.material_losses.masks, "alpha mask", "alpha masks"),
                 counted(self.material_losses.double_sided, "double-sided material", "double-sided materials"),
                 counted(self.morph_targets, "morph target", "morph targets"),
                 counted(self.skins, "skin", "skins"),
@@ -176,9 +194,23 @@ fn unspelt_textures(document: &Document) -> Result<usize, Error> {
     Ok(own.flatten().count())
 }
 
+/// Whether a vertex of a surface is not opaque.
+fn has_color_alpha(document: &Document, surfaces: &[&&schema::Primitive]) -> bool {
+    let accessors: BTreeSet<usize> =
+        surfaces.iter().filter_map(|primitive| primitive.attributes.get("COLOR_0").copied()).collect();
+    let of_four = |accessor: &usize| {
+        document.accessors().get(*accessor).is_some_and(|stored| stored.element_type == ElementType::Vec4)
+    };
+    let is_transparent = |accessor: usize| {
+        document.vectors::<4>(accessor).is_ok_and(|colors| colors.iter().any(|color| color[3] < 1.0))
+    };
+    accessors.into_iter().filter(of_four).any(is_transparent)
+}
+
 /// What MTL cannot say of the materials.
 fn material_losses(document: &Document) -> Result<MaterialLosses, Error> {
     let mut found = MaterialLosses::default();
+    let mut is_there = HashMap::new();
     for material in document.materials()? {
         let once = |(statement, _): &(&str, _)| *statement != "map_Pm";
         let all = obj::all_textures(&material).filter(once).count();
@@ -189,7 +221,11 @@ fn material_losses(document: &Document) -> Result<MaterialLosses, Error> {
             found.mirrored += usize::from(!can_be_written);
             found.rotated += usize::from(texture.offset_and_scale().is_none());
             found.nearest += usize::from(texture.is_nearest);
+            let has_content = |image| *is_there.entry(image).or_insert_with(|| document.has_image(image));
+            found.without_image += usize::from(!texture.image.is_some_and(has_content));
         }
+        let has_texture = obj::textures(&material).any(|(statement, _)| statement == "map_Kd");
+        found.with_alpha += usize::from(has_texture && material.alpha != Alpha::Opaque);
     }
     let materials = document.json()["materials"].as_array();
     let is_double_sided = |material: &&Value| matches!(material["doubleSided"], Value::Bool(true));

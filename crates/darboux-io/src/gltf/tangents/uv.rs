@@ -71,9 +71,10 @@ impl UvTransform {
         (!identity).then_some(Self { offset, cos: cos as f32, sin: sin as f32, scale })
     }
 
-    /// The offset and the scale; none for a transform that rotates.
+    /// The offset and the scale; none for a transform that rotates, but for half turns, which negative scales
+    /// are. In single precision the sine of half a turn is not exactly 0.
     pub fn without_rotation(&self) -> Option<([f32; 2], [f32; 2])> {
-        (self.sin == 0.0 && self.cos == 1.0).then_some((self.offset, self.scale))
+        (self.sin.abs() < 1e-6).then(|| (self.offset, self.scale.map(|scale| scale * self.cos.signum())))
     }
 
     /// Scales, then rotates, then offsets, each in f32.

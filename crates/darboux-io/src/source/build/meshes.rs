@@ -13,6 +13,7 @@ use crate::source::polygons::{Cutter, Triangle};
 use crate::source::provenance::{FaceCounts, PrimitiveSource};
 use crate::source::scene::{CornerValues, FaceSizes, SourceMesh, SourceScene};
 use crate::source::vertices::{FoundVertices, Used, VertexFinder};
+use crate::words::counted;
 
 /// The estimate for a primitive: its part of a mesh and a node, and up to four accessors and buffer views.
 const BYTES_PER_PRIMITIVE: usize = 16 << 10;
@@ -63,7 +64,7 @@ pub fn build(
         let mut list = Vec::with_capacity(parts.len());
         let is_single = parts.len() == 1;
         for part in parts {
-            let used = part.used(mesh, &mut incomplete);
+            let used = part.used(index, mesh, &mut incomplete);
             let (json, source) = builder.primitive(&part, &used, is_single, &mut finder, &mut meshes.faces);
             meshes.sources.insert((index, list.len()), source);
             list.push(json);
@@ -158,21 +159,51 @@ fn parts(mesh: &SourceMesh) -> Vec<Part> {
     parts.into_iter().map(|(material, faces)| Part { material, faces: PartFaces::Listed(faces) }).collect()
 }
 
-/// The number of primitives that lose an attribute, which some of their corners lack.
+/// The meshes that lose an attribute, which some of their corners lack.
 #[derive(Debug, Default)]
 struct Incomplete {
-    uvs: usize,
-    normals: usize,
-    colors: usize,
+    uvs: IncompleteMeshes,
+    normals: IncompleteMeshes,
+    colors: IncompleteMeshes,
+}
+
+#[derive(Debug, Default)]
+struct IncompleteMeshes {
+    count: usize,
+    /// The path of the first one.
+    first: String,
+    /// The index of the last one: a mesh may have several primitives.
+    last: Option<usize>,
+}
+
+impl IncompleteMeshes {
+    fn add(&mut self, index: usize, mesh: &SourceMesh, coverage: Coverage) {
+        if coverage != Coverage::Some || self.last == Some(index) {
+            return;
+        }
+        if self.count == 0 {
+            self.first = shortened(&mesh.path);
+        }
+        self.count += 1;
+        self.last = Some(index);
+    }
+
+    fn warning(&self, attribute: &str) -> Option<String> {
+        let Self { count, first, .. } = self;
+        let meshes = match (count, &**first) {
+            (0, _) => return None,
+            (_, "") => counted(*count, "mesh has", "meshes have"),
+            (1, first) => format!("{first} has"),
+            (_, first) => format!("{first} and {} have", counted(count - 1, "other mesh", "other meshes")),
+        };
+        Some(format!("{meshes} {attribute} at some corners only; they are left out"))
+    }
 }
 
 impl Incomplete {
     fn warnings(&self) -> impl Iterator<Item = String> + use<> {
-        let counts = [(self.uvs, "UVs"), (self.normals, "normals"), (self.colors, "colours")];
-        counts.into_iter().filter(|(meshes, _)| *meshes > 0).map(|(meshes, attribute)| {
-            let meshes = if meshes == 1 { "1 mesh has".to_owned() } else { format!("{meshes} meshes have") };
-            format!("{meshes} {attribute} at some corners only; they are left out")
-        })
+        let Self { uvs, normals, colors } = self;
+        [uvs.warning("UVs"), normals.warning("normals"), colors.warning("colours")].into_iter().flatten()
     }
 }
 
@@ -202,27 +233,27 @@ impl Part {
         }
     }
 
-    /// The values that all corners have. Others are counted.
-    fn used(&self, mesh: &SourceMesh, incomplete: &mut Incomplete) -> Used {
+    /// The values that all corners have. `index`: that of the mesh. Meshes that lose others are counted.
+    fn used(&self, index: usize, mesh: &SourceMesh, incomplete: &mut Incomplete) -> Used {
         let mut used = Used::default();
         if let Some(normals) = &mesh.normals {
             let coverage = self.count(mesh, normals);
             used.normals = coverage == Coverage::All;
-            incomplete.normals += usize::from(coverage == Coverage::Some);
+            incomplete.normals.add(index, mesh, coverage);
         }
         if let Some(tangents) = mesh.tangents.as_ref().filter(|_| used.normals) {
             used.tangents = self.count(mesh, tangents) == Coverage::All;
         }
         for (set, uvs) in mesh.uv_sets.iter().enumerate() {
             let coverage = self.count(mesh, &uvs.uvs);
-            incomplete.uvs += usize::from(coverage == Coverage::Some);
+            incomplete.uvs.add(index, mesh, coverage);
             if coverage == Coverage::All {
                 used.uv_sets.push(set);
             }
         }
         for (set, colors) in mesh.colors.iter().enumerate() {
             let coverage = self.count(mesh, colors);
-            incomplete.colors += usize::from(coverage == Coverage::Some);
+            incomplete.colors.add(index, mesh, coverage);
             if coverage == Coverage::All {
                 used.colors.push(set);
             }
