@@ -98,6 +98,14 @@ fn normal_maps_of_an_obj_are_used() {
     let folder = folder_with(&["blender/scene.obj", "blender/scene.mtl", "blender/scene_normal.png"]);
     let run = darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);
     assert!(!run.stderr.contains("used by no model"), "{}", run.stderr);
+    // As the reader finds it: in other letters' case.
+    if cfg!(target_os = "linux") {
+        let library = fs::read_to_string(folder.path().join("scene.mtl")).expect("a library");
+        let shouted = library.replace("scene_normal.png", "Scene_NORMAL.PNG");
+        fs::write(folder.path().join("scene.mtl"), shouted).expect("a library");
+        let run = darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);
+        assert!(!run.stderr.contains("used by no model"), "{}", run.stderr);
+    }
     fs::rename(folder.path().join("scene_normal.png"), folder.path().join("other_normal.png"))
         .expect("a name");
     let run = darboux(&["check", text(folder.path()), "--fail-on", "never"]).exits(0);

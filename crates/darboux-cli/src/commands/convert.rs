@@ -12,6 +12,7 @@ use darboux::{Convention, UvOrigin};
 use darboux_io::FileKind;
 use darboux_io::gltf::{ConversionSummary, Document, Progress, convert_vertices};
 use darboux_io::image::{PngImage, convert_normal_map, count_invalid_normals};
+use darboux_io::source::SourceFormat;
 use serde::Serialize;
 
 use crate::batch::command::{FileCommand, ProcessedFile};
@@ -19,6 +20,7 @@ use crate::batch::plan::{Job, Output};
 use crate::batch::report::{FileReport, Status};
 use crate::documents::{left_out, load_any, read_stdin, save, save_image};
 use crate::inputs::{Input, UsageError};
+use crate::options::convention::NamedConvention;
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
 use crate::paths::is_png;
@@ -235,13 +237,7 @@ impl ConvertArguments {
             ));
         }
         let mut warnings = document.warnings().to_vec();
-        // Readers of formats whose v points up have turned it for glTF.
-        if document.provenance().is_some() && from.convention.uv_origin != UvOrigin::TopLeft {
-            let name = &from.name;
-            warnings.push(format!(
-                "v points down since this file was read, and --from {name} turns it again; unless that is wanted, add v0=top: --from {name},v0=top"
-            ));
-        }
+        warnings.extend(self.turned_again(&document));
         let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
         let mut summary = convert_vertices(&mut document, from.convention, to.convention, &mut on_progress)
             .map_err(|error| error.to_string())?;
@@ -256,6 +252,22 @@ impl ConvertArguments {
         let (status, files_written) = save(&document, &job.output, &self.files, document.is_changed())?;
         let summary = ConvertSummary { model: Some(summary), warnings, ..ConvertSummary::default() };
         Ok(ProcessedFile { status, files_written, summary })
+    }
+
+    /// A warning where the reader of a format has turned what `--from` turns again.
+    fn turned_again(&self, document: &Document) -> Option<String> {
+        let NamedConvention { convention, name } = &self.from;
+        let provenance = document.provenance()?;
+        if provenance.format == SourceFormat::Fbx && *convention != Convention::GLTF {
+            return Some(format!(
+                "this FBX was turned to glTF's convention when it was read, and --from {name} turns it again; unless that is wanted, use --from gltf"
+            ));
+        }
+        let mut primitives = document.meshes().iter().flat_map(|mesh| &mesh.primitives);
+        let has_uvs = primitives.any(|primitive| primitive.attributes.contains_key("TEXCOORD_0"));
+        (has_uvs && convention.uv_origin != UvOrigin::TopLeft).then(|| format!(
+            "v points down since this file was read, and --from {name} turns it again; unless that is wanted, add v0=top: --from {name},v0=top"
+        ))
     }
 }
 

@@ -9,7 +9,7 @@ use darboux_check::{
 };
 use darboux_io::gltf::Document;
 use darboux_io::image::PngImage;
-use darboux_io::read_regular;
+use darboux_io::{FileKind, read_regular};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -37,6 +37,9 @@ pub struct FixSummary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub planned: Option<Vec<ReportedEdit>>,
     pub warnings: Vec<String>,
+    /// Whether the output has no place for tangents.
+    #[serde(skip)]
+    pub drops_tangents: bool,
 }
 
 /// The command with `--fix`.
@@ -97,7 +100,8 @@ impl FileCommand for Repair<'_> {
     fn lines(summary: &FixSummary) -> Vec<String> {
         let planned = summary.planned.iter().flatten();
         let planned = planned.map(|edit| format!("{}: would {}", edit.place, edit.action));
-        planned.chain(summary.findings.iter().filter_map(line)).collect()
+        let lines = summary.findings.iter().filter_map(|finding| line(finding, summary.drops_tangents));
+        planned.chain(lines).collect()
     }
 
     fn errors(summary: &FixSummary) -> Vec<String> {
@@ -188,10 +192,13 @@ impl Outcome {
     }
 }
 
-fn line(finding: &ReportedFinding) -> Option<String> {
+fn line(finding: &ReportedFinding, drops_tangents: bool) -> Option<String> {
     let ReportedFinding { place, code, text, left_because, .. } = finding;
     let outcome = Outcome::of(finding);
     match (code.repair(), left_because) {
+        (Some(_), _) if outcome.repaired && drops_tangents && code.name().starts_with("tangent-") => Some(
+            format!("{place}: gone {code}: {text}; an OBJ has no tangents, and an importer computes its own"),
+        ),
         (Some(repair), _) if outcome.repaired => {
             let done = done(finding.change, repair);
             Some(format!("{place}: repaired {code}: {text}; {done}"))
@@ -257,7 +264,10 @@ impl Repair<'_> {
             Some(status) => (status, Vec::new()),
             None => save(&document, &job.output, files, fixed.is_changed)?,
         };
-        Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, warnings) })
+        let drops_tangents =
+            matches!(&job.output, Output::File(path) if FileKind::of(path) == Some(FileKind::Obj));
+        let summary = FixSummary { drops_tangents, ..self.summary(fixed.findings, warnings) };
+        Ok(ProcessedFile { status, files_written, summary })
     }
 
     /// What a repair of a document would begin with.
@@ -275,6 +285,7 @@ impl Repair<'_> {
             findings,
             planned: Some(planned),
             warnings: document.warnings().to_vec(),
+            drops_tangents: false,
         };
         Ok(ProcessedFile { status: Status::Untouched, files_written: Vec::new(), summary })
     }
@@ -354,6 +365,6 @@ impl Repair<'_> {
     fn summary(&self, fixed: Vec<FixedFinding>, warnings: Vec<String>) -> FixSummary {
         let reported = fixed.into_iter().filter(|fixed| self.arguments.findings.reports(fixed.finding.code));
         let findings: Vec<ReportedFinding> = reported.map(Into::into).collect();
-        FixSummary { diagnosis: diagnosis(&findings), findings, planned: None, warnings }
+        FixSummary { diagnosis: diagnosis(&findings), findings, warnings, ..FixSummary::default() }
     }
 }
