@@ -66,8 +66,8 @@ pub fn load(bytes: &[u8], budget: &Budget) -> Result<SceneRoot, ContentError> {
     Ok(loaded)
 }
 
-/// Whether the file is an ASCII one that ends inside of a block or a string, which ufbx takes for the end of the
-/// file.
+/// Whether the file is an ASCII one that ends inside of a block or a string, which ufbx takes for the end of
+/// the file.
 fn ends_early(text: &[u8]) -> bool {
     if text.starts_with(b"Kaydara FBX Binary") {
         return false;
