@@ -216,10 +216,10 @@ fn every_field_of_the_report_is_documented() {
     }
 }
 
-/// Readers turn v, and that of FBX turns everything.
+/// Readers turn v.
 #[test]
 fn what_a_reader_has_turned_is_not_turned_again_without_a_word() {
-    let folder = folder_with(&["blender/scene.ply", "blender/scene.stl", "blender/scene.fbx"]);
+    let folder = folder_with(&["blender/scene.ply", "blender/scene.stl"]);
     let warned = |name: &str, from: &str| {
         let output = folder.path().join("out.glb");
         let run = convert(&folder.path().join(name), from, "gltf", &["--force", "-o", text(&output)]);
@@ -228,8 +228,4 @@ fn what_a_reader_has_turned_is_not_turned_again_without_a_word() {
     assert!(warned("scene.ply", "blender"));
     assert!(!warned("scene.ply", "blender,v0=top"));
     assert!(!warned("scene.stl", "blender"), "it has no UVs");
-    if cfg!(feature = "fbx") {
-        assert!(warned("scene.fbx", "blender,v0=top"));
-        assert!(!warned("scene.fbx", "gltf"));
-    }
 }
