@@ -76,8 +76,8 @@ fn viewer() -> PathBuf {
     root().join("viewer")
 }
 
-/// Installs the npm packages and compiles the modules of the page. Returns their paths: the smaller one first,
-/// where there are two.
+/// Installs the npm packages and compiles the modules of the page. Returns their paths: the smaller one
+/// first, where there are two.
 fn prepare(build: Build) -> Result<Vec<PathBuf>, String> {
     npm::install("viewer", &viewer())?;
     match build {
