@@ -75,6 +75,19 @@ def test_values_by_face_by_vertex_and_indexed() -> None:
     assert darboux.usd.corner_tangents(mesh).tangents.tolist() == expected
 
 
+def test_tangents_of_another_type_are_replaced() -> None:
+    stage = Usd.Stage.CreateInMemory()
+    mesh = plane(stage)
+    kind = Sdf.ValueTypeNames.Float4Array
+    old = UsdGeom.PrimvarsAPI(mesh).CreatePrimvar("tangents", kind, "vertex")
+    old.Set([(1, 0, 0, 1)] * 7)
+    old.GetAttr().Set([(0, 1, 0, -1)] * 7, 5.0)
+    darboux.usd.add_tangents(mesh)
+    assert written(mesh).tolist() == [[-1, 0, 0, -1]] * 4 + [[1, 0, 0, 1]] * 5
+    new = UsdGeom.PrimvarsAPI(mesh).GetPrimvar("tangents")
+    assert new.GetTypeName() == Sdf.ValueTypeNames.Vector3fArray and not new.GetAttr().GetTimeSamples()
+
+
 def test_moving_meshes_get_a_sample_for_each_of_their_points() -> None:
     stage = Usd.Stage.CreateInMemory()
     mesh = plane(stage)
@@ -180,6 +193,8 @@ def test_bad_files_are_named(tmp_path: Path) -> None:
         darboux.usd.process(bad)
     with pytest.raises(FileNotFoundError, match="there is no such file"):
         darboux.usd.process(tmp_path / "none.usda")
+    with pytest.raises(ValueError, match="made.glb: USD is written to .usd, .usda, .usdc, .usdz"):
+        darboux.usd.process(SCENE / "scene.usda", tmp_path / "made.glb")
     package = tmp_path / "bad.usdz"
     package.write_text("no zip")
     with pytest.raises(ValueError, match="is not a usdz package"):

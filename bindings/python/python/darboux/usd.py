@@ -26,6 +26,8 @@ from ._results import Floats
 TANGENTS, SIGNS = "tangents", "tangentSigns"
 """The names of the primvars."""
 
+ENDINGS = [".usd", ".usda", ".usdc", ".usdz"]
+
 MOST_CORNERS = 1 << 28
 """The most corners of a mesh at all its times together. Samples that are equal take no room in a file, but 16 bytes per corner here."""
 
@@ -125,7 +127,7 @@ def process(
         The output exists; there is no input.
     ValueError
         USD cannot read or write the file; a usdz is read but another kind is to be written, or the other way round; a usdz has members that leave
-        its folder, or refers to files outside. After an error nothing is left.
+        its folder, or refers to files outside; the output has another ending than USD's. After an error nothing is left.
     """
     path = Path(path)
     output = path.with_name(f"{path.stem}.tangents{path.suffix}") if output is None else Path(output)
@@ -139,6 +141,8 @@ def process(
         raise ValueError(f"{output}: exists and is not a regular file; choose another output")
     if output.exists() and not force:
         raise FileExistsError(f"{output}: the file exists; choose another output, or force=True")
+    if output.suffix.lower() not in ENDINGS:
+        raise ValueError(f"{output}: USD is written to {', '.join(ENDINGS)}; give the output one of these endings")
     if (path.suffix.lower() == ".usdz") != (output.suffix.lower() == ".usdz"):
         raise ValueError(f"{output}: a usdz is written from a usdz only; give the output the ending of the input")
     # Complete or absent: the result is made in a folder beside the output and renamed.
@@ -263,6 +267,10 @@ def _add(mesh: Any, uv_set: Optional[str], options: Any) -> UsdMesh:
         if primvar.IsIndexed():
             primvar.BlockIndices()
         attribute = primvar.GetAttr()
+        # Tangents that the mesh has may be of another type, such as float4[], and have samples at other times.
+        attribute.Clear()
+        attribute.SetTypeName(kind)
+        primvar.SetElementSize(1)
         for time, result in found:
             attribute.Set(np.ascontiguousarray(column(result.tangents)), time)
     _, first = found[0]
