@@ -234,3 +234,33 @@ fn opposite_signs_everywhere_are_said_in_a_sentence() {
                    degrees, as for UVs whose v axis is inverted; to replace them: darboux tangents --overwrite --method mikktspace ";
     assert!(said.contains(verdict), "{said}");
 }
+
+/// A grid of quads, a few of which have a triangle that is mirrored in UV space.
+fn grid_of_quads() -> String {
+    let mut text = String::new();
+    for (x, y) in (0..49).map(|at| (f64::from(at % 7), f64::from(at / 7))) {
+        let [du, dv] = [0.0, 2.0].map(|phase| 0.7 * (5.0 * x + 11.0 * y + phase).sin());
+        text += &format!("v {x} {y} {}\nvt {} {}\nvn 0 0 1\n", 0.2 * (x * y).sin(), x + du, y + dv);
+    }
+    for corner in (1..43).filter(|at| at % 7 != 0) {
+        let face = [corner, corner + 1, corner + 8, corner + 7].map(|at| format!("{at}/{at}/{at}")).join(" ");
+        text += &format!("f {face}\n");
+    }
+    text
+}
+
+#[test]
+fn tangents_that_may_be_those_of_quads_are_not_called_wrong() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let [model, made] = ["grid.obj", "made.glb"].map(|name| folder.path().join(name));
+    fs::write(&model, grid_of_quads()).expect("writing");
+    let compared = |method: &str| {
+        darboux(&["tangents", text(&model), "--method", method, "-o", text(&made), "--force"]).exits(0);
+        let run = darboux(&["compare", text(&made), "--method", "mikktspace"]).exits(0);
+        String::from_utf8(run.stdout).expect("UTF-8")
+    };
+    let of_quads = compared("mikktspace");
+    assert!(of_quads.contains("computed on quads before these were cut"), "{of_quads}");
+    let others = compared("lengyel-per-vertex");
+    assert!(others.contains("to replace them: ") && !others.contains("on quads"), "{others}");
+}

@@ -1,5 +1,6 @@
 //! A comparison as text: totals, a histogram of the angles, the worst corners, and a verdict in one sentence.
 
+use darboux::{Choice, Method};
 use indicatif::HumanCount;
 
 use super::report::{CompareReport, Verdict};
@@ -46,6 +47,13 @@ fn other_side(report: &CompareReport) -> String {
     }
 }
 
+const OF_QUADS: &str = "tangents that were computed on quads before these were cut, as darboux computes those of FBX, OBJ and PLY, differ so in a few places: keep them; otherwise, ";
+
+/// Whether the tangents may be MikkTSpace's of quads: most corners agree.
+fn may_be_of_quads(method: &str, totals: &Statistics) -> bool {
+    method == Method::default().name() && 2 * totals.different < totals.corners
+}
+
 /// The result in one sentence, and the command that replaces the tangents by those of the method.
 fn verdict(report: &CompareReport) -> String {
     let CompareReport { totals, first, method, .. } = report;
@@ -61,7 +69,8 @@ fn verdict(report: &CompareReport) -> String {
         Verdict::Different => {
             let repair = method.as_ref().map_or(String::new(), |method| {
                 let command = command_line(&["tangents", "--overwrite", "--method", method], &[first]);
-                format!("; to replace them: {command}")
+                let quads = if may_be_of_quads(method, totals) { OF_QUADS } else { "" };
+                format!("; {quads}to replace them: {command}")
             });
             let tolerance = match report.within_tolerance {
                 Some(true) => "; the largest angle is within --tolerance",
