@@ -97,6 +97,11 @@ pub(crate) fn shortened(text: &str) -> String {
     }
 }
 
+/// Text from a file in quotes, [shortened]. Unlike `{:?}`, it leaves the `\` of Windows' paths single.
+pub(crate) fn quoted(text: &str) -> String {
+    format!("\"{}\"", shortened(text))
+}
+
 /// Escapes the characters that a terminal interprets: control characters, line breaks included, and marks of
 /// text direction.
 fn printable(text: &str) -> String {

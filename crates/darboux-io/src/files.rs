@@ -5,6 +5,8 @@ use std::fmt::Debug;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
+use crate::code_page::decoded_name;
+
 /// Files by name: a path without `.` and `..`, its parts separated by `/`.
 ///
 /// [`Document::from_files`](crate::gltf::Document::from_files) reads those that a document refers to.
@@ -34,6 +36,6 @@ pub fn normalised(path: &Path) -> Option<PathBuf> {
 
 /// The name of the file at a normalised path.
 pub fn name(path: &Path) -> String {
-    let parts: Vec<_> = path.iter().map(OsStr::to_string_lossy).collect();
+    let parts: Vec<_> = path.iter().map(decoded_name).collect();
     parts.join("/")
 }

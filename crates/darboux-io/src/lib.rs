@@ -27,10 +27,12 @@
 //! # Ok::<(), darboux_io::Error>(())
 //! ```
 
+mod code_page;
 mod error;
 #[cfg(feature = "fbx")]
 mod fbx;
 mod files;
+mod git_lfs;
 pub mod gltf;
 pub mod image;
 pub mod json;

@@ -4,6 +4,7 @@
 //! as meshes, with faces of any size and smoothing groups.
 
 mod companions;
+mod lookup;
 #[cfg(feature = "obj")]
 mod materials;
 #[cfg(feature = "obj")]
@@ -15,6 +16,11 @@ mod read;
 mod statements;
 #[cfg(feature = "obj")]
 mod text;
+#[cfg_attr(
+    not(feature = "obj"),
+    allow(dead_code, reason = "the lookup of companions needs the name of the file alone")
+)]
+mod texture_map;
 
 pub use companions::{Companion, companions};
 #[cfg(feature = "obj")]

@@ -5,7 +5,7 @@
 //! others      what a file is that no reader takes
 //! scene       what a reader returns: nodes, meshes of polygons, materials, skins, as the file has them
 //! files       the textures and libraries that a model refers to, under the rules of glTF
-//! other_case  finds those whose names differ in the case of letters only
+//! other_case  finds those whose names differ in the case of letters or the encoding only
 //! smoothing   normals by smoothing groups, where a file has none
 //! polygons/   faces of more than three corners are cut
 //! vertices    corners with the same attributes become one vertex

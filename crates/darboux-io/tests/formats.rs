@@ -292,7 +292,7 @@ fn textures_in_other_letters_case_are_found() {
     let document = open(&folder.path().join("a.obj"));
     let warnings = [
         "\"A.MTL\" was found as a.mtl, by its name",
-        "\"Textures\\\\Scene_Normal.PNG\" was found as textures/scene_normal.png, by its name",
+        "\"Textures\\Scene_Normal.PNG\" was found as textures/scene_normal.png, by its name",
         "a.mtl: \"Linked/Secret.png\" is not in the model's folder; the texture is left out",
     ];
     let mut found = document.warnings().to_vec();

@@ -20,11 +20,13 @@ fn a_line_names_one_library_or_several() {
 }
 
 #[test]
-fn lines_longer_than_paths_are_ignored() {
+fn of_lines_longer_than_paths_the_ends_are_looked_up() {
     let line = |words: usize| format!("map_Kd {}a.png", "- ".repeat(words));
     let names = |words| names_of("mtllib a.mtl", &line(words), &["a.mtl", "a.png"]);
     assert_eq!(names(2000), ["a.png", "a.mtl"]);
-    assert_eq!(names(60_000), ["a.mtl"]);
+    assert_eq!(names(60_000), ["a.png", "a.mtl"]);
+    let long = format!("map_Kd {}a.png", "-".repeat(5000));
+    assert_eq!(names_of("mtllib a.mtl", &long, &["a.mtl", "a.png"]), ["a.mtl"]);
     assert!(names_of(&format!("mtllib {}a.mtl", " - ".repeat(60_000)), "", &["a.mtl"]).is_empty());
 }
 

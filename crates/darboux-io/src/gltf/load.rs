@@ -92,7 +92,7 @@ impl Document {
         access: FileAccess,
     ) -> Result<Self, Error> {
         let failed = |source| Error::Read { file: base.unwrap_or(Path::new("")).to_owned(), source };
-        let files = ModelFiles::new(access.model_files(base).map_err(failed)?, options);
+        let files = ModelFiles::new(name, access.model_files(base).map_err(failed)?, options);
         let read =
             readers::read(name, &file, &files, options).transpose().map_err(|error| error.in_file(name))?;
         let Some(Built { bytes, start, provenance, warnings }) = read else {

@@ -16,6 +16,7 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
 
 use super::file_bytes::{FileAccess, FileBytes};
+use crate::error::quoted;
 use crate::{LoadOptions, files, paths, system_reason};
 
 /// The target of a URI.
@@ -271,8 +272,8 @@ pub fn image_type(bytes: &[u8]) -> Option<&'static str> {
 /// A URI in messages: quoted, and at most 100 characters.
 fn shortened(uri: &str) -> String {
     match uri.char_indices().nth(100) {
-        Some((end, _)) => format!("{:?}...", &uri[..end]),
-        None => format!("{uri:?}"),
+        Some((end, _)) => format!("{}...", quoted(&uri[..end])),
+        None => quoted(uri),
     }
 }
 

@@ -54,6 +54,9 @@ pub enum DecodeError {
     /// The format is not recognised.
     #[error("is neither PNG nor JPEG nor WebP; convert it to one of them")]
     UnknownFormat,
+    /// The file is the text that Git LFS leaves in the place of the image.
+    #[error("is a pointer of Git LFS, not the image; run: git lfs pull")]
+    GitLfsPointer,
     /// The image exceeds [`DecodeLimits`].
     #[error("has {width} x {height} texels, more than the limit; make it smaller, or raise the memory limit")]
     TooLarge {

@@ -14,6 +14,7 @@ use super::chunks::SIGNATURE as PNG;
 use super::decoding::{DecodeError, DecodeLimits, broken, check_memory, rgba, texel_count, to_byte};
 use super::palette::check_palette;
 use super::reasons;
+use crate::git_lfs;
 
 /// An image as 8-bit RGBA texels.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,6 +45,8 @@ impl RgbaImage {
             decode_ktx2(file, limits)
         } else if file.get(4..8) == Some(b"ftyp") && brand.is_some_and(|brand| brand.starts_with(b"avi")) {
             Err(DecodeError::NoDecoder("AVIF"))
+        } else if file.starts_with(git_lfs::START) {
+            Err(DecodeError::GitLfsPointer)
         } else {
             Err(DecodeError::UnknownFormat)
         }

@@ -5,14 +5,12 @@ use std::collections::{HashMap, HashSet};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::lookup::{self, Found};
 use super::statements::statements;
+use super::texture_map::MtlMap;
 use crate::error::ContentError;
 use crate::source::{FileSource, FoundFile, ModelFiles};
 use crate::{Error, LoadOptions, paths};
-
-/// References in longer lines are ignored: no path has more bytes, and a reference may begin at every word of
-/// a line.
-const LONGEST_LINE: usize = 4096;
 
 /// What is wrong with a file without faces.
 pub const NO_FACES: &str = "has no faces; is it an OBJ? Export it again";
@@ -54,7 +52,7 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, Error> {
     if !has_faces {
         return Err(ContentError::invalid("", NO_FACES).in_file(&path.display().to_string()));
     }
-    let lookup = FileLookup::new(folder_of(path)?);
+    let lookup = FileLookup::new(path)?;
     let (mut companions, mut seen) = (Vec::new(), HashSet::new());
     for library in library_lines.into_iter().flat_map(|line| lookup.libraries(line)) {
         if !seen.insert(library.path.clone()) {
@@ -86,44 +84,26 @@ struct FileLookup {
 }
 
 impl FileLookup {
-    /// Files are looked up in `folder`, links resolved.
-    fn new(folder: PathBuf) -> Self {
+    fn new(model: &Path) -> Result<Self, Error> {
         let (libraries, textures) = Default::default();
-        let files = ModelFiles::new(FileSource::Folder(folder), &LoadOptions::default());
-        Self { files, libraries, textures }
+        let source = FileSource::Folder(folder_of(model)?);
+        let files = ModelFiles::new(&model.to_string_lossy(), source, &LoadOptions::default());
+        Ok(Self { files, libraries, textures })
     }
 
-    /// The libraries that a `mtllib` line names: one whose name may contain spaces, or several.
     fn libraries(&self, line: &[u8]) -> Vec<Companion> {
-        let Ok(text) = str::from_utf8(line) else { return Vec::new() };
-        if line.len() > LONGEST_LINE {
-            return Vec::new();
-        }
-        let find = || {
-            let one = |reference| self.files.find("", reference).map(Companion::from);
-            one(text).map_or_else(|| text.split_ascii_whitespace().filter_map(one).collect(), |one| vec![one])
-        };
+        let find = || lookup::libraries(&self.files, line).into_iter().map(Companion::from).collect();
         self.libraries.borrow_mut().entry(line.to_owned()).or_insert_with(find).clone()
     }
 
-    /// The texture that a statement of a material library names.
-    ///
-    /// Options may stand before the name, and the name may contain spaces, so the longest end of the line
-    /// that names a file is taken.
     fn texture(&self, library: &str, line: &[u8]) -> Option<Companion> {
-        let text = str::from_utf8(line).ok().filter(|text| text.len() <= LONGEST_LINE)?;
-        let find = || {
-            let is_start = |&i: &usize| i == 0 || line[i - 1].is_ascii_whitespace();
-            let mut ends = (0..line.len()).filter(is_start).filter_map(|start| text.get(start..));
-            let in_place = ends.clone().find_map(|end| self.files.find_in_place(library, end));
-            in_place.or_else(|| ends.find_map(|end| self.files.find(library, end))).map(Companion::from)
-        };
+        let find = || lookup::texture(&self.files, library, &MtlMap::parse(line)).map(Companion::from);
         self.textures.borrow_mut().entry((library.to_owned(), line.to_owned())).or_insert_with(find).clone()
     }
 }
 
-impl From<FoundFile> for Companion {
-    fn from(FoundFile { name, path, .. }: FoundFile) -> Self {
+impl From<Found> for Companion {
+    fn from((_, FoundFile { name, path, .. }): Found) -> Self {
         Self { name, path }
     }
 }

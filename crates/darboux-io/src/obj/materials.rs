@@ -3,17 +3,16 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::path::PathBuf;
 
-use super::mtl::{self, MtlMap, MtlMaterial};
-use super::statements::words;
+use super::lookup;
+use super::mtl::{self, MtlMaterial};
+use super::texture_map::MtlMap;
+use crate::code_page::decoded;
 use crate::error::{shortened, system_reason};
 use crate::image::{DecodeLimits, RgbaImage, srgb_to_linear};
 use crate::source::{
     FoundFile, ModelFiles, NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture,
 };
 use crate::words::counted;
-
-/// Paths of more bytes are not looked up.
-const LONGEST_PATH: usize = 4096;
 
 /// The libraries that an OBJ names, loaded while their names are met. Each library is loaded once.
 pub struct Materials<'a> {
@@ -62,19 +61,12 @@ impl<'a> Materials<'a> {
 
     /// Loads the libraries of a `mtllib` statement: one whose name may contain spaces, or several.
     pub fn load(&mut self, line: &[u8]) {
-        if line.len() > LONGEST_PATH || !self.lines.insert(line.to_owned()) {
+        if !self.lines.insert(line.to_owned()) {
             return;
         }
-        let text = String::from_utf8_lossy(line);
-        let found = match self.files.find("", &text) {
-            Some(library) => vec![(text.into_owned(), library)],
-            None => {
-                let names = words(line).map(|word| String::from_utf8_lossy(word).into_owned());
-                names.filter_map(|name| Some((name.clone(), self.files.find("", &name)?))).collect()
-            }
-        };
+        let found = lookup::libraries(self.files, line);
         if found.is_empty() {
-            let problem = self.files.problem(&String::from_utf8_lossy(line));
+            let problem = self.files.problem(&decoded(line));
             self.warnings.push(format!("{problem}; its materials are left out"));
         }
         for (reference, library) in found {
@@ -186,23 +178,13 @@ impl<'a> Materials<'a> {
         })
     }
 
-    /// The image of a statement. Its options may be unknown, and its name may contain spaces, so the longest
-    /// end of the line that names a file is taken.
     fn find_image(&mut self, library: &str, map: &MtlMap) -> Option<usize> {
-        let found = self.files.find(library, &map.file).map(|file| (&*map.file, file)).or_else(|| {
-            let line = &*map.statement;
-            let starts = line
-                .char_indices()
-                .filter(|&(i, c)| i > 0 && !c.is_whitespace() && line[..i].ends_with(char::is_whitespace));
-            let mut ends = starts.filter(|(i, _)| line.len() - i <= LONGEST_PATH).map(|(i, _)| &line[i..]);
-            ends.find_map(|end| Some((end, self.files.find(library, end)?)))
-        });
-        let Some((reference, file)) = found else {
-            let problem = self.files.problem(&map.file);
+        let Some((reference, file)) = lookup::texture(self.files, library, map) else {
+            let problem = self.files.problem(lookup::without_quotes(&map.file).unwrap_or(&map.file));
             self.warnings.push(format!("{library}: {problem}; the texture is left out"));
             return None;
         };
-        self.warnings.extend(ModelFiles::by_name_warning(reference, &file));
+        self.warnings.extend(ModelFiles::by_name_warning(&reference, &file));
         self.image(file)
     }
 
@@ -232,7 +214,7 @@ impl<'a> Materials<'a> {
     pub fn finish(self, scene: &mut SourceScene) {
         scene.warnings.extend(self.warnings);
         if !self.loaded.is_empty() {
-            let names = self.unknown.iter().map(|name| shortened(&String::from_utf8_lossy(name)));
+            let names = self.unknown.iter().map(|name| shortened(&decoded(name)));
             scene.warnings.extend(unknown_warning(names.collect()));
         }
         let lost = self.lost.into_iter().map(|(statement, materials)| {

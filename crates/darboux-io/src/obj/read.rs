@@ -6,6 +6,7 @@ use super::meshes;
 use super::statements::{statements, words};
 use super::text::{Corner, KINDS, ObjText, Run};
 use crate::LoadOptions;
+use crate::code_page::decoded;
 use crate::error::ContentError;
 use crate::image::srgb_to_linear;
 use crate::source::{ModelFiles, SourceFormat, SourceScene};
@@ -80,7 +81,7 @@ impl ObjText {
             face if is_face(face) => self.add_face(rest)?,
             b"o" | b"g" => {
                 self.end_run();
-                self.name = String::from_utf8_lossy(rest).into_owned();
+                self.name = decoded(rest).into_owned();
                 self.kind = if statement == b"o" { "o" } else { "g" };
             }
             b"usemtl" => self.material = materials.index(rest),

@@ -1,5 +1,6 @@
 //! The header of a PLY: its encoding, its elements and their properties.
 
+use crate::code_page::decoded;
 use crate::error::ContentError;
 
 /// How the numbers after the header are written.
@@ -110,7 +111,7 @@ pub fn parse(bytes: &[u8]) -> Result<Header, ContentError> {
     while header.end < LONGEST_HEADER {
         let rest = &bytes[header.end..];
         let Some(length) = rest.iter().position(|&byte| byte == b'\n' || byte == b'\r') else { break };
-        let line = String::from_utf8_lossy(&rest[..length]);
+        let line = decoded(&rest[..length]);
         // A line ends with \n, \r\n or, in old files, \r.
         header.end += length + if rest[length..].starts_with(b"\r\n") { 2 } else { 1 };
         number += 1;

@@ -1,5 +1,7 @@
 //! The textures of comments such as `TextureFile wood.png`, which MeshLab writes: a material each.
 
+use std::borrow::Cow;
+
 use super::header::Header;
 use crate::error::system_reason;
 use crate::source::{ModelFiles, SourceImage, SourceMaterial, SourceScene, SourceTexture};
@@ -16,6 +18,7 @@ pub fn add(header: &Header, files: &ModelFiles, scene: &mut SourceScene) -> usiz
         word.eq_ignore_ascii_case("TextureFile").then_some(name.trim())
     });
     for name in names.take(MOST) {
+        let name = &*with_stem(name, files.stem());
         let image = image(name, files, scene);
         let texture = image.map(|image| SourceTexture { image, ..SourceTexture::default() });
         scene.materials.push(SourceMaterial {
@@ -26,6 +29,16 @@ pub fn add(header: &Header, files: &ModelFiles, scene: &mut SourceScene) -> usiz
         });
     }
     scene.materials.len()
+}
+
+/// The name of a texture in which MeshLab's `<this>`, in letters of any case, is replaced with the name of
+/// the PLY without folder and ending.
+fn with_stem<'a>(name: &'a str, stem: &str) -> Cow<'a, str> {
+    const THIS: &str = "<this>";
+    match name.to_ascii_lowercase().find(THIS) {
+        Some(start) => format!("{}{stem}{}", &name[..start], &name[start + THIS.len()..]).into(),
+        None => name.into(),
+    }
 }
 
 /// The image of a texture; none where it cannot be read, which a warning says.

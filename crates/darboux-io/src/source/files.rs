@@ -2,8 +2,8 @@
 //! outside the model's folder, unless the caller allows it.
 //!
 //! Other formats often hold absolute paths of another machine, or paths of Windows. Such a file is looked up
-//! by its name in the model's folder. Names may differ from the file's in the case of letters, which Windows
-//! ignores.
+//! by the ends of its path and in the usual subfolders. Names may differ from the file's in the case of
+//! letters, which Windows ignores.
 
 use std::cell::{Cell, RefCell};
 use std::io;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 use super::other_case::OtherCase;
 #[cfg(any(feature = "fbx", feature = "obj"))]
 use crate::MemoryLimit;
-use crate::error::shortened;
+use crate::error::quoted;
 use crate::{Files, LoadOptions, files, paths};
 
 /// The most paths that are looked up for one model. Each lookup asks the operating system.
@@ -21,6 +21,9 @@ const MAX_LOOKUPS: usize = 100_000;
 
 /// No path has more bytes.
 const LONGEST_PATH: usize = 4096;
+
+/// The ends of a path that are looked up have at most as many parts.
+const MOST_PARTS: usize = 16;
 
 /// Where a model's files are.
 #[derive(Clone, Debug)]
@@ -36,6 +39,8 @@ pub enum FileSource {
 /// Looks up the files that a model refers to.
 #[derive(Debug)]
 pub struct ModelFiles {
+    /// The name of the model's file without folder and ending.
+    stem: String,
     source: FileSource,
     allow_outside: bool,
     allow_outside_name: &'static str,
@@ -59,8 +64,11 @@ pub struct FoundFile {
 }
 
 impl ModelFiles {
-    pub fn new(source: FileSource, options: &LoadOptions) -> Self {
+    /// The files of the model whose file is `model`.
+    pub fn new(model: &str, source: FileSource, options: &LoadOptions) -> Self {
+        let stem = Path::new(model).file_stem().unwrap_or_default();
         Self {
+            stem: stem.to_string_lossy().into_owned(),
             source,
             allow_outside: options.allow_outside,
             allow_outside_name: options.option_names.allow_outside,
@@ -72,16 +80,45 @@ impl ModelFiles {
         }
     }
 
+    /// The name of the model's file without folder and ending.
+    #[cfg(feature = "ply")]
+    pub fn stem(&self) -> &str {
+        &self.stem
+    }
+
     /// The file that a reference names, relative to the folder of the file `base`; empty is the model itself.
-    /// `\` separates folders as `/` does. Where the path leads nowhere, its name is looked up.
+    /// `\` separates folders as `/` does. Where the path leads nowhere, other places are looked up.
     pub fn find(&self, base: &str, reference: &str) -> Option<FoundFile> {
         self.find_in_place(base, reference).or_else(|| {
-            let reference = self.usable(reference)?;
-            let name = reference.rsplit('/').next()?;
-            let [beside, at_root] = [folder_of(base).join(name), PathBuf::from(name)];
-            let by_name = self.inside(&beside, true).or_else(|| self.inside(&at_root, true));
-            by_name.or_else(|| [&beside, &at_root].into_iter().find_map(|path| self.in_other_case(path)))
+            let places = self.other_places(base, &self.usable(reference)?);
+            let found = places.iter().find_map(|path| self.inside(path, true));
+            found.or_else(|| places.iter().find_map(|path| self.in_other_case(path)))
         })
+    }
+
+    /// Where a file may be whose path leads nowhere, relative to the model's folder, the nearest place first.
+    /// `C:/proj/textures/w.png` in `sub/a.mtl` of `chair.obj`:
+    ///
+    /// ```text
+    /// sub/proj/textures/w.png   proj/textures/w.png   the ends of the path, the longest first,
+    /// sub/textures/w.png        textures/w.png        beside the file that names it, and beside the model
+    /// sub/w.png                 w.png
+    /// sub/Textures/w.png        Textures/w.png        its name in the folders where programs put textures
+    /// sub/chair.fbm/w.png       chair.fbm/w.png
+    /// ```
+    fn other_places(&self, base: &str, reference: &str) -> Vec<PathBuf> {
+        let is_part = |part: &&str| !matches!(*part, "" | "." | "..") && !part.ends_with(':');
+        let parts: Vec<&str> = reference.split('/').filter(is_part).collect();
+        let Some(name) = parts.last() else { return Vec::new() };
+        let longest = parts.len().min(MOST_PARTS);
+        let ends = (1..=longest).rev().map(|count| parts[parts.len() - count..].join("/"));
+        let usual =
+            ["textures", "Textures", &format!("{}.fbm", self.stem)].map(|folder| format!("{folder}/{name}"));
+        let beside = folder_of(base);
+        let mut places: Vec<_> =
+            ends.chain(usual).flat_map(|end| [beside.join(&end), PathBuf::from(end)]).collect();
+        places.dedup();
+        places
     }
 
     /// As [`ModelFiles::find`], but at the path itself only, in whatever case its letters are.
@@ -174,27 +211,27 @@ impl ModelFiles {
 
     /// What is wrong with a reference that was not found: a sentence without its last part.
     pub fn problem(&self, reference: &str) -> String {
-        let shown = shortened(reference);
+        let shown = quoted(reference);
         match &self.source {
             _ if self.lookups_left.get() == 0 => {
-                format!("{shown:?} was not looked up, because the model names more than {MAX_LOOKUPS} files")
+                format!("{shown} was not looked up, because the model names more than {MAX_LOOKUPS} files")
             }
             FileSource::None => {
-                format!("{shown:?} was not looked up, because the model came without a folder")
+                format!("{shown} was not looked up, because the model came without a folder")
             }
-            FileSource::Given(..) => format!("{shown:?} is not among the files"),
-            FileSource::Folder(_) if self.allow_outside => format!("{shown:?} does not exist"),
+            FileSource::Given(..) => format!("{shown} is not among the files"),
+            FileSource::Folder(_) if self.allow_outside => format!("{shown} does not exist"),
             FileSource::Folder(_) if reference.contains("..") => {
                 let option = self.allow_outside_name;
-                format!("{shown:?} is not in the model's folder ({option} allows files outside)")
+                format!("{shown} is not in the model's folder ({option} allows files outside)")
             }
-            FileSource::Folder(_) => format!("{shown:?} is not in the model's folder"),
+            FileSource::Folder(_) => format!("{shown} is not in the model's folder"),
         }
     }
 
     /// A sentence about a file that was found by its name only, or with letters of another case.
     pub fn by_name_warning(reference: &str, file: &FoundFile) -> Option<String> {
-        file.is_by_name.then(|| format!("{:?} was found as {}, by its name", shortened(reference), file.name))
+        file.is_by_name.then(|| format!("{} was found as {}, by its name", quoted(reference), file.name))
     }
 }
 

@@ -1,10 +1,12 @@
-//! Finds files whose names differ from a path in the case of letters only, as Windows does.
+//! Finds files whose names differ from a path in the case of letters only, as Windows does, or in the
+//! encoding.
 
 use std::collections::HashMap;
 use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::code_page::decoded_name;
 use crate::files;
 
 /// The most names that are listed for one model, all its folders together.
@@ -61,9 +63,7 @@ impl OtherCase {
             let entries = fs::read_dir(parent).into_iter().flatten().flatten();
             for name in entries.map(|entry| entry.file_name()).take(*names_left) {
                 *names_left -= 1;
-                if let Some(lower) = name.to_str().map(str::to_lowercase) {
-                    names.entry(lower).or_default().push(name);
-                }
+                names.entry(decoded_name(&name).to_lowercase()).or_default().push(name);
             }
             names.values_mut().for_each(|names| names.sort_unstable());
             names

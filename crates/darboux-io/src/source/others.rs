@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::format::{HEAD, first_word};
-use crate::FileKind;
+use crate::{FileKind, git_lfs};
 
 /// What is wrong with a file whose content is that of no format that is read: a clause whose subject is the
 /// file, with what to do. `name` is the file's name; its ending says what was meant.
@@ -95,7 +95,7 @@ const STARTS: [(&[u8], &str); 41] = [
     (b"%PDF", "is a PDF, not a model; give the model"),
     (b"\xFF\xFE", "is a text in UTF-16, which is not read; save it in UTF-8"),
     (b"\xFE\xFF", "is a text in UTF-16, which is not read; save it in UTF-8"),
-    (b"version https://git-lfs", "is a pointer of Git LFS, not the model; run: git lfs pull"),
+    (git_lfs::START, "is a pointer of Git LFS, not the model; run: git lfs pull"),
 ];
 
 /// Containers that several programs use: the name's ending tells them apart.

@@ -6,9 +6,9 @@ use darboux::{BitangentDirection, Convention};
 use serde_json::{Value, json};
 
 use super::data::DataBuilder;
-use crate::LoadOptions;
 use crate::image::{Channels, PngImage, convert_normal_map};
 use crate::source::scene::{NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture};
+use crate::{LoadOptions, git_lfs};
 
 /// The lists of materials, textures, images and samplers, and the extensions that they use.
 #[derive(Debug, Default)]
@@ -182,9 +182,12 @@ impl MaterialBuilder<'_> {
     fn add_image(&mut self, image: &SourceImage, is_inverted: bool) -> Option<GltfImage> {
         let Some(mime) = mime_type(&image.bytes) else {
             let name = &image.name;
-            let problem =
-                "is neither PNG, JPEG nor WebP, which glTF needs; save it as PNG; the texture is left out";
-            self.warnings.push(format!("{name}: {problem}"));
+            let problem = if image.bytes.starts_with(git_lfs::START) {
+                "is a pointer of Git LFS, not the image; run: git lfs pull"
+            } else {
+                "is neither PNG, JPEG nor WebP, which glTF needs; save it as PNG"
+            };
+            self.warnings.push(format!("{name}: {problem}; the texture is left out"));
             return None;
         };
         let turned = if is_inverted { self.inverted(image) } else { None };
