@@ -238,12 +238,33 @@ fn ascii_with_polygons_smoothing_units_and_paths_of_windows() {
     assert_eq!(scene.meshes[0].matrices[0][3].map(|x| (x * 1e4).round() / 1e4), [0.254, 0.0254, 0.0, 1.0]);
 }
 
+/// Textures stay in a folder beside the FBX, while the paths are those of another machine.
+#[test]
+fn textures_are_found_in_the_folders_beside_an_fbx() {
+    for place in ["maps", "textures", "hand.fbm"] {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join(place)).unwrap();
+        let image = format!("{place}/scene_normal.png");
+        std::fs::copy(asset("scene_normal.png"), folder.path().join(&image)).unwrap();
+        std::fs::write(folder.path().join("hand.fbx"), ASCII).unwrap();
+        let document = Document::open(&folder.path().join("hand.fbx"), &LoadOptions::default()).unwrap();
+        assert_eq!(document.json()["images"].as_array().map(Vec::len), Some(1), "{place}");
+        let warning = format!(r#""..\..\maps\scene_normal.png" was found as {image}, by its name"#);
+        assert!(document.warnings().contains(&warning), "{:?}", document.warnings());
+    }
+}
+
 #[test]
 fn damaged_files_are_errors_or_warnings() {
     let bytes = std::fs::read(asset("scene.fbx")).unwrap();
     let half = from_bytes(&bytes[..bytes.len() / 2], &LoadOptions::default());
     let cut_off = "model.fbx: is cut off; copy or export it again";
     assert_eq!(half.unwrap_err(), cut_off);
+    // At every size, in arrays of compressed numbers as well, up to the zeros that end the list of nodes.
+    for length in (27..bytes.len() - 300).step_by(301).chain([30_000, 27 + 12]) {
+        let cut = from_bytes(&bytes[..length], &LoadOptions::default());
+        assert_eq!(cut.unwrap_err(), cut_off, "{length} bytes");
+    }
     // An ASCII file that ends in a block, in a string or in an array.
     for part in ["GeometryVersion: 124\n", "\"Model::Gro", "a: 0,0,0, 1,0,0, 1"] {
         let start = &ASCII[..ASCII.find(part).unwrap() + part.len()];

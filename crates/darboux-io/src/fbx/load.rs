@@ -41,6 +41,7 @@ pub fn load(bytes: &[u8], budget: &Budget) -> Result<SceneRoot, ContentError> {
     };
     let invalid = |problem: &str| ContentError::invalid("", problem);
     let loaded = ufbx::load_memory(bytes, options).map_err(|error| match error.type_ {
+        _ if ends_early(bytes) => invalid(CUT_OFF),
         ErrorType::EmptyFile => invalid("is empty; export it again"),
         ErrorType::UnrecognizedFileFormat => invalid("is not an FBX file; check what it is"),
         ErrorType::TruncatedFile | ErrorType::Io => invalid(CUT_OFF),
@@ -57,7 +58,6 @@ pub fn load(bytes: &[u8], budget: &Budget) -> Result<SceneRoot, ContentError> {
                 version(error.info())
             ),
         ),
-        _ if ends_early(bytes) => invalid(CUT_OFF),
         _ => invalid(&format!("is not a valid FBX ({}); export it again", &*error.description)),
     })?;
     if ends_early(bytes) {
@@ -66,12 +66,40 @@ pub fn load(bytes: &[u8], budget: &Budget) -> Result<SceneRoot, ContentError> {
     Ok(loaded)
 }
 
-/// Whether the file is an ASCII one that ends inside of a block or a string, which ufbx takes for the end of
-/// the file.
-fn ends_early(text: &[u8]) -> bool {
-    if text.starts_with(b"Kaydara FBX Binary") {
-        return false;
+/// Whether a file is cut off. ufbx takes some of these ends for others: a missing brace of an ASCII file for
+/// the end of the file, the end of compressed numbers for broken ones.
+fn ends_early(bytes: &[u8]) -> bool {
+    if bytes.starts_with(b"Kaydara FBX Binary") { binary_ends_early(bytes) } else { text_ends_early(bytes) }
+}
+
+/// Whether a top-level node of a binary file ends beyond the file. After the header of 27 bytes, whose last
+/// four are the version, each node begins with the offset of its end; a node of zeros ends the list.
+fn binary_ends_early(bytes: &[u8]) -> bool {
+    const HEADER: usize = 27;
+    let number = |place: usize, size: usize| {
+        let bytes = bytes.get(place..)?.get(..size)?;
+        let digits = bytes.iter().rev();
+        Some(digits.fold(0_u64, |number, &byte| number << 8 | u64::from(byte)))
+    };
+    let Some(version) = number(HEADER - 4, 4) else { return true };
+    // The offset, the number of properties, their length, and the length of the name.
+    let size = if version >= 7500 { 8 } else { 4 };
+    let least = 3 * size + 1;
+    let mut place = HEADER;
+    while place < bytes.len() {
+        let Some(end) = number(place, size).map(|end| usize::try_from(end).unwrap_or(usize::MAX)) else {
+            return true;
+        };
+        if end < place + least {
+            return false;
+        }
+        place = end;
     }
+    place > bytes.len() || place == HEADER
+}
+
+/// Whether an ASCII file ends inside of a block or a string.
+fn text_ends_early(text: &[u8]) -> bool {
     let mut open_blocks = 0_usize;
     let mut rest = text;
     while let Some(place) = rest.iter().position(|byte| b"\"{};".contains(byte)) {
