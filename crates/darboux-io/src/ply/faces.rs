@@ -60,8 +60,11 @@ impl FaceReader {
         let is_strip = element.name == "tristrips";
         let kinds: Vec<FaceProperty> = element.properties.iter().map(face_property).collect();
         let (mut indices, mut uvs) = (Vec::new(), Vec::new());
-        let read =
-            if is_strip || !self.sizes.is_empty() { 0 } else { self.read_triangles(element, &kinds, values) };
+        let read = if is_strip || !self.sizes.is_empty() {
+            0
+        } else {
+            self.read_triangles(element, &kinds, values)?
+        };
         if read < element.count {
             self.list_first_triangles();
         }
@@ -69,6 +72,7 @@ impl FaceReader {
             indices.clear();
             uvs.clear();
             let mut texture = None;
+            values.begin_record();
             for (property, kind) in element.properties.iter().zip(&kinds) {
                 let read = match kind {
                     FaceProperty::Indices => read_list(property, values, &mut indices),
@@ -76,11 +80,15 @@ impl FaceReader {
                     FaceProperty::Texture => next(property, values).map(|number| texture = Some(number)),
                     FaceProperty::Other => next(property, values).map(|_| ()),
                 };
-                read.ok_or_else(|| cut_off(element, face))?;
+                read.ok_or_else(|| cut_off(element, face, values))?;
             }
+            values.end_record();
             if is_strip {
                 self.add_strips(&indices)
             } else {
+                if let Some(&index) = indices.iter().find(|&&index| index < 0.0) {
+                    return Err(wrong_index(face, index));
+                }
                 self.add_face(&indices)
             }
             self.add_uvs(&uvs);
@@ -93,33 +101,42 @@ impl FaceReader {
     }
 
     /// Reads triangles of a binary file whose faces have nothing but indices of 32 bits, as most have, up to
-    /// the first larger face. Returns how many.
+    /// the first larger face. Returns how many. Errors: an index is negative.
     fn read_triangles(
         &mut self,
         element: &Element,
         kinds: &[FaceProperty],
         values: &mut Values<'_>,
-    ) -> usize {
+    ) -> Result<usize, ContentError> {
         const ROW: usize = 13;
-        let ([property], [FaceProperty::Indices]) = (&element.properties[..], kinds) else { return 0 };
+        let ([property], [FaceProperty::Indices]) = (&element.properties[..], kinds) else { return Ok(0) };
         let is_signed = match (property.length, property.number) {
             (Some(NumberType::U8 | NumberType::I8), NumberType::I32) => true,
             (Some(NumberType::U8 | NumberType::I8), NumberType::U32) => false,
-            _ => return 0,
+            _ => return Ok(0),
         };
         if values.encoding() != Encoding::LittleEndian {
-            return 0;
+            return Ok(0);
         }
         let rows = values.rest().as_chunks::<ROW>().0;
         let rows = &rows[..rows.len().min(element.count)];
         let count = rows.iter().position(|row| row[0] != 3).unwrap_or(rows.len());
-        let index = |row: &[u8; ROW], at: usize| {
-            let index = u32::from_le_bytes([row[at], row[at + 1], row[at + 2], row[at + 3]]);
-            // Negative numbers are no vertices.
-            if is_signed && index > i32::MAX as u32 { u32::MAX } else { index }
-        };
-        let corners = rows[..count].iter().map(|row| [index(row, 1), index(row, 5), index(row, 9)]);
+        let index =
+            |row: &[u8; ROW], at: usize| u32::from_le_bytes([row[at], row[at + 1], row[at + 2], row[at + 3]]);
+        // The sign bits of all indices.
+        let mut signs = 0;
+        let corners = rows[..count].iter().map(|row| {
+            let triangle = [index(row, 1), index(row, 5), index(row, 9)];
+            signs |= triangle[0] | triangle[1] | triangle[2];
+            triangle
+        });
         let triangles: Vec<[u32; 3]> = corners.collect();
+        if is_signed && signs > i32::MAX as u32 {
+            let indices = triangles.as_flattened().iter().map(|&index| f64::from(index.cast_signed()));
+            if let Some((corner, index)) = indices.enumerate().find(|(_, index)| *index < 0.0) {
+                return Err(wrong_index(corner / 3, index));
+            }
+        }
         if self.corners.is_empty() {
             self.corners = triangles.into_flattened();
         } else {
@@ -127,7 +144,7 @@ impl FaceReader {
         }
         self.first_triangles += count;
         _ = values.bytes(ROW * count);
-        count
+        Ok(count)
     }
 
     /// Makes the lists of faces as long as if the first triangles had been added one by one.
@@ -204,6 +221,12 @@ impl FaceReader {
 /// The number of a texture. Numbers that are none are none.
 fn texture_number(number: f64) -> Option<u32> {
     (0.0..f64::from(u32::MAX)).contains(&number).then_some(number as u32)
+}
+
+/// A face with a negative index.
+fn wrong_index(face: usize, index: f64) -> ContentError {
+    let problem = format!("has the index {index}, but indices begin at 0; export the file again");
+    ContentError::invalid(format!("face {face}"), problem)
 }
 
 /// A vertex's index. Numbers that are none become an index that does not exist, which the builder refuses.

@@ -28,8 +28,18 @@ pub fn properties<'a>(element: &str, names: impl Iterator<Item = &'a str>) -> Op
     })
 }
 
-/// An element that is not there, or has a text that is no number.
-pub fn cut_off(element: &Element, index: usize) -> ContentError {
+/// A record that is not there, has too few values or a text that is no number.
+pub fn cut_off(element: &Element, index: usize, values: &Values<'_>) -> ContentError {
+    if let Some((line, word)) = values.wrong_line() {
+        let problem = match word {
+            Some(word) => {
+                format!("has {:?}, which is no number", shortened(&String::from_utf8_lossy(word)))
+            }
+            None => format!("has fewer values than {} {index} needs by the header", element.name),
+        };
+        let place = format!("line {line}");
+        return ContentError::invalid(place, format!("{problem}; export or download the file again"));
+    }
     let place = format!("{} {index}", element.name);
     let problem = format!(
         "is missing, cut off or no number; the header says that there are {}; export or download the file again",

@@ -11,38 +11,109 @@ use crate::image::srgb_to_linear;
 use crate::source::{CornerValues, ModelFiles, SourceFormat, SourceMesh, SourceScene, SourceUvSet};
 
 /// Reads a PLY. Errors: a header that is none; numbers that are cut off or none; no faces.
+///
+/// In ASCII, each record is a line. A file that cannot be read so, because its records wrap or share lines, is
+/// read without regard to line ends if that leaves nothing over.
 pub fn read(bytes: &[u8], files: &ModelFiles) -> Result<SourceScene, ContentError> {
     let header = header::parse(bytes)?;
-    let mut scene = SourceScene::new(SourceFormat::Ply);
-    scene.generator = generator(&header);
-    let mut values = Values::new(header.encoding, &bytes[header.end..]);
-    let mut mesh = SourceMesh::default();
-    let mut faces = FaceReader::default();
-    // The bytes that all elements so far have at least, so that no memory or time is taken for elements that
-    // cannot be there.
-    let (mut needed, present) = (0_usize, values.left() + 1);
-    for element in header.elements.iter().filter(|element| !element.properties.is_empty()) {
-        let least = element.least_bytes(header.encoding).max(1);
-        needed = needed.saturating_add(element.count.saturating_mul(least));
-        if needed > present {
-            return Err(too_short(element));
-        }
-        match &*element.name {
-            "vertex" if mesh.positions.is_empty() => {
-                read_vertices(element, header.encoding, &mut values, &mut mesh, &mut scene)?
-            }
-            "face" | "tristrips" => faces.read(element, &mut values, &mut scene)?,
-            _ => skip(element, &mut values, &mut scene)?,
-        }
+    let mut elements = Elements::read(bytes, &header, true);
+    if elements.is_err()
+        && header.encoding == Encoding::Ascii
+        && let Ok(wrapped) = Elements::read(bytes, &header, false)
+        && wrapped.values.after_records().trim_ascii().is_empty()
+    {
+        elements = Ok(wrapped);
     }
+    let Elements { mut mesh, faces, mut scene, values } = elements?;
     if !faces.has_surface() {
         let advice = "bake and tangents need faces; export the model as a mesh";
         return Err(ContentError::invalid("", format!("is a PLY without faces, a point cloud; {advice}")));
     }
+    scene.generator = generator(&header);
+    scene.warnings.extend(surplus_warning(&values));
+    scene.warnings.extend(trailing_warning(&values, &header));
     let textures = textures::add(&header, files, &mut scene);
     faces.finish(textures, &mut mesh, &mut scene);
     scene.meshes.push(mesh);
     Ok(scene)
+}
+
+/// The elements of a file.
+struct Elements<'a> {
+    mesh: SourceMesh,
+    faces: FaceReader,
+    scene: SourceScene,
+    values: Values<'a>,
+}
+
+impl<'a> Elements<'a> {
+    fn read(bytes: &'a [u8], header: &Header, by_lines: bool) -> Result<Self, ContentError> {
+        let mut elements = Self {
+            mesh: SourceMesh::default(),
+            faces: FaceReader::default(),
+            scene: SourceScene::new(SourceFormat::Ply),
+            values: Values::new(bytes, header, by_lines),
+        };
+        elements.read_all(header)?;
+        Ok(elements)
+    }
+
+    fn read_all(&mut self, header: &Header) -> Result<(), ContentError> {
+        let Self { mesh, faces, scene, values } = self;
+        // The bytes that all elements so far have at least, so that no memory or time is taken for elements
+        // that cannot be there.
+        let (mut needed, present) = (0_usize, values.left() + 1);
+        for element in header.elements.iter().filter(|element| !element.properties.is_empty()) {
+            let least = element.least_bytes(header.encoding).max(1);
+            needed = needed.saturating_add(element.count.saturating_mul(least));
+            if needed > present {
+                return Err(too_short(element));
+            }
+            match &*element.name {
+                "vertex" if mesh.positions.is_empty() => {
+                    read_vertices(element, header.encoding, values, mesh, scene)?
+                }
+                "face" | "tristrips" => faces.read(element, values, scene)?,
+                _ => skip(element, values, scene)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A sentence about values that are not in the header; none for none.
+fn surplus_warning(values: &Values<'_>) -> Option<String> {
+    let (count, lines) = (values.surplus.values, values.surplus.lines);
+    if lines == 0 {
+        return None;
+    }
+    let first = values.first_surplus_line();
+    Some(match (count, lines) {
+        (1, _) => format!("line {first} has 1 value more than its header says, which is ignored"),
+        (_, 1) => format!("line {first} has {count} values more than its header says, which are ignored"),
+        _ => format!(
+            "{lines} lines have {count} values more than its header says, line {first} first; they are ignored"
+        ),
+    })
+}
+
+/// A sentence about what follows the last element; none for none, and for a line end.
+fn trailing_warning(values: &Values<'_>, header: &Header) -> Option<String> {
+    let rest = values.after_records();
+    let (count, what) = if header.encoding == Encoding::Ascii {
+        let lines = rest.split(|&byte| byte == b'\n' || byte == b'\r');
+        (lines.filter(|line| !line.trim_ascii().is_empty()).count(), "line")
+    } else if matches!(rest, b"\n" | b"\r\n") {
+        (0, "byte")
+    } else {
+        (rest.len(), "byte")
+    };
+    let after = "after the last element that its header counts";
+    Some(match count {
+        0 => return None,
+        1 => format!("1 {what} {after} is ignored"),
+        _ => format!("{count} {what}s {after} are ignored"),
+    })
 }
 
 /// The program of a comment such as `Created in Blender version 5.0.1`.
@@ -87,10 +158,12 @@ fn read_vertices(
         }
         _ => {
             for vertex in 0..element.count {
+                values.begin_record();
                 for (property, &kind) in element.properties.iter().zip(&kinds) {
-                    let value = next(property, values).ok_or_else(|| cut_off(element, vertex))?;
+                    let value = next(property, values).ok_or_else(|| cut_off(element, vertex, values))?;
                     lists.set(vertex, kind, value, property.number);
                 }
+                values.end_record();
             }
         }
     }
@@ -235,9 +308,11 @@ impl VertexLists {
 
 fn skip(element: &Element, values: &mut Values<'_>, scene: &mut SourceScene) -> Result<(), ContentError> {
     for index in 0..element.count {
+        values.begin_record();
         for property in &element.properties {
-            next(property, values).ok_or_else(|| cut_off(element, index))?;
+            next(property, values).ok_or_else(|| cut_off(element, index, values))?;
         }
+        values.end_record();
     }
     if element.count > 0 {
         let (count, name) = (element.count, shortened(&element.name));

@@ -1,17 +1,100 @@
-//! The numbers after a header, one after the other.
+//! The numbers after a header, one after the other; in ASCII, those of a record on one line.
 
-use super::header::{Encoding, NumberType};
+use memchr::memchr2;
+
+use super::header::{Encoding, Header, NumberType};
 
 /// Reads numbers.
 #[derive(Clone, Debug)]
 pub struct Values<'a> {
     encoding: Encoding,
+    /// The whole file.
+    file: &'a [u8],
+    /// What is left of the record's line, or of the file where records are not lines.
     rest: &'a [u8],
+    /// The lines after the record's line; none where records are not lines.
+    lines: Option<&'a [u8]>,
+    /// The number of bytes from the start of the record's line to the end of the file.
+    line_to_end: usize,
+    wrong_word: Option<&'a [u8]>,
+    pub surplus: Surplus,
+}
+
+/// Values after those of a record, on its line.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Surplus {
+    pub values: usize,
+    pub lines: usize,
+    /// The number of bytes from the start of the first such line to the end of the file.
+    line_to_end: usize,
 }
 
 impl<'a> Values<'a> {
-    pub fn new(encoding: Encoding, bytes: &'a [u8]) -> Self {
-        Self { encoding, rest: bytes }
+    /// The values after the header of a file. `by_lines`: whether each record of an ASCII file is a line.
+    pub fn new(file: &'a [u8], header: &Header, by_lines: bool) -> Self {
+        let rest = &file[header.end..];
+        let mut values = Self {
+            encoding: header.encoding,
+            file,
+            rest,
+            lines: None,
+            line_to_end: rest.len(),
+            wrong_word: None,
+            surplus: Surplus::default(),
+        };
+        if by_lines && header.encoding == Encoding::Ascii {
+            values.lines = Some(rest);
+        }
+        values
+    }
+
+    /// Begins a record: goes to the next line with values, where records are lines.
+    #[inline]
+    pub fn begin_record(&mut self) {
+        if let Some(lines) = self.lines {
+            let start = lines.iter().position(|byte| !byte.is_ascii_whitespace()).unwrap_or(lines.len());
+            let lines = &lines[start..];
+            let end = memchr2(b'\n', b'\r', lines).unwrap_or(lines.len());
+            (self.rest, self.lines) = (&lines[..end], Some(&lines[end..]));
+            self.line_to_end = lines.len();
+        }
+    }
+
+    /// Ends a record: counts what its line has after the record's values.
+    #[inline]
+    pub fn end_record(&mut self) {
+        if self.lines.is_some() && !self.rest.trim_ascii_start().is_empty() {
+            let words = self.rest.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+            self.surplus.values += words.count();
+            self.surplus.lines += 1;
+            if self.surplus.lines == 1 {
+                self.surplus.line_to_end = self.line_to_end;
+            }
+        }
+    }
+
+    /// What follows the last record.
+    pub fn after_records(&self) -> &'a [u8] {
+        self.lines.unwrap_or(self.rest)
+    }
+
+    /// The number of the record's line, and the text on it that should be a number, if any. None: records are
+    /// not lines, or no line is left.
+    pub fn wrong_line(&self) -> Option<(usize, Option<&'a [u8]>)> {
+        (self.lines.is_some() && self.line_to_end > 0)
+            .then(|| (self.line_number(self.line_to_end), self.wrong_word))
+    }
+
+    /// The number of the first line with surplus values.
+    pub fn first_surplus_line(&self) -> usize {
+        self.line_number(self.surplus.line_to_end)
+    }
+
+    /// The number of the line that begins so many bytes before the end of the file.
+    fn line_number(&self, to_end: usize) -> usize {
+        let before = &self.file[..self.file.len() - to_end];
+        let is_break = |&at: &usize| before[at] == b'\n' || !before[at + 1..].starts_with(b"\n");
+        1 + memchr::memchr2_iter(b'\n', b'\r', before).filter(is_break).count()
     }
 
     pub fn encoding(&self) -> Encoding {
@@ -23,7 +106,7 @@ impl<'a> Values<'a> {
         self.rest
     }
 
-    /// How many bytes are left.
+    /// How many bytes are left of the line or the file.
     pub fn left(&self) -> usize {
         self.rest.len()
     }
@@ -41,21 +124,26 @@ impl<'a> Values<'a> {
         match self.encoding {
             Encoding::Ascii => {
                 let word = self.word()?;
-                match number {
-                    NumberType::F32 => word.parse::<f32>().ok().map(f64::from),
-                    _ => word.parse().ok(),
+                let text = str::from_utf8(word).ok();
+                let number = match number {
+                    NumberType::F32 => text.and_then(|text| text.parse::<f32>().ok()).map(f64::from),
+                    _ => text.and_then(|text| text.parse().ok()),
+                };
+                if number.is_none() {
+                    self.wrong_word = Some(word);
                 }
+                number
             }
             encoding => Some(decode(number, encoding, self.bytes(number.size())?)),
         }
     }
 
-    fn word(&mut self) -> Option<&'a str> {
+    fn word(&mut self) -> Option<&'a [u8]> {
         let start = self.rest.iter().position(|byte| !byte.is_ascii_whitespace())?;
         let rest = &self.rest[start..];
         let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
         self.rest = &rest[end..];
-        str::from_utf8(&rest[..end]).ok()
+        Some(&rest[..end])
     }
 }
 
