@@ -278,7 +278,7 @@ test('bad files get a sentence, and leave the model that is open', async () => {
     'alone.gltf': [plane, /^alone\.gltf: buffers\[0\]\.uri: the file .TwoSidedPlane.* is not among the files; give the whole folder\.$/],
     'remote.gltf': [plane.replace('TwoSidedPlane.bin', 'https://example.com/a.bin'), /^remote\.gltf: .* on another machine; download it and refer to the file\.$/],
     'empty.obj': ['# nothing\n', /^empty\.obj: is named as OBJ, but .*\.$/],
-    'points.obj': ['v 0 0 0\nv 1 0 0\n', /^points\.obj: has no faces; is it an OBJ\? Export it again\.$/],
+    'points.obj': ['v 0 0 0\nv 1 0 0\n', /^points\.obj: is an OBJ without faces, a point cloud; .*\.$/],
     'cut.fbx': [readFileSync(asset('blender/scene.fbx')).subarray(0, 20_000), /^cut\.fbx: is cut off; copy or export it again\.$/],
     'damaged.fbx': [readFileSync(asset('blender/scene.fbx')).fill(255, 2000, 2100), /^damaged\.fbx: is not a valid FBX \(.*\); export it again\.$/],
     'stage.usdz': [readFileSync(asset('blender/scene.usdz')), /^stage\.usdz: is USD, which is not read here; export the model as \.glb/],

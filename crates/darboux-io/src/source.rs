@@ -21,6 +21,8 @@ mod format;
 mod other_case;
 mod others;
 mod polygons;
+#[cfg(any(feature = "obj", feature = "stl"))]
+mod program;
 mod provenance;
 pub(crate) mod scene;
 mod smoothing;
@@ -34,6 +36,8 @@ pub(crate) use build::{Built, build};
 pub(crate) use files::{FileSource, FoundFile, ModelFiles};
 pub(crate) use format::{detect, without_byte_order_mark};
 pub(crate) use others::problem as problem_of_other;
+#[cfg(any(feature = "obj", feature = "stl"))]
+pub(crate) use program::program_of_comment;
 #[cfg(any(feature = "fbx", feature = "obj"))]
 pub(crate) use scene::NormalMap;
 pub(crate) use scene::{

@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use crate::error::ContentError;
-use crate::source::{SourceFormat, SourceMesh, SourceScene};
+use crate::source::{SourceFormat, SourceMesh, SourceScene, program_of_comment};
 use crate::words::counted;
 
 /// The length of a binary header, and of a facet.
@@ -101,7 +101,7 @@ fn binary(bytes: &[u8], scene: &mut SourceScene, losses: &mut Losses) -> SourceM
     }
     losses.has_color = bytes[..80].windows(6).any(|window| window == b"COLOR=");
     let header = bytes[..80].split(|byte| !(b' '..=b'~').contains(byte)).next().unwrap_or_default();
-    scene.generator = Some(String::from_utf8_lossy(header).trim().to_owned()).filter(|text| !text.is_empty());
+    scene.generator = program_of_comment(&String::from_utf8_lossy(header));
     corners.into_mesh(String::new())
 }
 

@@ -160,18 +160,34 @@ fn attributes_of_some_corners_are_a_warning() {
     let warnings = |faces: &str| warnings(&format!("{elements}{faces}"), "");
     assert_eq!(warnings("f 1/1/1 2/1/1 3/1/1\n"), [""; 0]);
     assert_eq!(warnings("f 1 2 3\n"), [""; 0]);
-    let [uvs, normals] =
-        ["UVs", "normals"].map(|attribute| format!("{attribute} at some corners only; they are left out"));
-    assert_eq!(warnings("f 1/1/1 2//1 3/1/1\n"), [format!("1 mesh has {uvs}")]);
-    assert_eq!(warnings("o a\nf 1/1/1 2//1 3/1/1\n"), [format!("o a has {uvs}")]);
-    assert_eq!(
-        warnings("o a\nf 1/1/1 2//1 3/1/1\no b\nf 1/1/1 2//1 3/1/1\n"),
-        [format!("o a and 1 other mesh have {uvs}")]
-    );
+    let uvs = "1 face lacks UVs; its corners without them have the UV (0, 0), and a face with one UV at all \
+        corners has no area in UV space";
+    assert_eq!(warnings("f 1/1/1 2//1 3/1/1\n"), [uvs]);
     assert_eq!(
         warnings("f 1/1/1 2 3/1/1\no b\nf 1/1/1 2/1 3/1/1\n"),
-        [format!("1 mesh has {uvs}"), format!("2 meshes have {normals}")]
+        [uvs, "2 meshes have normals at some corners only; they are left out"]
     );
+    let several = "o a\nf 1/1/1 2/1/1 3/1/1\nf 1//1 2//1 3//1\nf 1/1/1 2//1 3/1/1\n";
+    let warnings = warnings(&format!("{several}{}", several.replace('a', "b")));
+    assert!(warnings[0].starts_with("o a and 1 other mesh: 4 faces lack UVs; "), "{warnings:?}");
+}
+
+/// As Blender reads them: (0, 0) where v points up.
+#[test]
+fn corners_without_uvs_keep_the_uvs_of_others() {
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.25 0\nvt 1 0\nvt 1 1\n";
+    let uvs = |faces: &str| {
+        let obj = format!("{square}{faces}").into_bytes();
+        let model = Document::from_bytes("a", obj, None, &LoadOptions::default()).unwrap();
+        let corners = model.corners().unwrap();
+        let uvs = corners[0].vectors::<2>("TEXCOORD_0").unwrap();
+        uvs.map(|uvs| corners[0].vertices().iter().map(|&vertex| uvs[vertex as usize]).collect::<Vec<_>>())
+    };
+    let first = [[0.25, 1.0], [1.0, 1.0], [1.0, 0.0]];
+    let all = [first.to_vec(), vec![[0.0, 1.0]; 3]].concat();
+    assert_eq!(uvs("f 1/1 2/2 3/3\nf 1 3 4\n"), Some(all));
+    assert_eq!(uvs("f 1/1 2/2 3\n"), Some(vec![first[0], first[1], [0.0, 1.0]]));
+    assert_eq!(uvs("f 1 2 3\n"), None);
 }
 
 /// The index lists of a model.
@@ -197,6 +213,10 @@ fn faces_that_cross_themselves_are_a_warning() {
     let elements = "v 0 0 0\nv 3 3 0\nv 3 0 0\nv 0 2 0\nv 9 9 9\n";
     let [warning] = &warnings(&format!("{elements}f 1 2 3 4\n"), "")[..] else { panic!("one warning") };
     assert!(warning.starts_with("1 face crosses itself, is not flat or is too large to cut, and its"));
+    let several =
+        format!("{elements}o first\nf 1 2 3 4\no second\nf 1 2 3 4\nf 2 3 4 1\ng third\nf 4 3 2 1\n");
+    let several = warnings(&several, "");
+    assert!(several[0].starts_with("o first and 2 other meshes: 4 faces cross themselves"), "{several:?}");
     assert_eq!(warnings(&format!("{elements}f 1 1 1 1\nf 1 2 2 5\n"), ""), [""; 0]);
 }
 
@@ -257,7 +277,7 @@ fn byte_order_marks_belong_to_no_statement() {
         let model = Document::from_bytes("a", text.into_bytes(), None, &LoadOptions::default()).unwrap();
         model.provenance().unwrap().generator.clone()
     };
-    assert_eq!(generator(format!("\u{FEFF}# Program\n{obj}")).as_deref(), Some("Program"));
+    assert_eq!(generator(format!("\u{FEFF}# Program 1.0.2\n{obj}")).as_deref(), Some("Program 1.0.2"));
     let utf16: Vec<u8> = format!("\u{FEFF}{obj}").encode_utf16().flat_map(u16::to_le_bytes).collect();
     let error = Document::from_bytes("a", utf16, None, &LoadOptions::default()).unwrap_err().to_string();
     assert!(error.contains("is a text in UTF-16, which is not read; save it in UTF-8"), "{error}");
@@ -377,7 +397,7 @@ fn what_a_library_lacks_is_a_warning() {
         (model.warnings().to_vec(), model.json().to_string())
     };
     for library in [&b""[..], b"\xff\xfen\0e\0w\0m\0t\0l\0 \0a\0", b"\x01\x02"] {
-        assert_eq!(of_library(library).0, ["no library has the material a; its faces have none"]);
+        assert_eq!(of_library(library).0, ["no library has the material a; it is kept with default values"]);
     }
     for (statement, lost) in [
         ("Kd 0.5 nan 0.5", "Kd (broken numbers)"),
@@ -411,9 +431,9 @@ fn materials_that_no_library_has_are_counted() {
     let of = |faces: &str| warnings(&format!("v 0 0 0\n{faces}"), "newmtl a\n");
     assert_eq!(
         of(&faces),
-        ["no library has the materials m1, m2, m3, m4, m5 and 2 more; their faces have none"]
+        ["no library has the materials m1, m2, m3, m4, m5 and 2 more; they are kept with default values"]
     );
-    assert_eq!(of(&faces[..36]), ["no library has the materials m1, m2; their faces have none"]);
+    assert_eq!(of(&faces[..36]), ["no library has the materials m1, m2; they are kept with default values"]);
 }
 
 /// Blender writes the linear numbers that its glTF has.
@@ -436,4 +456,68 @@ fn indices_of_nothing_are_errors() {
     assert!(problem("f 0 1 2").contains("line 4: has the index 0, but indices begin at 1; "));
     assert!(problem("f -1 -2 -5").contains("line 4: refers to position -5, but there are 3 before it; "));
     assert!(problem("f 1 2 x").contains("line 4: has \"x\", which is no corner of a face; "));
+}
+
+/// As Blender keeps them.
+#[test]
+fn materials_without_a_library_keep_their_groups() {
+    let elements = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+    let faces = "f 3 2 1\nusemtl red\nf 1 2 3\nusemtl unused\nusemtl blue\nf 2 3 1\nusemtl red\nf 3 1 2\n";
+    let model = |obj: String| Document::from_bytes("a", obj.into(), None, &LoadOptions::default()).unwrap();
+    let materials = |document: &Document| -> Vec<Option<String>> {
+        let primitives = document.json()["meshes"][0]["primitives"].as_array().unwrap().clone();
+        let name = |material: u64| document.json()["materials"][material as usize]["name"].as_str();
+        let name = |material: u64| name(material).map(str::to_owned);
+        primitives.iter().map(|primitive| primitive["material"].as_u64().and_then(name)).collect()
+    };
+    let expected = [None, Some("red".to_owned()), Some("blue".to_owned())];
+    let document = model(format!("{elements}{faces}"));
+    assert_eq!(materials(&document), expected);
+    assert_eq!(document.json()["materials"].as_array().unwrap().len(), 2);
+    assert_eq!(
+        document.warnings(),
+        ["no library has the materials blue, red; they are kept with default values"]
+    );
+    // A library that is missing, and one that comes after the faces and has one of two.
+    let document = model(format!("mtllib missing.mtl\n{elements}{faces}"));
+    assert_eq!(materials(&document), expected);
+    assert_eq!(document.warnings().len(), 2);
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.mtl"), "newmtl red\nKd 1 0 0\n").unwrap();
+    fs::write(folder.path().join("a.obj"), format!("{elements}{faces}mtllib a.mtl\nf 1 2 3\n")).unwrap();
+    let late = open(&folder.path().join("a.obj"));
+    assert_eq!(materials(&late), expected);
+    assert_eq!(late.json()["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"], [1.0, 0.0, 0.0, 1.0]);
+    assert_eq!(late.warnings(), ["no library has the material blue; it is kept with default values"]);
+}
+
+#[test]
+fn colours_of_zbrush_are_read() {
+    let model = |colors: &str| {
+        let obj = format!("v 0 0 0\nv 1 0 0\nv 1 1 0\n{colors}f 1 2 3\n");
+        Document::from_bytes("a", obj.into(), None, &LoadOptions::default()).unwrap()
+    };
+    let document = model("#MRGB ffff000000FF00\n");
+    assert_eq!(document.warnings(), ["not carried over: 1 colour of ZBrush (#MRGB) for 3 positions"]);
+    let document = model("#MRGB ffff0000ff00ff00\n#MRGB ff0000bc\n");
+    assert_eq!(document.warnings(), [""; 0]);
+    let corners = document.corners().unwrap();
+    let colors = corners[0].vectors::<4>("COLOR_0").unwrap().unwrap();
+    assert_eq!(colors[..2], [[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0]]);
+    assert!((colors[2][2] - 0.503).abs() < 1e-3);
+}
+
+#[test]
+fn models_without_faces_are_named_for_what_they_are() {
+    let problem = |obj: &str| {
+        let document = Document::from_bytes("a.obj", obj.into(), None, &LoadOptions::default());
+        document.unwrap_err().to_string()
+    };
+    let points = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+    let advice = "bake and tangents need faces; export the model as a mesh";
+    assert_eq!(
+        problem(&format!("{points}l 1 2 3\n")),
+        format!("a.obj: is an OBJ without faces, only lines and points; {advice}")
+    );
+    assert_eq!(problem(points), format!("a.obj: is an OBJ without faces, a point cloud; {advice}"));
 }

@@ -26,6 +26,9 @@ pub struct Materials<'a> {
     /// The images of bump statements that were decoded: whether they are heights.
     is_grey: HashMap<usize, bool>,
     image_of_statement: HashMap<(String, String), Option<usize>>,
+    /// The name of the last `usemtl` statement.
+    name: Vec<u8>,
+    /// Names of faces' materials that no library has, or not yet: materials with a name only.
     unknown: HashSet<Vec<u8>>,
     /// The materials that lose a statement, by the statement.
     lost: BTreeMap<String, usize>,
@@ -44,19 +47,36 @@ impl<'a> Materials<'a> {
             image_of_file: HashMap::new(),
             is_grey: HashMap::new(),
             image_of_statement: HashMap::new(),
+            name: Vec::new(),
             unknown: HashSet::new(),
             lost: BTreeMap::new(),
             warnings: Vec::new(),
         }
     }
 
-    /// The material of a `usemtl` statement; none for a name that no library has.
-    pub fn index(&mut self, name: &[u8]) -> Option<u32> {
-        let index = self.index_of_name.get(name).copied();
-        if index.is_none() && !name.is_empty() && !self.unknown.contains(name) {
-            self.unknown.insert(name.to_owned());
+    /// The material of a `usemtl` statement; none for a name that no library has so far.
+    pub fn choose(&mut self, name: &[u8]) -> Option<u32> {
+        self.name.clear();
+        self.name.extend_from_slice(name);
+        self.index_of_name.get(name).copied()
+    }
+
+    /// The material of a face after a `usemtl` statement whose name no library has so far: one with that name
+    /// only, which a later library may fill. None before the first such statement and for an empty name.
+    pub fn with_name_only(&mut self) -> Option<u32> {
+        if self.name.is_empty() {
+            return None;
         }
-        index
+        if let Some(&index) = self.index_of_name.get(&self.name) {
+            return Some(index);
+        }
+        let index = self.materials.len() as u32;
+        let name = decoded(&self.name).into_owned();
+        let made = self.material("", &MtlMaterial { name, ..MtlMaterial::default() }, true);
+        self.materials.push(made);
+        self.index_of_name.insert(self.name.clone(), index);
+        self.unknown.insert(self.name.clone());
+        Some(index)
     }
 
     /// Loads the libraries of a `mtllib` statement: one whose name may contain spaces, or several.
@@ -92,6 +112,11 @@ impl<'a> Materials<'a> {
     fn add(&mut self, library: &str, material: &MtlMaterial, is_linear: bool) {
         let made = self.material(library, material, is_linear);
         self.count_lost(material);
+        if self.unknown.remove(&material.name_bytes) {
+            let index = self.index_of_name[&material.name_bytes];
+            self.materials[index as usize] = made;
+            return;
+        }
         self.index_of_name.insert(material.name_bytes.clone(), self.materials.len() as u32);
         self.materials.push(made);
     }
@@ -213,10 +238,8 @@ impl<'a> Materials<'a> {
     /// Moves everything into a scene.
     pub fn finish(self, scene: &mut SourceScene) {
         scene.warnings.extend(self.warnings);
-        if !self.loaded.is_empty() {
-            let names = self.unknown.iter().map(|name| shortened(&decoded(name)));
-            scene.warnings.extend(unknown_warning(names.collect()));
-        }
+        let names = self.unknown.iter().map(|name| shortened(&decoded(name)));
+        scene.warnings.extend(unknown_warning(names.collect()));
         let lost = self.lost.into_iter().map(|(statement, materials)| {
             format!("{statement} of {}", counted(materials, "material", "materials"))
         });
@@ -231,15 +254,15 @@ fn unknown_warning(mut names: Vec<String>) -> Option<String> {
     const MOST: usize = 5;
     names.sort_unstable();
     let (shown, others) = names.split_at(names.len().min(MOST));
+    const MADE: &str = "they are kept with default values";
     Some(match (shown, others.len()) {
         ([], _) => return None,
-        ([name], _) => format!("no library has the material {name}; its faces have none"),
-        (_, 0) => format!("no library has the materials {}; their faces have none", shown.join(", ")),
+        ([name], _) => {
+            format!("no library has the material {name}; it is kept with default values")
+        }
+        (_, 0) => format!("no library has the materials {}; {MADE}", shown.join(", ")),
         (_, others) => {
-            format!(
-                "no library has the materials {} and {others} more; their faces have none",
-                shown.join(", ")
-            )
+            format!("no library has the materials {} and {others} more; {MADE}", shown.join(", "))
         }
     })
 }

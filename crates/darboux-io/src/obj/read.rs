@@ -9,7 +9,7 @@ use crate::LoadOptions;
 use crate::code_page::decoded;
 use crate::error::ContentError;
 use crate::image::srgb_to_linear;
-use crate::source::{ModelFiles, SourceFormat, SourceScene};
+use crate::source::{ModelFiles, SourceFormat, SourceScene, program_of_comment};
 use crate::words::counted;
 
 /// Reads an OBJ with the material libraries and textures in its folder or below.
@@ -25,8 +25,9 @@ pub fn read(bytes: &[u8], files: &ModelFiles, _: &LoadOptions) -> Result<SourceS
     }
     text.end_run();
     if text.corners.is_empty() {
-        return Err(ContentError::invalid("", NO_FACES));
+        return Err(ContentError::invalid("", without_faces(&text)));
     }
+    text.use_zbrush_colors(&mut scene);
     scene.meshes = meshes::build(&text)
         .map_err(|missing| invalid(line_of_corner(bytes, missing.corner), &missing.problem))?;
     materials.finish(&mut scene);
@@ -38,6 +39,16 @@ pub fn read(bytes: &[u8], files: &ModelFiles, _: &LoadOptions) -> Result<SourceS
         scene.not_carried.push(counted(text.curves, statements[0], statements[1]));
     }
     Ok(scene)
+}
+
+/// What is wrong with a file without faces.
+fn without_faces(text: &ObjText) -> String {
+    let what = match (text.lines_and_points, text.positions.len()) {
+        (0, 0) => return NO_FACES.to_owned(),
+        (0, _) => "a point cloud",
+        _ => "only lines and points",
+    };
+    format!("is an OBJ without faces, {what}; bake and tangents need faces; export the model as a mesh")
 }
 
 /// `problem`: a clause whose subject is the line.
@@ -61,11 +72,11 @@ fn is_face(statement: &[u8]) -> bool {
     matches!(statement, b"f" | b"fo")
 }
 
-/// The program of the first comment, as in `# Blender 5.0.1`.
+/// The program that the comments at the start name, as in `# Blender 5.0.1`.
 fn generator(bytes: &[u8]) -> Option<String> {
-    let line = bytes.strip_prefix(b"#")?.split(|&byte| byte == b'\n' || byte == b'\r').next()?;
-    let line = String::from_utf8_lossy(&line[..line.len().min(200)]).trim().to_owned();
-    (!line.is_empty()).then_some(line)
+    let lines = bytes[..bytes.len().min(1000)].split(|&byte| byte == b'\n' || byte == b'\r');
+    let lines = lines.filter(|line| !line.is_empty()).map_while(|line| line.strip_prefix(b"#"));
+    lines.map(String::from_utf8_lossy).find_map(|comment| program_of_comment(&comment))
 }
 
 impl ObjText {
@@ -78,13 +89,18 @@ impl ObjText {
                 self.uvs.push([u, v]);
             }
             b"vn" => self.normals.push(numbers(rest, 3)?),
-            face if is_face(face) => self.add_face(rest)?,
+            face if is_face(face) => {
+                if self.material.is_none() {
+                    self.material = materials.with_name_only();
+                }
+                self.add_face(rest)?;
+            }
             b"o" | b"g" => {
                 self.end_run();
                 self.name = decoded(rest).into_owned();
                 self.kind = if statement == b"o" { "o" } else { "g" };
             }
-            b"usemtl" => self.material = materials.index(rest),
+            b"usemtl" => self.material = materials.choose(rest),
             b"mtllib" => materials.load(rest),
             b"s" => {
                 self.has_smoothing = true;
@@ -92,6 +108,7 @@ impl ObjText {
             }
             b"l" | b"p" => self.lines_and_points += 1,
             b"curv" | b"curv2" | b"surf" => self.curves += 1,
+            b"#MRGB" => self.zbrush_colors.extend(rest.as_chunks().0.iter().map_while(zbrush_color)),
             _ => {}
         }
         Ok(())
@@ -116,6 +133,20 @@ impl ObjText {
         }
         self.positions.push([x, y, z]);
         Ok(())
+    }
+
+    /// Takes the colours of ZBrush where the file has no others and each position has one.
+    fn use_zbrush_colors(&mut self, scene: &mut SourceScene) {
+        let (colors, positions) = (std::mem::take(&mut self.zbrush_colors), self.positions.len());
+        if colors.is_empty() {
+            return;
+        }
+        if self.colors.is_empty() && colors.len() == positions {
+            self.colors = colors;
+        } else {
+            let colors = counted(colors.len(), "colour", "colours");
+            scene.not_carried.push(format!("{colors} of ZBrush (#MRGB) for {positions} positions"));
+        }
     }
 
     fn add_face(&mut self, rest: &[u8]) -> Result<(), String> {
@@ -145,6 +176,13 @@ impl ObjText {
         }
         self.start = end;
     }
+}
+
+/// Linear RGBA of a colour of ZBrush: eight hexadecimal digits, of which the first two are a mask.
+fn zbrush_color(digits: &[u8; 8]) -> Option<[f32; 4]> {
+    let number = u32::from_str_radix(str::from_utf8(digits).ok()?, 16).ok()?;
+    let [_, r, g, b] = number.to_be_bytes().map(|byte| srgb_to_linear(f64::from(byte) / 255.0) as f32);
+    Some([r, g, b, 1.0])
 }
 
 /// The numbers at the start of a statement; those after the first `least` may be missing, and are 0.

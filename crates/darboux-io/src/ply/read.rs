@@ -12,15 +12,15 @@ use crate::source::{CornerValues, ModelFiles, SourceFormat, SourceMesh, SourceSc
 
 /// Reads a PLY. Errors: a header that is none; numbers that are cut off or none; no faces.
 ///
-/// In ASCII, each record is a line. A file that cannot be read so, because its records wrap or share lines, is
-/// read without regard to line ends if that leaves nothing over.
+/// In ASCII, each record is a line. A file that cannot be read so, because its records wrap or share lines,
+/// is read without regard to line ends if that leaves nothing over.
 pub fn read(bytes: &[u8], files: &ModelFiles) -> Result<SourceScene, ContentError> {
     let header = header::parse(bytes)?;
     let mut elements = Elements::read(bytes, &header, true);
     if elements.is_err()
         && header.encoding == Encoding::Ascii
         && let Ok(wrapped) = Elements::read(bytes, &header, false)
-        && wrapped.values.after_records().trim_ascii().is_empty()
+        && wrapped.values.rest().trim_ascii().is_empty()
     {
         elements = Ok(wrapped);
     }
@@ -99,7 +99,7 @@ fn surplus_warning(values: &Values<'_>) -> Option<String> {
 
 /// A sentence about what follows the last element; none for none, and for a line end.
 fn trailing_warning(values: &Values<'_>, header: &Header) -> Option<String> {
-    let rest = values.after_records();
+    let rest = values.rest();
     let (count, what) = if header.encoding == Encoding::Ascii {
         let lines = rest.split(|&byte| byte == b'\n' || byte == b'\r');
         (lines.filter(|line| !line.trim_ascii().is_empty()).count(), "line")

@@ -10,13 +10,11 @@ pub struct Values<'a> {
     encoding: Encoding,
     /// The whole file.
     file: &'a [u8],
-    /// What is left of the record's line, or of the file where records are not lines.
     rest: &'a [u8],
-    /// The lines after the record's line; none where records are not lines.
-    lines: Option<&'a [u8]>,
+    /// Whether each record is a line.
+    by_lines: bool,
     /// The number of bytes from the start of the record's line to the end of the file.
     line_to_end: usize,
-    wrong_word: Option<&'a [u8]>,
     pub surplus: Surplus,
 }
 
@@ -33,38 +31,38 @@ impl<'a> Values<'a> {
     /// The values after the header of a file. `by_lines`: whether each record of an ASCII file is a line.
     pub fn new(file: &'a [u8], header: &Header, by_lines: bool) -> Self {
         let rest = &file[header.end..];
-        let mut values = Self {
+        Self {
             encoding: header.encoding,
             file,
             rest,
-            lines: None,
+            by_lines: by_lines && header.encoding == Encoding::Ascii,
             line_to_end: rest.len(),
-            wrong_word: None,
             surplus: Surplus::default(),
-        };
-        if by_lines && header.encoding == Encoding::Ascii {
-            values.lines = Some(rest);
         }
-        values
     }
 
     /// Begins a record: goes to the next line with values, where records are lines.
     #[inline]
     pub fn begin_record(&mut self) {
-        if let Some(lines) = self.lines {
-            let start = lines.iter().position(|byte| !byte.is_ascii_whitespace()).unwrap_or(lines.len());
-            let lines = &lines[start..];
-            let end = memchr2(b'\n', b'\r', lines).unwrap_or(lines.len());
-            (self.rest, self.lines) = (&lines[..end], Some(&lines[end..]));
-            self.line_to_end = lines.len();
+        if self.by_lines {
+            let start = self.rest.iter().position(|byte| !byte.is_ascii_whitespace());
+            self.rest = &self.rest[start.unwrap_or(self.rest.len())..];
+            self.line_to_end = self.rest.len();
         }
     }
 
     /// Ends a record: counts what its line has after the record's values.
     #[inline]
     pub fn end_record(&mut self) {
-        if self.lines.is_some() && !self.rest.trim_ascii_start().is_empty() {
-            let words = self.rest.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        if !self.by_lines {
+            return;
+        }
+        let next = self.rest.iter().find(|byte| !matches!(byte, b' ' | b'\t'));
+        if next.is_some_and(|byte| !is_line_end(byte)) {
+            let end = memchr2(b'\n', b'\r', self.rest).unwrap_or(self.rest.len());
+            let (line, rest) = self.rest.split_at(end);
+            self.rest = rest;
+            let words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
             self.surplus.values += words.count();
             self.surplus.lines += 1;
             if self.surplus.lines == 1 {
@@ -73,16 +71,16 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// What follows the last record.
-    pub fn after_records(&self) -> &'a [u8] {
-        self.lines.unwrap_or(self.rest)
-    }
-
-    /// The number of the record's line, and the text on it that should be a number, if any. None: records are
+    /// The number of the record's line, and the last text that was read if it is no number. None: records are
     /// not lines, or no line is left.
     pub fn wrong_line(&self) -> Option<(usize, Option<&'a [u8]>)> {
-        (self.lines.is_some() && self.line_to_end > 0)
-            .then(|| (self.line_number(self.line_to_end), self.wrong_word))
+        if !self.by_lines || self.line_to_end == 0 {
+            return None;
+        }
+        let read = &self.file[self.file.len() - self.line_to_end..self.file.len() - self.rest.len()];
+        let last = read.split(u8::is_ascii_whitespace).rfind(|word| !word.is_empty());
+        let is_number = |word: &[u8]| str::from_utf8(word).is_ok_and(|text| text.parse::<f64>().is_ok());
+        Some((self.line_number(self.line_to_end), last.filter(|word| !is_number(word))))
     }
 
     /// The number of the first line with surplus values.
@@ -106,7 +104,7 @@ impl<'a> Values<'a> {
         self.rest
     }
 
-    /// How many bytes are left of the line or the file.
+    /// How many bytes are left.
     pub fn left(&self) -> usize {
         self.rest.len()
     }
@@ -124,27 +122,29 @@ impl<'a> Values<'a> {
         match self.encoding {
             Encoding::Ascii => {
                 let word = self.word()?;
-                let text = str::from_utf8(word).ok();
-                let number = match number {
-                    NumberType::F32 => text.and_then(|text| text.parse::<f32>().ok()).map(f64::from),
-                    _ => text.and_then(|text| text.parse().ok()),
-                };
-                if number.is_none() {
-                    self.wrong_word = Some(word);
+                match number {
+                    NumberType::F32 => word.parse::<f32>().ok().map(f64::from),
+                    _ => word.parse().ok(),
                 }
-                number
             }
             encoding => Some(decode(number, encoding, self.bytes(number.size())?)),
         }
     }
 
-    fn word(&mut self) -> Option<&'a [u8]> {
+    fn word(&mut self) -> Option<&'a str> {
         let start = self.rest.iter().position(|byte| !byte.is_ascii_whitespace())?;
+        if self.by_lines && self.rest[..start].iter().any(is_line_end) {
+            return None;
+        }
         let rest = &self.rest[start..];
         let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
         self.rest = &rest[end..];
-        Some(&rest[..end])
+        str::from_utf8(&rest[..end]).ok()
     }
+}
+
+fn is_line_end(byte: &u8) -> bool {
+    matches!(byte, b'\n' | b'\r')
 }
 
 /// A number of its type's size. The caller gives as many bytes.

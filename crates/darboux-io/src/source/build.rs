@@ -48,7 +48,6 @@ pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Resu
     let materials = materials::build(&scene, &mut data, &mut warnings);
     let nodes = nodes::build(&scene, &meshes.of_source, &mut data);
     warnings.extend(meshes.warnings);
-    warnings.extend(folded_warning(cutter.folded));
     warnings.extend(not_carried_warning(&scene));
     let mut faces = meshes.faces;
     (faces.outside_diagonals, faces.folded) = (cutter.outside_diagonals, cutter.folded);
@@ -92,16 +91,6 @@ pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Resu
     }
     let (bytes, start) = data.finish(root)?;
     Ok(Built { bytes, start, provenance, warnings })
-}
-
-/// A sentence if there are faces whose triangles fold over.
-fn folded_warning(faces: usize) -> Option<String> {
-    let faces = match faces {
-        0 => return None,
-        1 => "1 face crosses itself, is not flat or is too large to cut, and its".to_owned(),
-        count => format!("{count} faces cross themselves, are not flat or are too large to cut, and their"),
-    };
-    Some(format!("{faces} triangles overlap; split such faces in a modelling program"))
 }
 
 fn not_carried_warning(scene: &SourceScene) -> Option<String> {

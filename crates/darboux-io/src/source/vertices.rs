@@ -31,7 +31,10 @@ impl Used {
             && is_by_position(
                 mesh.tangents.as_ref().filter(|_| self.tangents).map(|values| values.is_by_position()),
             )
-            && self.uv_sets.iter().all(|&set| mesh.uv_sets[set].uvs.is_by_position())
+            && self.uv_sets.iter().all(|&set| {
+                let uvs = &mesh.uv_sets[set].uvs;
+                uvs.is_by_position() && uvs.values.len() == mesh.positions.len()
+            })
             && self.colors.iter().all(|&set| mesh.colors[set].is_by_position())
             && mesh
                 .morphs
@@ -51,7 +54,9 @@ impl Used {
             push(values.get(corner, position).as_ref().map(|value| &value[..]));
         }
         for &set in &self.uv_sets {
-            push(mesh.uv_sets[set].uvs.get(corner, position).as_ref().map(|value| &value[..]));
+            // Corners without UVs have (0, 0).
+            let uv = mesh.uv_sets[set].uvs.get(corner, position).unwrap_or_default();
+            push(Some(&uv[..]));
         }
         for &set in &self.colors {
             push(mesh.colors[set].get(corner, position).as_ref().map(|value| &value[..]));

@@ -42,7 +42,7 @@ pub fn build(
         let what = format!("has {} objects and groups, which need", scene.meshes.len());
         return Err(ContentError::unsupported("", limit.exceeded(&what)));
     }
-    let mut primitives = 0;
+    let (mut primitives, mut folded) = (0, Named::default());
     for mesh in &scene.meshes {
         check(mesh)?;
         let parts = parts(mesh);
@@ -61,6 +61,7 @@ pub fn build(
         // Each primitive has a copy of it.
         let path = shortened(&mesh.path);
         let mut builder = PrimitiveBuilder { scene, mesh, path, cutter: &mut *cutter, data: &mut *data };
+        let folded_before = builder.cutter.folded;
         let mut list = Vec::with_capacity(parts.len());
         let is_single = parts.len() == 1;
         for part in parts {
@@ -69,6 +70,8 @@ pub fn build(
             meshes.sources.insert((index, list.len()), source);
             list.push(json);
         }
+        folded.add(mesh, builder.cutter.folded - folded_before);
+        incomplete.uvs.add(mesh, std::mem::take(&mut incomplete.faces_without_uvs));
         let mut json = json!({"name": mesh.name, "primitives": list});
         if !mesh.morphs.is_empty() {
             let names: Vec<&str> = mesh.morphs.iter().map(|morph| &*morph.name).collect();
@@ -83,7 +86,53 @@ pub fn build(
         meshes.json.push(json);
     }
     meshes.warnings.extend(incomplete.warnings());
+    meshes.warnings.extend(folded_warning(&folded));
     Ok(meshes)
+}
+
+/// A sentence if there are faces whose triangles fold over.
+fn folded_warning(folded: &Named) -> Option<String> {
+    let faces = match folded.faces {
+        0 => return None,
+        1 => "1 face crosses itself, is not flat or is too large to cut, and its".to_owned(),
+        count => format!("{count} faces cross themselves, are not flat or are too large to cut, and their"),
+    };
+    Some(format!("{}{faces} triangles overlap; split such faces in a modelling program", folded.place()))
+}
+
+/// Faces that have something, and the meshes that they are in.
+#[derive(Debug, Default)]
+struct Named {
+    faces: usize,
+    meshes: usize,
+    /// The place of the first such mesh in the file, or its name.
+    first: String,
+}
+
+impl Named {
+    /// Adds faces of a mesh.
+    fn add(&mut self, mesh: &SourceMesh, faces: usize) {
+        if faces == 0 {
+            return;
+        }
+        if self.meshes == 0 {
+            self.first = shortened(if mesh.path.is_empty() { &mesh.name } else { &mesh.path });
+        }
+        self.faces += faces;
+        self.meshes += 1;
+    }
+
+    /// The beginning of a sentence that says where they are; empty for a file that is one mesh without a
+    /// name.
+    fn place(&self) -> String {
+        match (&*self.first, self.meshes - 1) {
+            ("", 0) => String::new(),
+            ("", others) => format!("in {} meshes, ", others + 1),
+            (first, 0) => format!("{first}: "),
+            (first, 1) => format!("{first} and 1 other mesh: "),
+            (first, others) => format!("{first} and {others} other meshes: "),
+        }
+    }
 }
 
 /// Errors: a face refers to a position that does not exist; the faces have more corners than there are.
@@ -159,10 +208,13 @@ fn parts(mesh: &SourceMesh) -> Vec<Part> {
     parts.into_iter().map(|(material, faces)| Part { material, faces: PartFaces::Listed(faces) }).collect()
 }
 
-/// The meshes that lose an attribute, which some of their corners lack.
+/// The attributes that some corners of a primitive lack: the faces whose UVs are filled, and the meshes that
+/// lose others.
 #[derive(Debug, Default)]
 struct Incomplete {
-    uvs: IncompleteMeshes,
+    uvs: Named,
+    /// Those of the current mesh.
+    faces_without_uvs: usize,
     normals: IncompleteMeshes,
     colors: IncompleteMeshes,
 }
@@ -202,8 +254,15 @@ impl IncompleteMeshes {
 
 impl Incomplete {
     fn warnings(&self) -> impl Iterator<Item = String> + use<> {
-        let Self { uvs, normals, colors } = self;
-        [uvs.warning("UVs"), normals.warning("normals"), colors.warning("colours")].into_iter().flatten()
+        let uvs = (self.uvs.faces > 0).then(|| {
+            let faces = match self.uvs.faces {
+                1 => "1 face lacks UVs; its corners without them have".to_owned(),
+                faces => format!("{faces} faces lack UVs; their corners without them have"),
+            };
+            let meaning = "a face with one UV at all corners has no area in UV space";
+            format!("{}{faces} the UV (0, 0), and {meaning}", self.uvs.place())
+        });
+        [uvs, self.normals.warning("normals"), self.colors.warning("colours")].into_iter().flatten()
     }
 }
 
@@ -233,7 +292,22 @@ impl Part {
         }
     }
 
-    /// The values that all corners have. `index`: that of the mesh. Meshes that lose others are counted.
+    /// How many faces have a corner without a value.
+    fn faces_without<const N: usize>(&self, mesh: &SourceMesh, values: &CornerValues<N>) -> usize {
+        let has = |corner: u32| values.get(corner as usize, mesh.corners[corner as usize]).is_some();
+        match &self.faces {
+            PartFaces::Triangles => {
+                let triangles = (0..mesh.corners.len() as u32).step_by(3);
+                triangles.filter(|&first| !(first..first + 3).all(has)).count()
+            }
+            PartFaces::Listed(faces) => {
+                faces.iter().filter(|&&(first, size)| !(first..first + size).all(has)).count()
+            }
+        }
+    }
+
+    /// The values that all corners have, and the UVs that some have. `index`: that of the mesh. What is
+    /// lacking is counted.
     fn used(&self, index: usize, mesh: &SourceMesh, incomplete: &mut Incomplete) -> Used {
         let mut used = Used::default();
         if let Some(normals) = &mesh.normals {
@@ -244,13 +318,17 @@ impl Part {
         if let Some(tangents) = mesh.tangents.as_ref().filter(|_| used.normals) {
             used.tangents = self.count(mesh, tangents) == Coverage::All;
         }
+        let mut without_uvs = 0;
         for (set, uvs) in mesh.uv_sets.iter().enumerate() {
             let coverage = self.count(mesh, &uvs.uvs);
-            incomplete.uvs.add(index, mesh, coverage);
-            if coverage == Coverage::All {
+            if coverage == Coverage::Some {
+                without_uvs = without_uvs.max(self.faces_without(mesh, &uvs.uvs));
+            }
+            if coverage != Coverage::None {
                 used.uv_sets.push(set);
             }
         }
+        incomplete.faces_without_uvs += without_uvs;
         for (set, colors) in mesh.colors.iter().enumerate() {
             let coverage = self.count(mesh, colors);
             incomplete.colors.add(index, mesh, coverage);
@@ -353,7 +431,7 @@ impl<'a> PrimitiveBuilder<'a> {
                     counts.quads += 1;
                     source.quads.push(source.triangles as u32);
                     let uv = |corner: usize| {
-                        let uv = uvs?.get(first + corner, corners[corner])?;
+                        let uv = uvs?.get(first + corner, corners[corner]).unwrap_or_default();
                         Some(if flips_v { flipped(uv) } else { uv })
                     };
                     let uvs = uv(0).zip(uv(1)).zip(uv(2)).zip(uv(3)).map(|(((a, b), c), d)| [a, b, c, d]);
