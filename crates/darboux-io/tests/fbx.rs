@@ -270,6 +270,11 @@ fn damaged_files_are_errors_or_warnings() {
         let start = &ASCII[..ASCII.find(part).unwrap() + part.len()];
         assert_eq!(from_bytes(start.as_bytes(), &LoadOptions::default()).unwrap_err(), cut_off, "{part}");
     }
+    // A header that is damaged is another fault.
+    let mut damaged = bytes.clone();
+    damaged[20] = b' ';
+    let error = from_bytes(&damaged, &LoadOptions::default()).err();
+    assert_ne!(error.as_deref(), Some(cut_off));
     // Braces in comments and strings do not count.
     let braces =
         ASCII.replacen('\n', "\n; a comment with { and \"\n", 1).replace("Model::Plate", "Model::Plate{");

@@ -60,7 +60,8 @@ pub fn load(bytes: &[u8], budget: &Budget) -> Result<SceneRoot, ContentError> {
         ),
         _ => invalid(&format!("is not a valid FBX ({}); export it again", &*error.description)),
     })?;
-    if ends_early(bytes) {
+    // ufbx itself refuses a binary file that is cut off.
+    if loaded.metadata.ascii && ends_early(bytes) {
         return Err(invalid(CUT_OFF));
     }
     Ok(loaded)
@@ -69,7 +70,11 @@ pub fn load(bytes: &[u8], budget: &Budget) -> Result<SceneRoot, ContentError> {
 /// Whether a file is cut off. ufbx takes some of these ends for others: a missing brace of an ASCII file for
 /// the end of the file, the end of compressed numbers for broken ones.
 fn ends_early(bytes: &[u8]) -> bool {
-    if bytes.starts_with(b"Kaydara FBX Binary") { binary_ends_early(bytes) } else { text_ends_early(bytes) }
+    match bytes.strip_prefix(b"Kaydara FBX Binary") {
+        // Another number of the byte order is big-endian.
+        Some(rest) => rest.starts_with(b"  \0\x1A\0") && binary_ends_early(bytes),
+        None => text_ends_early(bytes),
+    }
 }
 
 /// Whether a top-level node of a binary file ends beyond the file. After the header of 27 bytes, whose last
