@@ -25,7 +25,8 @@ const GENERATED_PATHS: &[&str] = &[
 ];
 
 /// Packages and the examples in them that write generated files below a given folder.
-const WRITERS: &[(&str, &str)] = &[("darboux", "choices"), ("darboux-cli", "pages"), ("darboux-c", "header")];
+const WRITERS: &[(&str, &str)] =
+    &[("darboux-cli", "choices"), ("darboux-cli", "pages"), ("darboux-c", "header")];
 
 /// Writes all generated files into the repository.
 pub fn write() -> Outcome {

@@ -1,7 +1,8 @@
 // The options of `darboux/bake` as the JSON that its module reads.
 
 import { checkType, choice } from './core/checks.js';
-import { FALLOFFS, ID_SOURCES, KINDS, WEIGHTS, type BakeModelsOptions, type BakeOptions } from './bake-types.js';
+import { BITANGENTS, ID_SOURCES, MAP_KINDS, OCCLUSION_FALLOFFS, OCCLUSION_WEIGHTS } from './core/choices.js';
+import type { BakeModelsOptions, BakeOptions } from './bake-types.js';
 import type { Convention } from './types.js';
 
 /** Options that `bakeModels` does not have. */
@@ -24,6 +25,11 @@ function checkPair(name: string, pair: readonly [number, number] | null | undefi
   if (pair.length !== 2) throw new RangeError(`${name} has ${(pair as readonly number[]).length} elements; it must have 2`);
 }
 
+/** The value of an option, or `fallback`. Errors: a value that is not among `values`. */
+function named<V extends string>(option: string, value: V | null | undefined, values: readonly V[], fallback?: V): V {
+  return values[choice(option, value, values, fallback)]!;
+}
+
 /** The options as the JSON that the module reads. Errors: numbers that JSON or the module does not have. */
 export function optionsText(options: BakeModelsOptions, { meshConvention, sourceConvention, toObject }: OtherOptions = {}): string {
   const { cageOffset, distance, maps, samples, padding, material, uvSet, udim, aoRays, aoDistance } = options;
@@ -44,9 +50,9 @@ export function optionsText(options: BakeModelsOptions, { meshConvention, source
     size: sizeOf(options),
     cageOffset: cageOffset ?? null,
     distance: distance ?? null,
-    maps: (maps ?? ['normal']).map((kind) => choice('maps', kind, KINDS.map(([kind]) => kind))),
+    maps: (maps ?? ['normal']).map((kind) => named('maps', kind, MAP_KINDS)),
     samples: whole.samples,
-    isPerVertex: choice('bitangent', options.bitangent, ['pixel', 'vertex'], 'pixel') === 1,
+    bitangent: named('bitangent', options.bitangent, BITANGENTS, 'pixel'),
     convention: options.convention ?? 'gltf',
     sourceConvention: sourceConvention ?? 'gltf',
     meshConvention: meshConvention ?? 'gltf',
@@ -60,13 +66,13 @@ export function optionsText(options: BakeModelsOptions, { meshConvention, source
     highMaps: options.highMaps ?? true,
     aoRays: whole.aoRays,
     aoDistance: aoDistance ?? null,
-    aoFalloff: FALLOFFS[choice('aoFalloff', options.aoFalloff, FALLOFFS, 'none')],
-    aoWeights: WEIGHTS[choice('aoWeights', options.aoWeights, WEIGHTS, 'cosine')],
+    aoFalloff: named('aoFalloff', options.aoFalloff, OCCLUSION_FALLOFFS, 'none'),
+    aoWeights: named('aoWeights', options.aoWeights, OCCLUSION_WEIGHTS, 'cosine'),
     ownPartOnly: Boolean(options.aoOwnPart),
     thicknessDistance: options.thicknessDistance ?? null,
     curvatureRadius: options.curvatureRadius ?? 4,
     isCurvatureInTexels: choice('curvatureUnit', options.curvatureUnit, ['texels', 'distance'], 'texels') === 0,
-    idFrom: ID_SOURCES[choice('idFrom', options.idFrom, ID_SOURCES, 'material')],
+    idFrom: named('idFrom', options.idFrom, ID_SOURCES, 'material'),
     worldDirection: options.worldDirection ?? [0, 1, 0],
     texture: options.texture ?? null,
   });

@@ -1,37 +1,10 @@
 // The meshes, options and results of `darboux/bake`.
 
+import type { BITANGENTS, ID_SOURCES, MAP_KINDS, OCCLUSION_FALLOFFS, OCCLUSION_WEIGHTS } from './core/choices.js';
 import type { Convention, Indices } from './types.js';
 
 /** A kind of image. `darboux bake --help` says what each is. */
-export type MapKind = (typeof KINDS)[number][0];
-
-/** The kinds in the order of their numbers in WebAssembly: names of images, and floats per texel. */
-export const KINDS = [
-  ['normal', 'normal', 3],
-  ['object-normal', 'objectNormal', 3],
-  ['height', 'height', 1],
-  ['ao', 'ao', 1],
-  ['position', 'position', 3],
-  ['bent-normal', 'bentNormal', 3],
-  ['object-bent-normal', 'objectBentNormal', 3],
-  ['thickness', 'thickness', 1],
-  ['curvature', 'curvature', 1],
-  ['id', 'id', 3],
-  ['vertex-color', 'vertexColor', 4],
-  ['base-color', 'baseColor', 3],
-  ['opacity', 'opacity', 1],
-  ['roughness', 'roughness', 1],
-  ['metalness', 'metalness', 1],
-  ['emission', 'emission', 3],
-  ['texture', 'texture', 4],
-  ['world-direction', 'worldDirection', 3],
-  ['uv-islands', 'uvIslands', 3],
-  ['wireframe', 'wireframe', 1],
-] as const satisfies (readonly [string, keyof BakedImages, number])[];
-
-export const FALLOFFS = ['none', 'linear', 'quadratic'] as const;
-export const WEIGHTS = ['cosine', 'uniform'] as const;
-export const ID_SOURCES = ['material', 'mesh', 'part', 'vertex-color'] as const;
+export type MapKind = (typeof MAP_KINDS)[number];
 
 /** A mesh of triangles that receives the detail. */
 export interface LowMesh {
@@ -72,7 +45,7 @@ export interface BakeOptions {
   /** Samples per texel and axis, 1 to 16. Default: 1. */
   samples?: number | null;
   /** How the renderer rebuilds the bitangent. Default: 'pixel'. */
-  bitangent?: 'pixel' | 'vertex' | null;
+  bitangent?: (typeof BITANGENTS)[number] | null;
   /** The convention of the maps. Default: 'gltf'. */
   convention?: Convention | null;
   /** How far texels outside the charts are filled, in texels. Default: all are. */
@@ -84,9 +57,9 @@ export interface BakeOptions {
   /** How far surfaces occlude each other. Default: any distance. */
   aoDistance?: number | null;
   /** How occlusion fades up to `aoDistance`. Default: 'none'. */
-  aoFalloff?: (typeof FALLOFFS)[number] | null;
+  aoFalloff?: (typeof OCCLUSION_FALLOFFS)[number] | null;
   /** How the directions of occlusion and bent normals are weighted. Default: 'cosine'. */
-  aoWeights?: (typeof WEIGHTS)[number] | null;
+  aoWeights?: (typeof OCCLUSION_WEIGHTS)[number] | null;
   /** How far the other side is looked for by 'thickness'. Default: any distance. */
   thicknessDistance?: number | null;
   /** The radius of 'curvature', in `curvatureUnit`. Default: 4. */

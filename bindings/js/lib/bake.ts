@@ -1,26 +1,27 @@
 // `darboux/bake`: maps of a low-poly model from the detail of high-poly ones. It has a WebAssembly module of its own.
 
 import { checkIndices, checkType, choice, optionsOf, rowCount, wholeRows } from './core/checks.js';
+import { MAP_CHANNELS, MAP_KINDS } from './core/choices.js';
 import { checkedMesh, readFloats, writeArrays, writeMesh, writeTexts, type Copy } from './core/mesh.js';
 import { load, type Exports } from './core/wasm-module.js';
 import { optionsText, sizeOf } from './bake-options.js';
-import {
-  KINDS,
-  type BakedImages,
-  type BakedMaps,
-  type BakeModelsOptions,
-  type BakeOptions,
-  type BakeReport,
-  type ConvertedSpace,
-  type ConvertSpaceOfModelOptions,
-  type ConvertSpaceOptions,
-  type ErrorStatistics,
-  type HighMesh,
-  type LowMesh,
-  type NormalTexels,
-  type Verification,
-  type VerifyModelsOptions,
-  type VerifyOptions,
+import type {
+  BakedImages,
+  BakedMaps,
+  BakeModelsOptions,
+  BakeOptions,
+  BakeReport,
+  ConvertedSpace,
+  ConvertSpaceOfModelOptions,
+  ConvertSpaceOptions,
+  ErrorStatistics,
+  HighMesh,
+  LowMesh,
+  MapKind,
+  NormalTexels,
+  Verification,
+  VerifyModelsOptions,
+  VerifyOptions,
 } from './bake-types.js';
 import type { Indices } from './types.js';
 import simd from './wasm/bake.simd.wasm';
@@ -366,12 +367,17 @@ function convertedSpace(size: readonly [number, number]): (counts: Record<string
   };
 }
 
+/** A kind of image as the name of a member: words are joined by hyphens in one, and by capital letters in the other. */
+type NameOf<S extends string> = S extends `${infer Head}-${infer Tail}` ? `${Head}${Capitalize<NameOf<Tail>>}` : S;
+
 function images(exports: BakeExports, [width, height]: readonly [number, number]): BakedImages {
-  const entries = KINDS.map(([, name, channels], kind) => {
-    const address = exports.baked_image(kind) >>> 0;
+  const entries = MAP_KINDS.map((kind, code): [keyof BakedImages, Float32Array<ArrayBuffer> | null] => {
+    const name = kind.replaceAll(/-(.)/g, (_, letter: string) => letter.toUpperCase()) as NameOf<MapKind>;
+    const channels = MAP_CHANNELS[code]!;
+    const address = exports.baked_image(code) >>> 0;
     return [name, address ? new Float32Array(exports.memory.buffer, address, width * height * channels).slice() : null];
   });
-  return Object.fromEntries(entries) as BakedImages;
+  return Object.fromEntries(entries) as unknown as BakedImages;
 }
 
 function states(exports: BakeExports, [width, height]: readonly [number, number]): Uint8Array<ArrayBuffer> {

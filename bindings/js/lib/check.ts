@@ -1,6 +1,7 @@
 // `darboux/check`: what is wrong with models and normal maps, their repair and conversion, and how tangents were computed. It has a WebAssembly module of its own.
 
-import { checkType, optionsOf, rowCount } from './core/checks.js';
+import { checkType, choice, optionsOf, rowCount } from './core/checks.js';
+import { ASSUMED_MAPS } from './core/choices.js';
 import { checkedMesh, indexError, writeArrays, writeMesh, writeTexts } from './core/mesh.js';
 import { load, type Exports } from './core/wasm-module.js';
 import type { Convention, Faces, Indices, Method, Mode } from './types.js';
@@ -27,7 +28,7 @@ export interface CheckOptions {
   /** Whether the normal maps of a model are decoded and judged; otherwise they are taken to be right. Default: true. */
   maps?: boolean | null;
   /** What normal maps are where neither their texels nor the faces decide it. Default: nothing is assumed. */
-  assume?: 'opengl' | 'directx' | 'red-inverted' | 'both-inverted' | null;
+  assume?: (typeof ASSUMED_MAPS)[number] | null;
 }
 
 /** A number that supports a finding. */
@@ -219,8 +220,7 @@ function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, optio
   checkType('file', file, ['Uint8Array']);
   const { green, maps, assume } = optionsOf(options);
   if (green != null && green !== 'up' && green !== 'down') throw new RangeError(`green is '${green}'; it must be 'up' or 'down'`);
-  const assumed = assume == null ? 0 : ASSUMPTIONS.indexOf(assume) + 1;
-  if (assume != null && !assumed) throw new RangeError(`assume is '${assume}'; it must be 'opengl', 'directx', 'red-inverted' or 'both-inverted'`);
+  const assumed = assume == null ? 0 : choice('assume', assume, ASSUMED_MAPS) + 1;
   writeBytes(exports, file);
   const address = exports.check_file(Number(isMap), Number(green === 'down'), Number(maps ?? true), assumed, Number(repairs));
   type Checked = Pick<Findings, 'diagnosis' | 'importerNote' | 'warnings'> & { findings: Finding[] };
@@ -229,9 +229,6 @@ function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, optio
   const { findings, ...words } = checked;
   return Object.assign(findings, words);
 }
-
-/** The assumptions in the order of the module. */
-const ASSUMPTIONS = ['opengl', 'directx', 'red-inverted', 'both-inverted'] as const;
 
 /** Whether a file starts as a PNG, a JPEG or a WebP image does. */
 function isImage(file: Uint8Array): boolean {

@@ -7,7 +7,8 @@ import { checkedMesh, indexError, readFloats, writeArrays, writeMesh, type Copy 
 import type * as types from './types.js';
 
 export * as gpuResume from './core/gpu-resume.js';
-export { CONVENTIONS, convert, convertTexels } from './core/convert.js';
+export { CONVENTIONS } from './core/choices.js';
+export { convert, convertTexels } from './core/convert.js';
 export { Plan } from './core/plan.js';
 export { planTopology } from './core/gpu-plan.js';
 export { skinFrames, transformFrames } from './core/transform.js';

@@ -1,6 +1,6 @@
 // The types of arguments and results.
 
-import type { METHODS, MODES, NORMAL_WEIGHTS, SHADINGS, SMOOTHING_SEAMS } from './core/choices.js';
+import type { CONVENTIONS, METHODS, MODES, NORMAL_WEIGHTS, SHADINGS, SMOOTHING_SEAMS } from './core/choices.js';
 
 /** The vertex of each corner. */
 export type Indices = Uint8Array | Uint16Array | Uint32Array;
@@ -113,17 +113,7 @@ export interface UvFidelity {
 export type Convention = ConventionName | `${ConventionName},${string}`;
 
 /** A convention with a name. */
-export type ConventionName =
-  | 'gltf'
-  | 'opengl'
-  | 'directx'
-  | 'blender'
-  | 'unity'
-  | 'unreal'
-  | 'godot'
-  | 'threejs'
-  | 'maya'
-  | '3dsmax';
+export type ConventionName = (typeof CONVENTIONS)[number];
 
 /** Vertex data to convert. Everything may be left out. */
 export interface VertexData {

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use darboux::{Choice, Context, Convention};
 use darboux_bake::{
     BakeOptions, BakeProgress, BakeReport, Baked, Bitangent, CurvatureRadius, HighModel, HighModelOptions,
-    HighSurface, IdColor, IdSource, LowModel, LowModelOptions, LowSurface, MapKind, MapSet, Udim, bake,
-    default_cage_offset, group_by_name, inflated_cage,
+    HighSurface, IdColor, IdSource, LowModel, LowModelOptions, LowSurface, MapKind, MapSet, OcclusionFalloff,
+    OcclusionWeights, Udim, bake, default_cage_offset, group_by_name, inflated_cage,
 };
 use darboux_io::gltf::Document;
 use serde::{Deserialize, Serialize};
@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::arena::with_arena;
 use crate::bake_arrays::BakeArrays;
 use crate::inputs::resized;
+use crate::options::{Named, choice};
 use crate::reading::load_options;
 
 #[cfg(target_family = "wasm")]
@@ -56,11 +57,11 @@ pub extern "C" fn json_length() -> usize {
     with_arena(|arena| arena.bake.json.len())
 }
 
-/// The address of an image, by the number of its kind in [`MapKind::ALL`]; null where it was not chosen.
+/// The address of an image, by the code of its [`MapKind`]; null where it was not chosen.
 #[unsafe(no_mangle)]
-pub extern "C" fn baked_image(kind: usize) -> *const f32 {
+pub extern "C" fn baked_image(kind: u32) -> *const f32 {
     with_arena(|arena| {
-        let numbers = MapKind::ALL.get(kind).and_then(|&kind| arena.bake.images.numbers(kind));
+        let numbers = arena.bake.images.numbers(choice(kind));
         numbers.map_or(std::ptr::null(), <[f32]>::as_ptr)
     })
 }
@@ -78,10 +79,9 @@ pub struct Options {
     pub size: [u32; 2],
     cage_offset: Option<f32>,
     pub distance: Option<[f32; 2]>,
-    /// Numbers in [`MapKind::ALL`].
-    maps: Vec<usize>,
+    maps: Vec<Named<MapKind>>,
     samples: u32,
-    is_per_vertex: bool,
+    pub bitangent: Named<Bitangent>,
     convention: String,
     /// Of the map that is converted.
     source_convention: String,
@@ -97,13 +97,13 @@ pub struct Options {
     high_maps: bool,
     ao_rays: u32,
     ao_distance: Option<f32>,
-    ao_falloff: String,
-    ao_weights: String,
+    ao_falloff: Named<OcclusionFalloff>,
+    ao_weights: Named<OcclusionWeights>,
     own_part_only: bool,
     thickness_distance: Option<f32>,
     curvature_radius: f32,
     is_curvature_in_texels: bool,
-    id_from: String,
+    id_from: Named<IdSource>,
     world_direction: [f32; 3],
     texture: Option<String>,
 }
@@ -119,10 +119,6 @@ impl Options {
 
     pub fn mesh_convention(&self) -> Result<Convention, String> {
         self.mesh_convention.parse().map_err(|error| format!("meshConvention: {error}"))
-    }
-
-    pub fn bitangent(&self) -> Bitangent {
-        if self.is_per_vertex { Bitangent::PerVertex } else { Bitangent::PerPixel }
     }
 
     /// The tile that is worked on; none for all.
@@ -269,13 +265,12 @@ pub fn with_models<T>(
         .with_maps(chosen_maps(&options))
         .with_texture(options.texture.clone());
     let highs = HighModel::read_all(&high_documents, &high_corners, &high_options).map_err(sentence)?;
-    let source = options.id_from.parse::<IdSource>().unwrap_or_default();
     let mut setup = Setup {
         diagonal: low.diagonal(),
         distance: distance(&options, low.diagonal()),
         has_cage: options.distance.is_none(),
         warnings: warnings(&low, &highs),
-        id_names: HighModel::names_of_all(&highs, source).into_iter().map(str::to_owned).collect(),
+        id_names: HighModel::names_of_all(&highs, options.id_from.0).into_iter().map(str::to_owned).collect(),
         part_names: low.names().map(str::to_owned).collect(),
     };
     let done = with_read(&low, &highs, &options, &mut setup, context, work)?;
@@ -299,8 +294,7 @@ fn low_options(options: &Options) -> LowModelOptions {
 }
 
 fn chosen_maps(options: &Options) -> MapSet {
-    let kinds: Vec<MapKind> =
-        options.maps.iter().filter_map(|&kind| MapKind::ALL.get(kind).copied()).collect();
+    let kinds: Vec<MapKind> = options.maps.iter().map(|kind| kind.0).collect();
     MapSet::of(&kinds)
 }
 
@@ -342,21 +336,21 @@ pub fn bake_settings(options: &Options, distance: [f32; 2]) -> Result<BakeOption
         .with_maps(chosen_maps(options))
         .with_samples_per_axis(options.samples)
         .with_back_faces(options.back_faces)
-        .with_bitangent(options.bitangent())
+        .with_bitangent(options.bitangent.0)
         .with_surface_convention(options.mesh_convention()?)
         .with_map_convention(options.convention()?)
         .with_padding(options.padding)
         .with_udim(options.udim()?)
         .with_occlusion(options.ao_rays, options.ao_distance.unwrap_or(f32::INFINITY))
-        .with_occlusion_falloff(options.ao_falloff.parse().map_err(|error| format!("aoFalloff: {error}"))?)
-        .with_occlusion_weights(options.ao_weights.parse().map_err(|error| format!("aoWeights: {error}"))?)
+        .with_occlusion_falloff(options.ao_falloff.0)
+        .with_occlusion_weights(options.ao_weights.0)
         .with_own_part_only(options.own_part_only)
         .with_thickness_distance(options.thickness_distance.unwrap_or(f32::INFINITY))
         .with_curvature_radius(match options.is_curvature_in_texels {
             true => CurvatureRadius::Texels(options.curvature_radius),
             false => CurvatureRadius::Distance(options.curvature_radius),
         })
-        .with_id_source(options.id_from.parse().map_err(|error| format!("idFrom: {error}"))?)
+        .with_id_source(options.id_from.0)
         .with_world_direction(options.world_direction))
 }
 

@@ -164,7 +164,7 @@ fn converted(
 ) -> Result<ConvertedSpace, String> {
     let to = if options.to_object { NormalSpace::Object } else { NormalSpace::Tangent };
     let settings = SpaceOptions::new(options.size, to)
-        .with_bitangent(options.bitangent())
+        .with_bitangent(options.bitangent.0)
         .with_surface_convention(options.mesh_convention()?)
         .with_conventions(options.source_convention()?, options.convention()?)
         .with_padding(options.padding)

@@ -2,14 +2,15 @@
 
 use darboux::BitangentDirection;
 use darboux_check::{
-    AssumedMap, CheckOptions, FixOptions, ReportedFindings, ReportedJudgement, ReportedRecipe,
-    check_document, check_map, fix_document,
+    CheckOptions, FixOptions, ReportedFindings, ReportedJudgement, ReportedRecipe, check_document, check_map,
+    fix_document,
 };
 use darboux_io::gltf::Document;
 use serde::Serialize;
 
 use crate::arena::with_arena;
 use crate::mesh_arrays::rows;
+use crate::options::choice;
 use crate::reading::load_options;
 
 /// The bytes of a file, or texels.
@@ -51,22 +52,20 @@ enum Checked {
 }
 
 /// Checks the file of a model or, with `is_map`, of a normal map; with `repairs`, repairs the model.
-/// `assumed_map`: 0 for no assumption, otherwise 1 more than its index among all. Returns the address of the
-/// JSON.
+/// `assumed_map`: 0 for no assumption, otherwise 1 more than its code. Returns the address of the JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn check_file(
     is_map: bool,
     is_green_down: bool,
     judges_maps: bool,
-    assumed_map: usize,
+    assumed_map: u32,
     repairs: bool,
 ) -> *const u8 {
     let green = if is_green_down { BitangentDirection::Down } else { BitangentDirection::Up };
-    let assumed = assumed_map.checked_sub(1).and_then(|index| AssumedMap::ALL.get(index));
     let options = CheckOptions::default()
         .with_green(green)
         .with_maps(judges_maps)
-        .with_assumed_map(assumed.map(|(_, map)| *map));
+        .with_assumed_map(assumed_map.checked_sub(1).map(choice));
     with_arena(|arena| {
         let arrays = &mut arena.check;
         arrays.repaired.clear();

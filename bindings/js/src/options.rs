@@ -19,6 +19,21 @@ pub fn choice<T: Choice>(code: u32) -> T {
     T::from_code(code).unwrap_or_else(|| panic!("{code} is not the code of a {}", T::WHAT))
 }
 
+/// A value by its name in JSON. Errors: no value has it.
+#[cfg(feature = "bake")]
+#[derive(Clone, Copy, serde::Deserialize)]
+#[serde(try_from = "String", bound = "T: Choice")]
+pub struct Named<T>(pub T);
+
+#[cfg(feature = "bake")]
+impl<T: Choice> TryFrom<String> for Named<T> {
+    type Error = darboux::UnknownName;
+
+    fn try_from(name: String) -> Result<Self, Self::Error> {
+        T::from_name(&name).map(Self)
+    }
+}
+
 #[cfg(feature = "full")]
 fn method(code: u32) -> Method {
     choice(code)

@@ -2,11 +2,10 @@
 
 use std::collections::HashMap;
 
-use darboux::{Cancel, Context, Convention};
+use darboux::{Cancel, Choice, Context, Convention};
 use darboux_bake::{
-    BakeError, BakeOptions, BakeReport, Baked, Bitangent, ColorTexture, CurvatureRadius, HighSurface,
-    LowSurface, MapKind, MapSet, MaterialProperty, SkewCorrection, Udim, bake as bake_surfaces,
-    inflated_cage,
+    BakeError, BakeOptions, BakeReport, Baked, ColorTexture, CurvatureRadius, HighSurface, LowSurface,
+    MapKind, MapSet, MaterialProperty, SkewCorrection, Udim, bake as bake_surfaces, inflated_cage,
 };
 use darboux_io::memory_of_process;
 use numpy::prelude::*;
@@ -22,9 +21,6 @@ use crate::mesh::{IndexArray, MeshArrays};
 use crate::numbers::{Natural, Threads, natural};
 use crate::results::named;
 use crate::threads::run_interruptibly;
-
-pub const BITANGENTS: &[(&str, Bitangent)] =
-    &[("pixel", Bitangent::PerPixel), ("vertex", Bitangent::PerVertex)];
 
 /// Makes a radius of a number in some unit.
 type RadiusOf = fn(f32) -> CurvatureRadius;
@@ -172,7 +168,7 @@ pub fn bake<'py>(
         .with_samples_per_axis(samples)
         .with_surface_convention(conventions[0])
         .with_map_convention(conventions[1])
-        .with_bitangent(choice("bitangent", bitangent, BITANGENTS)?)
+        .with_bitangent(named_choice(bitangent)?)
         .with_padding(padding.map(|Natural(texels)| texels))
         .with_back_faces(back_faces)
         .with_occlusion(ao_rays, ao_distance)
@@ -347,7 +343,7 @@ fn result(py: Python<'_>, baked: Baked) -> PyResult<Bound<'_, PyAny>> {
         }))
     };
     let mut fields = Vec::new();
-    for kind in MapKind::ALL {
+    for &kind in MapKind::ALL {
         fields.push(image(kind)?);
     }
     let states: Vec<u8> = images.states.iter().map(|state| state.number()).collect();

@@ -14,8 +14,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::arrays::{Rows, array_of, shape_text};
-use crate::bake::{BITANGENTS, Cage, Skew, bake_error, tile};
-use crate::choices::choice;
+use crate::bake::{Cage, Skew, bake_error, tile};
+use crate::choices::{choice, named_choice};
 use crate::convention::convention;
 use crate::mesh::{IndexArray, MeshArrays};
 use crate::numbers::{Natural, Threads};
@@ -93,7 +93,7 @@ pub fn verify<'py>(
     let options = BakeOptions::new(images.size, distance.into())
         .with_surface_convention(conventions[0])
         .with_map_convention(conventions[1])
-        .with_bitangent(choice("bitangent", bitangent, BITANGENTS)?)
+        .with_bitangent(named_choice(bitangent)?)
         .with_back_faces(back_faces)
         .with_udim(tile(udim)?);
     let low = LowArrays::new(positions, normals, uvs, indices, tangents)?;
@@ -162,7 +162,7 @@ pub fn convert_space<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let Texels { size, vectors } = Texels::new("texels", texels)?;
     let options = SpaceOptions::new(size, choice("to", to, SPACES)?)
-        .with_bitangent(choice("bitangent", bitangent, BITANGENTS)?)
+        .with_bitangent(named_choice(bitangent)?)
         .with_surface_convention(convention("mesh", mesh)?)
         .with_conventions(convention("source", source)?, convention("target", target)?)
         .with_padding(padding.map(|Natural(texels)| texels))

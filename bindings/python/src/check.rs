@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use darboux::{BitangentDirection, Choice, Context, Mode, recognise_recipe_with};
+use darboux::{Choice, Context, Mode, recognise_recipe_with};
 use darboux_check::{
-    AssumedMap, CheckOptions, Code, FixOptions, ReportedFindings, ReportedJudgement, ReportedRecipe,
+    CheckOptions, Code, FixOptions, MapConvention, ReportedFindings, ReportedJudgement, ReportedRecipe,
     check_document, check_map, fix_document,
 };
 use darboux_io::{FileKind, LoadOptions, gltf, read_regular};
@@ -13,15 +13,12 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, array_of, packed, shape_text};
-use crate::choices::{choice, tangent_options};
+use crate::choices::{named_choice, tangent_options};
 use crate::document::{Document, file_error, load_options};
 use crate::mesh::{MeshArrays, value_error};
 use crate::numbers::Natural;
 use crate::results::result_of;
 use crate::threads::cancellable;
-
-const CONVENTIONS: &[(&str, BitangentDirection)] =
-    &[("opengl", BitangentDirection::Up), ("directx", BitangentDirection::Down)];
 
 /// Say what is wrong with the tangents, normals, UVs and normal maps of a model, or with a normal map.
 ///
@@ -115,8 +112,8 @@ fn check_model(
 }
 
 fn check_options(convention: &str, maps: bool, assume: Option<&str>) -> PyResult<CheckOptions> {
-    let green = choice("convention", convention, CONVENTIONS)?;
-    let assumed = assume.map(|name| choice("assume", name, &AssumedMap::ALL)).transpose()?;
+    let green = named_choice::<MapConvention>(convention)?.green();
+    let assumed = assume.map(named_choice).transpose()?;
     Ok(CheckOptions::default().with_green(green).with_maps(maps).with_assumed_map(assumed))
 }
 

@@ -1,8 +1,6 @@
 //! [`MapKind`]: the list of maps, with all that the crate, the command and the bindings know of each.
 
-use std::str::FromStr;
-
-use darboux::{Choice, UnknownName};
+use darboux::{Choice, choice};
 
 /// A kind of map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -70,67 +68,65 @@ pub enum MapContent {
 
 /// What is known of a kind.
 struct Facts {
-    name: &'static str,
-    summary: &'static str,
     channels: usize,
     content: MapContent,
     /// The content of texels outside the charts.
     background: [f32; 4],
 }
 
-impl MapKind {
-    /// All kinds. The position of a kind is its number in JavaScript.
-    pub const ALL: [Self; 20] = [
-        Self::Normal,
-        Self::ObjectNormal,
-        Self::Height,
-        Self::Occlusion,
-        Self::Position,
-        Self::BentNormal,
-        Self::ObjectBentNormal,
-        Self::Thickness,
-        Self::Curvature,
-        Self::Id,
-        Self::VertexColor,
-        Self::BaseColor,
-        Self::Opacity,
-        Self::Roughness,
-        Self::Metalness,
-        Self::Emission,
-        Self::Texture,
-        Self::WorldDirection,
-        Self::UvIslands,
-        Self::Wireframe,
-    ];
+// The position of a kind is its number in JavaScript.
+choice! { MapKind, "maps",
+    Normal => "normal", "Normals in tangent space";
+    ObjectNormal => "object-normal", "Normals in the space of the scene";
+    Height => "height", "The distance of the high surface from the low one; half grey is none";
+    Occlusion => "ao", "Ambient occlusion: white is open";
+    Position => "position", "Positions, from 0 to 1 in the box around the high model";
+    BentNormal => "bent-normal", "The mean of the open directions, in tangent space";
+    ObjectBentNormal => "object-bent-normal", "The mean of the open directions, in the space of the scene";
+    Thickness => "thickness", "The mean distance to the other side: black is thin";
+    Curvature => "curvature", "Convex is brighter than half grey, concave darker; white curves with the radius of --curvature-radius";
+    Id => "id", "A colour for each material, mesh or part of the high models";
+    VertexColor => "vertex-color", "The colours of the high model's vertices";
+    BaseColor => "base-color", "The base colours that the high models show";
+    Opacity => "opacity", "The alpha of the base colour";
+    Roughness => "roughness", "The roughness of the high models' materials";
+    Metalness => "metalness", "The metalness of the high models' materials";
+    Emission => "emission", "The light that the high models emit";
+    Texture => "texture", "The texture that --texture names, of the high models' materials";
+    WorldDirection => "world-direction", "The direction of --world-direction, in tangent space";
+    UvIslands => "uv-islands", "A colour for each UV chart of the low model";
+    Wireframe => "wireframe", "White along the edges of the low model's triangles";
+}
 
+impl MapKind {
     #[rustfmt::skip]
     fn facts(self) -> Facts {
         use MapContent::{Directions, Labels, Lengths, Light, Shares, Signed};
         let up = [0.0, 0.0, 1.0, 0.0];
         let (none, full) = ([0.0; 4], [1.0; 4]);
-        let (name, summary, channels, content, background) = match self {
-            Self::Normal => ("normal", "Normals in tangent space", 3, Directions, up),
-            Self::ObjectNormal => ("object-normal", "Normals in the space of the scene", 3, Directions, none),
-            Self::Height => ("height", "The distance of the high surface from the low one; half grey is none", 1, Lengths, none),
-            Self::Occlusion => ("ao", "Ambient occlusion: white is open", 1, Shares, full),
-            Self::Position => ("position", "Positions, from 0 to 1 in the box around the high model", 3, Lengths, none),
-            Self::BentNormal => ("bent-normal", "The mean of the open directions, in tangent space", 3, Directions, up),
-            Self::ObjectBentNormal => ("object-bent-normal", "The mean of the open directions, in the space of the scene", 3, Directions, none),
-            Self::Thickness => ("thickness", "The mean distance to the other side: black is thin", 1, Lengths, none),
-            Self::Curvature => ("curvature", "Convex is brighter than half grey, concave darker; white curves with the radius of --curvature-radius", 1, Signed, none),
-            Self::Id => ("id", "A colour for each material, mesh or part of the high models", 3, Labels, none),
-            Self::VertexColor => ("vertex-color", "The colours of the high model's vertices", 4, Shares, full),
-            Self::BaseColor => ("base-color", "The base colours that the high models show", 3, Light, full),
-            Self::Opacity => ("opacity", "The alpha of the base colour", 1, Shares, full),
-            Self::Roughness => ("roughness", "The roughness of the high models' materials", 1, Shares, full),
-            Self::Metalness => ("metalness", "The metalness of the high models' materials", 1, Shares, full),
-            Self::Emission => ("emission", "The light that the high models emit", 3, Light, none),
-            Self::Texture => ("texture", "The texture that --texture names, of the high models' materials", 4, Shares, none),
-            Self::WorldDirection => ("world-direction", "The direction of --world-direction, in tangent space", 3, Directions, up),
-            Self::UvIslands => ("uv-islands", "A colour for each UV chart of the low model", 3, Labels, none),
-            Self::Wireframe => ("wireframe", "White along the edges of the low model's triangles", 1, Shares, none),
+        let (channels, content, background) = match self {
+            Self::Normal => (3, Directions, up),
+            Self::ObjectNormal => (3, Directions, none),
+            Self::Height => (1, Lengths, none),
+            Self::Occlusion => (1, Shares, full),
+            Self::Position => (3, Lengths, none),
+            Self::BentNormal => (3, Directions, up),
+            Self::ObjectBentNormal => (3, Directions, none),
+            Self::Thickness => (1, Lengths, none),
+            Self::Curvature => (1, Signed, none),
+            Self::Id => (3, Labels, none),
+            Self::VertexColor => (4, Shares, full),
+            Self::BaseColor => (3, Light, full),
+            Self::Opacity => (1, Shares, full),
+            Self::Roughness => (1, Shares, full),
+            Self::Metalness => (1, Shares, full),
+            Self::Emission => (3, Light, none),
+            Self::Texture => (4, Shares, none),
+            Self::WorldDirection => (3, Directions, up),
+            Self::UvIslands => (3, Labels, none),
+            Self::Wireframe => (1, Shares, none),
         };
-        Facts { name, summary, channels, content, background }
+        Facts { channels, content, background }
     }
 
     /// Numbers per texel: 1, 3 or 4.
@@ -167,27 +163,6 @@ impl MapKind {
     }
 }
 
-impl Choice for MapKind {
-    const WHAT: &'static str = "maps";
-    const ALL: &'static [Self] = &MapKind::ALL;
-
-    fn name(self) -> &'static str {
-        self.facts().name
-    }
-
-    fn summary(self) -> &'static str {
-        self.facts().summary
-    }
-}
-
-impl FromStr for MapKind {
-    type Err = UnknownName;
-
-    fn from_str(name: &str) -> Result<Self, Self::Err> {
-        Choice::from_name(name)
-    }
-}
-
 /// A set of kinds of maps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct MapSet(u32);
@@ -210,6 +185,6 @@ impl MapSet {
 
     /// The kinds in the order of [`MapKind::ALL`].
     pub fn kinds(self) -> impl Iterator<Item = MapKind> {
-        MapKind::ALL.into_iter().filter(move |&kind| self.has(kind))
+        MapKind::ALL.iter().copied().filter(move |&kind| self.has(kind))
     }
 }

@@ -231,12 +231,14 @@ fn vote(state: &mut [f64], label: f64) {
 
 #[cfg(test)]
 mod tests {
+    use darboux::Choice;
+
     use super::*;
     use crate::MapSet;
 
     #[test]
     fn the_numbers_of_all_maps_have_room() {
-        let options = BakeOptions::new([1; 2], [1.0; 2]).with_maps(MapSet::of(&MapKind::ALL));
+        let options = BakeOptions::new([1; 2], [1.0; 2]).with_maps(MapSet::of(MapKind::ALL));
         assert!(MapList::new(&options).len <= MOST_NUMBERS);
     }
 

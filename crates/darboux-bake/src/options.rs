@@ -1,6 +1,6 @@
 //! What is baked, and how.
 
-use darboux::{Choice, Convention, UnknownName};
+use darboux::{Convention, choice};
 
 use crate::{MapKind, MapSet, Udim};
 
@@ -268,30 +268,9 @@ pub enum IdSource {
     VertexColor,
 }
 
-/// Implements [`Choice`] and `FromStr`, as the core does for its own choices.
-macro_rules! choice {
-    ($type:ident, $what:literal, $($value:ident => $name:literal, $summary:literal;)+) => {
-        impl Choice for $type {
-            const WHAT: &'static str = $what;
-            const ALL: &'static [Self] = &[$(Self::$value),+];
-
-            fn name(self) -> &'static str {
-                match self { $(Self::$value => $name),+ }
-            }
-
-            fn summary(self) -> &'static str {
-                match self { $(Self::$value => $summary),+ }
-            }
-        }
-
-        impl std::str::FromStr for $type {
-            type Err = UnknownName;
-
-            fn from_str(name: &str) -> Result<Self, Self::Err> {
-                Choice::from_name(name)
-            }
-        }
-    };
+choice! { Bitangent, "bitangent",
+    PerPixel => "pixel", "Per pixel from the interpolated normal and tangent, as glTF, MikkTSpace, Blender, Unreal and Unity";
+    PerVertex => "vertex", "Per vertex, then interpolated";
 }
 
 choice! { OcclusionFalloff, "falloff",

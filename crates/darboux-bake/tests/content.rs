@@ -3,7 +3,7 @@
 
 mod support;
 
-use darboux::{Context, Mesh};
+use darboux::{Choice, Context, Mesh};
 use darboux_bake::{
     BakeOptions, Baked, ColorTexture, HighSurface, IdSource, LowSurface, MapKind, MapSet, MaterialProperty,
     SurfaceLabels, TexelState, bake,
@@ -200,7 +200,7 @@ fn every_map_has_the_same_bits_for_every_number_of_threads() {
     let mesh: Mesh<'_> = low.mesh();
     let low = LowSurface::new(mesh, &tangents).expect("one tangent per corner");
     let options = BakeOptions::new([90, 70], [0.1, 0.1])
-        .with_maps(MapSet::of(&MapKind::ALL))
+        .with_maps(MapSet::of(MapKind::ALL))
         .with_samples_per_axis(2)
         .with_occlusion(8, 1.0);
     let with = |threads| {
@@ -208,7 +208,7 @@ fn every_map_has_the_same_bits_for_every_number_of_threads() {
         bake(&[low], &[surface], &options, &mut context, &mut |_| {}).expect("valid input")
     };
     let one = with(1);
-    for kind in MapKind::ALL {
+    for &kind in MapKind::ALL {
         assert!(one.images.numbers(kind).expect("chosen").iter().all(|x| x.is_finite()), "{kind:?}");
     }
     for threads in [2, 3, 16] {

@@ -2,7 +2,7 @@
 
 mod support;
 
-use darboux::{Cancel, Context, Convention, Mesh};
+use darboux::{Cancel, Choice, Context, Convention, Mesh};
 use darboux_bake::{
     BakeError, BakeOptions, Bitangent, HighSurface, LowSurface, MapKind, MapSet, TexelState, bake,
     inflated_cage,
@@ -33,7 +33,7 @@ fn options(size: u32) -> BakeOptions {
 }
 
 fn all_maps(size: u32) -> BakeOptions {
-    options(size).with_maps(MapSet::of(&MapKind::ALL)).with_occlusion(16, 10.0)
+    options(size).with_maps(MapSet::of(MapKind::ALL)).with_occlusion(16, 10.0)
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 mod support;
 
-use darboux::Context;
+use darboux::{Choice, Context};
 use darboux_bake::{BakeOptions, Baked, LowSurface, MapKind, MapSet, bake, inflated_cage};
 use support::{PAIRS, Shape};
 
@@ -22,7 +22,7 @@ fn baked_at(scale: f32) -> Baked {
     let surface = LowSurface::new(low.mesh(), &tangents).expect("one tangent per corner");
     let surface = surface.with_cage(&cage).expect("one position per vertex");
     let options = BakeOptions::new([SIZE; 2], [distance; 2])
-        .with_maps(MapSet::of(&MapKind::ALL))
+        .with_maps(MapSet::of(MapKind::ALL))
         .with_occlusion(8, 4.0 * distance);
     bake(&[surface], &[high.high()], &options, &mut Context::new(), &mut |_| {}).expect("valid input")
 }

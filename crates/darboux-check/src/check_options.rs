@@ -1,8 +1,6 @@
 //! [`CheckOptions`]: what is checked.
 
-use std::str::FromStr;
-
-use darboux::BitangentDirection;
+use darboux::{BitangentDirection, choice};
 use darboux_io::MemoryLimit;
 use darboux_io::gltf::Document;
 
@@ -35,22 +33,36 @@ pub enum AssumedMap {
     BothInverted,
 }
 
-impl AssumedMap {
-    /// All, by name.
-    pub const ALL: [(&'static str, Self); 4] = [
-        ("opengl", Self::OpenGl),
-        ("directx", Self::DirectX),
-        ("red-inverted", Self::RedInverted),
-        ("both-inverted", Self::BothInverted),
-    ];
+choice! { AssumedMap, "assume",
+    OpenGl => "opengl", "Red points to the right, and green up";
+    DirectX => "directx", "Green points down";
+    RedInverted => "red-inverted", "Red points to the left";
+    BothInverted => "both-inverted", "Red points to the left and green down, so that bumps are dents";
 }
 
-impl FromStr for AssumedMap {
-    type Err = String;
+/// The two conventions of normal maps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum MapConvention {
+    /// Green up.
+    #[default]
+    OpenGl,
+    /// Green down.
+    DirectX,
+}
 
-    fn from_str(name: &str) -> Result<Self, String> {
-        let found = Self::ALL.iter().find(|(known, _)| *known == name);
-        found.map(|(_, map)| *map).ok_or_else(|| format!("no assumption about maps is called {name:?}"))
+choice! { MapConvention, "convention",
+    OpenGl => "opengl", "Green up: glTF, OpenGL, Blender, Unity, Godot";
+    DirectX => "directx", "Green down: DirectX, Unreal";
+}
+
+impl MapConvention {
+    /// Where green points.
+    pub fn green(self) -> BitangentDirection {
+        match self {
+            Self::OpenGl => BitangentDirection::Up,
+            Self::DirectX => BitangentDirection::Down,
+        }
     }
 }
 

@@ -56,7 +56,7 @@ mod words;
 pub use check::{
     CheckedMap, ModelOfMaps, check_document, check_map, check_map_on_model, check_model_of_maps,
 };
-pub use check_options::{AssumedMap, CheckOptions};
+pub use check_options::{AssumedMap, CheckOptions, MapConvention};
 pub use code::Code;
 pub use diagnosis::diagnosis;
 pub use finding::{Evidence, Finding};

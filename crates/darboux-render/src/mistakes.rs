@@ -8,6 +8,8 @@
 
 use std::collections::HashMap;
 
+use darboux::choice;
+
 use crate::algebra::{V3, cross, dot};
 use crate::vertex::SurfaceVertex;
 
@@ -41,6 +43,22 @@ pub enum FrameMistake {
     OneTangent,
     /// Results of corners are written through the index list: the last triangle wins.
     LastCorner,
+}
+
+choice! { FrameMistake, "mistake",
+    SignNoise => "sign-noise", "Test the sign against the tangent's sum";
+    NoGuard => "no-guard", "Divide by the UV area of triangles without one";
+    BothNegated => "both-negated", "Negate tangent and bitangent";
+    UvNotInverted => "uv-not-inverted", "Use the UV matrix instead of its inverse";
+    EdgeTwice => "edge-twice", "Use one edge twice in the bitangent";
+    WithoutW => "without-w", "Leave w out of the bitangent";
+    NormalMatrix => "normal-matrix", "Transform tangents by the normal matrix";
+    Race => "race", "Let threads lose each other's additions";
+    NoBoundsCheck => "no-bounds-check", "Let threads beyond the last vertex write";
+    AdjacencyOffsets => "adjacency-offsets", "Use vertex numbers as offsets of adjacency lists";
+    LongNormals => "long-normals", "Apply Gram-Schmidt with normals of length 10";
+    OneTangent => "one-tangent", "Give vertices at mirrored seams one tangent";
+    LastCorner => "last-corner", "Write corners through the old index list";
 }
 
 /// The tangents of corners with a mistake. `uvs`: one per corner.

@@ -67,8 +67,15 @@ impl fmt::Display for UnknownName {
 
 impl std::error::Error for UnknownName {}
 
-/// Implements [`Choice`] and `FromStr` for an enum. The compiler refuses a list that lacks a variant.
+/// Implements [`Choice`] and `FromStr` for an enum, for all crates of Darboux. The compiler refuses a list that
+/// lacks a variant. Each variant is `Name => "name", "summary";`; where some have fields, each is
+/// `pattern = value => "name", "summary";`.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! choice {
+    ($type:ident, $what:literal, $($variant:ident => $name:literal, $summary:literal;)+) => {
+        $crate::choice! { $type, $what, $(Self::$variant = Self::$variant => $name, $summary;)+ }
+    };
     ($type:ident, $what:literal, $($pattern:pat = $value:expr => $name:literal, $summary:literal;)+) => {
         impl $crate::Choice for $type {
             const WHAT: &'static str = $what;
@@ -92,7 +99,6 @@ macro_rules! choice {
         }
     };
 }
-pub(crate) use choice;
 
 #[cfg(test)]
 mod tests {

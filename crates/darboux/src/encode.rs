@@ -31,7 +31,7 @@ pub use snorm::{
     tangent_to_snorm16,
 };
 
-use crate::choice::choice;
+use crate::choice;
 
 /// The encodings of tangents that have a name in the bindings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -49,9 +49,9 @@ pub enum Encoding {
 }
 
 choice! { Encoding, "encoding",
-    Self::Snorm8 = Self::Snorm8 => "snorm8", "four bytes: components times 127";
-    Self::Snorm10 = Self::Snorm10 => "snorm10", "four bytes: ten bits for each component, two for the sign";
-    Self::Snorm16 = Self::Snorm16 => "snorm16", "eight bytes: components times 32767";
-    Self::Octahedral = Self::Octahedral => "octahedral", "four bytes: octahedral coordinates, the lowest bit is the sign";
-    Self::Diamond = Self::Diamond => "diamond", "two bytes: an angle around the normal, the lowest bit is the sign";
+    Snorm8 => "snorm8", "four bytes: components times 127";
+    Snorm10 => "snorm10", "four bytes: ten bits for each component, two for the sign";
+    Snorm16 => "snorm16", "eight bytes: components times 32767";
+    Octahedral => "octahedral", "four bytes: octahedral coordinates, the lowest bit is the sign";
+    Diamond => "diamond", "two bytes: an angle around the normal, the lowest bit is the sign";
 }

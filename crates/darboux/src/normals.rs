@@ -22,7 +22,7 @@ use crate::Mesh;
 use crate::SplitBuffer;
 use crate::Splitter;
 use crate::Strided;
-use crate::choice::choice;
+use crate::choice;
 use crate::exec::limits::RunLimits;
 use crate::exec::threads;
 use crate::math::angle;
@@ -122,21 +122,21 @@ pub enum SmoothingSeams {
 
 choice! {
     Shading, "shading",
-    Self::Smooth = Self::Smooth => "smooth", "Corners of a vertex share the weighted mean of their faces' normals";
-    Self::Flat = Self::Flat => "flat", "Every corner has its face's normal";
+    Smooth => "smooth", "Corners of a vertex share the weighted mean of their faces' normals";
+    Flat => "flat", "Every corner has its face's normal";
 }
 
 choice! {
     NormalWeight, "weight",
-    Self::Angle = Self::Angle => "angle", "The angle of its corner: independent of the triangulation of flat surfaces";
-    Self::Area = Self::Area => "area", "Its area";
-    Self::AngleArea = Self::AngleArea => "angle-area", "Angle times area: wide faces stay flat beside bevels";
+    Angle => "angle", "The angle of its corner: independent of the triangulation of flat surfaces";
+    Area => "area", "Its area";
+    AngleArea => "angle-area", "Angle times area: wide faces stay flat beside bevels";
 }
 
 choice! {
     SmoothingSeams, "seams",
-    Self::Ignored = Self::Ignored => "ignored", "Vertices at equal positions are merged";
-    Self::Respected = Self::Respected => "respected", "Distinct vertices have distinct normals";
+    Ignored => "ignored", "Vertices at equal positions are merged";
+    Respected => "respected", "Distinct vertices have distinct normals";
 }
 
 /// Normals of corners and the report of the run.

@@ -1,14 +1,10 @@
 // `convert` and `convertTexels`: vertex data and normal maps in another convention.
 
 import { checkFaces, checkIndices, checkType, rowCount, wholeRows } from './checks.js';
+import { CONVENTIONS } from './choices.js';
 import { fullModule, type FullExports } from './full.js';
 import { readFloats, writeArrays, writeTexts, type Copy } from './mesh.js';
 import type * as types from '../types.js';
-
-/** The conventions that have a name. */
-export const CONVENTIONS = [
-  'gltf', 'opengl', 'directx', 'blender', 'unity', 'unreal', 'godot', 'threejs', 'maya', '3dsmax',
-] as const satisfies types.ConventionName[];
 
 /** The arrays of vertex data, the number of floats per element, and where WebAssembly takes them. */
 const ARRAYS = [['positions', 3, 'positions'], ['normals', 3, 'normals'], ['uvs', 2, 'uvs'], ['tangents', 4, 'given_tangents']] as const;

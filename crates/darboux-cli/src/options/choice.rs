@@ -5,6 +5,10 @@ use darboux::Choice;
 
 /// Accepts the names of a list; the help shows their descriptions.
 pub fn choice<T: Choice + Send + Sync>() -> impl TypedValueParser<Value = T> {
-    let values = T::ALL.iter().map(|value| PossibleValue::new(value.name()).help(value.summary()));
-    PossibleValuesParser::new(values).try_map(|name| T::from_name(&name))
+    PossibleValuesParser::new(possible_values::<T>()).try_map(|name| T::from_name(&name))
+}
+
+/// The names of a list with their descriptions.
+pub fn possible_values<T: Choice>() -> impl Iterator<Item = PossibleValue> {
+    T::ALL.iter().map(|value| PossibleValue::new(value.name()).help(value.summary()))
 }

@@ -10,7 +10,7 @@ mod ears;
 mod queued;
 mod triangle;
 
-use darboux::Choice;
+use darboux::choice;
 use darboux::internal::is_quad_cut_across;
 
 use ears::Polygon;
@@ -45,25 +45,10 @@ pub enum PolygonRule {
     Ears,
 }
 
-impl Choice for PolygonRule {
-    const WHAT: &'static str = "polygon rule";
-    const ALL: &'static [Self] = &[Self::Blender, Self::Fan, Self::Ears];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Blender => "blender",
-            Self::Fan => "fan",
-            Self::Ears => "ears",
-        }
-    }
-
-    fn summary(self) -> &'static str {
-        match self {
-            Self::Blender => "as Blender cuts them for its exporters",
-            Self::Fan => "all triangles share the first corner; concave faces are cut into ears",
-            Self::Ears => "ears are cut off in the order of corners",
-        }
-    }
+choice! { PolygonRule, "polygon rule",
+    Blender => "blender", "as Blender cuts them for its exporters";
+    Fan => "fan", "all triangles share the first corner; concave faces are cut into ears";
+    Ears => "ears", "ears are cut off in the order of corners";
 }
 
 /// Cuts the faces of one file.

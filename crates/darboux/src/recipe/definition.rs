@@ -1,6 +1,6 @@
 //! [`Recipe`]: a way of making tangents; and how well one explains those of a file.
 
-use crate::choice::choice;
+use crate::choice;
 use crate::tangents::{Method, MikkTSpaceOptions, Mode};
 
 /// A way of making the tangents of a file.
@@ -35,9 +35,9 @@ pub enum RecipeWriting {
 
 choice! {
     RecipeWriting, "writing",
-    Self::Corners = Self::Corners => "corners", "every corner has its own tangent: vertices were split where needed";
-    Self::LastCorner = Self::LastCorner => "last-corner", "every vertex has the tangent of its last corner";
-    Self::FirstCorner = Self::FirstCorner => "first-corner", "every vertex has the tangent of its first corner";
+    Corners => "corners", "every corner has its own tangent: vertices were split where needed";
+    LastCorner => "last-corner", "every vertex has the tangent of its last corner";
+    FirstCorner => "first-corner", "every vertex has the tangent of its first corner";
 }
 
 /// How the components of tangents were rounded.

@@ -1,6 +1,6 @@
 //! The options of tangent generation: a method, and for MikkTSpace a mode and an angular threshold.
 
-use crate::choice::choice;
+use crate::choice;
 
 /// Options of [`generate_tangents`](crate::generate_tangents) and
 /// [`generate_frames`](crate::generate_frames). The default, MikkTSpace with its default options, is right
@@ -159,10 +159,10 @@ pub enum Mode {
 
 choice! {
     Mode, "mode",
-    Self::Repaired = Self::Repaired =>
+    Repaired =>
         "repaired", "The bits of the reference where its tangent is usable, a unit tangent elsewhere";
-    Self::Reference = Self::Reference =>
+    Reference =>
         "reference", "The bits of the reference, including zero-length and non-finite tangents";
-    Self::Corrected = Self::Corrected =>
+    Corrected =>
         "corrected", "Like repaired, with all edges matched and one sign per triangle";
 }

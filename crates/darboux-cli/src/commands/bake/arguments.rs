@@ -187,8 +187,8 @@ pub struct BakeArguments {
     pub method: Option<Method>,
 
     /// How the renderer rebuilds the bitangent
-    #[arg(long, value_enum, value_name = "HOW", default_value_t, help_heading = "Frames")]
-    pub bitangent: BitangentChoice,
+    #[arg(long, value_parser = choice::<Bitangent>(), value_name = "HOW", default_value = Bitangent::default().name(), help_heading = "Frames")]
+    pub bitangent: Bitangent,
 
     /// The UV set n of TEXCOORD_n; by default that of the material's normal map
     #[arg(long, value_name = "N", help_heading = "Frames")]
@@ -356,25 +356,6 @@ pub enum MatchChoice {
     /// Those of the same name: crate_low gets the detail of crate_high and crate_high_bolts. The names of
     /// nodes count, or else of meshes
     Name,
-}
-
-/// `--bitangent`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum BitangentChoice {
-    /// Per pixel from the interpolated normal and tangent, as glTF, MikkTSpace, Blender, Unreal and Unity
-    #[default]
-    Pixel,
-    /// Per vertex, then interpolated
-    Vertex,
-}
-
-impl From<BitangentChoice> for Bitangent {
-    fn from(choice: BitangentChoice) -> Self {
-        match choice {
-            BitangentChoice::Pixel => Self::PerPixel,
-            BitangentChoice::Vertex => Self::PerVertex,
-        }
-    }
 }
 
 /// `--samples`, as samples per axis.

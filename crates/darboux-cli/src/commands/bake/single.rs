@@ -341,7 +341,7 @@ fn options(arguments: &BakeArguments, rays: &Rays, memory_limit: Option<u64>) ->
         .with_maps(arguments.baked_maps())
         .with_samples_per_axis(arguments.samples.0)
         .with_back_faces(arguments.back_faces)
-        .with_bitangent(arguments.bitangent.into())
+        .with_bitangent(arguments.bitangent)
         .with_map_convention(arguments.convention.convention)
         .with_padding(arguments.padding)
         .with_occlusion(content.ao_rays, content.ao_distance.unwrap_or(f32::INFINITY))

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use darboux::{BitangentDirection, Choice, Method};
-use darboux_check::{AssumedMap, CheckOptions, Code, Severity};
+use darboux::{Choice, Method};
+use darboux_check::{AssumedMap, CheckOptions, Code, MapConvention, Severity};
 
 use crate::inputs::UsageError;
 use crate::options::choice::choice;
@@ -76,13 +76,17 @@ pub struct FindingOptions {
     pub fail_on: FailOn,
 
     /// Where the green of normal maps should point
-    #[arg(long, value_enum, default_value_t, value_name = "CONVENTION", help_heading = "Findings")]
+    #[arg(
+        long,
+        value_parser = choice::<MapConvention>(),
+        value_name = "CONVENTION",
+        default_value = MapConvention::default().name(),
+        help_heading = "Findings"
+    )]
     pub convention: MapConvention,
 
-    /// What normal maps are where neither their texels nor the faces of the model decide it
-    ///
-    /// map=opengl: green points up; map=directx: green points down; map=red-inverted: red points to the
-    /// left; map=both-inverted: both, so that bumps are dents. What the texels show is not overruled.
+    /// What normal maps are where neither their texels nor the faces of the model decide it; what the texels
+    /// show is not overruled
     #[arg(long, value_name = "WHAT", value_parser = assumption(), help_heading = "Findings")]
     pub assume: Option<AssumedMap>,
 
@@ -162,15 +166,17 @@ fn code() -> impl TypedValueParser<Value = Code> {
 
 /// Parses `map=NAME`.
 fn assumption() -> impl TypedValueParser<Value = AssumedMap> {
-    let names = ["map=opengl", "map=directx", "map=red-inverted", "map=both-inverted"];
-    PossibleValuesParser::new(names).try_map(|name| name.trim_start_matches("map=").parse::<AssumedMap>())
+    // The names of values live as long as the process.
+    let name = |map: AssumedMap| -> &'static str { format!("map={}", map.name()).leak() };
+    let values = AssumedMap::ALL.iter().map(|&map| PossibleValue::new(name(map)).help(map.summary()));
+    PossibleValuesParser::new(values).try_map(|name| name.trim_start_matches("map=").parse::<AssumedMap>())
 }
 
 impl FindingOptions {
     /// The options of the check.
     pub fn check_options(&self) -> CheckOptions {
         CheckOptions::default()
-            .with_green(self.convention.into())
+            .with_green(self.convention.green())
             .with_maps(!self.no_maps)
             .with_assumed_map(self.assume)
     }
@@ -208,27 +214,6 @@ impl FailOn {
             Self::Error => severity >= Severity::Error,
             Self::Warning => severity >= Severity::Warning,
             Self::Never => false,
-        }
-    }
-}
-
-/// `--convention`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum MapConvention {
-    /// Green up: glTF, OpenGL, Blender, Unity, Godot
-    #[default]
-    #[value(name = "opengl")]
-    OpenGl,
-    /// Green down: DirectX, Unreal
-    #[value(name = "directx")]
-    DirectX,
-}
-
-impl From<MapConvention> for BitangentDirection {
-    fn from(convention: MapConvention) -> Self {
-        match convention {
-            MapConvention::OpenGl => Self::Up,
-            MapConvention::DirectX => Self::Down,
         }
     }
 }

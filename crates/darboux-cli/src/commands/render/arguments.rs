@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use darboux::{Choice, Method, UnknownName};
+use darboux::{Choice, Method, UnknownName, choice};
 use darboux_render::{FrameMistake, Look};
 
+use crate::options::choice::possible_values;
 use crate::options::formats::with_endings;
 use crate::options::messages::MessageOptions;
 use crate::options::reading::ReadOptions;
@@ -78,7 +80,7 @@ pub struct RenderArguments {
     pub layout: Option<LayoutPlacement>,
 
     /// Make these mistakes, on the right of --split or in the whole picture
-    #[arg(long, value_enum, value_name = "MISTAKES", value_delimiter = ',')]
+    #[arg(long, value_parser = MistakeChoice::parser(), value_name = "MISTAKES", value_delimiter = ',')]
     pub mistakes: Vec<MistakeChoice>,
 
     /// Draw only this mesh, given by its name or index; can be repeated
@@ -173,62 +175,44 @@ pub enum LayoutPlacement {
 }
 
 /// `--mistakes`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MistakeChoice {
-    /// Invert the green channel of normal maps
+    /// In the shader.
+    Shader(ShaderMistake),
+    /// In the computation of tangents.
+    Frames(FrameMistake),
+}
+
+/// A mistake of a shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShaderMistake {
     Green,
-    /// Invert the sign w of tangents
     W,
-    /// Sample images at 1 - v
     V,
-    /// Take the columns of the matrix as tangent, normal, bitangent
     Columns,
-    /// Test the sign against the tangent's sum
-    SignNoise,
-    /// Divide by the UV area of triangles without one
-    NoGuard,
-    /// Negate tangent and bitangent
-    BothNegated,
-    /// Use the UV matrix instead of its inverse
-    UvNotInverted,
-    /// Use one edge twice in the bitangent
-    EdgeTwice,
-    /// Leave w out of the bitangent
-    WithoutW,
-    /// Transform tangents by the normal matrix
-    NormalMatrix,
-    /// Let threads lose each other's additions
-    Race,
-    /// Let threads beyond the last vertex write
-    NoBoundsCheck,
-    /// Use vertex numbers as offsets of adjacency lists
-    AdjacencyOffsets,
-    /// Apply Gram-Schmidt with normals of length 10
-    LongNormals,
-    /// Give vertices at mirrored seams one tangent
-    OneTangent,
-    /// Write corners through the old index list
-    LastCorner,
+}
+
+choice! { ShaderMistake, "mistake",
+    Green => "green", "Invert the green channel of normal maps";
+    W => "w", "Invert the sign w of tangents";
+    V => "v", "Sample images at 1 - v";
+    Columns => "columns", "Take the columns of the matrix as tangent, normal, bitangent";
 }
 
 impl MistakeChoice {
-    /// The mistake in the computation of tangents; none for a mistake of the shader.
-    pub fn of_frames(self) -> Option<FrameMistake> {
-        Some(match self {
-            Self::Green | Self::W | Self::V | Self::Columns => return None,
-            Self::SignNoise => FrameMistake::SignNoise,
-            Self::NoGuard => FrameMistake::NoGuard,
-            Self::BothNegated => FrameMistake::BothNegated,
-            Self::UvNotInverted => FrameMistake::UvNotInverted,
-            Self::EdgeTwice => FrameMistake::EdgeTwice,
-            Self::WithoutW => FrameMistake::WithoutW,
-            Self::NormalMatrix => FrameMistake::NormalMatrix,
-            Self::Race => FrameMistake::Race,
-            Self::NoBoundsCheck => FrameMistake::NoBoundsCheck,
-            Self::AdjacencyOffsets => FrameMistake::AdjacencyOffsets,
-            Self::LongNormals => FrameMistake::LongNormals,
-            Self::OneTangent => FrameMistake::OneTangent,
-            Self::LastCorner => FrameMistake::LastCorner,
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Shader(mistake) => mistake.name(),
+            Self::Frames(mistake) => mistake.name(),
+        }
+    }
+
+    fn parser() -> impl TypedValueParser<Value = Self> {
+        let values = possible_values::<ShaderMistake>().chain(possible_values::<FrameMistake>());
+        PossibleValuesParser::new(values).try_map(|name| {
+            let of_shader = name.parse().map(Self::Shader);
+            of_shader.or_else(|_| name.parse().map(Self::Frames))
         })
     }
 }

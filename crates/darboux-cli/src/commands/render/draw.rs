@@ -12,7 +12,7 @@ use darboux_render::{Camera, HeatScale, Lines, Mistakes, Model, Picture, RenderE
 use serde::Serialize;
 
 use super::arguments::{
-    LayoutPlacement, MistakeChoice, RenderArguments, TangentSource, VectorLines, ViewChoice,
+    LayoutPlacement, MistakeChoice, RenderArguments, ShaderMistake, TangentSource, VectorLines, ViewChoice,
 };
 use super::legend::Legend;
 use crate::documents::{load, refuse_used};
@@ -153,13 +153,16 @@ fn picture(
 ) -> Result<Picture, RenderError> {
     let options = options(arguments);
     let legend = Legend::of(arguments, source, &options);
-    let has = |mistake| arguments.mistakes.contains(&mistake);
+    let has = |mistake| arguments.mistakes.contains(&MistakeChoice::Shader(mistake));
     let mistakes = Mistakes::default()
-        .with_green(has(MistakeChoice::Green))
-        .with_w(has(MistakeChoice::W))
-        .with_v(has(MistakeChoice::V))
-        .with_columns(has(MistakeChoice::Columns));
-    let of_frames = arguments.mistakes.iter().filter_map(|mistake| mistake.of_frames());
+        .with_green(has(ShaderMistake::Green))
+        .with_w(has(ShaderMistake::W))
+        .with_v(has(ShaderMistake::V))
+        .with_columns(has(ShaderMistake::Columns));
+    let of_frames = arguments.mistakes.iter().filter_map(|mistake| match *mistake {
+        MistakeChoice::Frames(mistake) => Some(mistake),
+        MistakeChoice::Shader(_) => None,
+    });
     let wrong = of_frames.fold(None, |wrong: Option<Model<'_>>, mistake| {
         Some(wrong.as_ref().or(other).unwrap_or(model).with_mistake(mistake))
     });

@@ -2,7 +2,6 @@
 
 use std::convert::Infallible;
 
-use clap::ValueEnum;
 use darboux_render::{LINE_COLORS, LINE_DASHES, Picture, RenderOptions, SEAM_COLOR, SIGN_COLORS, View};
 use embedded_graphics::mono_font::iso_8859_1::FONT_6X13;
 use embedded_graphics::mono_font::{MonoFont, MonoTextStyle};
@@ -12,7 +11,7 @@ use embedded_graphics::primitives::Rectangle;
 use embedded_graphics::text::{Baseline, Text};
 use embedded_graphics::{Drawable, Pixel};
 
-use super::arguments::{MistakeChoice, RenderArguments, TangentSource};
+use super::arguments::{MistakeChoice, RenderArguments, ShaderMistake, TangentSource};
 use crate::heat_scale::{row, scale_position};
 
 const FONT: &MonoFont<'_> = &FONT_6X13;
@@ -221,12 +220,12 @@ const BUMPS: [u8; 3] = [242, 193, 78];
 
 /// The mistakes of `--mistakes` in words.
 fn mistakes_of(arguments: &RenderArguments) -> String {
+    use ShaderMistake::{Green, V, W};
     let made = |mistake: &MistakeChoice| {
-        let value = mistake.to_possible_value()?;
-        let flips = matches!(mistake, MistakeChoice::Green | MistakeChoice::W | MistakeChoice::V);
-        Some(format!("{}{}", value.get_name(), if flips { " flipped" } else { "" }))
+        let flips = matches!(mistake, MistakeChoice::Shader(Green | W | V));
+        format!("{}{}", mistake.name(), if flips { " flipped" } else { "" })
     };
-    let made: Vec<String> = arguments.mistakes.iter().filter_map(made).collect();
+    let made: Vec<String> = arguments.mistakes.iter().map(made).collect();
     if made.is_empty() { String::new() } else { format!("x mistake: {}", made.join(", ")) }
 }
 

@@ -1,6 +1,6 @@
 //! The encodings of tangents that glTF permits.
 
-use darboux::Choice;
+use darboux::choice;
 use darboux::encode::{tangent_from_snorm8, tangent_from_snorm16, tangent_to_snorm8, tangent_to_snorm16};
 
 use crate::gltf::{ComponentType, ElementType, Elements};
@@ -20,25 +20,10 @@ pub enum TangentEncoding {
     Snorm8x4,
 }
 
-impl Choice for TangentEncoding {
-    const WHAT: &'static str = "encoding";
-    const ALL: &'static [Self] = &[Self::F32x4, Self::Snorm16x4, Self::Snorm8x4];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::F32x4 => "f32x4",
-            Self::Snorm16x4 => "snorm16x4",
-            Self::Snorm8x4 => "snorm8x4",
-        }
-    }
-
-    fn summary(self) -> &'static str {
-        match self {
-            Self::F32x4 => "16 bytes per vertex, exact",
-            Self::Snorm16x4 => "8 bytes per vertex, directions change by up to 0.0016 degrees",
-            Self::Snorm8x4 => "4 bytes per vertex, directions change by up to 0.40 degrees",
-        }
-    }
+choice! { TangentEncoding, "encoding",
+    F32x4 => "f32x4", "16 bytes per vertex, exact";
+    Snorm16x4 => "snorm16x4", "8 bytes per vertex, directions change by up to 0.0016 degrees";
+    Snorm8x4 => "snorm8x4", "4 bytes per vertex, directions change by up to 0.40 degrees";
 }
 
 impl TangentEncoding {

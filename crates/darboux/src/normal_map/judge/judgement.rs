@@ -1,6 +1,6 @@
 //! The verdict on a normal map and the counts behind it.
 
-use crate::choice::choice;
+use crate::choice;
 
 /// The smallest absolute z score that decides between OpenGL and DirectX.
 pub(super) const MIN_Z_SCORE: f32 = 4.0;
@@ -24,11 +24,11 @@ pub enum MapVerdict {
 
 choice! {
     MapVerdict, "verdict",
-    Self::OpenGl = Self::OpenGl => "opengl", "green points up, as glTF and OpenGL want it";
-    Self::DirectX = Self::DirectX => "directx", "green points down, as DirectX wants it";
-    Self::NoGradient = Self::NoGradient => "no_gradient", "the texels are not the slope of a surface";
-    Self::Flat = Self::Flat => "flat", "all texels are the same but for rounding";
-    Self::CannotTell = Self::CannotTell => "cannot_tell", "there is too little evidence";
+    OpenGl => "opengl", "green points up, as glTF and OpenGL want it";
+    DirectX => "directx", "green points down, as DirectX wants it";
+    NoGradient => "no_gradient", "the texels are not the slope of a surface";
+    Flat => "flat", "all texels are the same but for rounding";
+    CannotTell => "cannot_tell", "there is too little evidence";
 }
 
 impl MapVerdict {

@@ -3,7 +3,7 @@
 use darboux::Choice;
 use darboux_bake::BakeReport as Counts;
 
-use super::super::arguments::{BakeArguments, BitangentChoice, MatchChoice};
+use super::super::arguments::{BakeArguments, MatchChoice};
 use super::super::report::BakeReport;
 use super::shared::figure;
 use crate::html_page::escaped;
@@ -36,10 +36,7 @@ pub fn tables(arguments: &BakeArguments, report: &BakeReport) -> String {
 
 fn settings(arguments: &BakeArguments, report: &BakeReport) -> Vec<(&'static str, String)> {
     let [width, height] = report.size;
-    let bitangent = match arguments.bitangent {
-        BitangentChoice::Pixel => "per pixel",
-        BitangentChoice::Vertex => "per vertex",
-    };
+    let bitangent = format!("per {}", arguments.bitangent.name());
     let method = arguments.method.map_or("those of the file, or mikktspace", |method| method.name());
     let parts = match arguments.matching {
         MatchChoice::Nearest => "all, the nearest",
@@ -52,7 +49,7 @@ fn settings(arguments: &BakeArguments, report: &BakeReport) -> Vec<(&'static str
         ("high parts", parts.to_owned()),
         ("convention", arguments.convention.name.clone()),
         ("tangents", method.to_owned()),
-        ("bitangent", bitangent.to_owned()),
+        ("bitangent", bitangent),
         ("padding", arguments.padding.map_or("everywhere".to_owned(), |texels| format!("{texels} texels"))),
     ]
 }

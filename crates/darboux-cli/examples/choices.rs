@@ -8,7 +8,10 @@ use std::fs::{create_dir_all, write};
 use std::path::Path;
 
 use darboux::encode::Encoding;
-use darboux::{Choice, Method, Mode, NormalWeight, Shading, SmoothingSeams};
+use darboux::{Choice, Convention, Method, Mode, NormalWeight, Shading, SmoothingSeams};
+use darboux_bake::{Bitangent, IdSource, MapKind, OcclusionFalloff, OcclusionWeights};
+use darboux_check::{AssumedMap, MapConvention};
+use darboux_io::gltf::TangentEncoding;
 
 /// A list: the name of its type, that of its constant, and the names of its values.
 struct List {
@@ -37,6 +40,19 @@ fn main() -> Result<(), Box<dyn Error>> {
         List::of::<NormalWeight>("NormalWeight", "NORMAL_WEIGHTS"),
         List::of::<SmoothingSeams>("SmoothingSeams", "SMOOTHING_SEAMS"),
         List::of::<Encoding>("Encoding", "ENCODINGS"),
+        List::of::<TangentEncoding>("TangentEncoding", "TANGENT_ENCODINGS"),
+        List::of::<AssumedMap>("AssumedMap", "ASSUMED_MAPS"),
+        List::of::<MapConvention>("MapConvention", "MAP_CONVENTIONS"),
+        List::of::<MapKind>("MapKind", "MAP_KINDS"),
+        List::of::<Bitangent>("Bitangent", "BITANGENTS"),
+        List::of::<OcclusionFalloff>("OcclusionFalloff", "OCCLUSION_FALLOFFS"),
+        List::of::<OcclusionWeights>("OcclusionWeights", "OCCLUSION_WEIGHTS"),
+        List::of::<IdSource>("IdSource", "ID_SOURCES"),
+        List {
+            singular: "ConventionName",
+            plural: "CONVENTIONS",
+            names: Convention::PRESETS.iter().map(|(name, _)| *name).collect(),
+        },
     ];
     let write_below = |path: &str, text: String| -> Result<(), Box<dyn Error>> {
         let path = Path::new(&root).join(path);
@@ -50,15 +66,15 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn typescript(lists: &[List]) -> String {
     let list = |list: &List| format!("export const {} = [{}] as const;\n", list.plural, list.quoted('\''));
     let lines: String = lists.iter().map(list).collect();
+    let channels: Vec<String> = MapKind::ALL.iter().map(|kind| kind.channels().to_string()).collect();
     format!(
-        "// Generated from the core. The position of a name in its list is the code that WebAssembly takes.\n\n{lines}"
+        "// Generated from Rust. The position of a name in its list is the code that WebAssembly takes.\n\n{lines}\n/** Numbers per texel of each of {{@link MAP_KINDS}}. */\nexport const MAP_CHANNELS = [{}] as const;\n",
+        channels.join(", ")
     )
 }
 
 fn python(lists: &[List]) -> String {
     let list = |list: &List| format!("{} = Literal[{}]\n", list.singular, list.quoted('"'));
     let lines: String = lists.iter().map(list).collect();
-    format!(
-        "\"\"\"The names of choices. Generated from the core.\"\"\"\n\nfrom typing import Literal\n\n{lines}"
-    )
+    format!("\"\"\"The names of choices. Generated from Rust.\"\"\"\n\nfrom typing import Literal\n\n{lines}")
 }
