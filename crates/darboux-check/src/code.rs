@@ -139,7 +139,7 @@ codes! {
     }
     TangentSignMixed "tangent-sign-mixed" Warning {
         "Faces have corners with both signs."
-        "The bitangent turns over within the face: a smeared band."
+        "The bitangent flips within the face: a smeared band."
         "Tangents were computed per vertex on a mesh with mirrored UVs (three.js computeTangents, many tutorials)."
         "Compute the tangents again: `darboux tangents --overwrite` splits the vertices."
         Repair "the wrong signs are negated, and vertices split where their corners need both"
@@ -484,25 +484,6 @@ codes! {
         "The texture was rotated or scaled by a negative number in the material."
         "Apply the transform to the UVs, or see `darboux tangents --apply-texture-transform`."
         Leave "renderers disagree on what is right"
-    }
-}
-
-impl Code {
-    /// Whether its findings count triangles and [`Finding::first`](crate::Finding::first) holds the numbers
-    /// of triangles. Those of other findings on a mesh are vertices.
-    pub fn counts_triangles(self) -> bool {
-        matches!(
-            self,
-            Self::TangentSignMixed
-                | Self::TangentSignPartlyFlipped
-                | Self::NormalAgainstWinding
-                | Self::UvDegenerate
-                | Self::UvMirrored
-                | Self::UvOverlapping
-                | Self::UvStretched
-                | Self::UvCoarse
-                | Self::UvHardEdge
-        )
     }
 }
 

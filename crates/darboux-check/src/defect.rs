@@ -9,7 +9,7 @@ mod tangents;
 mod uvs;
 
 use crate::code::{Code, Family};
-use crate::indices::{Indices, Part};
+use crate::indices::{Items, Part};
 use crate::place::Place;
 use crate::severity::Severity;
 
@@ -69,9 +69,9 @@ impl Fault {
     }
 
     /// The vertices or triangles that show it; none for a property of the whole.
-    pub fn items(&self) -> Option<&Indices> {
+    pub fn items(&self) -> Option<Items<'_>> {
         match self {
-            Self::PositionNotFinite(part) => Some(&part.items),
+            Self::PositionNotFinite(part) => Some(Items::Vertices(&part.items)),
             Self::Normal(fault) => fault.items(),
             Self::Uv(fault) => fault.items(),
             Self::Tangent(fault) => fault.items(),
@@ -102,7 +102,7 @@ impl Fault {
                 recognised.mikktspace.corners - recognised.mikktspace.close
             }
             Self::Map(fault) => fault.count(),
-            _ => self.items().map_or(1, Indices::len),
+            _ => self.items().map_or(1, |items| items.indices().len()),
         }
     }
 }

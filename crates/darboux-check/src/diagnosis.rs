@@ -88,7 +88,7 @@ fn lower_case(sentence: &str) -> String {
 
 /// What to do about findings.
 fn to_do(findings: &[&ReportedFinding]) -> String {
-    let fixable = findings.iter().filter(|finding| finding.left_because.is_none()).count();
+    let fixable = findings.iter().filter(|finding| finding.is_repairable()).count();
     if fixable == findings.len() {
         return "Type `darboux check FILE --fix` to repair it.".to_owned();
     }

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::code::Code;
 use crate::defect::Defect;
+use crate::indices::Items;
 use crate::place::Place;
 use crate::severity::Severity;
 
@@ -55,5 +56,13 @@ impl Finding {
     /// Whether it can be repaired.
     pub fn is_fixable(&self) -> bool {
         self.defects.iter().all(Defect::is_fixable)
+    }
+
+    /// What [`Finding::first`] numbers, where it has elements: `triangles` or `vertices`.
+    pub(crate) fn first_are(&self) -> &'static str {
+        match self.defects.first().and_then(|defect| defect.fault.items()) {
+            Some(Items::Triangles(_)) => "triangles",
+            Some(Items::Vertices(_)) | None => "vertices",
+        }
     }
 }

@@ -53,6 +53,21 @@ impl From<&[usize]> for Indices {
     }
 }
 
+/// What shows a defect.
+#[derive(Clone, Copy, Debug)]
+pub enum Items<'a> {
+    Vertices(&'a Indices),
+    Triangles(&'a Indices),
+}
+
+impl<'a> Items<'a> {
+    pub fn indices(self) -> &'a Indices {
+        match self {
+            Self::Vertices(indices) | Self::Triangles(indices) => indices,
+        }
+    }
+}
+
 /// Some of all vertices or triangles of a surface.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {

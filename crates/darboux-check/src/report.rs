@@ -64,6 +64,11 @@ pub struct ReportedFinding {
 }
 
 impl ReportedFinding {
+    /// Whether a repair that has not run yet removes it.
+    pub fn is_repairable(&self) -> bool {
+        self.fixable && self.repaired.is_none()
+    }
+
     /// Names the place as a file of another format than glTF does, too: `Armature/Body in your FBX,
     /// meshes[1].primitives[0] "Body"`.
     pub(crate) fn name_place(&mut self, source: &Provenance) {
@@ -77,6 +82,7 @@ impl ReportedFinding {
 impl From<Finding> for ReportedFinding {
     fn from(finding: Finding) -> Self {
         let place = finding.place.to_string();
+        let (fixable, first_are) = (finding.is_fixable(), finding.first_are());
         let Place { primitive, same_as, material, image } = finding.place;
         let (mesh, number) =
             (primitive.as_ref().map(|name| name.mesh), primitive.as_ref().map(|name| name.primitive));
@@ -93,12 +99,12 @@ impl From<Finding> for ReportedFinding {
             image,
             count: finding.count,
             first: finding.first,
-            first_are: if finding.code.counts_triangles() { "triangles" } else { "vertices" },
+            first_are,
             evidence: finding.evidence,
             text: finding.text,
             looks_like: finding.code.looks_like(),
             cure: finding.cure.into_owned(),
-            fixable: finding.left_because.is_none(),
+            fixable,
             left_because: finding.left_because,
             repaired: None,
             change: None,

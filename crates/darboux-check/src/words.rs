@@ -17,7 +17,6 @@ use std::hash::Hash;
 use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Fault, Obstacle};
 use crate::finding::Finding;
-use crate::indices::Indices;
 use crate::severity::Severity;
 use said::Said;
 
@@ -81,7 +80,7 @@ fn single(defect: Defect) -> Finding {
         severity: defect.severity,
         place: defect.place.clone(),
         count: fault.count(),
-        first: fault.items().into_iter().flat_map(Indices::iter).take(FIRST).collect(),
+        first: fault.items().into_iter().flat_map(|items| items.indices().iter()).take(FIRST).collect(),
         evidence,
         text,
         cure: cure.unwrap_or(code.cure().into()),

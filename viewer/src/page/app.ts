@@ -21,7 +21,7 @@ import { BakePanel } from './bake-panel';
 import { element, isOn, numberOf } from './elements';
 import { connectEmbedding } from './embed';
 import { Examination } from './examination';
-import { placeOf } from './findings-panel';
+import { isRepairable, placeOf } from './findings-panel';
 import { connectKeys, connectLightDrag } from './keyboard';
 import { legendOf, showLegend } from './legend';
 import { captionsOf, showCaptions } from './captions';
@@ -393,7 +393,7 @@ export class App {
     const isSmall = trianglesOf(this.parts) <= SEARCHED_TRIANGLES;
     this.faults = isSmall && this.hasTangents() ? this.comparisons.map(faultOf) : [];
     const isOfTangents = worst.code.startsWith('tangent');
-    const cost = isSmall && worst.leftBecause === null ? await this.examination.costOfRepair() : null;
+    const cost = isSmall && isRepairable(worst) ? await this.examination.costOfRepair() : null;
     // The cure of other faults is the repaired file: tangents computed again do not show it.
     if (cost && !isOfTangents) await this.examination.repair();
     if (isOfTangents && this.hasFault()) this.goToFault();

@@ -15,8 +15,8 @@ const SEVERITY_NAMES = { error: 'Error', warning: 'Warning', info: 'Note', 'not-
 export type Visit = (finding: Finding, n: number) => Promise<{ text: string; count: number }>;
 
 /** Whether a repair would remove a finding. */
-export function isRepairable({ leftBecause }: Finding): boolean {
-  return leftBecause === null;
+export function isRepairable({ fixable, repaired }: Finding): boolean {
+  return fixable && repaired === undefined;
 }
 
 /** Says whether the check, the judgement of maps or a repair runs; screen readers and tests wait for its end. */
@@ -54,7 +54,7 @@ export function showFindings({ findings, diagnosis }: Checked, visit: Visit, bef
   const isDone = findings.some(({ repaired }) => repaired !== undefined);
   element('repair').hidden = !repairable || isDone;
   element('repair').textContent = `Repair ${counted(repairable, 'finding', 'findings')}`;
-  element('make-normals').hidden = isDone || !findings.some(({ code, leftBecause }) => code === 'normal-missing' && leftBecause !== null);
+  element('make-normals').hidden = isDone || !findings.some((finding) => finding.code === 'normal-missing' && !isRepairable(finding));
   element('save-repaired').hidden = !isDone;
 }
 

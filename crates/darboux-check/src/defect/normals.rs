@@ -1,7 +1,7 @@
 //! [`NormalFault`]: what is wrong with the normals of a primitive.
 
 use crate::code::Code;
-use crate::indices::{Indices, Part};
+use crate::indices::{Indices, Items, Part};
 use crate::measure::other_axes::OtherAxes;
 use crate::measure::reversal::Reversal;
 
@@ -49,12 +49,14 @@ impl NormalFault {
         }
     }
 
-    pub fn items(&self) -> Option<&Indices> {
+    pub fn items(&self) -> Option<Items<'_>> {
         match self {
-            Self::NotFinite(part)
-            | Self::NotUnit { vertices: part, .. }
-            | Self::Reversed { triangles: part, .. }
-            | Self::PartlyReversed { triangles: part, .. } => Some(&part.items),
+            Self::NotFinite(part) | Self::NotUnit { vertices: part, .. } => {
+                Some(Items::Vertices(&part.items))
+            }
+            Self::Reversed { triangles: part, .. } | Self::PartlyReversed { triangles: part, .. } => {
+                Some(Items::Triangles(&part.items))
+            }
             Self::Missing(_) | Self::OtherAxes { .. } => None,
         }
     }

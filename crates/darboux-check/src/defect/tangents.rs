@@ -3,7 +3,7 @@
 use darboux::Recipe;
 
 use crate::code::Code;
-use crate::indices::{Indices, Part};
+use crate::indices::{Indices, Items, Part};
 use crate::measure::fit::Difference;
 use crate::measure::recipe::{Far, Recognised};
 
@@ -79,17 +79,21 @@ impl TangentFault {
         }
     }
 
-    pub fn items(&self) -> Option<&Indices> {
+    pub fn items(&self) -> Option<Items<'_>> {
         match self {
             Self::NotFinite(part)
             | Self::Zero(part)
             | Self::NotUnit(part)
             | Self::SignNotOne(part)
             | Self::SharedAcrossMirror(part)
-            | Self::SignMixed(part)
-            | Self::Outliers { vertices: part, .. } => Some(&part.items),
-            Self::Leaning { vertices, .. } => Some(vertices),
-            Self::Differs(difference) => Some(&difference.items).filter(|items| !items.is_empty()),
+            | Self::Outliers { vertices: part, .. } => Some(Items::Vertices(&part.items)),
+            Self::Leaning { vertices, .. } => Some(Items::Vertices(vertices)),
+            Self::SignMixed(part) => Some(Items::Triangles(&part.items)),
+            Self::Differs(TangentDifference { items, .. }) if items.is_empty() => None,
+            Self::Differs(TangentDifference { difference, items, .. }) if counts_vertices(*difference) => {
+                Some(Items::Vertices(items))
+            }
+            Self::Differs(TangentDifference { items, .. }) => Some(Items::Triangles(items)),
             Self::Missing(_) | Self::Unused { .. } | Self::OtherRecipe { .. } => None,
         }
     }
@@ -105,16 +109,18 @@ impl TangentFault {
             | Self::Outliers { vertices: part, .. } => [Some(&mut part.items), None],
             Self::Leaning { vertices, .. } => [Some(vertices), None],
             Self::Differs(TangentDifference { difference, items, exceptions, .. }) => {
-                // The items of the others are triangles, or there are none.
-                let are_vertices =
-                    matches!(difference, Difference::PartlyNegated | Difference::PartlyRotated);
-                [Some(items).filter(|_| are_vertices), Some(exceptions)]
+                [Some(items).filter(|_| counts_vertices(*difference)), Some(exceptions)]
             }
             Self::Missing(_) | Self::Unused { .. } | Self::SignMixed(_) | Self::OtherRecipe { .. } => {
                 [None, None]
             }
         }
     }
+}
+
+/// Whether the items of a difference are vertices. Those of the others are triangles, or there are none.
+fn counts_vertices(difference: Difference) -> bool {
+    matches!(difference, Difference::PartlyNegated | Difference::PartlyRotated)
 }
 
 impl TangentDifference {

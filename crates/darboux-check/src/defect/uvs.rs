@@ -1,7 +1,7 @@
 //! [`UvFault`]: what is wrong with the UVs of a primitive, or worth knowing.
 
 use crate::code::Code;
-use crate::indices::{Indices, Part};
+use crate::indices::{Indices, Items, Part};
 use crate::measure::hard_edges::HardEdges;
 use crate::measure::uv_scale::Outliers;
 
@@ -54,16 +54,16 @@ impl UvFault {
         }
     }
 
-    pub fn items(&self) -> Option<&Indices> {
-        match self {
-            Self::NotFinite { vertices: part, .. }
-            | Self::Degenerate { triangles: part, .. }
-            | Self::Mirrored(part) => Some(&part.items),
-            Self::Overlapping { triangles, .. } => Some(triangles),
-            Self::Stretched(faces) | Self::Coarse(faces) => Some(&faces.triangles),
-            Self::HardEdge(edges) => Some(&edges.triangles),
-            Self::Missing { .. } => None,
-        }
+    pub fn items(&self) -> Option<Items<'_>> {
+        let triangles = match self {
+            Self::Missing { .. } => return None,
+            Self::NotFinite { vertices, .. } => return Some(Items::Vertices(&vertices.items)),
+            Self::Degenerate { triangles: part, .. } | Self::Mirrored(part) => &part.items,
+            Self::Overlapping { triangles, .. } => triangles,
+            Self::Stretched(faces) | Self::Coarse(faces) => &faces.triangles,
+            Self::HardEdge(edges) => &edges.triangles,
+        };
+        Some(Items::Triangles(triangles))
     }
 
     /// The indices that are those of vertices.
