@@ -67,8 +67,8 @@ impl fmt::Display for UnknownName {
 
 impl std::error::Error for UnknownName {}
 
-/// Implements [`Choice`] and `FromStr` for an enum, for all crates of Darboux. The compiler refuses a list that
-/// lacks a variant. Each variant is `Name => "name", "summary";`; where some have fields, each is
+/// Implements [`Choice`] and `FromStr` for an enum, for all crates of Darboux. The compiler refuses a list
+/// that lacks a variant. Each variant is `Name => "name", "summary";`; where some have fields, each is
 /// `pattern = value => "name", "summary";`.
 #[doc(hidden)]
 #[macro_export]
