@@ -102,7 +102,7 @@ impl Images {
         }
     }
 
-    /// The kinds that were chosen, in the order of [`MapKind::ALL`].
+    /// The kinds that were chosen, in the order of the list of [`MapKind`].
     pub fn kinds(&self) -> impl Iterator<Item = MapKind> {
         self.images.iter().map(|image| image.kind)
     }

@@ -183,7 +183,7 @@ impl MapSet {
         self.0 == 0
     }
 
-    /// The kinds in the order of [`MapKind::ALL`].
+    /// The kinds in the order of the list of [`MapKind`].
     pub fn kinds(self) -> impl Iterator<Item = MapKind> {
         MapKind::ALL.iter().copied().filter(move |&kind| self.has(kind))
     }

@@ -316,10 +316,10 @@ warning\t'A picture may be wrong'
 never\t'Findings do not change the exit code'"
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l convention -d 'Where the green of normal maps should point' -r -f -a "opengl\t'Green up: glTF, OpenGL, Blender, Unity, Godot'
 directx\t'Green down: DirectX, Unreal'"
-complete -c darboux -n "__fish_darboux_using_subcommand check" -l assume -d 'What normal maps are where neither their texels nor the faces of the model decide it' -r -f -a "map=opengl\t''
-map=directx\t''
-map=red-inverted\t''
-map=both-inverted\t''"
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l assume -d 'What normal maps are where neither their texels nor the faces of the model decide it; what the texels show is not overruled' -r -f -a "map=opengl\t'Red points to the right, and green up'
+map=directx\t'Green points down'
+map=red-inverted\t'Red points to the left'
+map=both-inverted\t'Red points to the left and green down, so that bumps are dents'"
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l model -d 'The model that the images are normal maps of: its faces tell inverted green from inverted red, and its tangents, normals and UVs are checked, too' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l method -d 'How --fix makes tangents again: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF)'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
@@ -461,10 +461,10 @@ warning\t'A picture may be wrong'
 never\t'Findings do not change the exit code'"
 complete -c darboux -n "__fish_darboux_using_subcommand report" -l convention -d 'Where the green of normal maps should point' -r -f -a "opengl\t'Green up: glTF, OpenGL, Blender, Unity, Godot'
 directx\t'Green down: DirectX, Unreal'"
-complete -c darboux -n "__fish_darboux_using_subcommand report" -l assume -d 'What normal maps are where neither their texels nor the faces of the model decide it' -r -f -a "map=opengl\t''
-map=directx\t''
-map=red-inverted\t''
-map=both-inverted\t''"
+complete -c darboux -n "__fish_darboux_using_subcommand report" -l assume -d 'What normal maps are where neither their texels nor the faces of the model decide it; what the texels show is not overruled' -r -f -a "map=opengl\t'Red points to the right, and green up'
+map=directx\t'Green points down'
+map=red-inverted\t'Red points to the left'
+map=both-inverted\t'Red points to the left and green down, so that bumps are dents'"
 complete -c darboux -n "__fish_darboux_using_subcommand report" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use' -r
 complete -c darboux -n "__fish_darboux_using_subcommand report" -l polygons -d 'How faces of five and more corners are cut, in formats that have them' -r -f -a "blender\t'as Blender cuts them for its exporters'
 fan\t'all triangles share the first corner; concave faces are cut into ears'
