@@ -455,7 +455,10 @@ fn indices_of_nothing_are_errors() {
     };
     assert!(problem("f 0 1 2").contains("line 4: has the index 0, but indices begin at 1; "));
     assert!(problem("f -1 -2 -5").contains("line 4: refers to position -5, but there are 3 before it; "));
-    assert!(problem("f 1 2 x").contains("line 4: has \"x\", which is no corner of a face; "));
+    for word in ["x", "$", "2!", "/"] {
+        let said = format!("line 4: has \"{word}\", which is no corner of a face; ");
+        assert!(problem(&format!("f 1 2 {word}")).contains(&said), "{word}");
+    }
 }
 
 /// As Blender keeps them.

@@ -244,7 +244,7 @@ fn whole_number(text: &[u8]) -> Option<i64> {
     }
     let mut number = 0;
     for digit in digits {
-        number = 10 * number + i64::from(digit.is_ascii_digit().then_some(digit - b'0')?);
+        number = 10 * number + i64::from(digit.checked_sub(b'0').filter(|digit| *digit < 10)?);
     }
     Some(if is_negative { -number } else { number })
 }
