@@ -275,6 +275,10 @@ fn damaged_files_are_errors_or_warnings() {
     damaged[20] = b' ';
     let error = from_bytes(&damaged, &LoadOptions::default()).err();
     assert_ne!(error.as_deref(), Some(cut_off));
+    let mut damaged = bytes.clone();
+    damaged[2000..2100].fill(255);
+    let error = from_bytes(&damaged, &LoadOptions::default()).unwrap_err();
+    assert!(error.starts_with("model.fbx: is not a valid FBX ("), "{error}");
     // Braces in comments and strings do not count.
     let braces =
         ASCII.replacen('\n', "\n; a comment with { and \"\n", 1).replace("Model::Plate", "Model::Plate{");

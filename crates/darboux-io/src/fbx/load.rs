@@ -87,7 +87,7 @@ fn binary_ends_early(bytes: &[u8]) -> bool {
         Some(digits.fold(0_u64, |number, &byte| number << 8 | u64::from(byte)))
     };
     let Some(version) = number(HEADER - 4, 4) else { return true };
-    // The offset, the number of properties, their length, and the length of the name.
+    // The offset, the number of properties, their length, and the length of the name, which follows.
     let size = if version >= 7500 { 8 } else { 4 };
     let least = 3 * size + 1;
     let mut place = HEADER;
@@ -98,9 +98,15 @@ fn binary_ends_early(bytes: &[u8]) -> bool {
         if end < place + least {
             return false;
         }
+        if end > bytes.len() {
+            // Damaged bytes are no name.
+            let name = bytes.get(place + least..).unwrap_or_default();
+            let length = bytes.get(place + least - 1).map_or(0, |&length| usize::from(length));
+            return name.iter().take(length).all(u8::is_ascii_alphanumeric);
+        }
         place = end;
     }
-    place > bytes.len() || place == HEADER
+    place == HEADER
 }
 
 /// Whether an ASCII file ends inside of a block or a string.
