@@ -55,19 +55,25 @@ test('findings have a severity in words, a sentence, a look, a cure, and evidenc
   assert.match(await evidence.innerText(), /tangent-shared-across-mirror.*25.*vertices/s);
 });
 
+/** Waits until the status says where the camera is, and until it is there. */
+async function arrived({ source }) {
+  await viewer.page.waitForFunction((source) => new RegExp(source, 's').test(document.getElementById('status').textContent), source);
+  await viewer.settled();
+}
+
 test('a click leads to each place of a finding, and marks it', async () => {
   for (const [code, kind] of [['tangent-shared-across-mirror', 'vertex'], ['tangent-sign-mixed', 'triangle']]) {
     const before = await viewer.picture();
     await viewer.click(`[data-code=${code}] button`);
-    assert.match(await viewer.text('status'), new RegExp(`^Shield: .*, ${kind} \\d+, place 1 of 8, at \\(.*\\)$`));
+    await arrived(new RegExp(`^Shield: .*, ${kind} \\d+, place 1 of 8, at \\(.*\\)$`));
     const there = await viewer.picture();
     assert.ok(there.differs(before) > 0.1, 'the camera went there');
     assert.ok(there.share(isMagenta, 0.45, 0.55) > 0.0005, 'the place is in the middle, and marked');
     await viewer.click(`[data-code=${code}] button`);
-    assert.match(await viewer.text('status'), /, place 2 of 8, at /);
+    await arrived(/, place 2 of 8, at /);
   }
   await viewer.click('[data-code=tangent-other-recipe] button');
-  assert.match(await viewer.text('status'), /^Shield: the tangents were computed by .*, at /);
+  await arrived(/^Shield: the tangents were computed by .*, at /);
   assert.ok((await viewer.picture()).share(isMagenta) > 0.0005, 'the whole part is marked');
 });
 
