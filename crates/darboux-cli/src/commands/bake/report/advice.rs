@@ -30,7 +30,7 @@ pub fn of_models(low: &LowModel<'_>, low_name: &str, high: &[HighModel<'_>]) -> 
     let of_low = of_low.map(|(count, one, many)| format!("{low_name}: {}", counted(count, one, many)));
     let of_high = (flat > 0).then(|| {
         let subject = counted(flat, "primitive of the high models has", "primitives of the high models have");
-        format!("{subject} no normals, so every triangle is flat, as glTF requires; darboux normals --smooth makes smooth ones")
+        format!("{subject} no normals, so every triangle is flat, as glTF requires; darboux normals makes smooth ones")
     });
     let materials = low.materials.len();
     let of_materials = (materials > 1).then(|| {
