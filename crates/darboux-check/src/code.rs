@@ -52,6 +52,11 @@ macro_rules! codes {
                 match self { $($(Self::$code => Family::$family,)*)* }
             }
 
+            /// Whether its findings are about tangents.
+            pub fn is_about_tangents(self) -> bool {
+                self.family() == Family::Tangents
+            }
+
             /// The usual severity; a finding may have a lower one.
             pub fn severity(self) -> Severity {
                 match self { $($(Self::$code => Severity::$severity,)*)* }

@@ -295,8 +295,8 @@ fn green(wanted: BitangentDirection) -> Conversion {
     }
 }
 
-/// A texel with a vector of length 1. Background keeps its values: black, white and middle grey, and what a
-/// black one of two channels becomes once z is computed, which is no vector and has z = 0.
+/// A texel with a vector of length 1. Background keeps its values: black, white and middle grey, and black of
+/// maps with two channels, which has x = y = -1 and a computed z of 0.
 fn unit(texel: [f64; 3]) -> [f64; 3] {
     let vector = texel.map(|x| 2.0 * x - 1.0);
     let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -92,6 +92,13 @@ impl FixedFinding {
         Self { finding, repaired: later.repaired, change: change.filter(|_| later.repaired), was_fixable }
     }
 
+    /// The same after a second repair, which did not find the defect any more.
+    fn gone_before_second(self) -> Self {
+        let Self { finding, change, was_fixable, .. } = self;
+        let defects = finding.defects.into_iter().map(|defect| Defect { obstacle: None, ..defect }).collect();
+        Self { finding: words::of_group(defects), repaired: true, change, was_fixable }
+    }
+
     /// A defect that is still there; `reason` is that of one that could have been repaired.
     pub(super) fn left(defect: Defect, reason: Obstacle) -> Self {
         let was_fixable = defect.is_fixable();
@@ -119,9 +126,9 @@ pub fn outcome<'a>(
     FixedFinding::left(defect, reason)
 }
 
-/// The outcomes of two repairs, one after the other: what the second one found and could not remove is left,
-/// and all else that was there before either of them is gone, but for what `is_hidden` from the second one:
-/// there the first one is right. The outcomes are of one defect each.
+/// The outcomes of two repairs, one after the other, of one defect each. What the second repair could not
+/// remove is left. A defect that it did not find is gone. `is_hidden`: defects that its check cannot find, for
+/// which the first repair decides.
 pub fn of_both(
     first: Vec<FixedFinding>,
     second: Vec<FixedFinding>,
@@ -136,7 +143,7 @@ pub fn of_both(
     let followed = first.into_iter().map(|fixed| match later_of.get(&sameness(&fixed)) {
         Some(later) => fixed.after_second(later.clone()),
         None if fixed.finding.defects.iter().any(&is_hidden) => fixed,
-        None => FixedFinding { repaired: true, ..fixed },
+        None => fixed.gone_before_second(),
     });
     followed.chain(new).collect()
 }
@@ -182,6 +189,10 @@ mod tests {
         assert_eq!(is_repaired(false, None, false), [true]);
         assert_eq!(is_repaired(true, None, false), [true]);
         assert_eq!(is_repaired(false, None, true), [false]);
+        let left = FixedFinding::left(Defect::new(MapFault::Flat(100.0)), Obstacle::NotRemoved);
+        assert!(left.finding.left_because.is_some());
+        let both = of_both(vec![left], Vec::new(), |_| false);
+        assert_eq!(both[0].finding.left_because, None, "what is gone has no reason to be left");
     }
 
     #[test]

@@ -196,9 +196,9 @@ fn line(finding: &ReportedFinding, drops_tangents: bool) -> Option<String> {
     let ReportedFinding { place, code, text, left_because, .. } = finding;
     let outcome = Outcome::of(finding);
     match (code.repair(), left_because) {
-        (Some(_), _) if outcome.repaired && drops_tangents && code.name().starts_with("tangent-") => Some(
-            format!("{place}: gone {code}: {text}; an OBJ has no tangents, and an importer computes its own"),
-        ),
+        (Some(_), _) if outcome.repaired && drops_tangents && code.is_about_tangents() => Some(format!(
+            "{place}: gone {code}: {text}; an OBJ has no tangents, and an importer computes its own"
+        )),
         (Some(repair), _) if outcome.repaired => {
             let done = done(finding.change, repair);
             Some(format!("{place}: repaired {code}: {text}; {done}"))
