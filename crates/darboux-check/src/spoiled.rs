@@ -117,9 +117,8 @@ fn area_at(surface: &Surface, vertices: &Indices, weight: impl Fn(usize) -> f64)
     surface.triangles().map(of_triangle).sum()
 }
 
-/// The area of the corners on mirrored seams whose tangent has the sign of the other side. Where most signs
-/// of the surface differ from those of MikkTSpace, which is a defect of its own, the others are those of the
-/// other side.
+/// The area of the corners on mirrored seams whose tangent has the sign of the other side. If most signs of
+/// the surface are flipped, which is a defect of its own, these are the corners with the sign of MikkTSpace.
 fn area_with_other_sign(facts: &SurfaceFacts<'_>) -> f64 {
     let beside_seams = |vertex: usize| !facts.is_on_mirrored_seam[vertex];
     let differing = area_of_corners(facts, |differs, vertex| differs && beside_seams(vertex));
@@ -128,8 +127,8 @@ fn area_with_other_sign(facts: &SurfaceFacts<'_>) -> f64 {
     area_of_corners(facts, |differs, vertex| !beside_seams(vertex) && differs != are_flipped)
 }
 
-/// A third of the area of each triangle for each of its corners that counts, by whether the sign of its
-/// tangent differs from MikkTSpace's, and by its vertex.
+/// The area of some corners, each a third of its triangle. `counts` chooses them: it gets whether the sign of
+/// the corner's tangent differs from MikkTSpace's, and the corner's vertex.
 fn area_of_corners(facts: &SurfaceFacts<'_>, counts: impl Fn(bool, usize) -> bool) -> f64 {
     let (Some(tangents), Some(expected)) = (&facts.surface.tangents, &facts.expected) else { return 0.0 };
     let of_triangle = |(triangle, expected): ([usize; 3], &[[f32; 4]; 3])| {

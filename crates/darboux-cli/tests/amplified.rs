@@ -493,7 +493,7 @@ fn tangents_are_compared_with_few_uv_sets() {
 /// Primitives of one accessor of tangents, each of which wants others of the last triangle.
 #[test]
 fn repairs_of_one_accessor_take_time_in_proportion_to_what_they_want() {
-    let (primitives, triangles) = (2500, 20);
+    let (primitives, triangles) = (1000, 20);
     let vertices = 3 * triangles;
     let mut builder = Builder::default();
     let corner = |vertex: usize| {

@@ -92,8 +92,8 @@ impl FixedFinding {
         Self { finding, repaired: later.repaired, change: change.filter(|_| later.repaired), was_fixable }
     }
 
-    /// The same after a second repair, which did not find the defect any more.
-    fn gone_before_second(self) -> Self {
+    /// The same after a second repair, which did not find the defect again.
+    fn not_found_again(self) -> Self {
         let Self { finding, change, was_fixable, .. } = self;
         let defects = finding.defects.into_iter().map(|defect| Defect { obstacle: None, ..defect }).collect();
         Self { finding: words::of_group(defects), repaired: true, change, was_fixable }
@@ -127,8 +127,8 @@ pub fn outcome<'a>(
 }
 
 /// The outcomes of two repairs, one after the other, of one defect each. What the second repair could not
-/// remove is left. A defect that it did not find is gone. `is_hidden`: defects that its check cannot find, for
-/// which the first repair decides.
+/// remove is left. A defect that it did not find is gone. `is_hidden`: defects that its check cannot find,
+/// for which the first repair decides.
 pub fn of_both(
     first: Vec<FixedFinding>,
     second: Vec<FixedFinding>,
@@ -143,7 +143,7 @@ pub fn of_both(
     let followed = first.into_iter().map(|fixed| match later_of.get(&sameness(&fixed)) {
         Some(later) => fixed.after_second(later.clone()),
         None if fixed.finding.defects.iter().any(&is_hidden) => fixed,
-        None => fixed.gone_before_second(),
+        None => fixed.not_found_again(),
     });
     followed.chain(new).collect()
 }

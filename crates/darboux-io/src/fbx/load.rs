@@ -67,11 +67,11 @@ pub fn load(bytes: &[u8], budget: &Budget) -> Result<SceneRoot, ContentError> {
     Ok(loaded)
 }
 
-/// Whether a file is cut off. ufbx takes some of these ends for others: a missing brace of an ASCII file for
-/// the end of the file, the end of compressed numbers for broken ones.
+/// Whether a file is cut off. ufbx does not always say so: it accepts an ASCII file that lacks its last
+/// braces, and calls compressed numbers that end early broken.
 fn ends_early(bytes: &[u8]) -> bool {
     match bytes.strip_prefix(b"Kaydara FBX Binary") {
-        // Another number of the byte order is big-endian.
+        // The last byte is 0 where numbers are little-endian.
         Some(rest) => rest.starts_with(b"  \0\x1A\0") && binary_ends_early(bytes),
         None => text_ends_early(bytes),
     }
@@ -99,7 +99,7 @@ fn binary_ends_early(bytes: &[u8]) -> bool {
             return false;
         }
         if end > bytes.len() {
-            // Damaged bytes are no name.
+            // The node's name tells a file that is cut off from one whose offsets are damaged.
             let name = bytes.get(place + least..).unwrap_or_default();
             let length = bytes.get(place + least - 1).map_or(0, |&length| usize::from(length));
             return name.iter().take(length).all(u8::is_ascii_alphanumeric);

@@ -55,7 +55,7 @@ pub enum DecodeError {
     #[error("is neither PNG nor JPEG nor WebP; convert it to one of them")]
     UnknownFormat,
     /// The file is the text that Git LFS leaves in the place of the image.
-    #[error("is a pointer of Git LFS, not the image; run: git lfs pull")]
+    #[error("{}", crate::git_lfs::NOT_AN_IMAGE)]
     GitLfsPointer,
     /// The image exceeds [`DecodeLimits`].
     #[error("has {width} x {height} texels, more than the limit; make it smaller, or raise the memory limit")]

@@ -6,7 +6,7 @@ use darboux::{BitangentDirection, Convention};
 use serde_json::{Value, json};
 
 use super::data::DataBuilder;
-use crate::image::{Channels, DecodeError, PngImage, convert_normal_map};
+use crate::image::{Channels, PngImage, convert_normal_map};
 use crate::source::scene::{NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture};
 use crate::{LoadOptions, git_lfs};
 
@@ -183,9 +183,9 @@ impl MaterialBuilder<'_> {
         let Some(mime) = mime_type(&image.bytes) else {
             let name = &image.name;
             let problem = if image.bytes.starts_with(git_lfs::START) {
-                DecodeError::GitLfsPointer.to_string()
+                git_lfs::NOT_AN_IMAGE
             } else {
-                "is neither PNG, JPEG nor WebP, which glTF needs; save it as PNG".to_owned()
+                "is neither PNG, JPEG nor WebP, which glTF needs; save it as PNG"
             };
             self.warnings.push(format!("{name}: {problem}; the texture is left out"));
             return None;

@@ -42,7 +42,7 @@ pub fn build(
         let what = format!("has {} objects and groups, which need", scene.meshes.len());
         return Err(ContentError::unsupported("", limit.exceeded(&what)));
     }
-    let (mut primitives, mut folded) = (0, Named::default());
+    let (mut primitives, mut folded) = (0, SomeFaces::default());
     for mesh in &scene.meshes {
         check(mesh)?;
         let parts = parts(mesh);
@@ -70,8 +70,7 @@ pub fn build(
             meshes.sources.insert((index, list.len()), source);
             list.push(json);
         }
-        folded.add(mesh, builder.cutter.folded - folded_before);
-        incomplete.uvs.add(mesh, std::mem::take(&mut incomplete.faces_without_uvs));
+        folded.add(builder.cutter.folded - folded_before, index, mesh);
         let mut json = json!({"name": mesh.name, "primitives": list});
         if !mesh.morphs.is_empty() {
             let names: Vec<&str> = mesh.morphs.iter().map(|morph| &*morph.name).collect();
@@ -91,47 +90,67 @@ pub fn build(
 }
 
 /// A sentence if there are faces whose triangles fold over.
-fn folded_warning(folded: &Named) -> Option<String> {
-    let faces = match folded.faces {
+fn folded_warning(folded: &SomeFaces) -> Option<String> {
+    let faces = match folded.count {
         0 => return None,
         1 => "1 face crosses itself, is not flat or is too large to cut, and its".to_owned(),
         count => format!("{count} faces cross themselves, are not flat or are too large to cut, and their"),
     };
-    Some(format!("{}{faces} triangles overlap; split such faces in a modelling program", folded.place()))
+    let place = folded.place();
+    Some(format!("{place}{faces} triangles overlap; split such faces in a modelling program"))
 }
 
-/// Faces that have something, and the meshes that they are in.
+/// Some meshes of the file.
 #[derive(Debug, Default)]
-struct Named {
-    faces: usize,
-    meshes: usize,
-    /// The place of the first such mesh in the file, or its name.
+struct SomeMeshes {
+    count: usize,
+    /// The path of the first one in the file, or its name.
     first: String,
+    /// The index of the last one: a mesh may have several primitives.
+    last: Option<usize>,
 }
 
-impl Named {
-    /// Adds faces of a mesh.
-    fn add(&mut self, mesh: &SourceMesh, faces: usize) {
-        if faces == 0 {
+impl SomeMeshes {
+    fn add(&mut self, index: usize, mesh: &SourceMesh) {
+        if self.last == Some(index) {
             return;
         }
-        if self.meshes == 0 {
+        if self.count == 0 {
             self.first = shortened(if mesh.path.is_empty() { &mesh.name } else { &mesh.path });
         }
-        self.faces += faces;
-        self.meshes += 1;
+        self.count += 1;
+        self.last = Some(index);
     }
 
-    /// The beginning of a sentence that says where they are; empty for a file that is one mesh without a
-    /// name.
-    fn place(&self) -> String {
-        match (&*self.first, self.meshes - 1) {
-            ("", 0) => String::new(),
-            ("", others) => format!("in {} meshes, ", others + 1),
-            (first, 0) => format!("{first}: "),
-            (first, 1) => format!("{first} and 1 other mesh: "),
-            (first, others) => format!("{first} and {others} other meshes: "),
+    /// The subject of a sentence.
+    fn names(&self) -> String {
+        match (&*self.first, self.count) {
+            ("", count) => counted(count, "mesh", "meshes"),
+            (first, 1) => first.to_owned(),
+            (first, count) => format!("{first} and {}", counted(count - 1, "other mesh", "other meshes")),
         }
+    }
+}
+
+/// Some faces, and the meshes that they are in.
+#[derive(Debug, Default)]
+struct SomeFaces {
+    count: usize,
+    meshes: SomeMeshes,
+}
+
+impl SomeFaces {
+    fn add(&mut self, count: usize, index: usize, mesh: &SourceMesh) {
+        if count > 0 {
+            self.count += count;
+            self.meshes.add(index, mesh);
+        }
+    }
+
+    /// The beginning of a sentence that says where they are; empty for one mesh without a name.
+    fn place(&self) -> String {
+        let is_unnamed = self.meshes.count == 1 && self.meshes.first.is_empty();
+        if is_unnamed { String::new() } else { format!("{}: ", self.meshes.names()) }
     }
 }
 
@@ -212,57 +231,28 @@ fn parts(mesh: &SourceMesh) -> Vec<Part> {
 /// lose others.
 #[derive(Debug, Default)]
 struct Incomplete {
-    uvs: Named,
-    /// Those of the current mesh.
-    faces_without_uvs: usize,
-    normals: IncompleteMeshes,
-    colors: IncompleteMeshes,
-}
-
-#[derive(Debug, Default)]
-struct IncompleteMeshes {
-    count: usize,
-    /// The path of the first one.
-    first: String,
-    /// The index of the last one: a mesh may have several primitives.
-    last: Option<usize>,
-}
-
-impl IncompleteMeshes {
-    fn add(&mut self, index: usize, mesh: &SourceMesh, coverage: Coverage) {
-        if coverage != Coverage::Some || self.last == Some(index) {
-            return;
-        }
-        if self.count == 0 {
-            self.first = shortened(&mesh.path);
-        }
-        self.count += 1;
-        self.last = Some(index);
-    }
-
-    fn warning(&self, attribute: &str) -> Option<String> {
-        let Self { count, first, .. } = self;
-        let meshes = match (count, &**first) {
-            (0, _) => return None,
-            (_, "") => counted(*count, "mesh has", "meshes have"),
-            (1, first) => format!("{first} has"),
-            (_, first) => format!("{first} and {} have", counted(count - 1, "other mesh", "other meshes")),
-        };
-        Some(format!("{meshes} {attribute} at some corners only; they are left out"))
-    }
+    uvs: SomeFaces,
+    normals: SomeMeshes,
+    colors: SomeMeshes,
 }
 
 impl Incomplete {
     fn warnings(&self) -> impl Iterator<Item = String> + use<> {
-        let uvs = (self.uvs.faces > 0).then(|| {
-            let faces = match self.uvs.faces {
+        let uvs = (self.uvs.count > 0).then(|| {
+            let faces = match self.uvs.count {
                 1 => "1 face lacks UVs; its corners without them have".to_owned(),
                 faces => format!("{faces} faces lack UVs; their corners without them have"),
             };
             let meaning = "a face with one UV at all corners has no area in UV space";
             format!("{}{faces} the UV (0, 0), and {meaning}", self.uvs.place())
         });
-        [uvs, self.normals.warning("normals"), self.colors.warning("colours")].into_iter().flatten()
+        let lost = |meshes: &SomeMeshes, attribute: &str| {
+            let have = if meshes.count == 1 { "has" } else { "have" };
+            (meshes.count > 0).then(|| {
+                format!("{} {have} {attribute} at some corners only; they are left out", meshes.names())
+            })
+        };
+        [uvs, lost(&self.normals, "normals"), lost(&self.colors, "colours")].into_iter().flatten()
     }
 }
 
@@ -306,14 +296,16 @@ impl Part {
         }
     }
 
-    /// The values that all corners have, and the UVs that some have. `index`: that of the mesh. What is
-    /// lacking is counted.
+    /// The values that all corners have, and the UVs that some have. `index`: that of the mesh. `incomplete`
+    /// counts what corners lack.
     fn used(&self, index: usize, mesh: &SourceMesh, incomplete: &mut Incomplete) -> Used {
         let mut used = Used::default();
         if let Some(normals) = &mesh.normals {
             let coverage = self.count(mesh, normals);
             used.normals = coverage == Coverage::All;
-            incomplete.normals.add(index, mesh, coverage);
+            if coverage == Coverage::Some {
+                incomplete.normals.add(index, mesh);
+            }
         }
         if let Some(tangents) = mesh.tangents.as_ref().filter(|_| used.normals) {
             used.tangents = self.count(mesh, tangents) == Coverage::All;
@@ -328,12 +320,13 @@ impl Part {
                 used.uv_sets.push(set);
             }
         }
-        incomplete.faces_without_uvs += without_uvs;
+        incomplete.uvs.add(without_uvs, index, mesh);
         for (set, colors) in mesh.colors.iter().enumerate() {
             let coverage = self.count(mesh, colors);
-            incomplete.colors.add(index, mesh, coverage);
-            if coverage == Coverage::All {
-                used.colors.push(set);
+            match coverage {
+                Coverage::All => used.colors.push(set),
+                Coverage::Some => incomplete.colors.add(index, mesh),
+                Coverage::None => {}
             }
         }
         used
