@@ -1,6 +1,6 @@
 //! Finds the obstacles to the repair of defects.
 
-use darboux_io::image::PngImage;
+use darboux_io::image::{PngImage, RgbaImage};
 
 use crate::code::Family;
 use crate::defect::{Defect, Fault, NormalFault, Obstacle};
@@ -56,8 +56,8 @@ fn no_tangents(surface: &Surface) -> Option<Obstacle> {
 
 /// Obstacles to the repair of the texels of an image.
 pub fn of_image(file: &[u8]) -> Option<Obstacle> {
-    let is_jpeg = file.starts_with(b"\xFF\xD8\xFF");
-    let obstacle = PngImage::obstacle(file).filter(|_| !is_jpeg)?;
+    let becomes_png = file.starts_with(b"\xFF\xD8\xFF") || RgbaImage::is_tga(file);
+    let obstacle = PngImage::obstacle(file).filter(|_| !becomes_png)?;
     Some(if PngImage::is_png(file) {
         Obstacle::NotRewritable(obstacle.to_string())
     } else {

@@ -91,7 +91,7 @@ fn in_gltf_convention(input: &Input, document: Document) -> Result<Document, Str
 pub fn load_any(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
     match input {
         Input::File(path) if path.is_file() && is_other_image(path) => Err(format!(
-            "{input}: is an image in a format that is not read here; save it as .png (8 or 16 bits), .jpg or .webp, and darboux check judges it as a normal map"
+            "{input}: is an image in a format that is not read here; save it as .png (8 or 16 bits), .jpg, .webp or .tga, and darboux check judges it as a normal map"
         )),
         Input::File(path) => reading.open(path).map_err(|error| error.to_string()),
         Input::Stdin => from_stdin(input, read_stdin()?, reading),
@@ -110,8 +110,8 @@ fn is_ktx2(path: &Path) -> bool {
 
 /// Whether the extension is that of an image without a decoder.
 fn is_other_image(path: &Path) -> bool {
-    const OTHERS: [&str; 14] =
-        ["avif", "bmp", "dds", "exr", "gif", "hdr", "jxl", "ktx", "ktx2", "psd", "tga", "tif", "tiff", "xcf"];
+    const OTHERS: [&str; 13] =
+        ["avif", "bmp", "dds", "exr", "gif", "hdr", "jxl", "ktx", "ktx2", "psd", "tif", "tiff", "xcf"];
     has_extension(path, &OTHERS) && !is_ktx2(path)
 }
 

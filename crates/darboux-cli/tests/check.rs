@@ -3,6 +3,7 @@
 mod common;
 
 use std::fs;
+use std::path::Path;
 
 use common::{asset, darboux, darboux_reading, folder_with, glb, glb_json, text};
 use darboux_check::Code;
@@ -430,7 +431,15 @@ fn bumps(up: f32) -> image::RgbImage {
     })
 }
 
-/// A JPEG is repaired into a PNG, a WebP is left, and a healthy image is not written.
+/// Writes a TGA: rows from top to bottom, blue first.
+fn save_tga(path: &Path, image: &image::RgbImage) {
+    let [width, height] = [image.width(), image.height()].map(|side| (side as u16).to_le_bytes());
+    let header = [&[0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0][..], &width, &height, &[24, 0x20]].concat();
+    let texels = image.pixels().flat_map(|&image::Rgb([r, g, b])| [b, g, r]);
+    fs::write(path, header.into_iter().chain(texels).collect::<Vec<u8>>()).expect("a file");
+}
+
+/// A JPEG and a TGA are repaired into a PNG, a WebP is left, and a healthy image is not written.
 #[test]
 fn images_that_are_no_png() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -440,8 +449,10 @@ fn images_that_are_no_png() {
         path
     };
     let [jpeg, webp] = ["down.jpg", "flipped.webp"].map(|name| save(name, -1.0));
+    let tga = folder.path().join("truevision.TGA");
+    save_tga(&tga, &bumps(-1.0));
     let strip = asset("made/strips-fans-lines-points.gltf");
-    for (path, fixable, code) in [(&jpeg, true, 0), (&webp, false, 1)] {
+    for (path, fixable, code) in [(&jpeg, true, 0), (&webp, false, 1), (&tga, true, 0)] {
         let on_model = ["check", text(path), "--model", text(&strip), "--assume", "map=directx", "--json"];
         let report = darboux(&on_model).exits(1).json();
         let named = |finding: &serde_json::Value| {
@@ -455,8 +466,12 @@ fn images_that_are_no_png() {
             "{report}"
         );
     }
-    let fixed = folder.path().join("down.fixed.png");
-    darboux(&["check", text(&fixed)]).exits(0);
+    for name in ["down.fixed.png", "truevision.fixed.png"] {
+        darboux(&["check", text(&folder.path().join(name))]).exits(0);
+    }
+    let repaired = image::open(folder.path().join("truevision.fixed.png")).expect("a PNG").into_rgb8();
+    let inverted = bumps(-1.0).pixels().map(|texel| 255 - texel[1]).collect::<Vec<_>>();
+    assert_eq!(repaired.pixels().map(|texel| texel[1]).collect::<Vec<_>>(), inverted);
     let before = fs::read(&jpeg).expect("a file");
     let refused = darboux(&["check", text(&jpeg), "--assume", "map=directx", "--fix", "--in-place"]).exits(1);
     assert!(refused.stderr.contains("use -o FILE.png"), "{}", refused.stderr);
@@ -649,11 +664,11 @@ fn folders_of_images_and_other_formats_say_what_to_do() {
     fs::write(&map, b"a map").expect("a file");
     let run = darboux(&["check", text(folder.path())]).exits(1);
     let advice = format!(
-        "it has 2 images (.png, .jpg, .webp): name those that are normal maps, as in `darboux check {}`",
+        "it has 2 images (.png, .jpg, .webp, .tga): name those that are normal maps, as in `darboux check {}`",
         text(&map)
     );
     assert!(run.stderr.contains(&advice), "{}", run.stderr);
-    for extension in ["tga", "BMP", "dds", "exr", "tif"] {
+    for extension in ["BMP", "dds", "exr", "tif"] {
         let image = folder.path().join(format!("map.{extension}"));
         fs::write(&image, b"an image").expect("a file");
         let run = darboux(&["check", text(&image)]).exits(1);

@@ -13,6 +13,8 @@ mod reasons;
 #[cfg(feature = "textures")]
 mod rgba;
 mod srgb;
+#[cfg(feature = "textures")]
+mod tga;
 
 pub use channels::{Channels, ChannelsError};
 #[cfg(feature = "textures")]

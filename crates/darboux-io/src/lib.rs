@@ -5,7 +5,7 @@
 //!   edited is kept. Functions add [tangents](gltf::add_tangents) and [normals](gltf::add_normals),
 //!   [convert](gltf::convert_vertices) conventions, [inspect](gltf::inspect) and
 //!   [compare](gltf::pair_tangents) files.
-//! - [`image`]: normal maps in PNG; textures in PNG, JPEG and WebP (feature `textures`).
+//! - [`image`]: normal maps in PNG; textures in PNG, JPEG, WebP and TGA (feature `textures`).
 //! - [`source`]: models of other formats, which become documents: OBJ, PLY, STL and FBX, each with a feature
 //!   of its name. [`gltf::Document::open`] reads all of them; the content of a file decides.
 //!

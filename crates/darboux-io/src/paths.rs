@@ -36,12 +36,14 @@ pub enum FileKind {
     Jpeg,
     /// `.webp`.
     WebP,
+    /// `.tga`.
+    Tga,
     /// An image format without a decoder here.
     OtherImage,
 }
 
 /// The endings of each kind: the one list of formats, from which messages, help and folder searches come.
-const ENDINGS: [(FileKind, &[&str]); 11] = [
+const ENDINGS: [(FileKind, &[&str]); 12] = [
     (FileKind::Gltf, &["gltf"]),
     (FileKind::Glb, &["glb", "vrm"]),
     (FileKind::Obj, &["obj"]),
@@ -52,7 +54,8 @@ const ENDINGS: [(FileKind, &[&str]); 11] = [
     (FileKind::Png, &["png"]),
     (FileKind::Jpeg, &["jpeg", "jpg"]),
     (FileKind::WebP, &["webp"]),
-    (FileKind::OtherImage, &["avif", "bmp", "dds", "exr", "ktx2", "psd", "tga", "tif", "tiff"]),
+    (FileKind::Tga, &["tga"]),
+    (FileKind::OtherImage, &["avif", "bmp", "dds", "exr", "ktx2", "psd", "tif", "tiff"]),
 ];
 
 /// The endings of the kinds that `is_listed` accepts.
@@ -88,7 +91,7 @@ impl FileKind {
             Self::Stl => SourceFormat::Stl.name(),
             Self::Fbx => SourceFormat::Fbx.name(),
             Self::Usd => SourceFormat::Usd.name(),
-            Self::Png | Self::Jpeg | Self::WebP | Self::OtherImage => return None,
+            Self::Png | Self::Jpeg | Self::WebP | Self::Tga | Self::OtherImage => return None,
         })
     }
 
@@ -120,7 +123,7 @@ impl FileKind {
 
     /// Whether files of this kind are images that can be decoded (feature `textures`).
     pub fn is_decoded_image(self) -> bool {
-        matches!(self, Self::Png | Self::Jpeg | Self::WebP)
+        matches!(self, Self::Png | Self::Jpeg | Self::WebP | Self::Tga)
     }
 }
 

@@ -243,7 +243,7 @@ fn is_new_error(left: &Defect, known: &[Defect]) -> bool {
     left.severity == Severity::Error && !known.iter().any(|known| known.is_same(left))
 }
 
-/// The texels of a file; those of a JPEG with 8 bits.
+/// The texels of a file; those of a JPEG and a TGA with 8 bits.
 fn open(name: &str, file: &[u8], loading: &LoadOptions) -> Result<PngImage, Error> {
     if PngImage::is_png(file) {
         return PngImage::from_bytes(name, file.to_vec(), loading);

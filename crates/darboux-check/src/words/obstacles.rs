@@ -85,7 +85,7 @@ pub fn reason(obstacle: &Obstacle) -> String {
             "the tangents of the model have to be repaired with it; put the map on the model and repair that"
         }
         Obstacle::OtherImageFormat => {
-            "PNG and JPEG images are rewritten, and no others, because only PNG files are written; save it as a PNG first"
+            "PNG, JPEG and TGA images are rewritten, and no others, because only PNG files are written; save it as a PNG first"
         }
         Obstacle::NotChosen => "its code is not among those to repair",
         Obstacle::OtherMethodWanted => "another method than MikkTSpace was asked for",

@@ -52,7 +52,7 @@ pub enum DecodeError {
     #[error("is {0}, for which there is no decoder here; convert it to PNG, JPEG or WebP")]
     NoDecoder(&'static str),
     /// The format is not recognised.
-    #[error("is neither PNG nor JPEG nor WebP; convert it to one of them")]
+    #[error("is neither PNG nor JPEG nor WebP nor TGA; convert it to one of them")]
     UnknownFormat,
     /// The file is the text that Git LFS leaves in the place of the image.
     #[error("{}", crate::git_lfs::NOT_AN_IMAGE)]

@@ -1,5 +1,5 @@
-//! Decodes texture files (PNG, JPEG, WebP; KTX 2 with the feature `ktx2`) to 8-bit RGBA texels. The first
-//! bytes of a file decide its format.
+//! Decodes texture files (PNG, JPEG, WebP, TGA; KTX 2 with the feature `ktx2`) to 8-bit RGBA texels. The
+//! first bytes of a file decide its format.
 
 use std::io::Cursor;
 
@@ -13,8 +13,9 @@ use zune_jpeg::JpegDecoder;
 use super::chunks::SIGNATURE as PNG;
 use super::decoding::{DecodeError, DecodeLimits, broken, check_memory, rgba, texel_count, to_byte};
 use super::palette::check_palette;
-use super::reasons;
-use crate::git_lfs;
+use super::{reasons, tga};
+use crate::image::PngImage;
+use crate::{Error, git_lfs};
 
 /// An image as 8-bit RGBA texels.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,6 +48,8 @@ impl RgbaImage {
             Err(DecodeError::NoDecoder("AVIF"))
         } else if file.starts_with(git_lfs::START) {
             Err(DecodeError::GitLfsPointer)
+        } else if tga::is_tga(file) {
+            tga::decode(file, limits)
         } else {
             Err(DecodeError::UnknownFormat)
         }
@@ -59,6 +62,25 @@ impl RgbaImage {
             || file.starts_with(JPEG)
             || is_webp
             || cfg!(feature = "ktx2") && file.starts_with(KTX2)
+            || tga::is_tga(file)
+    }
+
+    /// Whether a file is a TGA, which glTF cannot hold, and a PNG of 8 bits can without loss. The format has no
+    /// signature: a header whose fields fit each other tells it from others.
+    pub fn is_tga(file: &[u8]) -> bool {
+        tga::is_tga(file)
+    }
+
+    /// The image as a PNG of 8 bits, without alpha where all texels are opaque.
+    pub fn to_png(&self, name: &str) -> Result<Vec<u8>, Error> {
+        let size = [self.width, self.height];
+        let image = if self.texels.iter().all(|texel| texel[3] == 255) {
+            let texels: Vec<[u8; 3]> = self.texels.iter().map(|&[r, g, b, _]| [r, g, b]).collect();
+            PngImage::from_rgb(name, size, &texels)?
+        } else {
+            PngImage::from_rgba(name, size, &self.texels)?
+        };
+        image.to_bytes()
     }
 
     /// Whether the image has colours, as normal maps do and height maps do not: whether the channels of its

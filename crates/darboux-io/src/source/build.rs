@@ -45,7 +45,7 @@ pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Resu
     let mut cutter = Cutter::new(options.polygon_rule);
     let limit = options.budget(size, 0);
     let meshes = meshes::build(&scene, &mut cutter, &mut data, limit)?;
-    let materials = materials::build(&scene, &mut data, &mut warnings);
+    let materials = materials::build(&scene, &mut data, options, &mut warnings);
     let nodes = nodes::build(&scene, &meshes.of_source, &mut data);
     warnings.extend(meshes.warnings);
     warnings.extend(not_carried_warning(&scene));

@@ -22,7 +22,9 @@ pub fn maps_instead(folder: &Path) -> Option<String> {
     let name = first.display().to_string();
     let command = command_line(&["check"], &[&name]);
     let images = counted(images.len(), "image", "images");
-    Some(format!("it has {images} (.png, .jpg, .webp): name those that are normal maps, as in `{command}`"))
+    Some(format!(
+        "it has {images} (.png, .jpg, .webp, .tga): name those that are normal maps, as in `{command}`"
+    ))
 }
 
 /// Which images of a folder are named like normal maps and are used by none of its models, as a sentence;

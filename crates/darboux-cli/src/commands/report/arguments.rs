@@ -29,7 +29,7 @@ Examples:
 /// What is checked, and where the page goes.
 #[derive(Debug, Args)]
 pub struct ReportArguments {
-    #[arg(required = true, value_name = "INPUT", help = with_endings("Models ({models}), folders of models, and normal maps (.png, .jpg, .webp)"))]
+    #[arg(required = true, value_name = "INPUT", help = with_endings("Models ({models}), folders of models, and normal maps (.png, .jpg, .webp, .tga)"))]
     pub inputs: Vec<PathBuf>,
 
     /// The page, in an existing folder

@@ -1,5 +1,6 @@
 //! Materials, textures and images of a document.
 
+use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 
 use darboux::{BitangentDirection, Convention};
@@ -26,9 +27,15 @@ const WEBP: &str = "EXT_texture_webp";
 const CLAMP_TO_EDGE: u32 = 33071;
 
 /// Builds all materials of a scene.
-pub fn build(scene: &SourceScene, data: &mut DataBuilder, warnings: &mut Vec<String>) -> Materials {
+pub fn build(
+    scene: &SourceScene,
+    data: &mut DataBuilder,
+    options: &LoadOptions,
+    warnings: &mut Vec<String>,
+) -> Materials {
     let mut builder = MaterialBuilder {
         scene,
+        options,
         data,
         warnings,
         built: Materials::default(),
@@ -46,6 +53,7 @@ pub fn build(scene: &SourceScene, data: &mut DataBuilder, warnings: &mut Vec<Str
 struct MaterialBuilder<'a> {
     scene: &'a SourceScene,
     data: &'a mut DataBuilder,
+    options: &'a LoadOptions,
     warnings: &'a mut Vec<String>,
     built: Materials,
     /// The texture of an image, as it is or with green inverted, repeated or clamped; none for images that
@@ -180,38 +188,59 @@ impl MaterialBuilder<'_> {
     }
 
     fn add_image(&mut self, image: &SourceImage, is_inverted: bool) -> Option<GltfImage> {
-        let Some(mime) = mime_type(&image.bytes) else {
-            let name = &image.name;
-            let problem = if image.bytes.starts_with(git_lfs::START) {
-                git_lfs::NOT_AN_IMAGE
-            } else {
-                "is neither PNG, JPEG nor WebP, which glTF needs; save it as PNG"
-            };
-            self.warnings.push(format!("{name}: {problem}; the texture is left out"));
-            return None;
+        let made = match self.as_gltf_holds_it(image) {
+            Ok(file) if is_inverted => self.inverted(&image.name, file),
+            other => other,
         };
-        let turned = if is_inverted { self.inverted(image) } else { None };
-        let view = self.data.view(turned.as_deref().unwrap_or(&image.bytes));
+        let file = made.map_err(|problem| self.warnings.push(problem)).ok()?;
+        let mime = mime_type(&file)?;
+        let view = self.data.view(&file);
         self.built.images.push(json!({"name": image.name, "mimeType": mime, "bufferView": view}));
         Some(GltfImage { index: self.built.images.len() - 1, is_webp: mime == "image/webp" })
     }
 
-    /// A normal map with green inverted; none, with a warning, where it cannot be.
-    fn inverted(&mut self, image: &SourceImage) -> Option<Vec<u8>> {
+    /// The file of an image, as PNG where glTF cannot hold its format. Errors, as sentences: no PNG can be made
+    /// of it.
+    fn as_gltf_holds_it<'i>(&mut self, image: &'i SourceImage) -> Result<Cow<'i, [u8]>, String> {
+        let (name, bytes) = (&image.name, &image.bytes);
+        if mime_type(bytes).is_some() {
+            return Ok(bytes.into());
+        }
+        let left_out = |problem: &str| format!("{name}: {problem}; the texture is left out");
+        if bytes.starts_with(git_lfs::START) {
+            return Err(left_out(git_lfs::NOT_AN_IMAGE));
+        }
+        if !converted::is_tga(bytes) {
+            return Err(left_out("is neither PNG, JPEG, WebP nor TGA; save it as PNG"));
+        }
+        let png = converted::to_png(name, bytes, self.options).map_err(|problem| left_out(&problem))?;
+        self.warnings.push(format!("{name}: is a TGA, which glTF cannot hold; the document has it as PNG"));
+        Ok(png.into())
+    }
+
+    /// A normal map with green inverted; as it is, with a warning, where it cannot be.
+    fn inverted<'i>(&mut self, name: &str, file: Cow<'i, [u8]>) -> Result<Cow<'i, [u8]>, String> {
         let down = Convention { bitangent: BitangentDirection::Down, ..Convention::GLTF };
-        let turned = PngImage::from_bytes(&image.name, image.bytes.clone(), &LoadOptions::default())
-            .and_then(|mut png| {
+        let png = match PngImage::is_png(&file) {
+            true => Ok(file.to_vec()),
+            false => {
+                converted::to_png(name, &file, self.options).map_err(|problem| format!("{name}: {problem}"))
+            }
+        };
+        let turned = png.and_then(|png| {
+            let turn = |mut png: PngImage| {
                 convert_normal_map(&mut png, &down.to(Convention::GLTF), Channels::RGB, Channels::RGB)?;
                 png.to_bytes()
-            });
-        let name = &image.name;
+            };
+            PngImage::from_bytes(name, png, self.options).and_then(turn).map_err(|error| error.to_string())
+        });
         self.warnings.push(match &turned {
             Ok(_) => {
                 format!("{name}: its green points down in the source; it was inverted, as glTF has it up")
             }
             Err(error) => format!("{error}; its green points down, and is not inverted: save the map as PNG"),
         });
-        turned.ok()
+        Ok(turned.map_or(file, Cow::from))
     }
 }
 
@@ -227,5 +256,39 @@ fn mime_type(bytes: &[u8]) -> Option<&'static str> {
         [0xFF, 0xD8, 0xFF, ..] => Some("image/jpeg"),
         [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => Some("image/webp"),
         _ => None,
+    }
+}
+
+/// Images as PNG.
+#[cfg(feature = "textures")]
+mod converted {
+    use crate::LoadOptions;
+    use crate::image::{DecodeLimits, RgbaImage};
+
+    pub fn is_tga(bytes: &[u8]) -> bool {
+        RgbaImage::is_tga(bytes)
+    }
+
+    /// A PNG of an image. Errors, as clauses: the image cannot be decoded.
+    pub fn to_png(name: &str, bytes: &[u8], options: &LoadOptions) -> Result<Vec<u8>, String> {
+        let limits = DecodeLimits::of_file(bytes.len(), options.memory_limit);
+        // While the PNG is made, the texels are there three times.
+        let limits = limits.with_max_texels(limits.max_texels / 2);
+        let image = RgbaImage::decode(bytes, &limits).map_err(|error| error.to_string())?;
+        image.to_png(name).map_err(|error| error.to_string())
+    }
+}
+
+/// Without decoders, no reader of a format with images is there.
+#[cfg(not(feature = "textures"))]
+mod converted {
+    use crate::LoadOptions;
+
+    pub fn is_tga(_: &[u8]) -> bool {
+        false
+    }
+
+    pub fn to_png(_: &str, _: &[u8], _: &LoadOptions) -> Result<Vec<u8>, String> {
+        Err("cannot be decoded here".to_owned())
     }
 }

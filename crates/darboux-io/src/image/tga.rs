@@ -1,0 +1,90 @@
+//! Decodes TGA files (Truevision TGA File Format Specification 2.0) to 8-bit RGBA texels.
+
+use tinytga::{Bpp, Compression, DataType, ImageOrigin, RawTga, TgaHeader};
+
+use super::decoding::{DecodeError, DecodeLimits, broken, check_memory, texel_count};
+use super::rgba::RgbaImage;
+
+const FOOTER_SIGNATURE: &[u8] = b"TRUEVISION-XFILE.\0";
+const FOOTER_LENGTH: usize = 26;
+const HEADER_LENGTH: usize = 18;
+
+/// Whether the fields of the header fit each other.
+pub fn is_tga(file: &[u8]) -> bool {
+    let Ok(tga) = RawTga::from_slice(without_footer(file)) else { return false };
+    let header = tga.header();
+    let fits = match header.data_type {
+        DataType::TrueColor => header.pixel_depth != Bpp::Bits8,
+        DataType::BlackAndWhite => matches!(header.pixel_depth, Bpp::Bits8 | Bpp::Bits16),
+        DataType::ColorMapped => header.has_color_map && header.pixel_depth == Bpp::Bits8,
+        DataType::NoData => false,
+    };
+    // The two highest bits of the descriptor are reserved.
+    let has_reserved_bits = file.get(HEADER_LENGTH - 1).is_none_or(|descriptor| descriptor & 0xC0 != 0);
+    fits && !has_reserved_bits && header.width > 0 && header.height > 0
+}
+
+/// Decodes a file that [`is_tga`].
+pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
+    let tga = RawTga::from_slice(without_footer(file)).map_err(|_| broken("its header is damaged"))?;
+    let header = tga.header();
+    let (width, height) = (usize::from(header.width), usize::from(header.height));
+    let count = texel_count(width, height, limits)?;
+    check_memory([width, height], 4 * count as u64, limits)?;
+    if header.has_color_map && header.color_map_start > 0 {
+        return Err(DecodeError::NoDecoder("a TGA whose colour map does not begin with 0"));
+    }
+    let stored = tga.image_data().len() / usize::from(header.pixel_depth.bytes());
+    // The decoder takes texels that are missing for zeros.
+    if header.compression == Compression::Uncompressed && stored < count {
+        return Err(cut_off());
+    }
+    let is_mirrored = matches!(header.image_origin, ImageOrigin::BottomRight | ImageOrigin::TopRight);
+    let mut texels = vec![[0; 4]; count];
+    let mut decoded = 0;
+    for pixel in tga.pixels() {
+        let (x, y) = (pixel.position.x as usize, pixel.position.y as usize);
+        let x = if is_mirrored { width - 1 - x } else { x };
+        texels[y * width + x] = texel(&tga, &header, pixel.color)?;
+        decoded += 1;
+    }
+    if decoded < count {
+        return Err(cut_off());
+    }
+    Ok(RgbaImage { width: width as u32, height: height as u32, texels })
+}
+
+fn cut_off() -> DecodeError {
+    broken("it ends before its last row: it was cut off")
+}
+
+/// The footer only leads to metadata, and the decoder does not expect lengths in it that are wrong.
+fn without_footer(file: &[u8]) -> &[u8] {
+    if file.ends_with(FOOTER_SIGNATURE) { &file[..file.len().saturating_sub(FOOTER_LENGTH)] } else { file }
+}
+
+fn texel(tga: &RawTga<'_>, header: &TgaHeader, code: u32) -> Result<[u8; 4], DecodeError> {
+    let has_alpha = header.alpha_channel_depth > 0;
+    let [low, high, ..] = code.to_le_bytes();
+    Ok(match (header.data_type, tga.color_map()) {
+        (DataType::BlackAndWhite, _) => {
+            [low, low, low, if has_alpha && header.pixel_depth == Bpp::Bits16 { high } else { 255 }]
+        }
+        (DataType::ColorMapped, Some(colors)) => {
+            let color = colors.get_raw(code as usize).ok_or_else(|| broken("its colour map is too short"))?;
+            color_of(color, colors.entry_bpp(), has_alpha)
+        }
+        _ => color_of(code, header.pixel_depth, has_alpha),
+    })
+}
+
+/// Blue is lowest. Colours of 16 bits have 5 bits per channel, and one that programs use in opposite ways: their
+/// texels are opaque.
+fn color_of(code: u32, bits: Bpp, has_alpha: bool) -> [u8; 4] {
+    if bits == Bpp::Bits16 {
+        let channel = |shift: u32| (((code >> shift & 31) * 255 + 15) / 31) as u8;
+        return [channel(10), channel(5), channel(0), 255];
+    }
+    let [blue, green, red, alpha] = code.to_le_bytes();
+    [red, green, blue, if has_alpha && bits == Bpp::Bits32 { alpha } else { 255 }]
+}
