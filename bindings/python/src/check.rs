@@ -25,8 +25,8 @@ use crate::threads::cancellable;
 /// Parameters
 /// ----------
 /// source : path-like or Document
-///     A .glb or .gltf file, or an image (.png, .jpg, .webp, .tga), which is checked as a normal map; or a document
-///     that load has read.
+///     A .glb or .gltf file, or an image (.png, .jpg, .webp, .tga), which is checked as a normal map; or
+///     a document that load has read.
 /// convention : str
 ///     Where the green of normal maps should point: 'opengl' (up, as in glTF) or 'directx' (down).
 /// maps : bool
@@ -117,8 +117,8 @@ fn check_options(convention: &str, maps: bool, assume: Option<&str>) -> PyResult
     Ok(CheckOptions::default().with_green(green).with_maps(maps).with_assumed_map(assumed))
 }
 
-/// Repair what can be repaired without guessing: tangents, normals, and the texels of PNG, JPEG and TGA normal
-/// maps, as `darboux check --fix` does.
+/// Repair what can be repaired without guessing: tangents, normals, and the texels of PNG, JPEG and TGA
+/// normal maps, as `darboux check --fix` does.
 ///
 /// Nothing is left to repair in the repaired document, and data that no finding names is kept. After an error
 /// the document is unusable: load it again.

@@ -49,7 +49,8 @@ impl RgbaImage {
         } else if file.starts_with(git_lfs::START) {
             Err(DecodeError::GitLfsPointer)
         } else if tga::is_tga(file) {
-            tga::decode(file, limits)
+            let (width, height, texels) = tga::decode(file, limits)?;
+            Ok(Self { width, height, texels })
         } else {
             Err(DecodeError::UnknownFormat)
         }
@@ -65,8 +66,8 @@ impl RgbaImage {
             || tga::is_tga(file)
     }
 
-    /// Whether a file is a TGA, which glTF cannot hold, and a PNG of 8 bits can without loss. The format has no
-    /// signature: a header whose fields fit each other tells it from others.
+    /// Whether a file is a TGA, which glTF cannot hold, and a PNG of 8 bits can without loss. The format has
+    /// no signature: a header whose fields fit each other tells it from others.
     pub fn is_tga(file: &[u8]) -> bool {
         tga::is_tga(file)
     }

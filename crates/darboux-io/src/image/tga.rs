@@ -3,7 +3,6 @@
 use tinytga::{Bpp, Compression, DataType, ImageOrigin, RawTga, TgaHeader};
 
 use super::decoding::{DecodeError, DecodeLimits, broken, check_memory, texel_count};
-use super::rgba::RgbaImage;
 
 const FOOTER_SIGNATURE: &[u8] = b"TRUEVISION-XFILE.\0";
 const FOOTER_LENGTH: usize = 26;
@@ -24,8 +23,8 @@ pub fn is_tga(file: &[u8]) -> bool {
     fits && !has_reserved_bits && header.width > 0 && header.height > 0
 }
 
-/// Decodes a file that [`is_tga`].
-pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
+/// Decodes a file that [`is_tga`] to its width, its height and its texels.
+pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<(u32, u32, Vec<[u8; 4]>), DecodeError> {
     let tga = RawTga::from_slice(without_footer(file)).map_err(|_| broken("its header is damaged"))?;
     let header = tga.header();
     let (width, height) = (usize::from(header.width), usize::from(header.height));
@@ -51,7 +50,7 @@ pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeErr
     if decoded < count {
         return Err(cut_off());
     }
-    Ok(RgbaImage { width: width as u32, height: height as u32, texels })
+    Ok((width as u32, height as u32, texels))
 }
 
 fn cut_off() -> DecodeError {
@@ -78,8 +77,8 @@ fn texel(tga: &RawTga<'_>, header: &TgaHeader, code: u32) -> Result<[u8; 4], Dec
     })
 }
 
-/// Blue is lowest. Colours of 16 bits have 5 bits per channel, and one that programs use in opposite ways: their
-/// texels are opaque.
+/// Blue is lowest. Colours of 16 bits have 5 bits per channel, and one that programs use in opposite ways:
+/// their texels are opaque.
 fn color_of(code: u32, bits: Bpp, has_alpha: bool) -> [u8; 4] {
     if bits == Bpp::Bits16 {
         let channel = |shift: u32| (((code >> shift & 31) * 255 + 15) / 31) as u8;

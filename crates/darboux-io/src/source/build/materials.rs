@@ -199,8 +199,8 @@ impl MaterialBuilder<'_> {
         Some(GltfImage { index: self.built.images.len() - 1, is_webp: mime == "image/webp" })
     }
 
-    /// The file of an image, as PNG where glTF cannot hold its format. Errors, as sentences: no PNG can be made
-    /// of it.
+    /// The file of an image, as PNG where glTF cannot hold its format. Errors, as sentences: no PNG can be
+    /// made of it.
     fn as_gltf_holds_it<'i>(&mut self, image: &'i SourceImage) -> Result<Cow<'i, [u8]>, String> {
         let (name, bytes) = (&image.name, &image.bytes);
         if mime_type(bytes).is_some() {
