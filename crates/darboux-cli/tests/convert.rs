@@ -46,6 +46,31 @@ fn an_image_comes_back_from_every_preset() {
     }
 }
 
+/// Without conventions, a model is written in another format and is what its reader makes of it.
+#[test]
+fn models_change_their_format_alone() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let [glb, gltf, obj, same, png] =
+        ["a.glb", "a.gltf", "b.obj", "same.glb", "n.png"].map(|name| folder.path().join(name));
+    let source = asset("blender/polygons.obj");
+    darboux(&["convert", text(&source), "-o", text(&glb)]).exits(0);
+    darboux(&["convert", text(&glb), "-o", text(&gltf)]).exits(0);
+    darboux(&["convert", text(&glb), "-o", text(&obj)]).exits(0);
+    let out = folder.path().join("out");
+    fs::create_dir(&out).expect("a folder");
+    darboux(&["convert", text(&source), "--out-dir", text(&out)]).exits(0);
+    assert_eq!(names_in(&out), ["polygons.glb"]);
+    assert!(fs::read(&glb).expect("a file") == fs::read(out.join("polygons.glb")).expect("a file"));
+    let refused = darboux(&["convert", text(&glb), "-o", text(&same)]).exits(2);
+    assert!(refused.stderr.contains("nothing would change"), "{}", refused.stderr);
+    let refused = darboux(&["convert", text(&asset(IMAGE)), "-o", text(&png)]).exits(2);
+    assert!(refused.stderr.contains("(--from and --to)"), "{}", refused.stderr);
+    let one = darboux(&["convert", text(&glb), "--from", "unity", "-o", text(&obj)]).exits(2);
+    assert!(one.stderr.contains("--to"), "{}", one.stderr);
+    let own = darboux(&["convert", text(&obj), "--from", "gltf", "--to", "gltf", "-o", text(&obj)]).exits(2);
+    assert!(own.stderr.ends_with("would be replaced by its own output; name another output\n"));
+}
+
 #[test]
 fn a_model_comes_back_from_every_preset() {
     let folder = tempfile::tempdir().expect("a temporary folder");

@@ -101,7 +101,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--jobs', '--jobs', [CompletionResultType]::ParameterName, 'How many files are processed at the same time; by default one per processor core')
             [CompletionResult]::new('--memory-limit', '--memory-limit', [CompletionResultType]::ParameterName, 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file, and at most what the process may use')
             [CompletionResult]::new('--polygons', '--polygons', [CompletionResultType]::ParameterName, 'How faces of five and more corners are cut, in formats that have them')
-            [CompletionResult]::new('--from', '--from', [CompletionResultType]::ParameterName, 'The convention of the inputs')
+            [CompletionResult]::new('--from', '--from', [CompletionResultType]::ParameterName, 'The convention of the inputs; without it and --to, models are written in another format only')
             [CompletionResult]::new('--to', '--to', [CompletionResultType]::ParameterName, 'The convention of the outputs')
             [CompletionResult]::new('--layout', '--layout', [CompletionResultType]::ParameterName, 'The channels of x, y and, if stored, z of a normal map: rgb, rg, ag, la, ...')
             [CompletionResult]::new('--to-layout', '--to-layout', [CompletionResultType]::ParameterName, 'The channels in the output; by default those of --layout. A z that is not stored is computed from x and y')

@@ -107,7 +107,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand convert" -l memory-limit
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l polygons -d 'How faces of five and more corners are cut, in formats that have them' -r -f -a "blender\t'as Blender cuts them for its exporters'
 fan\t'all triangles share the first corner; concave faces are cut into ears'
 ears\t'ears are cut off in the order of corners'"
-complete -c darboux -n "__fish_darboux_using_subcommand convert" -l from -d 'The convention of the inputs' -r -f -a "gltf\t''
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l from -d 'The convention of the inputs; without it and --to, models are written in another format only' -r -f -a "gltf\t''
 opengl\t''
 directx\t''
 blender\t''

@@ -215,8 +215,10 @@ fn refuse_replaced_inputs(
             } else {
                 format!("the output of {writer}")
             };
+            let in_place =
+                if is_gltf(path) || is_png(path) { ", or use --in-place to replace inputs" } else { "" };
             return Err(UsageError(format!(
-                "{} would be replaced by {output}; name another output, or use --in-place to replace inputs",
+                "{} would be replaced by {output}; name another output{in_place}",
                 path.display()
             )));
         }

@@ -74,11 +74,12 @@ impl FileCommand for ConvertArguments {
     const IMAGES: bool = true;
 
     fn suffix(&self) -> &str {
-        if let Some(space) = self.space {
-            return space_name(space);
+        match (self.space, &self.to) {
+            (Some(space), _) => space_name(space),
+            // Only the name of a preset becomes part of a file name.
+            (None, Some(to)) if to.convention.names().any(|name| name == to.name) => &to.name,
+            (None, _) => "converted",
         }
-        // Only the name of a preset becomes part of a file name.
-        if self.to.convention.names().any(|name| name == self.to.name) { &self.to.name } else { "converted" }
     }
 
     fn files(&self) -> &FileOptions {
@@ -95,6 +96,7 @@ impl FileCommand for ConvertArguments {
                 "{} is a folder, and not every image in it is a normal map; name the files instead",
                 folder.display()
             ))),
+            None if self.only_format_changes() => self.check_formats(),
             None if self.space.is_some() && self.to_layout.is_some() => Err(UsageError(
                 "--to-layout cannot be used with --space; move channels in a second run".to_owned(),
             )),
@@ -109,8 +111,9 @@ impl FileCommand for ConvertArguments {
     }
 
     fn options(&self) -> String {
-        let Self { from, to, layout, to_layout, raw, space, model, uv_set, .. } = self;
-        format!("{:?}", (&from.name, &to.name, layout, to_layout, raw, space, model, uv_set))
+        let Self { layout, to_layout, raw, space, model, uv_set, .. } = self;
+        let [from, to] = self.conventions().map(|named| named.name);
+        format!("{:?}", (from, to, layout, to_layout, raw, space, model, uv_set))
     }
 
     fn process(
@@ -170,7 +173,8 @@ impl FileCommand for ConvertArguments {
 impl ConvertArguments {
     fn image(&self, mut image: PngImage, output: &Output) -> Result<ProcessedFile<ConvertSummary>, String> {
         let sentence = |error: darboux_io::Error| error.to_string();
-        let conversion = self.from.convention.to(self.to.convention);
+        let [from, to] = self.conventions().map(|named| named.convention);
+        let conversion = from.to(to);
         let target = self.to_layout.unwrap_or(self.layout);
         let mut warnings: Vec<String> = Vec::new();
         let mut space = None;
@@ -211,6 +215,26 @@ impl ConvertArguments {
         Err("--space is not in this build".to_owned())
     }
 
+    /// Errors: an input and an output of the same format, between which nothing changes; an image.
+    fn check_formats(&self) -> Result<(), UsageError> {
+        let FileOptions { inputs, output, out_dir, .. } = &self.files;
+        let changes = |input: &Path| {
+            let kind = FileKind::of(input);
+            let is_image = kind.is_some_and(FileKind::is_image);
+            match output {
+                Some(output) => !is_image && FileKind::of(output) != kind,
+                None => out_dir.is_some() && kind.is_some_and(|kind| kind.is_model() && !kind.is_gltf()),
+            }
+        };
+        match inputs.iter().find(|input| !changes(input)) {
+            None => Ok(()),
+            Some(input) => Err(UsageError(format!(
+                "{}: nothing would change; name its convention and the wanted one (--from and --to), or an output of another format (-o model.glb)",
+                input.display()
+            ))),
+        }
+    }
+
     /// Warns about an image that does not look like a normal map.
     fn warning(&self, image: &PngImage) -> Option<String> {
         let [width, height] = image.size();
@@ -229,7 +253,7 @@ impl ConvertArguments {
         job: &Job,
         progress: &FileProgress<'_>,
     ) -> Result<ProcessedFile<ConvertSummary>, String> {
-        let (from, to) = (&self.from, &self.to);
+        let [from, to] = self.conventions();
         if to.convention != Convention::GLTF && !self.raw {
             return Err(format!(
                 "{}: what is written must be in glTF's convention; use --to gltf, or, for a .glb or .gltf and a program that uses its numbers as they are, --raw",
@@ -237,11 +261,16 @@ impl ConvertArguments {
             ));
         }
         let mut warnings = document.warnings().to_vec();
-        warnings.extend(self.turned_again(&document));
-        let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
-        let mut summary = convert_vertices(&mut document, from.convention, to.convention, &mut on_progress)
-            .map_err(|error| error.to_string())?;
-        warnings.append(&mut summary.warnings);
+        let mut conversion = None;
+        if !self.only_format_changes() {
+            warnings.extend(turned_again(&from, &document));
+            let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
+            let mut summary =
+                convert_vertices(&mut document, from.convention, to.convention, &mut on_progress)
+                    .map_err(|error| error.to_string())?;
+            warnings.append(&mut summary.warnings);
+            conversion = Some(summary);
+        }
         if document.convention().map_err(|error| error.to_string())? != Convention::GLTF {
             warnings.push(format!(
                 "the output is in the convention of {}: no viewer of glTF shows it correctly",
@@ -250,25 +279,25 @@ impl ConvertArguments {
         }
         warnings.extend(left_out(&document, &job.output)?);
         let (status, files_written) = save(&document, &job.output, &self.files, document.is_changed())?;
-        let summary = ConvertSummary { model: Some(summary), warnings, ..ConvertSummary::default() };
+        let summary = ConvertSummary { model: conversion, warnings, ..ConvertSummary::default() };
         Ok(ProcessedFile { status, files_written, summary })
     }
+}
 
-    /// A warning where the reader of a format has turned what `--from` turns again.
-    fn turned_again(&self, document: &Document) -> Option<String> {
-        let NamedConvention { convention, name } = &self.from;
-        let provenance = document.provenance()?;
-        if provenance.format == SourceFormat::Fbx && *convention != Convention::GLTF {
-            return Some(format!(
-                "this FBX was turned to glTF's convention when it was read, and --from {name} turns it again; unless that is wanted, use --from gltf"
-            ));
-        }
-        let mut primitives = document.meshes().iter().flat_map(|mesh| &mesh.primitives);
-        let has_uvs = primitives.any(|primitive| primitive.attributes.contains_key("TEXCOORD_0"));
-        (has_uvs && convention.uv_origin != UvOrigin::TopLeft).then(|| format!(
+/// A warning where the reader of a format has turned what `--from` turns again.
+fn turned_again(from: &NamedConvention, document: &Document) -> Option<String> {
+    let NamedConvention { convention, name } = from;
+    let provenance = document.provenance()?;
+    if provenance.format == SourceFormat::Fbx && *convention != Convention::GLTF {
+        return Some(format!(
+            "this FBX was turned to glTF's convention when it was read, and --from {name} turns it again; unless that is wanted, use --from gltf"
+        ));
+    }
+    let mut primitives = document.meshes().iter().flat_map(|mesh| &mesh.primitives);
+    let has_uvs = primitives.any(|primitive| primitive.attributes.contains_key("TEXCOORD_0"));
+    (has_uvs && convention.uv_origin != UvOrigin::TopLeft).then(|| format!(
             "v points down since this file was read, and --from {name} turns it again; unless that is wanted, add v0=top: --from {name},v0=top"
         ))
-    }
 }
 
 /// Whether the file starts with the PNG signature.

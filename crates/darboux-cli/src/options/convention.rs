@@ -12,6 +12,13 @@ pub struct NamedConvention {
     pub convention: Convention,
 }
 
+impl NamedConvention {
+    /// The convention of glTF.
+    pub fn gltf() -> Self {
+        Self { name: "gltf".to_owned(), convention: Convention::GLTF }
+    }
+}
+
 /// Parses conventions; help and completions list the presets.
 #[derive(Clone)]
 pub struct ConventionParser;

@@ -27,7 +27,8 @@ the nearest one. It is in builds with the feature bake or full.
 Models: positions, normals, tangents, UVs, morph targets and the winding of triangles are converted; if the axes differ, nodes, skins and \
 animations too. A glTF file must be in glTF's convention, so this repairs files whose writer copied the numbers of another convention (--to gltf). \
 For programs that use the numbers of a file as they are, --raw allows any --to; such a file is no valid glTF until it is converted back. It names its \
-convention in asset.extras, and the other commands refuse it. Images, cameras and lights are not converted; warnings name them.
+convention in asset.extras, and the other commands refuse it. Images, cameras and lights are not converted; warnings name them. Without --from \
+and --to, a model is only written in another format: readers of OBJ, FBX, PLY and STL have already turned it to glTF's convention.
 
 A convention is a preset, optionally followed by differences after commas: gltf,green=down. The differences are: axes=-x/y/z (right, up, front), \
 fronts=ccw or cw, v0=bottom or top, red=right or left, green=up or down, w=n-cross-t or t-cross-n. docs/conventions.md in the source of Darboux \
@@ -43,6 +44,7 @@ Examples:
   darboux convert object_n.png --space tangent --model low.glb --from gltf --to unreal
                                                               an object-space map for Unreal Engine
   darboux convert exported.glb --from unity --to gltf         repairs the geometry of a file with Unity's numbers
+  darboux convert scene.fbx -o scene.glb                      another format, nothing else
   darboux check model.glb --fix --assume map=directx          inverts green in the maps of a model: not convert
   darboux convert model.glb --from gltf --to unreal --raw     for a loader that expects Unreal's numbers";
 
@@ -55,13 +57,13 @@ pub struct ConvertArguments {
     #[command(flatten)]
     pub files: FileOptions,
 
-    /// The convention of the inputs
-    #[arg(long, value_name = "CONVENTION", value_parser = ConventionParser, help_heading = "Conversion")]
-    pub from: NamedConvention,
+    /// The convention of the inputs; without it and --to, models are written in another format only
+    #[arg(long, value_name = "CONVENTION", value_parser = ConventionParser, requires = "to", help_heading = "Conversion")]
+    pub from: Option<NamedConvention>,
 
     /// The convention of the outputs
-    #[arg(long, value_name = "CONVENTION", value_parser = ConventionParser, help_heading = "Conversion")]
-    pub to: NamedConvention,
+    #[arg(long, value_name = "CONVENTION", value_parser = ConventionParser, requires = "from", help_heading = "Conversion")]
+    pub to: Option<NamedConvention>,
 
     /// The channels of x, y and, if stored, z of a normal map: rgb, rg, ag, la, ...
     #[arg(long, value_name = "LETTERS", default_value_t = Channels::RGB, help_heading = "Conversion")]
@@ -89,6 +91,18 @@ pub struct ConvertArguments {
 
     #[command(flatten)]
     pub messages: MessageOptions,
+}
+
+impl ConvertArguments {
+    /// The two conventions; those of glTF where only the format changes.
+    pub fn conventions(&self) -> [NamedConvention; 2] {
+        [&self.from, &self.to].map(|convention| convention.clone().unwrap_or_else(NamedConvention::gltf))
+    }
+
+    /// Whether no conventions are named.
+    pub fn only_format_changes(&self) -> bool {
+        self.from.is_none()
+    }
 }
 
 /// `--space`.

@@ -29,8 +29,8 @@ impl ConvertArguments {
             SpaceChoice::Tangent => NormalSpace::Tangent,
             SpaceChoice::Object => NormalSpace::Object,
         };
-        let options =
-            SpaceOptions::new(image.size(), space).with_conventions(self.from.convention, self.to.convention);
+        let [from, to_convention] = self.conventions().map(|named| named.convention);
+        let options = SpaceOptions::new(image.size(), space).with_conventions(from, to_convention);
         let converted = convert_space(&surfaces, &texels, &options, &mut Context::new());
         let converted = converted.map_err(|error| format!("{}: {error}", path.display()))?;
         set_normal_vectors(image, self.layout, &converted.texels).map_err(sentence)?;
