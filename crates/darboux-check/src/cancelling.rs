@@ -1,8 +1,10 @@
 //! Mistakes in a map and in the tangents of a surface that cancel each other: bumps look right, and would be
 //! inverted if one were repaired alone.
 
+use darboux::Recipe;
+
 use crate::code::Code;
-use crate::defect::{Cancelled, Defect, Fault, MapFault, PAIRS, Pair};
+use crate::defect::{Cancelled, Defect, Fault, MapFault, PAIRS, Pair, TangentFault};
 use crate::severity::Severity;
 
 /// All codes of the pairs.
@@ -47,9 +49,10 @@ pub fn mark(
         return &[];
     };
     let first = surfaces.iter().flatten().next().map(|defect| defect.place.clone());
+    let recipe = fold_recipes(surfaces);
     for defect in on_map.iter_mut().filter(|defect| pair.contains(defect.code())) {
         let (first, are_several) = (first.clone(), surfaces.len() > 1);
-        defect.cancelled.get_or_insert(Cancelled::BySurface { pair, first, are_several });
+        defect.cancelled.get_or_insert(Cancelled::BySurface { pair, first, are_several, recipe });
         defect.severity = defect.severity.min(Severity::Warning);
     }
     for defect in surfaces.iter_mut().flatten().filter(|defect| pair.contains(defect.code())) {
@@ -58,6 +61,19 @@ pub fn mark(
         }
     }
     pair.on_map
+}
+
+/// The finding of the pair also tells which known method computed the tangents: that of the program that
+/// flipped the signs. So it is no warning of its own. Returns the first one.
+fn fold_recipes(surfaces: &mut [Vec<&mut Defect>]) -> Option<Recipe> {
+    let mut first = None;
+    for defect in surfaces.iter_mut().flatten() {
+        let Fault::Tangent(TangentFault::OtherRecipe { recognised, .. }) = &defect.fault else { continue };
+        let Some(recipe) = recognised.other_method() else { continue };
+        first.get_or_insert(recipe);
+        defect.severity = defect.severity.min(Severity::Info);
+    }
+    first
 }
 
 /// Whether these codes of the pairs are among others, and no other ones of the pairs.

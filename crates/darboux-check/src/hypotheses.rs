@@ -18,7 +18,8 @@ use darboux::BitangentDirection;
 
 use crate::check_options::{AssumedMap, CheckOptions};
 use crate::code::Code;
-use crate::defect::{Defect, Fault, MapFault, Obstacle};
+use crate::defect::{Defect, Fault, MapFault, Obstacle, TangentFault};
+use crate::measure::fit::Difference;
 use crate::severity::Severity;
 
 /// The channels of a map that are inverted.
@@ -133,9 +134,17 @@ pub fn is_about_channels(defect: &Defect) -> bool {
     matches!(defect.fault, Fault::Map(MapFault::GreenFlipped { .. } | MapFault::RedFlipped(_)))
 }
 
-/// Whether all signs of a surface are flipped.
+/// Whether all signs of a surface are flipped, or those of most triangles: a map that cancels the signs of
+/// most of them makes most of the picture right.
 pub fn has_flipped_signs(defect: &Defect) -> bool {
-    defect.code() == Code::TangentSignFlipped && !defect.lists_items()
+    match &defect.fault {
+        Fault::Tangent(TangentFault::Differs(found)) => match found.difference {
+            Difference::SignFlipped => true,
+            Difference::SignPartlyFlipped => found.percent() > 50.0,
+            _ => false,
+        },
+        _ => false,
+    }
 }
 
 /// Leaves what is not identified: inverted channels of a map, and flipped signs that it may cancel.
@@ -167,7 +176,7 @@ pub fn leave_unidentified(
     }
     // Where the map is right after all, flipped signs are a mistake; where it is not, they cancel it.
     for defect in surfaces.iter_mut().flatten().filter(|defect| has_flipped_signs(defect)) {
-        defect.obstacle.get_or_insert(Obstacle::MapMayCancel { image });
+        defect.obstacle.get_or_insert(Obstacle::MapMayCancel { image, is_of_sketchfab: false });
         defect.severity = defect.severity.min(Severity::Warning);
     }
 }

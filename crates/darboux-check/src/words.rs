@@ -128,7 +128,7 @@ fn cancels(cancelled: &Cancelled) -> String {
         Cancelled::ByMap { pair, .. } => {
             format!("the {} of the normal map cancels it", obstacles::names(pair)[0])
         }
-        Cancelled::BySurface { pair, first, are_several } => {
+        Cancelled::BySurface { pair, first, are_several, .. } => {
             let place = first.as_ref().map_or(String::new(), ToString::to_string);
             let further = if *are_several { " and of all others that use the map" } else { "" };
             format!("the {} of {place}{further} cancel it", obstacles::names(pair)[1])

@@ -74,6 +74,22 @@ fn tangents_of_no_known_method_are_not_most_of_mikktspace() {
     }
 }
 
+/// A tangent of length zero is one mistake, whatever its sign.
+#[test]
+fn the_sign_of_a_tangent_without_a_direction_says_nothing() {
+    for sign in [1.0, -1.0] {
+        let mut model = model("large wavy grid");
+        model.tangents()[140] = [0.0, 0.0, 0.0, sign];
+        let findings = check(&model);
+        let severe: Vec<Code> = findings
+            .iter()
+            .filter(|finding| finding.severity > Severity::Info)
+            .map(|finding| finding.code)
+            .collect();
+        assert_eq!(severe, [Code::TangentZero], "{findings:#?}");
+    }
+}
+
 /// Tangents of a part that are 46 degrees from MikkTSpace's are an error; 11 degrees are a warning.
 #[test]
 fn tangents_far_from_mikktspace_are_an_error() {

@@ -3,6 +3,8 @@
 
 mod support;
 
+use std::collections::BTreeSet;
+
 use darboux::Method;
 use darboux_check::{
     AssumedMap, CheckOptions, Code, Finding, FixOptions, ReportedFinding, Severity, check_document,
@@ -10,6 +12,8 @@ use darboux_check::{
 };
 use darboux_io::gltf::Document;
 use darboux_io::{LoadOptions, MemoryLimit};
+use serde_json::{Value, json};
+use support::container::with_json;
 use support::models::{Model, healthy_models};
 
 const AVIF: &[u8] = b"\0\0\0\x20ftypavif and more";
@@ -197,6 +201,87 @@ fn mistakes_that_cancel_are_one_warning() {
     assert_eq!(joint.finding.code, Code::ConventionsCancel);
     let left = check_document(&document, &options.check).expect("a valid document");
     assert!(left.iter().all(|finding| finding.severity <= Severity::Info), "{left:#?}");
+}
+
+/// Where the signs of most triangles are flipped, a map of the other convention makes most of the picture right.
+#[test]
+fn signs_of_most_triangles_that_a_map_may_cancel_are_left() {
+    let mut most = healthy_models().remove(9);
+    let kept: BTreeSet<u32> = most.indices.iter().take(most.indices.len() / 5).copied().collect();
+    let flipped = (0u32..).zip(most.tangents().iter_mut()).filter(|(vertex, _)| !kept.contains(vertex));
+    flipped.for_each(|(_, tangent)| tangent[3] *= -1.0);
+    let mut unread = most.clone();
+    unread.map.file = AVIF.to_vec();
+    for (model, severity, is_left) in [(&most, Severity::Error, false), (&unread, Severity::Warning, true)] {
+        let findings = check(model);
+        let partly = findings.iter().find(|finding| finding.code == Code::TangentSignPartlyFlipped);
+        let partly = partly.expect("the finding");
+        assert_eq!((partly.severity, partly.is_fixable()), (severity, !is_left), "{partly:?}");
+        let mut document = model.document();
+        fix_document(&mut document, findings, &FixOptions::default()).expect("a repair");
+        let left = check_document(&document, &CheckOptions::default()).expect("a valid document");
+        let is_flipped = |finding: &Finding| {
+            matches!(finding.code, Code::TangentSignPartlyFlipped | Code::TangentSignFlipped)
+        };
+        assert_eq!(left.iter().any(is_flipped), is_left, "{left:#?}");
+    }
+}
+
+/// What other files of the program that made this one are like is told, and decides nothing.
+#[test]
+fn maps_of_models_from_sketchfab_are_said_to_cancel_mostly() {
+    let mut model = healthy_models().remove(9);
+    model.map.file = AVIF.to_vec();
+    model.negate_signs();
+    let reason = |asset: Value| {
+        let glb = with_json(&model.glb(), |json| json["asset"] = asset.clone());
+        let document = Document::from_bytes("m.glb", glb, None, &LoadOptions::default()).expect("a model");
+        let findings = check_document(&document, &CheckOptions::default()).expect("a valid document");
+        let flipped = findings.iter().find(|finding| finding.code == Code::TangentSignFlipped);
+        flipped.and_then(|flipped| flipped.left_because.clone()).expect("a reason")
+    };
+    let source = json!({"source": "https://sketchfab.com/3d-models/crate-1"});
+    for (asset, is_told) in [
+        (json!({"version": "2.0", "generator": "Sketchfab-12.68.0"}), true),
+        (json!({"version": "2.0", "generator": "glTF-Transform v2.0.4", "extras": source}), true),
+        (json!({"version": "2.0", "generator": "Khronos glTF Blender I/O v1.8.19"}), false),
+    ] {
+        let reason = reason(asset);
+        assert_eq!(reason.contains("20 of 24 maps of other models from Sketchfab"), is_told, "{reason}");
+    }
+}
+
+/// The method of the program that flipped the signs belongs to the same finding. Where nothing cancels, it is
+/// a warning of its own.
+#[test]
+fn the_method_of_tangents_that_a_map_cancels_is_no_further_warning() {
+    let healthy = healthy_models().remove(9);
+    let by_area = healthy.computed(Method::Area, healthy.uv_set);
+    for cancels in [true, false] {
+        let mut model = healthy.clone();
+        model.tangents().copy_from_slice(&by_area);
+        if cancels {
+            model.map = model.map.through(|[r, g, b]| [r, 1.0 - g, b]);
+            model.negate_signs();
+        }
+        let findings = check(&model);
+        let recipe = findings.iter().find(|finding| finding.code == Code::TangentOtherRecipe);
+        let recipe = recipe.expect("the method");
+        let expected = if cancels { Severity::Info } else { Severity::Warning };
+        assert_eq!((recipe.severity, recipe.is_fixable()), (expected, true), "{findings:#?}");
+        let severe: Vec<&Finding> =
+            findings.iter().filter(|finding| finding.severity > Severity::Info).collect();
+        assert_eq!(severe.len(), 1, "{findings:#?}");
+        let tells =
+            severe[0].text.contains("by a program that computes tangents by averages weighted by area");
+        assert_eq!(tells, cancels, "{}", severe[0].text);
+        // All of it is repaired.
+        let (mut document, options) = (model.document(), FixOptions::default());
+        fix_document(&mut document, findings, &options).expect("a repair");
+        let left = check_document(&document, &options.check).expect("a valid document");
+        assert!(left.iter().all(|finding| finding.severity <= Severity::Info), "{left:#?}");
+        assert!(left.iter().all(|finding| finding.code != Code::TangentOtherRecipe), "{left:#?}");
+    }
 }
 
 /// Inverted red and inverted green of a map that was not baked for the mesh look alike. Inverting the wrong

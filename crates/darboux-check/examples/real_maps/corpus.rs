@@ -110,7 +110,8 @@ Maps whose parts are known to differ from the relief are left out there. A block
 
 In blocks of the maps that were looked at once, the confidence is too high in every bin: by 2.5 percentage points in the top one, and by 4.5 in the one from 98.0 to 99.5 %. Most of them are of two packs whose
 relief is drawn and whose scratches are from a generator in another convention (tex-vega: scratches down, domes up), so that blocks between the drawn parts show another convention than the map;
-those of which the median block shows it are left out, the others are not. Whole maps are as sure as they say: 122 of 122 in the top bin.
+those of which the median block shows it are left out, the others are not. Measured against the residuals of each block alone, the confidence of verdicts is right or too low in every bin of both halves
+([the notes on the check](check.md#what-the-confidence-of-blocks-is-measured-against-27-november-2026)). Whole maps are as sure as they say: 122 of 122 in the top bin.
 
 Of 681 colour, gloss and height textures of the same repositories, 3 (0.4 %) were given a convention; `darboux check` tells most pictures from maps by other signs.
 ";

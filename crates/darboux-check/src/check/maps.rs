@@ -225,7 +225,11 @@ pub fn defects_of_materials(
         |found: &[Defect]| found.iter().any(|defect| matches!(defect.fault, Fault::Map(MapFault::Flat(_))));
     let flat = judged.iter().filter(|(_, found, _)| is_flat(found)).map(|(image, ..)| *image).collect();
     let under_flat_maps = users.read_only_by(&flat);
+    let is_from_sketchfab = is_from_sketchfab(document);
     for defect in on_surfaces {
+        if let Some(Obstacle::MapMayCancel { is_of_sketchfab, .. }) = &mut defect.obstacle {
+            *is_of_sketchfab = is_from_sketchfab;
+        }
         let image = defect.place.primitive.as_ref().and_then(|name| under_flat_maps.get(&key(name)));
         if let Some(&image) = image {
             *defect = defect.clone().under_flat_map(image);
@@ -233,6 +237,15 @@ pub fn defects_of_materials(
     }
     defects.extend(judged.into_iter().flat_map(|(_, found, _)| found));
     Ok(defects)
+}
+
+/// Whether the program that wrote a document, or the source that it names, is Sketchfab. All 26 models from
+/// there that have tangents and were looked at have flipped signs, and most of their maps cancel them
+/// (docs/notes/check.md): this is told, and decides nothing, because it is no rule.
+fn is_from_sketchfab(document: &Document) -> bool {
+    let asset = &document.json()["asset"];
+    let texts = [&asset["generator"], &asset["extras"]["source"]];
+    texts.into_iter().filter_map(|text| text.as_str()).any(|text| text.to_lowercase().contains("sketchfab"))
 }
 
 /// The primitive of a defect that says that no triangle of it has an area in UV space, so that it shows one

@@ -50,6 +50,8 @@ pub enum Obstacle {
     /// The convention of a map is unknown, and inverted green in it would cancel the defect.
     MapMayCancel {
         image: usize,
+        /// Whether the file is from Sketchfab, most of whose maps do.
+        is_of_sketchfab: bool,
     },
     /// A mistake of the model cancels that of the map.
     OnTheModelToo,

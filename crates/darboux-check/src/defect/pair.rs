@@ -1,5 +1,7 @@
 //! [`Pair`]: mistakes in a map and in tangents that cancel each other.
 
+use darboux::Recipe;
+
 use crate::code::Code;
 use crate::place::Place;
 
@@ -35,5 +37,11 @@ pub enum Cancelled {
         is_whole: bool,
     },
     /// That of a surface, or of several that use the map: the first one.
-    BySurface { pair: &'static Pair, first: Option<Place>, are_several: bool },
+    BySurface {
+        pair: &'static Pair,
+        first: Option<Place>,
+        are_several: bool,
+        /// The known method, other than MikkTSpace, that computed the tangents of a surface.
+        recipe: Option<Recipe>,
+    },
 }

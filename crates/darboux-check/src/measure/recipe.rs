@@ -1,6 +1,6 @@
 //! How the tangents of a surface were computed.
 
-use darboux::{Mesh, Method, RecipeMatch, recognise_recipe};
+use darboux::{Mesh, Method, Recipe, RecipeMatch, recognise_recipe};
 
 use crate::facts::SurfaceFacts;
 use crate::measure::expected::is_measured;
@@ -116,6 +116,12 @@ impl Recipes {
 }
 
 impl Recognised {
+    /// The known method, other than MikkTSpace on the triangles as they are.
+    pub fn other_method(&self) -> Option<Recipe> {
+        let is_known = !is_mikktspace(&self.best) && close(&self.best) >= IS_KNOWN;
+        is_known.then_some(self.best.recipe)
+    }
+
     pub fn is_of_mikktspace(&self) -> bool {
         // Where MikkTSpace explains all corners, nothing shows that another recipe was used, though it may
         // have more bits in common.

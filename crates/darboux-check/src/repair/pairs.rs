@@ -20,8 +20,8 @@ use crate::severity::Severity;
 pub struct LeftPairs {
     primitives: BTreeMap<Key, &'static Pair>,
     images: BTreeMap<usize, &'static Pair>,
-    /// The primitives whose flipped signs the map in an image may cancel.
-    may_cancel: BTreeMap<Key, usize>,
+    /// The primitives whose flipped signs a map may cancel, each with that reason to leave them.
+    may_cancel: BTreeMap<Key, Obstacle>,
     /// The primitives whose tangents nothing shows, each with its flat normal map.
     flat_maps: BTreeMap<Key, usize>,
     /// What cancels the defects of a code of a primitive.
@@ -38,7 +38,9 @@ impl LeftPairs {
         options: &FixOptions,
     ) -> Result<Self, Error> {
         let may_cancel = |defect: &Defect| match (&defect.place.primitive, &defect.obstacle) {
-            (Some(primitive), Some(Obstacle::MapMayCancel { image })) => Some((key(primitive), *image)),
+            (Some(primitive), Some(obstacle @ Obstacle::MapMayCancel { .. })) => {
+                Some((key(primitive), obstacle.clone()))
+            }
             _ => None,
         };
         let may_cancel = on_surfaces.iter().filter_map(may_cancel).collect();
@@ -75,9 +77,9 @@ impl LeftPairs {
             (None, Some(image)) => self.images.get(&image).copied(),
             (None, None) => None,
         };
-        let map_of = |defect: &Defect| {
+        let may_cancel = |defect: &Defect| {
             let primitive = defect.place.primitive.as_ref().filter(|_| has_flipped_signs(defect))?;
-            self.may_cancel.get(&key(primitive)).copied()
+            self.may_cancel.get(&key(primitive)).cloned()
         };
         let cancelled = |defect: &Defect| {
             let primitive = defect.place.primitive.as_ref()?;
@@ -88,7 +90,7 @@ impl LeftPairs {
             // Other mistakes of the place are repaired, and the pair stays as it is.
             let pair = pair_of(&defect).filter(|pair| pair.contains(defect.code()));
             let pair = pair.map(Obstacle::PairIsLeft);
-            let map = map_of(&defect).map(|image| Obstacle::MapMayCancel { image });
+            let map = may_cancel(&defect);
             if map.is_some() || defect.cancelled.is_some() {
                 defect.severity = defect.severity.min(Severity::Warning);
             }

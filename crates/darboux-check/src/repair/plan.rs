@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::options::FixOptions;
 use crate::code::{Code, Family};
 use crate::defect::{Defect, Fault, NormalFault, TangentFault};
+use crate::hypotheses::has_flipped_signs;
 use crate::indices::Indices;
 use crate::instances::{Key, key};
 use crate::measure::fit::Difference;
@@ -31,11 +32,12 @@ pub struct Kept {
 
 impl Kept {
     fn of(defects: &[&Defect], options: &FixOptions) -> Self {
-        let stays = |code: Code| {
-            let mut left = defects.iter().filter(|defect| !options.repairs(defect));
-            left.any(|defect| defect.code() == code && !defect.lists_items())
-        };
-        Self { flipped: stays(Code::TangentSignFlipped), negated: stays(Code::TangentNegated) }
+        let left = || defects.iter().filter(|defect| !options.repairs(defect));
+        let is_negated = |defect: &&&Defect| defect.code() == Code::TangentNegated && !defect.lists_items();
+        Self {
+            flipped: left().any(|defect| has_flipped_signs(defect)),
+            negated: left().any(|defect| is_negated(&defect)),
+        }
     }
 }
 
@@ -73,8 +75,8 @@ pub struct WrongTangents {
     /// The triangles with both signs, and those whose signs are all flipped.
     pub mixed: Indices,
     pub flipped: Indices,
-    /// Whether all signs of the surface are flipped.
-    pub is_all_flipped: bool,
+    /// Whether all signs of the surface are flipped, or those of most triangles.
+    pub are_most_flipped: bool,
     pub reversal: Option<Reversal>,
 }
 
@@ -249,11 +251,11 @@ fn wrong_tangents(defects: &[&Defect], wanted: &[&Defect]) -> WrongTangents {
                 Difference::PartlyNegated => wrong.negated = Negated::Only(found.items.clone()),
                 Difference::Negated => wrong.negated = Negated::AllBut(found.exceptions.clone()),
                 Difference::SignPartlyFlipped => wrong.flipped = found.items.clone(),
-                Difference::SignFlipped => wrong.is_all_flipped = true,
                 _ => {}
             },
             _ => {}
         }
+        wrong.are_most_flipped |= has_flipped_signs(defect);
     }
     wrong
 }

@@ -7,7 +7,7 @@ use crate::defect::Obstacle;
 use crate::defect::{Defect, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::indices::Part;
-use crate::measure::recipe::{Far, IS_KNOWN, Recipes, close, is_mikktspace};
+use crate::measure::recipe::{Far, IS_KNOWN, Recipes, close};
 use crate::severity::Severity;
 
 pub const RULES: &[SurfaceRule] = &[other_recipe];
@@ -33,8 +33,7 @@ fn other_recipe(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
 fn of_all(facts: &SurfaceFacts<'_>, recipes: &Recipes) -> Option<Defect> {
     let recognised = recipes.of_all.filter(|recognised| !recognised.is_of_mikktspace())?;
     let best = &recognised.best;
-    let is_known = !is_mikktspace(best) && close(best) >= IS_KNOWN;
-    let far = if is_known { Far::default() } else { recipes.far(facts) };
+    let far = if recognised.other_method().is_some() { Far::default() } else { recipes.far(facts) };
     let severity = if far.percent > MAX_PERCENT_FAR {
         Severity::Error
     } else if recognised.mikktspace.worst > MAX_UNSEEN {

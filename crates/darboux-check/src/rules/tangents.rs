@@ -89,7 +89,9 @@ fn sign_mixed(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let is_own = &facts.has_own_tangent;
     let is_mixed = |triangle: [usize; 3]| {
         let signs = triangle.map(|vertex| tangents[vertex][3] < 0.0);
-        signs != [signs[0]; 3] && !triangle.iter().all(|&vertex| is_own[vertex])
+        // The sign of a tangent without a direction says nothing; that it has none is a finding of its own.
+        let have_directions = triangle.iter().all(|&vertex| has_length(tangents[vertex]));
+        signs != [signs[0]; 3] && have_directions && !triangle.iter().all(|&vertex| is_own[vertex])
     };
     let mut found = facts.surface.triangles_where(is_mixed);
     // Where MikkTSpace itself gives both signs, computing the tangents again does not help.

@@ -18,9 +18,14 @@ pub fn reason(obstacle: &Obstacle) -> String {
         Obstacle::RedLikelier { image } => {
             return format!("red may be inverted instead of green, as in images[{image}]");
         }
-        Obstacle::MapMayCancel { image } => {
+        Obstacle::MapMayCancel { image, is_of_sketchfab } => {
+            let prior = if *is_of_sketchfab {
+                ", as in 20 of 24 maps of other models from Sketchfab, where this one is from"
+            } else {
+                ""
+            };
             return format!(
-                "the convention of the normal map in images[{image}] is not known, and inverted green there would cancel the flipped signs; `--assume map=opengl` says that the map is right, `--assume map=directx` that its green is inverted"
+                "the convention of the normal map in images[{image}] is not known, and inverted green there would cancel the flipped signs{prior}; `--assume map=opengl` says that the map is right, `--assume map=directx` that its green is inverted"
             );
         }
         Obstacle::NotRewritable(clause) => return format!("the image {clause}"),

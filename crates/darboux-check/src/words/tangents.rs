@@ -154,7 +154,7 @@ fn description(best: &RecipeMatch) -> (String, Option<&'static str>) {
 }
 
 /// A recipe by the programs that use it.
-fn name(recipe: &Recipe) -> &'static str {
+pub fn name(recipe: &Recipe) -> &'static str {
     match recipe.method {
         Method::MikkTSpace(_) if recipe.from_quads => {
             "MikkTSpace before quads were cut into triangles (Unity and other importers)"

@@ -132,7 +132,9 @@ impl<'a> Corrector<'a> {
         let mut expected = surface.expected_tangents(surface.uv_set)?;
         let has_own_tangent = vertices_with_own_tangents(surface, &expected);
         // Where flipped signs are to stay, the others follow them.
-        let follows_flipped = wrong.is_all_flipped && !wrong.codes.contains(&Code::TangentSignFlipped);
+        let follows_flipped = wrong.are_most_flipped
+            && !wrong.codes.contains(&Code::TangentSignFlipped)
+            && !wrong.codes.contains(&Code::TangentSignPartlyFlipped);
         let flips = flips_signs(wrong.reversal) != follows_flipped;
         if flips {
             expected.iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
