@@ -203,7 +203,8 @@ fn mistakes_that_cancel_are_one_warning() {
     assert!(left.iter().all(|finding| finding.severity <= Severity::Info), "{left:#?}");
 }
 
-/// Where the signs of most triangles are flipped, a map of the other convention makes most of the picture right.
+/// Where the signs of most triangles are flipped, a map of the other convention makes most of the picture
+/// right.
 #[test]
 fn signs_of_most_triangles_that_a_map_may_cancel_are_left() {
     let mut most = healthy_models().remove(9);
