@@ -258,7 +258,7 @@ fn textures_with_paths_of_windows_are_found_by_name() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(
         folder.path().join("a.obj"),
-        "mtllib C:\\work\\a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n",
+        "mtllib C:\\work\\a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n",
     )
     .unwrap();
     fs::write(
@@ -284,7 +284,8 @@ fn textures_in_other_letters_case_are_found() {
     let [outside, folder] = [(), ()].map(|()| tempfile::tempdir().unwrap());
     fs::create_dir(folder.path().join("textures")).unwrap();
     std::os::unix::fs::symlink(outside.path(), folder.path().join("linked")).unwrap();
-    fs::write(folder.path().join("a.obj"), "mtllib A.MTL\nv 0 0 0\nusemtl a\nf 1 1 1\n").unwrap();
+    fs::write(folder.path().join("a.obj"), "mtllib A.MTL\nv 0 0 0\nvt 0 0\nusemtl a\nf 1/1 1/1 1/1\n")
+        .unwrap();
     let library = "newmtl a\nnorm Textures\\Scene_Normal.PNG\nmap_Kd Linked/Secret.png\n";
     fs::write(folder.path().join("a.mtl"), library).unwrap();
     fs::copy(blender("scene_normal.png"), folder.path().join("textures/scene_normal.png")).unwrap();

@@ -13,7 +13,7 @@ use darboux_io::gltf::Document;
 use darboux_io::obj::companions;
 use darboux_io::{Files, LoadOptions};
 
-const OBJ: &[u8] = b"mtllib a.mtl\nv 0 0 0\nusemtl a\nf 1 1 1\n";
+const OBJ: &[u8] = b"mtllib a.mtl\nv 0 0 0\nvt 0 0\nusemtl a\nf 1/1 1/1 1/1\n";
 
 fn png() -> Vec<u8> {
     fs::read("../../assets/blender/scene_normal.png").unwrap()
@@ -181,7 +181,11 @@ fn quotes_may_be_part_of_a_name() {
 #[test]
 fn text_that_is_not_utf_8_is_windows_1252() {
     let folder = tempfile::tempdir().unwrap();
-    write(folder.path(), "a.obj", b"mtllib K\xf6rper.mtl\nv 0 0 0\no Stra\xdfe\nusemtl K\xf6rper\nf 1 1 1\n");
+    write(
+        folder.path(),
+        "a.obj",
+        b"mtllib K\xf6rper.mtl\nv 0 0 0\nvt 0 0\no Stra\xdfe\nusemtl K\xf6rper\nf 1/1 1/1 1/1\n",
+    );
     write(
         folder.path(),
         "Körper.mtl",

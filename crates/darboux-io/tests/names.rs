@@ -28,11 +28,14 @@ fn with_images(names: &[Value]) -> Document {
         "asset": {"version": "2.0"},
         "buffers": [{"byteLength": 36, "uri": uri}],
         "bufferViews": [{"buffer": 0, "byteLength": 36}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"},
+        ],
         "images": all(&|i| json!({"uri": format!("data:image/png;base64,{PNG}"), "name": names[i]})),
         "textures": all(&|i| json!({"source": i})),
         "materials": all(&|i| json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": i}}})),
-        "meshes": [{"primitives": all(&|i| json!({"attributes": {"POSITION": 0}, "material": i}))}],
+        "meshes": [{"primitives": all(&|i| json!({"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": i}))}],
     });
     read(&gltf)
 }

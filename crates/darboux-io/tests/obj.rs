@@ -524,3 +524,27 @@ fn models_without_faces_are_named_for_what_they_are() {
     );
     assert_eq!(problem(points), format!("a.obj: is an OBJ without faces, a point cloud; {advice}"));
 }
+
+/// A primitive without UVs cannot have textures in glTF.
+#[test]
+fn primitives_without_uvs_get_a_material_without_textures() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, content: &str| fs::write(folder.path().join(name), content).expect("a file");
+    write(
+        "m.obj",
+        "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\no a\nf 1/1 2/2 3/3\no b\nf 1 2 3\no c\nf 1 2 3\n",
+    );
+    write("m.mtl", "newmtl m\nKd 0.5 0.5 0.5\nmap_Kd c.png\n");
+    fs::copy("../../assets/blender/scene_normal.png", folder.path().join("c.png")).expect("a file");
+    let document = Document::open(&folder.path().join("m.obj"), &LoadOptions::default()).expect("a model");
+    let materials = document.materials().expect("materials");
+    let are_textured: Vec<_> = materials.iter().map(|material| material.base_texture.is_some()).collect();
+    assert_eq!(are_textured, [true, false]);
+    let of_meshes: Vec<_> = document.meshes().iter().map(|mesh| mesh.primitives[0].material).collect();
+    assert_eq!(of_meshes, [Some(0), Some(1), Some(1)]);
+    let warnings = document.warnings().join("\n");
+    assert!(
+        warnings.contains("2 primitives of the material m lack UVs of its textures, and a copy"),
+        "{warnings}"
+    );
+}

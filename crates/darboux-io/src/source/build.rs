@@ -4,6 +4,7 @@
 //! ```text
 //! meshes      primitives by material: faces cut, vertices, accessors
 //! materials   materials, textures, images
+//! untextured  copies of materials for primitives without UVs
 //! nodes       the hierarchy, with a root that turns axes and units; skins
 //! data        the binary chunk: buffer views and accessors
 //! ```
@@ -12,6 +13,7 @@ mod data;
 mod materials;
 mod meshes;
 mod nodes;
+mod untextured;
 
 use serde_json::{Value, json};
 
@@ -44,7 +46,8 @@ pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Resu
     let mut data = DataBuilder::default();
     let mut cutter = Cutter::new(options.polygon_rule);
     let limit = options.budget(size, 0);
-    let meshes = meshes::build(&scene, &mut cutter, &mut data, limit)?;
+    let mut meshes = meshes::build(&scene, &mut cutter, &mut data, limit)?;
+    warnings.extend(untextured::replace(&mut scene, &mut meshes.json));
     let materials = materials::build(&scene, &mut data, options, &mut warnings);
     let nodes = nodes::build(&scene, &meshes.of_source, &mut data);
     warnings.extend(meshes.warnings);
