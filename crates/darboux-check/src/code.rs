@@ -313,6 +313,13 @@ codes! {
         "Give these faces larger charts if they are seen from close up."
         Leave "UVs are made in a modelling program"
     }
+    UvRounded "uv-rounded" Warning {
+        "UVs were rounded to steps so coarse that tangents turn."
+        "Bumps wobble: light on them changes from face to face, as if the map were turned a little on each, most visible in reflections on smooth parts."
+        "UVs were stored in 8 bits, or in 12 or fewer on a dense mesh (KHR_mesh_quantization, Draco, gltfpack), or written with two or three decimals, before the tangents were computed."
+        "Export the UVs with more bits (gltfpack `-vt 16`, Draco's texture coordinates at 14 bits or more, or as floats), or compute the tangents before the UVs are rounded and keep them in the file."
+        Leave "the digits that were rounded away are not in the file"
+    }
     UvHardEdge "uv-hard-edge" Info {
         "Hard edges have no UV seam."
         "With a map that was baked for the mesh, a thin line along these edges, and a wider one from afar; with one that tiles, nothing."

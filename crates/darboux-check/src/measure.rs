@@ -25,5 +25,6 @@ pub mod seams;
 pub mod storage;
 pub mod texture_axes;
 pub mod turned;
+pub mod uv_rounding;
 pub mod uv_scale;
 pub mod values;

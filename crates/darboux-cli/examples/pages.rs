@@ -204,6 +204,10 @@ const SAID: &[(Code, &str)] = &[
     ),
     (Code::UvStretched, "the texture is smeared on the sides of the model, and the normal map with it"),
     (Code::UvCoarse, "one part of the model is blurred, and the part beside it is sharp"),
+    (
+        Code::UvRounded,
+        "the shading is faceted and noisy after the model was compressed, and right in the original",
+    ),
     (Code::UvHardEdge, "a line runs along every hard edge of the bake, until the edges are UV seams, too"),
     (
         Code::MapGreenFlipped,

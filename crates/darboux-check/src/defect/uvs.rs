@@ -3,6 +3,7 @@
 use crate::code::Code;
 use crate::indices::{Indices, Items, Part};
 use crate::measure::hard_edges::HardEdges;
+use crate::measure::uv_rounding::UvRounding;
 use crate::measure::uv_scale::Outliers;
 
 /// What is wrong with UVs.
@@ -36,6 +37,8 @@ pub enum UvFault {
     Stretched(Outliers),
     /// Faces with fewer texels than the others.
     Coarse(Outliers),
+    /// UVs on a grid that turns tangents.
+    Rounded(UvRounding),
     /// Hard edges at which the UVs go on.
     HardEdge(HardEdges),
 }
@@ -50,6 +53,7 @@ impl UvFault {
             Self::Overlapping { .. } => Code::UvOverlapping,
             Self::Stretched(_) => Code::UvStretched,
             Self::Coarse(_) => Code::UvCoarse,
+            Self::Rounded(_) => Code::UvRounded,
             Self::HardEdge(_) => Code::UvHardEdge,
         }
     }
@@ -61,6 +65,7 @@ impl UvFault {
             Self::Degenerate { triangles: part, .. } | Self::Mirrored(part) => &part.items,
             Self::Overlapping { triangles, .. } => triangles,
             Self::Stretched(faces) | Self::Coarse(faces) => &faces.triangles,
+            Self::Rounded(rounding) => &rounding.triangles,
             Self::HardEdge(edges) => &edges.triangles,
         };
         Some(Items::Triangles(triangles))
@@ -76,6 +81,7 @@ impl UvFault {
             | Self::Overlapping { .. }
             | Self::Stretched(_)
             | Self::Coarse(_)
+            | Self::Rounded(_)
             | Self::HardEdge(_) => None,
         }
     }

@@ -8,6 +8,7 @@ use crate::defect::{Defect, UvFault};
 use crate::facts::SurfaceFacts;
 use crate::measure::hard_edges::HardEdges;
 use crate::measure::overlap::overlapping;
+use crate::measure::uv_rounding::UvRounding;
 use crate::measure::uv_scale::UvScale;
 use crate::measure::values::is_finite;
 use crate::severity::Severity;
@@ -16,7 +17,7 @@ use crate::surface::{Surface, uv_area};
 pub const RULES: &[SurfaceRule] = &[missing, not_finite, degenerate];
 
 /// Rules about what is no mistake, or seldom one.
-pub const REMARKS: &[SurfaceRule] = &[scale, hard_edges, mirrored, overlaps];
+pub const REMARKS: &[SurfaceRule] = &[scale, rounded, hard_edges, mirrored, overlaps];
 
 fn missing(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let Surface { needs_tangents, uv_sets, uv_set, .. } = facts.surface;
@@ -62,6 +63,10 @@ fn degenerate(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     fault.map(Defect::new).into_iter().collect()
 }
 
+/// The degrees of a turn from which on it is a warning: a slope of 20 degrees is then lit as if it leaned by
+/// three degrees or more to the side.
+const WARNED_TURN: f64 = 15.0;
+
 /// Faces whose UVs are unlike those of the others. The poles of every sphere with rings are so: it is worth
 /// knowing, and often meant.
 fn scale(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
@@ -69,6 +74,21 @@ fn scale(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let UvScale { stretched, coarse } = UvScale::of(facts.surface, uvs);
     let faults = stretched.map(UvFault::Stretched).into_iter().chain(coarse.map(UvFault::Coarse));
     faults.map(Defect::new).collect()
+}
+
+/// UVs on a grid that turns tangents. Those of the file that are not MikkTSpace's for these UVs were made
+/// before the rounding, or in another way.
+fn rounded(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
+    let Some(uvs) = needed_uvs(facts.surface) else { return Vec::new() };
+    let Some(found) = UvRounding::of(facts.surface, uvs) else { return Vec::new() };
+    let follows = |triangle: &usize| facts.has_expected_tangents(*triangle);
+    let following = found.triangles.iter().filter(follows).count();
+    if facts.surface.tangents.is_some() && 2 * following < found.triangles.len() {
+        return Vec::new();
+    }
+    let is_plain = found.degrees >= WARNED_TURN;
+    let severity = if is_plain { Severity::Warning } else { Severity::Info };
+    vec![Defect::new(UvFault::Rounded(found)).with_severity(severity)]
 }
 
 fn hard_edges(facts: &SurfaceFacts<'_>) -> Vec<Defect> {

@@ -4,6 +4,7 @@ use super::counts::counted;
 use super::said::Said;
 use crate::defect::UvFault;
 use crate::measure::hard_edges::HardEdges;
+use crate::measure::uv_rounding::UvRounding;
 
 pub fn said(fault: &UvFault) -> Said {
     match fault {
@@ -54,6 +55,16 @@ pub fn said(fault: &UvFault) -> Said {
                 faces.largest / faces.median
             ))
             .with("part of the primitive's area", 100.0 * faces.share, "%")
+        }
+        UvFault::Rounded(UvRounding { steps, triangles, share, degrees, error }) => {
+            let what = counted(triangles.len(), "triangle", "triangles");
+            Said::new(format!(
+                "UVs were rounded to {steps} steps: half a step turns the tangents of {what} by {:.0} degrees or more",
+                UvRounding::SEEN
+            ))
+            .with("part of the primitive's area", 100.0 * share, "%")
+            .with("turn that a tenth of the area reaches", *degrees, "degrees")
+            .with("errors of v against its neighbours", *error, "times those of rounding")
         }
         UvFault::HardEdge(HardEdges { edges, all, largest, .. }) => {
             Said::new(format!("{} no UV seam", counted(*edges, "hard edge has", "hard edges have")))

@@ -313,10 +313,7 @@ pub const MISTAKES: &[Mistake] = &[
         how: "UVs bent by the fourth power of complex numbers, which stretches nothing",
         make: |model| {
             let uvs = &mut model.uvs[model.uv_set];
-            let [low, high] = [f32::min, f32::max].map(|choose| {
-                let all = uvs.iter().copied();
-                all.reduce(|a, b| [choose(a[0], b[0]), choose(a[1], b[1])]).expect("vertices")
-            });
+            let [low, high] = range(uvs);
             let size = (high[0] - low[0]).max(high[1] - low[1]);
             let square = |[x, y]: [f32; 2]| [x * x - y * y, 2.0 * x * y];
             for uv in uvs {
@@ -325,6 +322,29 @@ pub const MISTAKES: &[Mistake] = &[
             model.tangents = Some(model.computed(Method::default(), model.uv_set));
             // Sheared UVs reach farther than their range, so that less of them lies where texels are long.
             model.positions.len() > 150 && !model.name.contains("sheared sphere")
+        },
+    },
+    Mistake {
+        code: Code::UvRounded,
+        how: "UVs bent by squares of complex numbers, and rounded to steps of a sixth of an edge",
+        make: |model| {
+            let uvs = &mut model.uvs[model.uv_set];
+            let [low, high] = range(uvs);
+            let size = (high[0] - low[0]).max(high[1] - low[1]);
+            for uv in uvs.iter_mut() {
+                let [x, y] = [0, 1].map(|i| 0.5 + (uv[i] - low[i]) / size);
+                *uv = [(x * x - y * y) / 3.0, 2.0 * x * y / 3.0];
+            }
+            let length = |&[a, b, _]: &[u32; 3]| {
+                let [a, b] = [a, b].map(|vertex| uvs[vertex as usize]);
+                (a[0] - b[0]).hypot(a[1] - b[1])
+            };
+            let mut lengths: Vec<f32> = model.indices.as_chunks::<3>().0.iter().map(length).collect();
+            lengths.sort_by(f32::total_cmp);
+            let step = lengths[lengths.len() / 2] / 6.0;
+            uvs.iter_mut().for_each(|uv| *uv = uv.map(|x| (x / step).round() * step));
+            model.tangents = Some(model.computed(Method::default(), model.uv_set));
+            model.name.contains("grid") && model.positions.len() > 100
         },
     },
     Mistake {
@@ -386,3 +406,11 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
 ];
+
+/// The smallest and the largest u and v.
+fn range(uvs: &[[f32; 2]]) -> [[f32; 2]; 2] {
+    [f32::min, f32::max].map(|choose| {
+        let all = uvs.iter().copied();
+        all.reduce(|a, b| [choose(a[0], b[0]), choose(a[1], b[1])]).expect("vertices")
+    })
+}

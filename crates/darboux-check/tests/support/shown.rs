@@ -89,6 +89,18 @@ pub fn shown_layout(code: Code) -> Option<String> {
         // Faces of one size: those on the right are pressed together, or a small chart.
         Code::UvStretched => beside([12.0, 80.0]).collect(),
         Code::UvCoarse => beside([20.0; 2]).collect(),
+        // One curved chart before and after.
+        Code::UvRounded => {
+            let chart = |left: f32, step: f32| {
+                let on_grid = move |x: f32| (x / step).round() * step;
+                let bent = move |[x, y]: [f32; 2]| {
+                    let place = [left + 0.8 * x + 0.08 * y, y + 20.0 * (0.03 * x).sin()];
+                    place.map(on_grid)
+                };
+                quads([0.0, 20.0], [90.0; 2]).map(move |corners| corners.map(bent))
+            };
+            chart(10.0, 0.01).chain(chart(105.0, 10.0)).collect()
+        }
         Code::UvHardEdge => quads([60.0, 10.0], [80.0; 2]).collect(),
         _ => Vec::new(),
     };
