@@ -199,6 +199,7 @@ fn primitives_without_tangents_are_listed_with_a_reason() {
         json!({"attributes": without("POSITION")}),
         json!({"attributes": without("NORMAL")}),
         json!({"attributes": without("TEXCOORD_0")}),
+        json!({"attributes": {"POSITION": attributes["POSITION"]}}),
         json!({"attributes": attributes, "material": material}),
         json!({"attributes": attributes, "indices": builder.indices(&[0, 1])}),
     ];
@@ -206,12 +207,14 @@ fn primitives_without_tangents_are_listed_with_a_reason() {
     let mut document = builder.build();
     let summary = run(&mut document);
     assert!(!document.is_changed());
-    assert_eq!(summary.totals.skipped, 7);
+    assert_eq!((summary.totals.skipped, summary.totals.without_normals), (8, 1));
     let reasons = [
         "its mode is POINTS; only triangles have tangents",
         "its mode is LINE_STRIP; only triangles have tangents",
         "it has no POSITION, which tangents need",
         "it has no NORMAL, which tangents need",
+        "it has no TEXCOORD_0, which tangents need",
+        // Normals alone would not help.
         "it has no TEXCOORD_0, which tangents need",
         "it has no TEXCOORD_1, which its tangents must follow (normalTexture of materials[0])",
         "it has no complete triangle",

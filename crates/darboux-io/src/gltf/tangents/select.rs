@@ -161,11 +161,12 @@ fn judge(
     let Some(position) = attribute("POSITION") else {
         return skipped("it has no POSITION, which tangents need");
     };
-    let Some(normal) = attribute("NORMAL") else { return skipped(NO_NORMAL) };
     let uv_accessor = attribute(&format!("TEXCOORD_{}", uv.set));
     if uv_accessor.is_none() && options.tangents.method != Method::FromNormal {
         return Ok(TangentVerdict::Skipped(missing_uv(primitive, uv)));
     }
+    // Normals can be computed, so that missing ones are named where nothing else is missing.
+    let Some(normal) = attribute("NORMAL") else { return skipped(NO_NORMAL) };
     let vertex_count = element_count(document, position)?;
     let index_count =
         primitive.indices.map_or(Ok(vertex_count), |indices| element_count(document, indices))?;
