@@ -82,7 +82,7 @@ pub struct FoundInputs {
     pub failed: Vec<(PathBuf, String)>,
     /// Outputs of earlier runs, which are skipped.
     pub skipped: Vec<PathBuf>,
-    /// Models in formats that this build does not read, which are skipped: one sentence per folder and
+    /// Models in formats that this build, or none, reads, which are skipped: one sentence per folder and
     /// format.
     pub unread: Vec<String>,
 }
@@ -131,7 +131,8 @@ impl FoundInputs {
             match entry {
                 Ok(entry) if !entry.file_type().is_file() => {}
                 Ok(entry) if !is_searched(entry.path(), in_place) => {
-                    let format = FileKind::of(entry.path()).and_then(FileKind::format_name);
+                    let known = FileKind::of(entry.path()).and_then(FileKind::format_name);
+                    let format = known.or_else(|| format_of_others(entry.path()));
                     format.into_iter().for_each(|format| *unread.entry(format).or_default() += 1);
                 }
                 Ok(entry)
@@ -165,11 +166,38 @@ fn is_searched(path: &Path, in_place: bool) -> bool {
     FileKind::of(path).is_some_and(|kind| if in_place { kind.is_gltf() } else { kind.is_model() })
 }
 
+/// The endings of models of other programs, which no build reads, and the names of their formats.
+const OTHER_FORMATS: [(&str, &str); 15] = [
+    ("3dm", "Rhino"),
+    ("3ds", "3DS"),
+    ("3mf", "3MF"),
+    ("abc", "Alembic"),
+    ("blend", "Blender"),
+    ("c4d", "Cinema 4D"),
+    ("dae", "COLLADA"),
+    ("lwo", "LightWave"),
+    ("ma", "Maya"),
+    ("max", "3ds Max"),
+    ("mb", "Maya"),
+    ("off", "OFF"),
+    ("skp", "SketchUp"),
+    ("wrl", "VRML"),
+    ("x3d", "X3D"),
+];
+
+fn format_of_others(path: &Path) -> Option<&'static str> {
+    let ending = path.extension()?;
+    OTHER_FORMATS.iter().find(|(other, _)| ending.eq_ignore_ascii_case(other)).map(|&(_, format)| format)
+}
+
 /// The sentence about models of a format that a search skips.
 fn unread_sentence(folder: &Path, format: &str, count: usize, in_place: bool) -> String {
     let files = counted(count, &format!("{format} file is"), &format!("{format} files are"));
     let reason = match format {
         "USD" => "darboux.usd in Python reads USD".to_owned(),
+        _ if OTHER_FORMATS.iter().any(|&(_, other)| other == format) => {
+            "its format is not read; export the models as .glb or .fbx".to_owned()
+        }
         _ if in_place => "only glTF is edited in place, so name an output folder with --out-dir".to_owned(),
         _ => format!("this build does not read {format}; {}", missing_reader()),
     };

@@ -305,11 +305,15 @@ fn in_place_leaves_other_formats_alone() {
     let folder = folder_with(&[QUANTISED, "blender/scene.ply"]);
     let ply = folder.path().join("scene.ply");
     let before = fs::read(&ply).expect("the model");
-    fs::write(folder.path().join("stage.usdz"), "PK").expect("a file");
+    for name in ["stage.usdz", "a.blend", "b.blend", "C.DAE"] {
+        fs::write(folder.path().join(name), "PK").expect("a file");
+    }
     let run = darboux(&["tangents", text(folder.path()), "--in-place"]).exits(0);
     for sentence in [
         "1 PLY file is skipped: only glTF is edited in place, so name an output folder with --out-dir",
         "1 USD file is skipped: darboux.usd in Python reads USD",
+        "2 Blender files are skipped: its format is not read; export the models as .glb or .fbx",
+        "1 COLLADA file is skipped: its format is not read",
     ] {
         assert!(run.stderr.contains(sentence), "{}", run.stderr);
     }
