@@ -54,7 +54,7 @@ const LEFT_OUT: [&str; 6] = ["--explain", "--output", "--out-dir", "--in-place",
 
 /// Whether files with this extension are images.
 pub fn is_image(extension: &str) -> bool {
-    ["png", "jpg", "jpeg", "webp", "ktx2"].contains(&extension)
+    ["png", "jpg", "jpeg", "webp", "tga", "ktx2"].contains(&extension)
 }
 
 impl Commands {

@@ -21,8 +21,8 @@ pub struct Seed {
 }
 
 /// The extensions of files that the command reads. Where it does not read one yet, it says so.
-const READ: [&str; 12] =
-    ["gltf", "glb", "vrm", "obj", "ply", "stl", "fbx", "png", "jpg", "jpeg", "webp", "ktx2"];
+const READ: [&str; 13] =
+    ["gltf", "glb", "vrm", "obj", "ply", "stl", "fbx", "png", "jpg", "jpeg", "webp", "tga", "ktx2"];
 
 /// Files larger than this are left out: damage to small ones finds as much in less time.
 const MAX_SIZE: usize = 400_000;
@@ -33,7 +33,9 @@ pub fn all(models: Option<&Path>) -> Result<Vec<Seed>, String> {
     if let Some(models) = models {
         seeds.extend(in_folder(models)?);
     }
-    seeds.extend(in_folder(&root().join("crates/darboux-io/tests/ktx2"))?);
+    for images in ["ktx2", "rasters"] {
+        seeds.extend(in_folder(&root().join("crates/darboux-io/tests").join(images))?);
+    }
     seeds.extend(of_corpus()?);
     seeds.extend(made()?);
     Ok(seeds)
@@ -216,7 +218,7 @@ mod tests {
     #[test]
     fn every_format_has_a_seed() {
         let seeds = all(None).expect("seeds");
-        for kind in ["gltf", "glb", "vrm", "obj", "ply", "stl", "fbx", "png", "jpeg", "webp", "ktx2"] {
+        for kind in ["gltf", "glb", "vrm", "obj", "ply", "stl", "fbx", "png", "jpeg", "webp", "tga", "ktx2"] {
             assert!(seeds.iter().any(|seed| seed.extension() == kind), "{kind}");
         }
         let names: Vec<_> = seeds.iter().map(|seed| seed.name.display().to_string()).collect();
