@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use super::data::DataBuilder;
 use crate::image::{Channels, PngImage, convert_normal_map};
 use crate::source::scene::{NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture};
+use crate::words::counted;
 use crate::{LoadOptions, git_lfs};
 
 /// The lists of materials, textures, images and samplers, and the extensions that they use.
@@ -42,11 +43,14 @@ pub fn build(
         texture_of_use: HashMap::new(),
         image_of_source: HashMap::new(),
         sampler_of_clamps: HashMap::new(),
+        first_tga: String::new(),
+        tga_images: 0,
     };
     for material in &scene.materials {
         let json = builder.material(material);
         builder.built.materials.push(json);
     }
+    builder.warn_of_tga();
     builder.built
 }
 
@@ -61,6 +65,9 @@ struct MaterialBuilder<'a> {
     texture_of_use: HashMap<(usize, bool, [bool; 2]), Option<usize>>,
     image_of_source: HashMap<(usize, bool), Option<GltfImage>>,
     sampler_of_clamps: HashMap<[bool; 2], usize>,
+    /// The name of the first TGA, and their number.
+    first_tga: String,
+    tga_images: usize,
 }
 
 /// An image in the document.
@@ -214,8 +221,23 @@ impl MaterialBuilder<'_> {
             return Err(left_out("is neither PNG, JPEG, WebP nor TGA; save it as PNG"));
         }
         let png = converted::to_png(name, bytes, self.options).map_err(|problem| left_out(&problem))?;
-        self.warnings.push(format!("{name}: is a TGA, which glTF cannot hold; the document has it as PNG"));
+        if self.tga_images == 0 {
+            self.first_tga.clone_from(name);
+        }
+        self.tga_images += 1;
         Ok(png.into())
+    }
+
+    fn warn_of_tga(&mut self) {
+        let first = &self.first_tga;
+        self.warnings.push(match self.tga_images {
+            0 => return,
+            1 => format!("{first} is a TGA, which glTF cannot hold; in the document it is a PNG"),
+            count => {
+                let others = counted(count - 1, "other texture", "other textures");
+                format!("{first} and {others} are TGA, which glTF cannot hold; in the document they are PNG")
+            }
+        });
     }
 
     /// A normal map with green inverted; as it is, with a warning, where it cannot be.
