@@ -20,7 +20,8 @@ are split with them. The rest of the file does not change. The command names eac
 without changes is copied.
 
 Without -o, --out-dir or --in-place the output is written beside its input: model.glb becomes model.tangents.glb. The extension of the \
-output selects the container: .glb contains everything, .gltf gets its buffer and images as files beside it.
+output selects the container: .glb contains everything; .gltf gets files beside it: its buffer, in which images stay that were in a buffer or \
+in another format, and copies of image files.
 
 Folders are searched for models of all formats that are read, subfolders included; with --in-place for glTF only. A model of another format \
 becomes a .glb: chair.fbx becomes chair.tangents.glb, or chair.fbx.tangents.glb where there is a chair.glb as well. Files named like outputs (model.tangents.glb) and the folder of \
