@@ -5,11 +5,15 @@ use darboux::Recipe;
 
 use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Fault, MapFault, PAIRS, Pair, TangentFault};
+use crate::hypotheses::flipped_percent;
 use crate::severity::Severity;
 
 /// All codes of the pairs.
 const CODES: [Code; 4] =
     [Code::MapGreenFlipped, Code::MapRedFlipped, Code::TangentSignFlipped, Code::TangentNegated];
+
+/// The share of flipped triangles, in percent, from which on a map that cancels them makes the picture right.
+const NEARLY_ALL: f64 = 80.0;
 
 /// The pair that the defects of a map and those of a surface that uses it make; none where they do not
 /// cancel.
@@ -21,10 +25,23 @@ pub fn pair_of<'a>(
         |defect: &Defect| matches!(defect.fault, Fault::Map(MapFault::Contradiction { .. }));
     let on_whole_map = on_map.into_iter().filter(|defect| !is_about_a_part(defect));
     let of_map: Vec<Code> = on_whole_map.map(Defect::code).collect();
-    // A defect that lists vertices or triangles is about a part of the surface.
-    let on_whole = on_surface.into_iter().filter(|defect| !defect.lists_items());
-    let of_surface: Vec<Code> = on_whole.map(Defect::code).collect();
+    let of_surface: Vec<Code> = on_surface.into_iter().filter_map(code_in_pair).collect();
     PAIRS.iter().find(|pair| are_exactly(&of_map, pair.on_map) && are_exactly(&of_surface, pair.on_surface))
+}
+
+/// Whether a defect is a part of a pair.
+pub fn is_part(pair: &Pair, defect: &Defect) -> bool {
+    code_in_pair(defect).is_some_and(|code| pair.contains(code))
+}
+
+/// The code of a defect as a part of a pair. One that lists vertices or triangles is about a part of the
+/// surface and none, unless it is about the signs of nearly all of it.
+fn code_in_pair(defect: &Defect) -> Option<Code> {
+    if flipped_percent(defect) >= NEARLY_ALL {
+        Some(Code::TangentSignFlipped)
+    } else {
+        Some(defect.code()).filter(|_| !defect.lists_items())
+    }
 }
 
 /// Marks which defects of a map and of the surfaces that use it cancel. The map's are marked where they
@@ -39,7 +56,7 @@ pub fn mark(
         surfaces.iter().map(|surface| pair_of(&*on_map, surface.iter().map(|defect| &**defect))).collect();
     for (pair, surface) in pairs.iter().zip(&mut *surfaces) {
         let Some(pair) = *pair else { continue };
-        for defect in surface.iter_mut().filter(|defect| pair.contains(defect.code())) {
+        for defect in surface.iter_mut().filter(|defect| is_part(pair, defect)) {
             defect.cancelled.get_or_insert(Cancelled::ByMap { pair, image, is_whole: false });
             defect.severity = defect.severity.min(Severity::Warning);
         }
@@ -50,12 +67,13 @@ pub fn mark(
     };
     let first = surfaces.iter().flatten().next().map(|defect| defect.place.clone());
     let recipe = fold_recipes(surfaces);
-    for defect in on_map.iter_mut().filter(|defect| pair.contains(defect.code())) {
+    let is_of_most = surfaces.iter().flatten().any(|defect| defect.lists_items() && is_part(pair, defect));
+    for defect in on_map.iter_mut().filter(|defect| is_part(pair, defect)) {
         let (first, are_several) = (first.clone(), surfaces.len() > 1);
-        defect.cancelled.get_or_insert(Cancelled::BySurface { pair, first, are_several, recipe });
+        defect.cancelled.get_or_insert(Cancelled::BySurface { pair, first, are_several, is_of_most, recipe });
         defect.severity = defect.severity.min(Severity::Warning);
     }
-    for defect in surfaces.iter_mut().flatten().filter(|defect| pair.contains(defect.code())) {
+    for defect in surfaces.iter_mut().flatten().filter(|defect| is_part(pair, defect)) {
         if let Some(Cancelled::ByMap { image: of, is_whole, .. }) = &mut defect.cancelled {
             *is_whole = *of == image;
         }

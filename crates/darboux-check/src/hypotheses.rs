@@ -137,13 +137,18 @@ pub fn is_about_channels(defect: &Defect) -> bool {
 /// Whether all signs of a surface are flipped, or those of most triangles: a map that cancels the signs of
 /// most of them makes most of the picture right.
 pub fn has_flipped_signs(defect: &Defect) -> bool {
+    flipped_percent(defect) > 50.0
+}
+
+/// The triangles whose signs a defect calls flipped, in percent of those that were measured.
+pub fn flipped_percent(defect: &Defect) -> f64 {
     match &defect.fault {
         Fault::Tangent(TangentFault::Differs(found)) => match found.difference {
-            Difference::SignFlipped => true,
-            Difference::SignPartlyFlipped => found.percent() > 50.0,
-            _ => false,
+            Difference::SignFlipped => 100.0,
+            Difference::SignPartlyFlipped => found.percent(),
+            _ => 0.0,
         },
-        _ => false,
+        _ => 0.0,
     }
 }
 

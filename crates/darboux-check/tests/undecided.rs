@@ -228,6 +228,32 @@ fn signs_of_most_triangles_that_a_map_may_cancel_are_left() {
     }
 }
 
+/// So does a map that is read: the two are one finding, and are repaired together.
+#[test]
+fn signs_of_nearly_all_triangles_may_cancel() {
+    let mut model = healthy_models().remove(9);
+    let kept: BTreeSet<u32> = model.indices.iter().take(model.indices.len() / 10).copied().collect();
+    let flipped = (0u32..).zip(model.tangents().iter_mut()).filter(|(vertex, _)| !kept.contains(vertex));
+    flipped.for_each(|(_, tangent)| tangent[3] *= -1.0);
+    model.map = model.map.through(|[r, g, b]| [r, 1.0 - g, b]);
+    let findings = check(&model);
+    assert!(findings.iter().all(|finding| finding.severity < Severity::Error), "{findings:#?}");
+    let joint = findings.iter().find(|finding| finding.code == Code::ConventionsCancel).expect("the pair");
+    assert!(joint.is_fixable() && joint.text.contains("of nearly all triangles of"), "{joint:#?}");
+    let is_half = |code: Code| matches!(code, Code::MapGreenFlipped | Code::TangentSignPartlyFlipped);
+    assert!(!findings.iter().any(|finding| is_half(finding.code)), "{findings:#?}");
+    let mut document = model.document();
+    let fixed = fix_document(&mut document, findings.clone(), &FixOptions::default()).expect("a repair");
+    assert!(fixed.findings.iter().filter(|fixed| fixed.finding.is_fixable()).all(|fixed| fixed.repaired));
+    let left = check_document(&document, &CheckOptions::default()).expect("a valid document");
+    assert!(left.iter().all(|finding| finding.severity <= Severity::Info), "{left:#?}");
+    // One half alone is left.
+    let (mut document, code) = (model.document(), Code::TangentSignPartlyFlipped);
+    let options = FixOptions::default().with_codes([code]);
+    let fixed = fix_document(&mut document, findings, &options).expect("a repair");
+    assert!(!fixed.is_changed, "{fixed:#?}");
+}
+
 /// What other files of the program that made this one are like is told, and decides nothing.
 #[test]
 fn maps_of_models_from_sketchfab_are_said_to_cancel_mostly() {

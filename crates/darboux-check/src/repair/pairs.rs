@@ -7,7 +7,7 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, Material};
 
 use super::options::FixOptions;
-use crate::cancelling::pair_of;
+use crate::cancelling::{is_part, pair_of};
 use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Obstacle, Pair};
 use crate::hypotheses::has_flipped_signs;
@@ -88,7 +88,7 @@ impl LeftPairs {
         let mark = |mut defect: Defect| {
             defect.cancelled = defect.cancelled.take().or_else(|| cancelled(&defect));
             // Other mistakes of the place are repaired, and the pair stays as it is.
-            let pair = pair_of(&defect).filter(|pair| pair.contains(defect.code()));
+            let pair = pair_of(&defect).filter(|pair| is_part(pair, &defect));
             let pair = pair.map(Obstacle::PairIsLeft);
             let map = may_cancel(&defect);
             if map.is_some() || defect.cancelled.is_some() {
@@ -124,6 +124,6 @@ fn normal_maps_of(document: &Document, all: &[Material], (mesh, primitive): Key)
 
 /// Whether a mistake of a pair is left, so that none is repaired.
 fn is_left(pair: &Pair, on_map: &[&Defect], on_surface: &[&Defect], options: &FixOptions) -> bool {
-    let mut of_pair = on_map.iter().chain(on_surface).filter(|defect| pair.contains(defect.code()));
+    let mut of_pair = on_map.iter().chain(on_surface).filter(|defect| is_part(pair, defect));
     of_pair.any(|defect| !options.repairs(defect))
 }
