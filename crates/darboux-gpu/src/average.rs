@@ -15,6 +15,10 @@ use crate::mikktspace::adjacency::{Adjacency, AdjacencyKernels};
 pub enum Search {
     /// Each vertex tests all triangles. The time is proportional to vertices times triangles, the memory is
     /// 64 bytes per vertex.
+    ///
+    /// Programs want the adjacency table, which is faster from about 70 vertices on. This way is the oracle
+    /// that its order is tested against bit for bit, which the core is not (its floats may differ from the
+    /// device's), and the slow way that lesson 10 of docs/learn measures.
     BruteForce,
     /// Each vertex reads its range of an adjacency table, which the GPU builds. The memory is 4 bytes per
     /// vertex and 24 per triangle.

@@ -2,8 +2,7 @@
 //!
 //! ```text
 //! accumulate: for each triangle, add its term (Weighting::term) to its three vertices, apart for the two UV orientations
-//!     scatter: triangle by triangle, where the triangles around a vertex are near each other in the list
-//!     gather: vertex by vertex over the adjacency, where they are not
+//!     scatter: triangle by triangle, on several threads where the triangles around a vertex are near each other in the list
 //! finish: frame of each vertex and orientation from its sum; repair frames without a direction; write the corners
 //! ```
 //!
@@ -17,7 +16,6 @@ mod blocks;
 pub(crate) mod finish;
 mod frame_kernel;
 mod frame_math;
-mod gather;
 pub(crate) mod lengyel;
 mod scatter;
 pub(crate) mod side_sums;

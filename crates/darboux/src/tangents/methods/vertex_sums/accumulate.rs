@@ -1,6 +1,4 @@
-//! Adds the terms of all triangles to the sums of their vertices, on all threads.
-//!
-//! Chooses scatter or gather by the order of the mesh, and decides the orientation of each quad.
+//! Adds the terms of all triangles to the sums of their vertices, and decides the orientation of each quad.
 
 use std::ops::Range;
 
@@ -9,7 +7,6 @@ use crate::exec::threads::{self, split_range, split_slice};
 use crate::tangents::methods::mesh_slices::MeshSlices;
 use crate::tangents::methods::uv_derivatives::{Orientation, ScaledDerivatives};
 use crate::tangents::methods::vertex_sums::blocks::BlockOptions;
-use crate::tangents::methods::vertex_sums::gather::gather_all;
 use crate::tangents::methods::vertex_sums::scatter::{scatter_all, thread_ranges};
 use crate::tangents::methods::vertex_sums::side_sums::SideSums;
 use crate::tangents::methods::vertex_sums::weighting::{Weighting, term};
@@ -23,10 +20,7 @@ pub(crate) fn accumulate<const N: usize, W: Weighting<N>>(
 ) {
     let of_face = (!slices.is_triangles()).then(|| face_orientations::<N, W>(slices, limits));
     let options = BlockOptions { orientation_of_face: of_face.as_deref(), limits };
-    match thread_ranges(slices, limits) {
-        Some(ranges) => scatter_all::<N, W>(slices, options, &ranges, sums),
-        None => gather_all::<N, W>(slices, options, sums),
-    }
+    scatter_all::<N, W>(slices, options, &thread_ranges(slices, limits), sums);
     if let Some(of_face) = of_face {
         sums.orientation_of_face = of_face;
     }

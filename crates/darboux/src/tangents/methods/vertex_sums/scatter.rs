@@ -1,10 +1,10 @@
-//! Accumulation triangle by triangle, for meshes whose triangles around a vertex are near each other in the
-//! list.
+//! Accumulation triangle by triangle.
 //!
 //! Each thread owns consecutive triangles and the vertices that first occur in them. It adds, in triangle
 //! order, to its vertices only, and continues past its triangles while later ones use its vertices. So a few
 //! triangles are computed by two threads, no two threads write one sum, and the bits do not depend on the
-//! number of threads.
+//! number of threads. Where the triangles around a vertex are far apart in the list, so that many triangles
+//! would be computed twice, one thread does all.
 
 use std::ops::Range;
 
@@ -31,14 +31,14 @@ pub(crate) struct ThreadWork {
     vertices: Range<usize>,
 }
 
-/// Divides the mesh among threads. `None` where so many triangles would be computed twice that gathering is
-/// faster.
-pub(crate) fn thread_ranges(slices: &MeshSlices<'_>, limits: RunLimits<'_>) -> Option<Vec<ThreadWork>> {
+/// Divides the mesh among threads.
+pub(crate) fn thread_ranges(slices: &MeshSlices<'_>, limits: RunLimits<'_>) -> Vec<ThreadWork> {
     let (triangles, vertices) = (slices.triangles(), slices.positions.len());
     let count = triangles.len();
     let threads = limits.thread_count(count);
+    let alone = || vec![ThreadWork { own: 0..count, adds: 0..count, vertices: 0..vertices }];
     if threads == 1 {
-        return Some(vec![ThreadWork { own: 0..count, adds: 0..count, vertices: 0..vertices }]);
+        return alone();
     }
     let windows = windows(triangles);
     let partitions: Vec<_> = partitions(&windows, vertices, threads).collect();
@@ -47,7 +47,10 @@ pub(crate) fn thread_ranges(slices: &MeshSlices<'_>, limits: RunLimits<'_>) -> O
         adds: triangles_of(partition.windows.start..partition.end_window, count),
         vertices: partition.vertices.clone(),
     };
-    (!overlap_too_much(&partitions, &windows)).then(|| partitions.iter().map(work).collect())
+    if overlap_too_much(&partitions, &windows) {
+        return alone();
+    }
+    partitions.iter().map(work).collect()
 }
 
 fn windows(triangles: &[[u32; 3]]) -> Vec<Window> {
