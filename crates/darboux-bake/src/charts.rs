@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use darboux::internal::DisjointSets;
+
 use crate::LowSurface;
 use crate::layout::Placed;
 
@@ -29,33 +31,21 @@ impl Charts {
 
 fn number(surface: &LowSurface<'_>, next: &mut u32) -> Vec<u32> {
     let mesh = &surface.mesh;
-    let mut first_of_place: HashMap<[u32; 5], u32> = HashMap::new();
-    let mut parents: Vec<u32> = (0..surface.triangle_count() as u32).collect();
+    let mut first_of_place: HashMap<[u32; 5], usize> = HashMap::new();
+    let mut sets = DisjointSets::new(surface.triangle_count());
     for corner in 0..mesh.corner_count() {
         let vertex = mesh.vertex_of_corner(corner);
         let ([x, y, z], [u, v]) = (mesh.positions().get(vertex), mesh.uvs().get(vertex));
-        let triangle = (corner / 3) as u32;
+        let triangle = corner / 3;
         let first = *first_of_place.entry([x, y, z, u, v].map(f32::to_bits)).or_insert(triangle);
-        let (a, b) = (root(&mut parents, first), root(&mut parents, triangle));
-        parents[a.max(b) as usize] = a.min(b);
+        sets.join(first, triangle);
     }
-    // Roots are the first triangles of their charts, so that their numbers are known before those of the
-    // others.
-    let mut charts = Vec::with_capacity(parents.len());
-    for triangle in 0..parents.len() as u32 {
-        let root = root(&mut parents, triangle);
-        let chart = if root == triangle { std::mem::replace(next, *next + 1) } else { charts[root as usize] };
+    // A chart is named by its first triangle, so that its number is known before those of the others.
+    let mut charts = Vec::with_capacity(surface.triangle_count());
+    for (triangle, first) in (0..).zip(sets.into_names()) {
+        let chart =
+            if first == triangle { std::mem::replace(next, *next + 1) } else { charts[first as usize] };
         charts.push(chart);
     }
     charts
-}
-
-/// The first triangle of the set that has a triangle. Paths are halved on the way.
-fn root(parents: &mut [u32], mut triangle: u32) -> u32 {
-    while parents[triangle as usize] != triangle {
-        let parent = parents[triangle as usize];
-        parents[triangle as usize] = parents[parent as usize];
-        triangle = parents[triangle as usize];
-    }
-    triangle
 }

@@ -1,6 +1,6 @@
 //! Vectors in double precision.
 
-pub type Vector = [f64; 3];
+pub use darboux::internal::vectors::double::{D3 as Vector, add_scaled, cross, dot, length, sub, unit};
 
 /// A place in an image, in texels.
 pub type Place = [f64; 2];
@@ -13,35 +13,8 @@ pub fn narrow(v: Vector) -> [f32; 3] {
     v.map(|x| x as f32)
 }
 
-pub fn sub(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
 pub fn scale(factor: f64, v: Vector) -> Vector {
     v.map(|x| factor * x)
-}
-
-/// a + factor * b.
-pub fn add_scaled(a: Vector, factor: f64, b: Vector) -> Vector {
-    [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]]
-}
-
-pub fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-pub fn length(v: Vector) -> f64 {
-    dot(v, v).sqrt()
-}
-
-/// `v`, normalised. `None` for zero and for vectors that are not finite.
-pub fn unit(v: Vector) -> Option<Vector> {
-    let length = length(v);
-    (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
 }
 
 /// The sum of three vectors with weights: a value at a point of a triangle from those at its corners.

@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::Hash;
 use std::sync::{Arc, OnceLock};
 
+use darboux::internal::DisjointSets;
+pub use darboux::internal::vectors::single::{cross, sub};
 use darboux::{Convention, Mesh, TangentOptions, generate_tangents};
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveInfo};
@@ -135,16 +137,17 @@ impl Surface {
 
     /// The connected part of every vertex, named by one of its vertices. Vertices with the same key are one
     /// vertex.
-    pub fn parts<K: Eq + Hash>(&self, key: impl Fn(usize) -> K) -> Vec<usize> {
+    pub fn parts<K: Eq + Hash>(&self, key: impl Fn(usize) -> K) -> Vec<u32> {
         let mut first = HashMap::new();
-        let vertices = 0..self.positions.len();
-        let mut parents: Vec<usize> =
-            vertices.map(|vertex| *first.entry(key(vertex)).or_insert(vertex)).collect();
-        for [a, b, c] in self.triangles() {
-            join(&mut parents, a, b);
-            join(&mut parents, a, c);
+        let mut parts = DisjointSets::new(self.positions.len());
+        for vertex in 0..self.positions.len() {
+            parts.join(vertex, *first.entry(key(vertex)).or_insert(vertex));
         }
-        (0..parents.len()).map(|vertex| root(&mut parents, vertex)).collect()
+        for [a, b, c] in self.triangles() {
+            parts.join(a, b);
+            parts.join(a, c);
+        }
+        parts.into_names()
     }
 
     /// Drops vertices that no triangle uses; the others keep their order.
@@ -187,20 +190,6 @@ impl Surface {
     }
 }
 
-fn join(parents: &mut [usize], a: usize, b: usize) {
-    let (a, b) = (root(parents, a), root(parents, b));
-    parents[a.max(b)] = a.min(b);
-}
-
-fn root(parents: &mut [usize], mut vertex: usize) -> usize {
-    while parents[vertex] != vertex {
-        // Every second link is shortened, so that later searches are short.
-        parents[vertex] = parents[parents[vertex]];
-        vertex = parents[vertex];
-    }
-    vertex
-}
-
 /// The values of an attribute at the vertices of a primitive. Errors: invalid data; an index of a corner that
 /// is out of range.
 fn vertices<const N: usize>(
@@ -233,14 +222,6 @@ pub fn dot(a: [f32; 3], b: [f32; 3]) -> f64 {
 
 pub fn length(a: [f32; 3]) -> f64 {
     dot(a, a).sqrt()
-}
-
-pub fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-pub fn sub(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 pub fn xyz([x, y, z, _]: [f32; 4]) -> [f32; 3] {

@@ -3,6 +3,8 @@
 
 use std::collections::HashMap;
 
+use darboux::internal::vectors::double::{cross, dot, sub};
+
 use crate::error::ContentError;
 use crate::source::{SourceFormat, SourceMesh, SourceScene, program_of_comment};
 use crate::words::counted;
@@ -49,11 +51,8 @@ impl Losses {
     /// facets without an area say nothing.
     fn add_normal(&mut self, normal: [f32; 3], corners: [[f32; 3]; 3]) {
         let [a, b, c] = corners.map(|corner| corner.map(f64::from));
-        let [ab, ac] = [b, c].map(|other| [0, 1, 2].map(|i| other[i] - a[i]));
-        let winding =
-            [ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2], ab[0] * ac[1] - ab[1] * ac[0]];
+        let winding = cross(sub(b, a), sub(c, a));
         let normal = normal.map(f64::from);
-        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let lengths = (dot(winding, winding) * dot(normal, normal)).sqrt();
         let cosine = dot(winding, normal) / lengths;
         // NaN, for facets without an area, is in neither range.

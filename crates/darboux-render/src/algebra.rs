@@ -1,4 +1,6 @@
-//! 4 x 4 matrices and cross products.
+//! 4 x 4 matrices, and the vector functions of the core.
+
+pub use darboux::internal::vectors::single::{V3, cross, dot};
 
 /// A matrix for column vectors, as an array of columns.
 pub type Matrix = [[f64; 4]; 4];
@@ -12,14 +14,4 @@ pub fn direction_columns(matrix: &Matrix) -> [[f32; 3]; 3] {
     let largest = matrix[..3].as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let scale = if largest > 0.0 && largest.is_finite() { 1.0 / largest } else { 1.0 };
     [0, 1, 2].map(|i| [0, 1, 2].map(|k| (matrix[i][k] * scale) as f32))
-}
-
-pub type V3 = [f32; 3];
-
-pub fn dot(a: V3, b: V3) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub fn cross(a: V3, b: V3) -> V3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

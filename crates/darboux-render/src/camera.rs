@@ -1,5 +1,7 @@
 //! The camera: computes the transform from the scene to the picture that brings the whole model into view.
 
+use darboux::internal::vectors::double::{D3 as V3, length, sub};
+
 use crate::algebra::Matrix;
 
 /// The vertical field of view in degrees.
@@ -8,8 +10,6 @@ const FIELD_OF_VIEW: f64 = 35.0;
 const MARGIN: f64 = 0.04;
 /// The iterations that centre the model. Each visits all points.
 const CENTERING_STEPS: usize = 4;
-
-type V3 = [f64; 3];
 
 /// The position of the camera, which looks at the model. The default sees the whole model from its front
 /// left, slightly from above.
@@ -37,9 +37,9 @@ impl Look {
     /// The transform of this camera. `aspect`: width divided by height.
     pub fn transform(&self, bounds: Bounds, aspect: f64) -> ViewTransform {
         let (_, scale) = center_and_scale(bounds);
-        let rotation = rotation_towards(minus(self.eye, self.target));
+        let rotation = rotation_towards(sub(self.eye, self.target));
         let up = (0.5 * FIELD_OF_VIEW).to_radians().tan();
-        let distance = length(minus(self.eye, self.target)) * scale;
+        let distance = length(sub(self.eye, self.target)) * scale;
         let projection =
             projection([self.target, bounds[0], bounds[1]], scale, rotation, distance, [up, aspect]);
         ViewTransform { center: self.target, scale, rotation, distance, projection }
@@ -91,7 +91,7 @@ impl Camera {
         let touch = |slopes: [f64; 2]| {
             let mut touch = [[f64::MIN; 2]; 2];
             visit_points(&mut |point| {
-                let point = rotated(rotation, scaled(minus(point, center), scale));
+                let point = rotated(rotation, scaled(sub(point, center), scale));
                 for (axis, touch) in touch.iter_mut().enumerate() {
                     let along_slope = slopes[axis] * point[2];
                     touch[0] = touch[0].max(point[axis] + along_slope);
@@ -129,8 +129,7 @@ fn projection(
     distance: f64,
     [up, aspect]: [f64; 2],
 ) -> [[f32; 4]; 4] {
-    let corners =
-        corners([least, most]).map(|corner| rotated(rotation, scaled(minus(corner, center), scale)));
+    let corners = corners([least, most]).map(|corner| rotated(rotation, scaled(sub(corner, center), scale)));
     let depth = |f: fn(f64, f64) -> f64| corners.map(|corner| distance - corner[2]).into_iter().reduce(f);
     let far = depth(f64::max).unwrap_or(1.0).max(1e-3) * 1.01;
     let near = (depth(f64::min).unwrap_or(0.0) * 0.99).max(far * 1e-3);
@@ -150,10 +149,6 @@ fn rotation_towards(towards: V3) -> [V3; 3] {
 fn unit(v: V3) -> V3 {
     let size = length(v);
     v.map(|x| x / size)
-}
-
-fn length(v: V3) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// The orthographic transform of a UV layout.
@@ -185,7 +180,7 @@ fn perspective(up: f64, aspect: f64, near: f64, far: f64, distance: f64) -> [[f3
 /// The centre of a box, and the scale that makes half of its diagonal 1.
 fn center_and_scale([min, max]: Bounds) -> (V3, f64) {
     let center = [0, 1, 2].map(|i| 0.5 * (min[i] + max[i]));
-    let radius = length(minus(max, center));
+    let radius = length(sub(max, center));
     (center, if radius > 0.0 { 1.0 / radius } else { 1.0 })
 }
 
@@ -198,10 +193,6 @@ fn corners([min, max]: Bounds) -> [V3; 8] {
 fn sine_cosine(degrees: f64) -> [f64; 2] {
     let (sine, cosine) = degrees.to_radians().sin_cos();
     [sine, cosine].map(|x| if x.abs() < 1e-15 { 0.0 } else { x })
-}
-
-fn minus(a: V3, b: V3) -> V3 {
-    [0, 1, 2].map(|i| a[i] - b[i])
 }
 
 fn scaled(v: V3, by: f64) -> V3 {
@@ -217,7 +208,7 @@ impl ViewTransform {
     pub fn point(&self, [a, b, c, d]: &Matrix, point: [f32; 3]) -> V3 {
         let [x, y, z] = point.map(f64::from);
         let in_scene = [0, 1, 2].map(|i| a[i] * x + b[i] * y + c[i] * z + d[i]);
-        rotated(self.rotation, scaled(minus(in_scene, self.center), self.scale))
+        rotated(self.rotation, scaled(sub(in_scene, self.center), self.scale))
     }
 
     /// A direction of the scene in eye space.

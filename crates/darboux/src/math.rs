@@ -3,35 +3,42 @@
 //! Every operation is rounded to `f32` in the order written. Nothing here may be re-associated or contracted:
 //! results are specified to the bit.
 
-pub(crate) type V3 = [f32; 3];
+/// Three floats.
+pub type V3 = [f32; 3];
 
+/// a + b.
 #[inline(always)]
-pub(crate) fn add(a: V3, b: V3) -> V3 {
+pub fn add(a: V3, b: V3) -> V3 {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
+/// a - b.
 #[inline(always)]
-pub(crate) fn sub(a: V3, b: V3) -> V3 {
+pub fn sub(a: V3, b: V3) -> V3 {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
+/// s * v.
 #[inline(always)]
-pub(crate) fn scale(s: f32, v: V3) -> V3 {
+pub fn scale(s: f32, v: V3) -> V3 {
     [s * v[0], s * v[1], s * v[2]]
 }
 
+/// The dot product.
 #[inline(always)]
-pub(crate) fn dot(a: V3, b: V3) -> f32 {
+pub fn dot(a: V3, b: V3) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// The cross product.
 #[inline(always)]
-pub(crate) fn cross(a: V3, b: V3) -> V3 {
+pub fn cross(a: V3, b: V3) -> V3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+/// The length.
 #[inline(always)]
-pub(crate) fn length(v: V3) -> f32 {
+pub fn length(v: V3) -> f32 {
     dot(v, v).sqrt()
 }
 

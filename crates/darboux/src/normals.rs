@@ -27,6 +27,7 @@ use crate::exec::limits::RunLimits;
 use crate::exec::threads;
 use crate::math::angle;
 use crate::math_f64::{D3, cross, dot, length, sub, unit};
+use crate::util::union_find::DisjointSets;
 
 /// Options of [`generate_normals`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -511,7 +512,7 @@ fn fans(
     limits.check()?;
     edges.sort_unstable();
     limits.check()?;
-    let mut fan_of_corner: Vec<u32> = (0..vertex_of_corner.len() as u32).collect();
+    let mut fans = DisjointSets::new(vertex_of_corner.len());
     for (at, [(ends, a), (others, b)]) in edges.array_windows().enumerate() {
         limits.check_at(at)?;
         if ends != others {
@@ -527,27 +528,12 @@ fn fans(
             for a in corners[0] {
                 let at_same_vertex = |b: &usize| vertex_of_corner[a] == vertex_of_corner[*b];
                 if let Some(b) = corners[1].into_iter().find(at_same_vertex) {
-                    unite(&mut fan_of_corner, a, b);
+                    fans.join(a, b);
                 }
             }
         }
     }
-    let names = (0..fan_of_corner.len()).map(|corner| find(&mut fan_of_corner, corner) as u32).collect();
-    Ok((names, creased_edges))
-}
-
-/// The corner that names a corner's fan. Union-find with path halving (R. Tarjan and J. van Leeuwen 1984).
-fn find(fan_of_corner: &mut [u32], mut corner: usize) -> usize {
-    while fan_of_corner[corner] as usize != corner {
-        fan_of_corner[corner] = fan_of_corner[fan_of_corner[corner] as usize];
-        corner = fan_of_corner[corner] as usize;
-    }
-    corner
-}
-
-fn unite(fan_of_corner: &mut [u32], a: usize, b: usize) {
-    let (a, b) = (find(fan_of_corner, a), find(fan_of_corner, b));
-    fan_of_corner[a.max(b)] = a.min(b) as u32;
+    Ok((fans.into_names(), creased_edges))
 }
 
 fn position(mesh: &Mesh<'_>, corner: usize) -> D3 {

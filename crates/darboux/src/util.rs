@@ -3,3 +3,4 @@
 pub(crate) mod hash_map;
 pub(crate) mod radix_sort;
 pub(crate) mod random;
+pub(crate) mod union_find;

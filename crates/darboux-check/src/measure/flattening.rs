@@ -12,6 +12,7 @@
 
 use std::collections::BTreeMap;
 
+use darboux::internal::DisjointSets;
 use darboux_io::image::RgbaImage;
 
 use crate::measure::arrangement::ARRANGEMENTS;
@@ -92,19 +93,18 @@ fn face_of_triangle(facets: &Facets<'_>) -> Vec<u32> {
         }
     }
     let longest: Vec<usize> = all.iter().map(longest_edge).collect();
-    let mut parents: Vec<usize> = (0..all.len()).collect();
+    let mut sets = DisjointSets::new(all.len());
     for sides in edges.values() {
         let [(first, a), (second, b)] = sides[..] else { continue };
         let is_one_plane = dot(all[first].normal, all[second].normal) >= ONE_PLANE;
         if is_one_plane || longest[first] == a && longest[second] == b {
-            let (first, second) = (root(&mut parents, first), root(&mut parents, second));
-            parents[first.max(second)] = first.min(second);
+            sets.join(first, second);
         }
     }
     // Triangles without an area have no face.
     let mut faces = vec![u32::MAX; facets.surface.vertex_of_corner.len() / 3];
-    for (index, &number) in numbers.iter().enumerate() {
-        faces[number as usize] = numbers[root(&mut parents, index)];
+    for (&number, first) in numbers.iter().zip(sets.into_names()) {
+        faces[number as usize] = numbers[first as usize];
     }
     faces
 }
@@ -114,12 +114,4 @@ fn longest_edge(facet: &Facet) -> usize {
     let along =
         |corner: usize| length(sub(facet.corners[(corner + 1) % 3].position, facet.corners[corner].position));
     (0..3).max_by(|a, b| along(*a).total_cmp(&along(*b))).unwrap_or(0)
-}
-
-fn root(parents: &mut [usize], mut of: usize) -> usize {
-    while parents[of] != of {
-        parents[of] = parents[parents[of]];
-        of = parents[of];
-    }
-    of
 }

@@ -9,6 +9,8 @@
 
 use std::collections::BTreeMap;
 
+use darboux::internal::vectors::double;
+
 use crate::surface::{Surface, cross, dot, sub, uv_area, xyz};
 
 /// The triangles by the side to which the normals of all their corners point.
@@ -146,9 +148,9 @@ impl Solid {
     fn add(&mut self, corners: [Vector; 3]) {
         let [a, b, c] = corners;
         let edges = [b, c].map(|end| [0, 1, 2].map(|i| end[i] - a[i]));
-        let normal = cross64(edges[0], edges[1]);
-        self.area += 0.5 * dot64(normal, normal).sqrt();
-        self.volume += dot64(a, normal) / 6.0;
+        let normal = double::cross(edges[0], edges[1]);
+        self.area += 0.5 * double::dot(normal, normal).sqrt();
+        self.volume += double::dot(a, normal) / 6.0;
         for i in 0..3 {
             self.area_vector[i] += 0.5 * normal[i];
             self.low[i] = corners.iter().fold(self.low[i], |low, corner| low.min(corner[i]));
@@ -166,8 +168,8 @@ impl Solid {
         let distance = (0..3).map(|i| low[i].abs().max(high[i].abs())).fold(0.0, f64::max);
         let middle = [0, 1, 2].map(|i| 0.5 * (low[i] + high[i]));
         let reach: f64 = (0..3).map(|i| 0.5 * (high[i] - low[i]) * area_vector[i].abs()).sum();
-        let volume = volume - dot64(middle, area_vector) / 3.0;
-        let is_closed = dot64(area_vector, area_vector).sqrt() <= MAX_HOLES * area;
+        let volume = volume - double::dot(middle, area_vector) / 3.0;
+        let is_closed = double::dot(area_vector, area_vector).sqrt() <= MAX_HOLES * area;
         let is_sure = volume.abs() > reach / 3.0 && volume.abs() > MIN_THICKNESS * area * distance;
         if is_closed && is_sure { volume.signum() } else { 0.0 }
     }
@@ -189,14 +191,6 @@ fn solids(surface: &Surface) -> Vec<Solid> {
 /// The bits of a coordinate; adding 0.0 makes both zeros one.
 fn bits(x: f32) -> u32 {
     (x + 0.0).to_bits()
-}
-
-fn cross64(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot64(a: Vector, b: Vector) -> f64 {
-    (0..3).map(|i| a[i] * b[i]).sum()
 }
 
 /// By the tangents of an open surface.

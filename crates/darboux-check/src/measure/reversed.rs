@@ -62,7 +62,7 @@ pub fn reversed(surface: &Surface) -> Option<Reversed> {
     let (mixed, triangles): (Vec<usize>, Vec<usize>) =
         found.iter().partition(|&&number| points_to_front(all[number]));
     let part_of_vertex = surface.parts(key);
-    let count_parts = |mut parts: Vec<usize>| {
+    let count_parts = |mut parts: Vec<u32>| {
         parts.sort_unstable();
         parts.dedup();
         parts.len()

@@ -16,6 +16,8 @@
 //! a line is decided in single precision for every corner that the tree cannot exclude by more than the
 //! rounding errors of that decision, so the triangles are those of a test of all corners.
 
+use darboux::internal::vectors::single::dot;
+
 use super::corner_tree::CornerTree;
 use super::triangle::Triangle;
 
@@ -286,8 +288,7 @@ fn projected(positions: &[[f32; 3]]) -> Vec<[f32; 2]> {
     } else {
         ([if z < 0.0 { -1.0 } else { 1.0 }, 0.0, 0.0], [0.0, 1.0, 0.0])
     };
-    let along = |axis: [f32; 3], p: [f32; 3]| axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2];
-    positions.iter().map(|&position| [along(first, position), along(second, position)]).collect()
+    positions.iter().map(|&position| [dot(first, position), dot(second, position)]).collect()
 }
 
 /// The unit normal of a face; z where it has no area.
@@ -300,7 +301,7 @@ fn normal(positions: &[[f32; 3]]) -> [f32; 3] {
         });
         (next, at)
     });
-    let squared = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
+    let squared = dot(sum, sum);
     if squared > 1.0e-35 { sum.map(|x| x * (1.0 / squared.sqrt())) } else { [0.0, 0.0, 1.0] }
 }
 

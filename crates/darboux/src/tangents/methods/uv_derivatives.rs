@@ -1,6 +1,6 @@
 //! The derivatives of position by UV on one triangle, and the orientation of its UV map.
 
-use crate::math::{V3, length, not_zero, scale, sub};
+use crate::math::{V3, cross, length, not_zero, scale, sub};
 
 /// The edges of a triangle, and the derivatives of position by UV before the division by `area`.
 ///
@@ -53,7 +53,7 @@ impl ScaledDerivatives {
     #[inline(always)]
     pub fn doubled_area_vector(&self) -> V3 {
         let [a, b, _] = self.edges;
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+        cross(a, b)
     }
 }
 
