@@ -370,29 +370,31 @@ mod tests {
 
     use super::*;
 
-    /// Whether a list of C codes has the values of the core, in their order.
-    fn is_list_of<T: Choice + PartialEq + std::fmt::Debug>(codes: &[(&str, u32)]) {
-        let names: Vec<String> = T::ALL.iter().map(|value| value.name().replace(['-', '_'], "")).collect();
-        let expected = names.iter().map(String::as_str).zip(0..);
-        let found = codes.iter().map(|(name, code)| (name.to_ascii_lowercase(), *code));
-        assert!(found.eq(expected.map(|(name, code)| (name.to_owned(), code))), "{codes:?}, not {names:?}");
-    }
+    const HEADER: &str = include_str!("../include/darboux.h");
 
-    macro_rules! codes {
-        ($codes:ident: $($code:ident)+) => { &[$((stringify!($code), $codes::$code as u32)),+] };
+    /// Whether an enumeration of the header has the values of a list of the core, in their order. `prefix`:
+    /// that of the constants.
+    fn is_list_of<T: Choice>(prefix: &str) {
+        let constants = HEADER.lines().filter_map(|line| line.trim().strip_prefix(prefix));
+        let found: Vec<String> = constants
+            .filter(|line| line.contains(" = "))
+            .map(|line| line.replace('_', "").to_ascii_lowercase())
+            .collect();
+        let names = T::ALL.iter().map(|value| value.name().replace(['-', '_'], ""));
+        let expected: Vec<String> =
+            names.enumerate().map(|(code, name)| format!("{name} = {code},")).collect();
+        assert_eq!(found, expected, "{prefix}");
     }
 
     #[test]
     fn enumerations_of_the_header_are_the_lists_of_the_core() {
-        is_list_of::<Method>(
-            codes!(MethodCode: Mikktspace AngleArea Lengyel LengyelPerVertex Average Area Face FromNormal AngleEdge),
-        );
-        is_list_of::<Mode>(codes!(ModeCode: Repaired Reference Corrected));
-        is_list_of::<Shading>(codes!(ShadingCode: Smooth Flat));
-        is_list_of::<NormalWeight>(codes!(NormalWeightCode: Angle Area AngleArea));
-        is_list_of::<SmoothingSeams>(codes!(SmoothingSeamsCode: Ignored Respected));
-        is_list_of::<MapVerdict>(codes!(MapVerdictCode: Opengl Directx NoGradient Flat CannotTell));
-        is_list_of::<RecipeWriting>(codes!(RecipeWritingCode: Corners LastCorner FirstCorner));
-        is_list_of::<Encoding>(codes!(TangentEncodingCode: Snorm8 Snorm10 Snorm16 Octahedral Diamond));
+        is_list_of::<Method>("DARBOUX_METHOD_");
+        is_list_of::<Mode>("DARBOUX_MODE_");
+        is_list_of::<Shading>("DARBOUX_SHADING_");
+        is_list_of::<NormalWeight>("DARBOUX_NORMAL_WEIGHT_");
+        is_list_of::<SmoothingSeams>("DARBOUX_SMOOTHING_SEAMS_");
+        is_list_of::<MapVerdict>("DARBOUX_MAP_VERDICT_");
+        is_list_of::<RecipeWriting>("DARBOUX_RECIPE_WRITING_");
+        is_list_of::<Encoding>("DARBOUX_TANGENT_ENCODING_");
     }
 }
