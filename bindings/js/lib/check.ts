@@ -11,7 +11,7 @@ import simd from './wasm/check.simd.wasm';
 interface CheckExports extends Exports {
   file_bytes(bytes: number): number;
   tangents_to_recognise(corners: number): number;
-  check_file(isMap: number, isGreenDown: number, judgesMaps: number, assumedMap: number, repairs: number): number;
+  check_file(isGreenDown: number, judgesMaps: number, assumedMap: number, repairs: number): number;
   judge_normal_map(isWide: number, channels: number, width: number, height: number): number;
   recognise_recipe(): number;
   json_length(): number;
@@ -146,14 +146,14 @@ export const ready: Promise<void> = checkModule.ready;
 /**
  * Says what is wrong with the tangents, normals, UVs and normal maps of a model, or with a normal map.
  *
- * @param file The bytes of a GLB, of a glTF whose buffers and images are embedded, of an FBX, OBJ, PLY or STL, or of an image (PNG, JPEG, WebP), which is
+ * @param file The bytes of a GLB, of a glTF whose buffers and images are embedded, of an FBX, OBJ, PLY or STL, or of an image (PNG, JPEG, WebP, TGA), which is
  * a normal map. Draco and meshopt compression is decoded.
  * @returns The findings, grouped by place; empty for a healthy file.
  * @throws TypeError for another type. Error for a file that cannot be read; an image that cannot be decoded is a finding.
  */
 export function check(file: Uint8Array, options?: CheckOptions | null): Findings {
   checkType('file', file, ['Uint8Array']);
-  return checkModule.call((exports) => findings(exports, file, isImage(file), options, false));
+  return checkModule.call((exports) => findings(exports, file, options, false));
 }
 
 /**
@@ -168,7 +168,7 @@ export function fix(
   options?: CheckOptions | null,
 ): { file: Uint8Array<ArrayBuffer> | null; findings: Findings } {
   return checkModule.call((exports) => {
-    const found = findings(exports, file, false, options, true);
+    const found = findings(exports, file, options, true);
     const repaired = newFile(exports);
     return { file: repaired.length ? repaired : null, findings: found };
   });
@@ -216,24 +216,18 @@ function newFile(exports: CheckExports): Uint8Array<ArrayBuffer> {
   return new Uint8Array(exports.memory.buffer, exports.repaired_file() >>> 0, exports.repaired_length() >>> 0).slice();
 }
 
-function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, options: CheckOptions | null | undefined, repairs: boolean): Findings {
+function findings(exports: CheckExports, file: Uint8Array, options: CheckOptions | null | undefined, repairs: boolean): Findings {
   checkType('file', file, ['Uint8Array']);
   const { green, maps, assume } = optionsOf(options);
   if (green != null && green !== 'up' && green !== 'down') throw new RangeError(`green is '${green}'; it must be 'up' or 'down'`);
   const assumed = assume == null ? 0 : choice('assume', assume, ASSUMED_MAPS) + 1;
   writeBytes(exports, file);
-  const address = exports.check_file(Number(isMap), Number(green === 'down'), Number(maps ?? true), assumed, Number(repairs));
+  const address = exports.check_file(Number(green === 'down'), Number(maps ?? true), assumed, Number(repairs));
   type Checked = Pick<Findings, 'diagnosis' | 'importerNote' | 'warnings'> & { findings: Finding[] };
   const checked = readJson<Checked | { error: string }>(exports, address);
   if ('error' in checked) throw new Error(checked.error);
   const { findings, ...words } = checked;
   return Object.assign(findings, words);
-}
-
-/** Whether a file starts as a PNG, a JPEG or a WebP image does. */
-function isImage(file: Uint8Array): boolean {
-  const starts = [[0x89, 0x50, 0x4e, 0x47], [0xff, 0xd8, 0xff], [0x52, 0x49, 0x46, 0x46]];
-  return starts.some((start) => start.every((byte, at) => file[at] === byte));
 }
 
 /**

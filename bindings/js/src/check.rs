@@ -6,6 +6,7 @@ use darboux_check::{
     fix_document,
 };
 use darboux_io::gltf::Document;
+use darboux_io::image::RgbaImage;
 use serde::Serialize;
 
 use crate::arena::with_arena;
@@ -51,11 +52,10 @@ enum Checked {
     Error { error: String },
 }
 
-/// Checks the file of a model or, with `is_map`, of a normal map; with `repairs`, repairs the model.
+/// Checks the file of a model or of a normal map; with `repairs`, repairs the model.
 /// `assumed_map`: 0 for no assumption, otherwise 1 more than its code. Returns the address of the JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn check_file(
-    is_map: bool,
     is_green_down: bool,
     judges_maps: bool,
     assumed_map: u32,
@@ -69,7 +69,7 @@ pub extern "C" fn check_file(
     with_arena(|arena| {
         let arrays = &mut arena.check;
         arrays.repaired.clear();
-        let checked = if is_map {
+        let checked = if !repairs && RgbaImage::is_format_known(&arrays.bytes) {
             let findings = check_map(&arrays.bytes, &options).findings;
             Ok(Checked::Findings(ReportedFindings::new(findings, None)))
         } else {

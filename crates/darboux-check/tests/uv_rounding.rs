@@ -2,8 +2,6 @@
 
 mod support;
 
-use std::collections::BTreeSet;
-
 use darboux::Method;
 use darboux_check::{Code, Finding, Severity, check_document};
 use support::models::{Model, healthy_models};
@@ -75,21 +73,20 @@ fn tangents_that_are_older_than_the_rounding_do_not_suffer() {
 /// Whole numbers of texels, rings of a sphere and rows of a plane.
 #[test]
 fn grids_by_design_are_healthy() {
-    for mut model in healthy_models() {
+    for healthy in healthy_models() {
+        assert_eq!(found(&healthy), None, "{}", healthy.name);
         for steps in [64.0, 255.0, 4095.0] {
-            assert_eq!(found(&model), None, "{}", model.name);
-            // The rows of a plane are where they were, in steps.
+            let mut model = healthy.clone();
             let uvs = &mut model.uvs[model.uv_set];
             let mut values: Vec<f32> = uvs.iter().map(|uv| uv[1]).collect();
             values.sort_by(f32::total_cmp);
             values.dedup();
+            // The rows of a plane are where they were, in steps.
             if values.len() < 24 {
                 uvs.iter_mut().for_each(|uv| uv[1] = (uv[1] * steps).round() / steps);
                 model.tangents = Some(model.computed(Method::default(), model.uv_set));
+                assert_eq!(found(&model), None, "{}, {steps} steps", model.name);
             }
         }
     }
-    let codes: BTreeSet<Code> =
-        healthy_models().iter().filter_map(found).map(|finding| finding.code).collect();
-    assert_eq!(codes, BTreeSet::new());
 }

@@ -39,7 +39,7 @@ fn all_kinds_decode() {
     }
 }
 
-/// Four bytes with wrong lengths behind the image lead the decoder to metadata; the texels do not need them.
+/// Two offsets behind the image lead to metadata. Wrong ones, in one footer or several, change no texel.
 #[test]
 fn damaged_files_are_refused() {
     for name in ["rgb.tga", "rgb-rle.tga", "palette.tga"] {
@@ -52,6 +52,9 @@ fn damaged_files_are_refused() {
         let mut damaged = whole.clone();
         damaged[end..end + 8].fill(0xFF);
         assert_eq!(decode(&damaged), decode(&whole), "{name}");
+        let footers = [&damaged[..], &damaged[end..]].concat();
+        assert_eq!(decode(&footers), decode(&whole), "{name}");
+        assert!(decode(&footers[footers.len() - 52..]).is_err());
     }
     assert!(decode(&bytes("rgb.tga")[..100]).expect_err("cut off").contains("it was cut off"));
     let mut small_palette = bytes("palette.tga");

@@ -15,7 +15,7 @@
 //! and c are the weights of the three corners in the prediction. Where the errors are of another size,
 //! rounding is not what turns the tangents.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use crate::indices::Indices;
 use crate::measure::values::first_equal;
@@ -42,6 +42,9 @@ pub struct UvRounding {
 /// The most steps that are looked for. With more, half a step turns only the tangents of triangles by 5
 /// degrees that are smaller than two texels of a map of 1024 x 1024 texels.
 const MAX_STEPS: usize = 4096;
+
+/// The most values of v that are looked at: those of a grid, each with a few neighbours that arithmetic made.
+const MAX_VALUES: usize = 4 * MAX_STEPS;
 
 /// The fewest values of v that show a grid, and the fewest pairs of triangles that show rounding.
 const MIN_VALUES: usize = 24;
@@ -105,33 +108,44 @@ struct Grid {
 impl Grid {
     /// None without such a grid, or with too few values.
     fn of(uvs: &[[f32; 2]]) -> Option<Self> {
-        let (low, high) = uvs.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), [_, v]| {
-            (low.min(f64::from(*v)), high.max(f64::from(*v)))
+        let values = values(uvs)?;
+        let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| {
+            (low.min(f64::from(v)), high.max(f64::from(v)))
         });
         let range = high - low;
         let rounding = 2.0 * f64::from(f32::EPSILON) * low.abs().max(high.abs()) / range;
         if !(range.is_finite() && rounding.is_finite()) {
             return None;
         }
-        let place = |[_, v]: &[f32; 2], steps: usize| (f64::from(*v) - low) / range * steps as f64;
-        // Nearly all counts of steps fail at one of the first vertices.
+        let place = |v: f32, steps: usize| (f64::from(v) - low) / range * steps as f64;
         let is_grid = |steps: &usize| {
             let tolerance = 1e-4 + rounding * *steps as f64;
-            let is_on = |uv: &[f32; 2]| {
-                let place = place(uv, *steps);
+            let is_on = |&v: &f32| {
+                let place = place(v, *steps);
                 (place - place.round()).abs() <= tolerance
             };
-            uvs.iter().all(is_on)
+            values.iter().all(is_on)
         };
         // Beyond a twentieth of a step, single precision cannot show a grid.
         let most = MAX_STEPS.min((0.05 / rounding) as usize);
         let steps = (1..=most).find(is_grid)?;
-        let of_vertex: Vec<i32> = uvs.iter().map(|uv| place(uv, steps).round() as i32).collect();
+        let of_vertex: Vec<i32> = uvs.iter().map(|uv| place(uv[1], steps).round() as i32).collect();
         let mut is_used = vec![false; steps + 1];
         of_vertex.iter().for_each(|&step| is_used[step as usize] = true);
         let values = is_used.into_iter().filter(|is_used| *is_used).count();
         (values >= MIN_VALUES).then_some(Self { steps, of_vertex })
     }
+}
+
+/// The values of v; none for fewer than a grid needs and for more than [`MAX_VALUES`].
+fn values(uvs: &[[f32; 2]]) -> Option<Vec<f32>> {
+    let mut values = HashSet::new();
+    for [_, v] in uvs {
+        if values.insert(v.to_bits()) && values.len() > MAX_VALUES {
+            return None;
+        }
+    }
+    (values.len() >= MIN_VALUES).then(|| values.into_iter().map(f32::from_bits).collect())
 }
 
 /// What half a step turns the tangent of a triangle by, in degrees, and the triangle's area; none without a

@@ -286,17 +286,17 @@ impl Document {
         file.unwrap_or_else(|| {
             let name = self.json["images"][index]["name"].as_str().unwrap_or_default();
             let name = image_stem(name).map_or_else(|| format!("image_{index}"), str::to_owned);
-            let extension = match image.mime_type.as_deref() {
-                Some("image/jpeg") => "jpg",
-                Some("image/webp") => "webp",
-                Some("image/ktx2") => "ktx2",
-                _ => "png",
+            let (extension, kind) = match image.mime_type.as_deref() {
+                Some("image/jpeg") => ("jpg", FileKind::Jpeg),
+                Some("image/webp") => ("webp", FileKind::WebP),
+                Some("image/ktx2") => ("ktx2", FileKind::OtherImage),
+                _ => ("png", FileKind::Png),
             };
             let path = PathBuf::from(name);
-            if FileKind::of(&path).is_some_and(FileKind::is_image) {
-                path
-            } else {
-                path.with_added_extension(extension)
+            match FileKind::of(&path) {
+                Some(same) if same == kind => path,
+                Some(other) if other.is_image() => path.with_extension(extension),
+                _ => path.with_added_extension(extension),
             }
         })
     }

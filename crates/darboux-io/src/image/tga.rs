@@ -2,10 +2,11 @@
 
 use tinytga::{Bpp, Compression, DataType, ImageOrigin, RawTga, TgaHeader};
 
-use super::decoding::{DecodeError, DecodeLimits, broken, check_memory, texel_count};
+use super::decoding::{DecodeError, DecodeLimits, broken, texel_count};
 
 const FOOTER_SIGNATURE: &[u8] = b"TRUEVISION-XFILE.\0";
-const FOOTER_LENGTH: usize = 26;
+/// The bytes of a footer before its signature: where metadata begins.
+const OFFSETS: usize = 8;
 const HEADER_LENGTH: usize = 18;
 
 /// Whether the fields of the header fit each other.
@@ -29,7 +30,6 @@ pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<(u32, u32, Vec<[u8; 
     let header = tga.header();
     let (width, height) = (usize::from(header.width), usize::from(header.height));
     let count = texel_count(width, height, limits)?;
-    check_memory([width, height], 4 * count as u64, limits)?;
     if header.has_color_map && header.color_map_start > 0 {
         return Err(DecodeError::NoDecoder("a TGA whose colour map does not begin with 0"));
     }
@@ -57,9 +57,13 @@ fn cut_off() -> DecodeError {
     broken("it ends before its last row: it was cut off")
 }
 
-/// The footer only leads to metadata, and the decoder does not expect lengths in it that are wrong.
-fn without_footer(file: &[u8]) -> &[u8] {
-    if file.ends_with(FOOTER_SIGNATURE) { &file[..file.len().saturating_sub(FOOTER_LENGTH)] } else { file }
+/// A footer only leads to metadata, and the decoder does not expect wrong offsets in it. All footers at the end
+/// are left out: the decoder would look at the one before the last.
+fn without_footer(mut file: &[u8]) -> &[u8] {
+    while let Some(rest) = file.strip_suffix(FOOTER_SIGNATURE) {
+        file = &rest[..rest.len().saturating_sub(OFFSETS)];
+    }
+    file
 }
 
 fn texel(tga: &RawTga<'_>, header: &TgaHeader, code: u32) -> Result<[u8; 4], DecodeError> {
@@ -77,7 +81,7 @@ fn texel(tga: &RawTga<'_>, header: &TgaHeader, code: u32) -> Result<[u8; 4], Dec
     })
 }
 
-/// Blue is lowest. Colours of 16 bits have 5 bits per channel, and one that programs use in opposite ways:
+/// Blue is lowest; 8 bits are grey. Colours of 16 bits have 5 bits per channel, and one that programs use in opposite ways:
 /// their texels are opaque.
 fn color_of(code: u32, bits: Bpp, has_alpha: bool) -> [u8; 4] {
     if bits == Bpp::Bits16 {
@@ -85,5 +89,8 @@ fn color_of(code: u32, bits: Bpp, has_alpha: bool) -> [u8; 4] {
         return [channel(10), channel(5), channel(0), 255];
     }
     let [blue, green, red, alpha] = code.to_le_bytes();
+    if bits == Bpp::Bits8 {
+        return [blue, blue, blue, 255];
+    }
     [red, green, blue, if has_alpha && bits == Bpp::Bits32 { alpha } else { 255 }]
 }

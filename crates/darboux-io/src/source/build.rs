@@ -89,6 +89,10 @@ pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Resu
         }
     }
     let extensions: Vec<Value> = materials.extensions.into_iter().map(Value::from).collect();
+    if extensions.iter().any(|extension| extension == materials::WEBP) {
+        // No other image stands behind it.
+        root["extensionsRequired"] = json!([materials::WEBP]);
+    }
     if !extensions.is_empty() {
         root["extensionsUsed"] = extensions.into();
     }

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
+use std::path::Path;
 
 use darboux::{BitangentDirection, Convention};
 use serde_json::{Value, json};
@@ -10,7 +11,7 @@ use super::data::DataBuilder;
 use crate::image::{Channels, PngImage, convert_normal_map};
 use crate::source::scene::{NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture};
 use crate::words::counted;
-use crate::{LoadOptions, git_lfs};
+use crate::{FileKind, LoadOptions, git_lfs};
 
 /// The lists of materials, textures, images and samplers, and the extensions that they use.
 #[derive(Debug, Default)]
@@ -24,7 +25,7 @@ pub struct Materials {
 
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
 const EMISSIVE_STRENGTH: &str = "KHR_materials_emissive_strength";
-const WEBP: &str = "EXT_texture_webp";
+pub const WEBP: &str = "EXT_texture_webp";
 const CLAMP_TO_EDGE: u32 = 33071;
 
 /// Builds all materials of a scene.
@@ -202,7 +203,9 @@ impl MaterialBuilder<'_> {
         let file = made.map_err(|problem| self.warnings.push(problem)).ok()?;
         let mime = mime_type(&file)?;
         let view = self.data.view(&file);
-        self.built.images.push(json!({"name": image.name, "mimeType": mime, "bufferView": view}));
+        let is_converted = mime_type(&image.bytes) != Some(mime);
+        let name = if is_converted { Cow::Owned(png_name(&image.name)) } else { Cow::Borrowed(&*image.name) };
+        self.built.images.push(json!({"name": name, "mimeType": mime, "bufferView": view}));
         Some(GltfImage { index: self.built.images.len() - 1, is_webp: mime == "image/webp" })
     }
 
@@ -263,6 +266,15 @@ impl MaterialBuilder<'_> {
             Err(error) => format!("{error}; its green points down, and is not inverted: save the map as PNG"),
         });
         Ok(turned.map_or(file, Cow::from))
+    }
+}
+
+/// The name of an image that became a PNG.
+fn png_name(name: &str) -> String {
+    let is_image = FileKind::of(Path::new(name)).is_some_and(FileKind::is_image);
+    match name.rsplit_once('.').filter(|_| is_image) {
+        Some((stem, _)) => format!("{stem}.png"),
+        None => name.to_owned(),
     }
 }
 
