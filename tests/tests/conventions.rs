@@ -1,6 +1,7 @@
 //! Conventions: conversion between every pair of presets, compared with a triangle that is defined in each of
 //! them.
 
+use darboux::internal::vectors::single::{cross, dot};
 use darboux::{
     Axes, Axis, BitangentDirection, Convention, ConventionError, Handedness, Mesh, SignRule,
     TangentDirection, TangentOptions, UvOrigin, Winding, generate_tangents,
@@ -35,14 +36,6 @@ struct Written {
     uvs: Vec<[f32; 2]>,
     tangents: Vec<[f32; 4]>,
     indices: Vec<u32>,
-}
-
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 fn component(axis: Axis) -> (usize, f32) {

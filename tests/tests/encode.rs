@@ -6,16 +6,9 @@ use darboux::encode::{
     tangent_from_snorm16, tangent_to_diamond, tangent_to_octahedral, tangent_to_snorm8, tangent_to_snorm10,
     tangent_to_snorm16,
 };
+use darboux::internal::vectors::double::{cross, dot};
 
 type V3 = [f32; 3];
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
 
 fn unit(v: [f64; 3]) -> [f64; 3] {
     let length = dot(v, v).sqrt();

@@ -1,21 +1,10 @@
 //! Frames under transforms, against finite differences on the transformed surface.
 
 use darboux::Transform;
+use darboux::internal::vectors::double::{cross, dot, sub};
 use darboux_tests::Dice;
 
 type D3 = [f64; 3];
-
-fn cross(a: D3, b: D3) -> D3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot(a: D3, b: D3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn sub(a: D3, b: D3) -> D3 {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
 
 fn unit(v: D3) -> D3 {
     let length = dot(v, v).sqrt();

@@ -3,6 +3,7 @@
 
 mod support;
 
+use darboux::internal::vectors::single::cross;
 use darboux_check::{CheckOptions, Code, Finding, check_document};
 use darboux_tests::{OwnedMesh, families};
 use support::maps::{Map, healthy_map, png};
@@ -85,10 +86,6 @@ fn baked(model: &Model) -> Vec<[u8; 3]> {
 fn unit(v: [f32; 3]) -> [f32; 3] {
     let length = v.iter().map(|x| x * x).sum::<f32>().sqrt();
     v.map(|x| x / length)
-}
-
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn with_texels(texels: Vec<[u8; 3]>) -> Map {

@@ -9,6 +9,7 @@ use std::env;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use darboux::internal::vectors::double::cross;
 use darboux::{MapVerdict, TexelLayout, judge_normal_map};
 use darboux_check::{
     CheckOptions, Code, FixOptions, Severity, check_document, check_map_on_model, check_model_of_maps,
@@ -221,10 +222,6 @@ fn shading(document: &Document, uv_set: usize) -> Vec<Option<[f64; 3]>> {
 fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
     (length.is_finite() && length > 0.0).then(|| v.map(|x| x / length))
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// The mean angle in degrees to the truth; a normal without a direction counts as 90. None where they cannot

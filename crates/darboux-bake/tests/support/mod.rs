@@ -6,6 +6,7 @@ pub mod shading;
 
 use std::f64::consts::{PI, TAU};
 
+pub use darboux::internal::vectors::double::{cross, dot};
 use darboux::{Context, Mesh, TangentOptions, generate_tangents};
 use darboux_bake::{BakeOptions, Baked, HighSurface, LowSurface, bake};
 
@@ -101,14 +102,6 @@ pub fn normal(at: impl Fn(f64, f64) -> Vector, u: f64, v: f64) -> Vector {
     let along_u = sub(at(u + STEP, v), at(u - STEP, v));
     let along_v = sub(at(u, v + STEP), at(u, v - STEP));
     unit(cross(along_v, along_u))
-}
-
-pub fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-pub fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 pub fn unit(v: Vector) -> Vector {

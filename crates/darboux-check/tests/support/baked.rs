@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use darboux::internal::vectors::single::{cross, dot};
 use darboux::{MapVerdict, TexelLayout, judge_normal_map};
 use darboux_check::{CheckOptions, Code, FixOptions, Severity, check_document, fix_document};
 use darboux_io::LoadOptions;
@@ -114,14 +115,6 @@ fn repaired(model: &Model, healthy: &Model) -> Result<(), String> {
     }
     let image = after.image_bytes(0).map_err(|error| error.to_string())?;
     if rgb(&image) == healthy.map.texels { Ok(()) } else { Err("the texels are others".to_owned()) }
-}
-
-fn dot(a: Vector, b: Vector) -> f32 {
-    (0..3).map(|i| a[i] * b[i]).sum()
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn unit(a: Vector) -> Vector {

@@ -11,6 +11,7 @@
 //! d).
 
 use darboux::Method;
+pub use darboux::internal::vectors::double::{dot, length, sub};
 use darboux_tests::OwnedMesh;
 
 pub const U: f64 = 1.0 / (1 << 24) as f64;
@@ -195,16 +196,4 @@ impl Scaled {
         let error = ((share + 7.0 * U) * self.size() + 5.0 * U * self.products) / area;
         (self.value.map(|x| x / area), error / (1.0 - share))
     }
-}
-
-pub fn sub(a: V3, b: V3) -> V3 {
-    [0, 1, 2].map(|i| a[i] - b[i])
-}
-
-pub fn dot(a: V3, b: V3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub fn length(v: V3) -> f64 {
-    dot(v, v).sqrt()
 }
