@@ -447,6 +447,13 @@ codes! {
         "Export the map again as PNG, as JPEG with a quality of 95 and whole colour resolution, or as KTX2 with UASTC."
         Leave "what the compression took is lost"
     }
+    MapPadding "map-padding" Warning {
+        "The background of the normal map is no normal, and its charts have too little padding for smaller mip levels."
+        "Dark or bright lines along UV seams, which become wider and plainer as the model becomes smaller on the screen."
+        "The map was baked without padding (margin, dilation), and its background is black, as of bakers that leave what no ray hits empty."
+        "Bake again with more padding, such as `darboux bake --padding 16`, or the margin of other bakers."
+        Leave "which texels are background is known to the baker: a bake makes the padding in one go"
+    }
     MapOtherLayout "map-other-layout" Error {
         "The normal map was made for another UV layout."
         "Details are at wrong places, and seams show; with UVs upside down, the whole texture is."

@@ -17,6 +17,7 @@ pub mod mesh_votes;
 pub mod other_axes;
 pub mod outliers;
 pub mod overlap;
+pub mod padding;
 pub mod recipe;
 pub mod reordered;
 pub mod reversal;

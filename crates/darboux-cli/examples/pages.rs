@@ -93,6 +93,7 @@ const SAID: &[(Code, &str)] = &[
         Code::ConventionsCancel,
         "the normal map looks right in one program and inverted in the next, although the file is the same (mrdoob/three.js 11438, google/filament 528)",
     ),
+    (Code::MapPadding, "there are lines along the UV seams, and only when the camera is far away"),
     (
         Code::MapOtherLayout,
         "the texture is upside down after the export, and the bumps are at wrong places (mrdoob/three.js 25263)",

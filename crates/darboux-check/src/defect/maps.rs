@@ -4,6 +4,7 @@ use darboux::{BitangentDirection, MapJudgement, SrgbMistake};
 
 use crate::code::Code;
 use crate::measure::contradiction::Contradiction;
+use crate::measure::padding::Padding;
 use crate::measure::reordered::Reordered;
 use crate::measure::seams::{Layout, SeamFit};
 use crate::measure::storage::{BlockSteps, Enlargement, FewLevels};
@@ -203,6 +204,8 @@ pub enum MapFault {
     Banding(FewLevels),
     /// The borders of the blocks of a compression show.
     Blocks(BlockSteps),
+    /// Borders of charts are lit wrongly in smaller mip levels.
+    Padding(Padding),
     /// The map fits the seams of the meshes in another layout, and not as it is.
     OtherLayout {
         layout: Layout,
@@ -236,6 +239,7 @@ impl MapFault {
             Self::Enlarged(_) => Code::MapEnlarged,
             Self::Banding(_) => Code::MapBanding,
             Self::Blocks(_) => Code::MapBlocks,
+            Self::Padding(_) => Code::MapPadding,
         }
     }
 

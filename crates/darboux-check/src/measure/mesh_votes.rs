@@ -5,6 +5,7 @@ use darboux_io::image::RgbaImage;
 use crate::measure::arrangement::Arrangement;
 use crate::measure::facet::MapUse;
 use crate::measure::facets::FacetVotes;
+use crate::measure::padding::Padding;
 use crate::measure::seams::SeamFits;
 
 /// The votes of the facets, and how the map fits the seams.
@@ -13,12 +14,18 @@ pub struct MeshVotes {
     facets: FacetVotes,
     /// None where the meshes have too few seams, or the map hardly leans there.
     pub seams: Option<SeamFits>,
+    /// Where borders of charts are lit wrongly in smaller mip levels.
+    pub padding: Option<Padding>,
 }
 
 impl MeshVotes {
     /// The votes of all surfaces that use a map.
     pub fn of(uses: &[MapUse<'_>], image: &RgbaImage) -> Self {
-        Self { facets: FacetVotes::of(uses, image), seams: SeamFits::of(uses, image) }
+        Self {
+            facets: FacetVotes::of(uses, image),
+            seams: SeamFits::of(uses, image),
+            padding: Padding::of(uses, image),
+        }
     }
 
     /// True where the first of the two possibilities of an arrangement is decided, false for the second one;
@@ -45,6 +52,6 @@ impl MeshVotes {
     /// Votes with this z score of one arrangement, and none of the others.
     #[cfg(test)]
     pub fn only(arrangement: Arrangement, z_score: f64) -> Self {
-        Self { facets: FacetVotes::only(arrangement, z_score), seams: None }
+        Self { facets: FacetVotes::only(arrangement, z_score), seams: None, padding: None }
     }
 }

@@ -37,6 +37,7 @@ pub const RULES: &[MapRule] = &[
     negative_z,
     flat_off,
     flat,
+    padding,
     enlarged,
     banding,
     blocks,
@@ -338,6 +339,11 @@ fn enlarged(map: &Map) -> Option<Defect> {
     of_kind(map, Kind::Normals)?;
     let found = map.storage.enlargement?;
     Some(of_step(MapFault::Enlarged(found), found.step, MIN_STEP))
+}
+
+fn padding(map: &Map) -> Option<Defect> {
+    of_kind(map, Kind::Normals).filter(|judgement| judgement.verdict != MapVerdict::Flat)?;
+    Some(Defect::new(MapFault::Padding(map.facets.as_ref()?.padding?)))
 }
 
 fn banding(map: &Map) -> Option<Defect> {

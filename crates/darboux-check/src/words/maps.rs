@@ -10,6 +10,7 @@ use crate::defect::{
     Texels, Unread,
 };
 use crate::measure::contradiction::{Contradiction, Part};
+use crate::measure::padding::Padding;
 use crate::measure::reordered::Reordered;
 use crate::measure::seams::Layout;
 use crate::measure::storage::{BlockSteps, Enlargement, FewLevels};
@@ -84,6 +85,14 @@ pub fn said(fault: &MapFault) -> Said {
                 .with("its distance from that of the map at other places", fit.z_score, "standard deviations")
                 .with("correlation as it is", as_it_is.correlation, "")
                 .with("points of seams that were compared", *points as f64, "points")
+        }
+        MapFault::Padding(Padding { wanted, fewer_than, degrees, inside }) => {
+            Said::new(format!(
+                "its background is no normal and gets into the borders of its charts from afar: they want {wanted} texels of padding and have fewer than {fewer_than}"
+            ))
+            .with("typical lean of the borders", *degrees, "degrees")
+            .with("the same inside of charts", *inside, "degrees")
+            .with("size of the model on the screen", Padding::PIXELS, "pixels")
         }
         MapFault::Enlarged(Enlargement { factors: [across, down], size: [width, height], step }) => {
             Said::new(format!(

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use darboux::Method;
 use darboux_check::Code;
 
+use super::baked::texels_inside;
 use super::models::Model;
 
 /// A mistake in a model.
@@ -371,6 +372,31 @@ pub const MISTAKES: &[Mistake] = &[
             model.tangents = Some(vec![[1.0, 0.0, 0.0, 1.0]; at.len()]);
             model.tangents = Some(model.computed(Method::default(), model.uv_set));
             steep > 1.0 || model.name == "coarse sphere"
+        },
+    },
+    Mistake {
+        code: Code::MapPadding,
+        how: "UVs moved away from the edges of the map, and black around the charts",
+        make: |model| {
+            let side = model.map.texels.len().isqrt();
+            let uvs = &mut model.uvs[model.uv_set];
+            let [low, high] = range(uvs);
+            let size = (high[0] - low[0]).max(high[1] - low[1]);
+            let scale = (side as f32 - 14.0) / size;
+            for uv in uvs.iter_mut() {
+                *uv = [0, 1].map(|i| (7.0 + scale * (uv[i] - low[i])) / side as f32);
+            }
+            let mut texels = vec![[0; 3]; side * side];
+            for triangle in model.indices.as_chunks::<3>().0 {
+                let corners = triangle.map(|vertex| uvs[vertex as usize].map(|x| x * side as f32 - 0.5));
+                for (x, y, _) in texels_inside(corners) {
+                    let at = y as usize * side + x as usize;
+                    texels[at] = model.map.texels[at];
+                }
+            }
+            model.map = model.map.with_texels(texels);
+            // A strip is thinner than a block.
+            model.name != "strip"
         },
     },
     Mistake {

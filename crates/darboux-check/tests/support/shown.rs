@@ -101,6 +101,11 @@ pub fn shown_layout(code: Code) -> Option<String> {
             };
             chart(10.0, 0.01).chain(chart(105.0, 10.0)).collect()
         }
+        // Charts that lie close together on black.
+        Code::MapPadding => quads([8.0, 10.0], [80.0; 2])
+            .chain(quads([91.0, 10.0], [60.0; 2]))
+            .chain(quads([91.0, 73.0], [100.0, 57.0]))
+            .collect(),
         Code::UvHardEdge => quads([60.0, 10.0], [80.0; 2]).collect(),
         _ => Vec::new(),
     };
@@ -109,9 +114,13 @@ pub fn shown_layout(code: Code) -> Option<String> {
         Code::UvHardEdge => "<path d=\"M100,10 V90\" stroke=\"#d00\" stroke-width=\"3\"/>\n",
         _ => "",
     };
+    let ground = match code {
+        Code::MapPadding => "<rect width=\"200\" height=\"140\" fill=\"#000\"/>\n",
+        _ => "",
+    };
     let shapes: String = triangles.iter().map(shape).collect();
     let head = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 200 140\" width=\"220\" height=\"154\" stroke=\"#333\" stroke-width=\"0.6\">";
-    (!triangles.is_empty()).then(|| format!("{head}\n{shapes}{edge}</svg>\n"))
+    (!triangles.is_empty()).then(|| format!("{head}\n{ground}{shapes}{edge}</svg>\n"))
 }
 
 /// The triangles of four by four quads beside a corner, with the signed width given; those of a negative
