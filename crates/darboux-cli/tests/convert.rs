@@ -8,6 +8,7 @@ use std::path::Path;
 use common::{Run, asset, darboux, darboux_reading, folder_with, glb_json, names_in, text};
 use darboux::Convention;
 use darboux_io::LoadOptions;
+use darboux_io::gltf::Document;
 use darboux_io::image::{Channels, PngImage, convert_normal_map};
 use serde_json::Value;
 
@@ -60,7 +61,28 @@ fn models_change_their_format_alone() {
     fs::create_dir(&out).expect("a folder");
     darboux(&["convert", text(&source), "--out-dir", text(&out)]).exits(0);
     assert_eq!(names_in(&out), ["polygons.glb"]);
+    let models = folder.path().join("models");
+    fs::create_dir(&models).expect("a folder");
+    fs::copy(&source, models.join("inside.obj")).expect("a copy");
+    darboux(&["convert", text(&models), "--out-dir", text(&out)]).exits(0);
+    assert_eq!(names_in(&out), ["inside.glb", "polygons.glb"]);
     assert!(fs::read(&glb).expect("a file") == fs::read(out.join("polygons.glb")).expect("a file"));
+    let open = |path: &Path| Document::open(path, &LoadOptions::default()).expect("a model");
+    assert!(fs::read(&glb).expect("a file") == open(&source).to_glb().expect("a file"));
+    let corners = |path: &Path| {
+        let document = open(path);
+        let primitives = document.meshes().iter().flat_map(|mesh| &mesh.primitives);
+        let corners = primitives.flat_map(|primitive| {
+            let positions = document.vectors::<3>(primitive.attributes["POSITION"]).expect("positions");
+            let indices = document.indices(primitive.indices.expect("indices")).expect("indices").into_u32();
+            indices.into_iter().map(|index| positions[index as usize]).collect::<Vec<_>>()
+        });
+        corners.collect::<Vec<_>>()
+    };
+    assert_eq!(corners(&gltf), corners(&glb));
+    assert_eq!(corners(&obj), corners(&glb));
+    let option = darboux(&["convert", text(&asset(IMAGE)), "--to-layout", "ag", "-o", text(&png)]).exits(2);
+    assert!(option.stderr.contains("--to-layout needs conventions"), "{}", option.stderr);
     let refused = darboux(&["convert", text(&glb), "-o", text(&same)]).exits(2);
     assert!(refused.stderr.contains("nothing would change"), "{}", refused.stderr);
     let refused = darboux(&["convert", text(&asset(IMAGE)), "-o", text(&png)]).exits(2);

@@ -544,7 +544,7 @@ fn primitives_without_uvs_get_a_material_without_textures() {
     assert_eq!(of_meshes, [Some(0), Some(1), Some(1)]);
     let warnings = document.warnings().join("\n");
     assert!(
-        warnings.contains("2 primitives of the material m lack UVs of its textures, and a copy"),
+        warnings.contains("2 primitives of the material m lack UVs of its textures; a copy of the material without these textures"),
         "{warnings}"
     );
 }

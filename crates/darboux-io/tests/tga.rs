@@ -4,9 +4,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
 use darboux_io::image::{DecodeLimits, RgbaImage};
+use darboux_io::{LoadOptions, SaveOptions};
 
 fn raster(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/rasters").join(name)
@@ -98,5 +98,11 @@ fn documents_have_them_as_png() {
         let image = document.image_bytes(index).expect("an image");
         assert!(image.starts_with(b"\x89PNG"));
         assert_eq!(decode(&image), decode(&bytes(png)), "{png}");
+    }
+    let out = folder.path().join("out");
+    fs::create_dir(&out).expect("a folder");
+    document.save(&out.join("m.obj"), &SaveOptions::default()).expect("a copy");
+    for name in ["rgb.png", "rgba-rle.png"] {
+        assert!(fs::read(out.join(name)).expect("an image").starts_with(b"\x89PNG"), "{name}");
     }
 }

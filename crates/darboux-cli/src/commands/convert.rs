@@ -11,7 +11,7 @@ use std::path::Path;
 use darboux::{Convention, UvOrigin};
 use darboux_io::FileKind;
 use darboux_io::gltf::{ConversionSummary, Document, Progress, convert_vertices};
-use darboux_io::image::{PngImage, convert_normal_map, count_invalid_normals};
+use darboux_io::image::{Channels, PngImage, convert_normal_map, count_invalid_normals};
 use darboux_io::source::SourceFormat;
 use serde::Serialize;
 
@@ -91,7 +91,7 @@ impl FileCommand for ConvertArguments {
     }
 
     fn check(&self) -> Result<(), UsageError> {
-        match self.files.inputs.iter().find(|input| input.is_dir()) {
+        match self.files.inputs.iter().find(|input| input.is_dir() && !self.only_format_changes()) {
             Some(folder) => Err(UsageError(format!(
                 "{} is a folder, and not every image in it is a normal map; name the files instead",
                 folder.display()
@@ -218,12 +218,24 @@ impl ConvertArguments {
     /// Errors: an input and an output of the same format, between which nothing changes; an image.
     fn check_formats(&self) -> Result<(), UsageError> {
         let FileOptions { inputs, output, out_dir, .. } = &self.files;
+        let needs_conventions = [
+            (self.space.is_some(), "--space"),
+            (self.to_layout.is_some(), "--to-layout"),
+            (self.layout != Channels::RGB, "--layout"),
+            (self.raw, "--raw"),
+        ];
+        if let Some((_, option)) = needs_conventions.into_iter().find(|(is_given, _)| *is_given) {
+            return Err(UsageError(format!("{option} needs conventions; name them with --from and --to")));
+        }
         let changes = |input: &Path| {
             let kind = FileKind::of(input);
             let is_image = kind.is_some_and(FileKind::is_image);
             match output {
                 Some(output) => !is_image && FileKind::of(output) != kind,
-                None => out_dir.is_some() && kind.is_some_and(|kind| kind.is_model() && !kind.is_gltf()),
+                None => {
+                    let is_other = kind.is_some_and(|kind| kind.is_model() && !kind.is_gltf());
+                    out_dir.is_some() && (input.is_dir() || is_other)
+                }
             }
         };
         match inputs.iter().find(|input| !changes(input)) {

@@ -57,8 +57,8 @@ fn cut_off() -> DecodeError {
     broken("it ends before its last row: it was cut off")
 }
 
-/// A footer only leads to metadata, and the decoder does not expect wrong offsets in it. All footers at the end
-/// are left out: the decoder would look at the one before the last.
+/// A footer only leads to metadata, and the decoder does not expect wrong offsets in it. All footers at the
+/// end are left out: the decoder would look at the one before the last.
 fn without_footer(mut file: &[u8]) -> &[u8] {
     while let Some(rest) = file.strip_suffix(FOOTER_SIGNATURE) {
         file = &rest[..rest.len().saturating_sub(OFFSETS)];
@@ -81,8 +81,8 @@ fn texel(tga: &RawTga<'_>, header: &TgaHeader, code: u32) -> Result<[u8; 4], Dec
     })
 }
 
-/// Blue is lowest; 8 bits are grey. Colours of 16 bits have 5 bits per channel, and one that programs use in opposite ways:
-/// their texels are opaque.
+/// Blue is lowest; 8 bits are grey. Colours of 16 bits have 5 bits per channel, and one that programs use in
+/// opposite ways: their texels are opaque.
 fn color_of(code: u32, bits: Bpp, has_alpha: bool) -> [u8; 4] {
     if bits == Bpp::Bits16 {
         let channel = |shift: u32| (((code >> shift & 31) * 255 + 15) / 31) as u8;

@@ -1,13 +1,16 @@
 //! Textures of primitives without their UV sets, which glTF does not permit: such primitives get a copy of
 //! the material without these textures.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use serde_json::Value;
 
 use crate::error::shortened;
 use crate::source::scene::{SourceMaterial, SourceScene, SourceTexture};
 use crate::words::counted;
+
+/// The longest name that each copy repeats, in bytes.
+const LONGEST_NAME: usize = 1000;
 
 /// Replaces the materials of primitives that lack UV sets of their textures by copies, which it adds to the
 /// scene. Returns a sentence about them; none for none.
@@ -34,12 +37,13 @@ pub fn replace(scene: &mut SourceScene, meshes: &mut [Value]) -> Option<String> 
         });
         primitive["material"] = copy.into();
     }
-    let others = copies.len().checked_sub(1)?;
+    let materials = copies.keys().map(|(material, _)| material).collect::<BTreeSet<_>>().len();
+    let others = materials.checked_sub(1)?;
     let others = if others == 0 { String::new() } else { format!(" and {others} more") };
     let lack = if primitives == 1 { "lacks" } else { "lack" };
     let primitives = counted(primitives, "primitive", "primitives");
     Some(format!(
-        "{primitives} of the material {first}{others} {lack} UVs of its textures, and a copy of the material without them is used there"
+        "{primitives} of the material {first}{others} {lack} UVs of its textures; a copy of the material without these textures is used there"
     ))
 }
 
@@ -61,7 +65,14 @@ fn needs_more(material: &SourceMaterial, sets: usize) -> bool {
 /// A copy of a material with the textures of the first UV sets.
 fn with_uv_sets(material: &SourceMaterial, sets: usize) -> SourceMaterial {
     let mut copy = material.clone();
-    copy.name = format!("{} without UVs", shortened(&material.name));
+    let left = match sets {
+        0 => "no textures".to_owned(),
+        1 => "UV set 0 only".to_owned(),
+        sets => format!("UV sets 0 to {} only", sets - 1),
+    };
+    let is_long = material.name.len() > LONGEST_NAME;
+    copy.name =
+        format!("{} ({left})", if is_long { shortened(&material.name) } else { material.name.clone() });
     let lacks = |texture: &mut SourceTexture| texture.uv_set >= sets;
     copy.base_color_texture.take_if(lacks);
     copy.metallic_roughness_texture.take_if(lacks);
