@@ -488,10 +488,25 @@ fn materials_without_a_library_keep_their_groups() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("a.mtl"), "newmtl red\nKd 1 0 0\n").unwrap();
     fs::write(folder.path().join("a.obj"), format!("{elements}{faces}mtllib a.mtl\nf 1 2 3\n")).unwrap();
+    fs::write(folder.path().join("b.obj"), format!("mtllib a.mtl b.mtl\n{elements}usemtl red\nf 1 2 3\n"))
+        .unwrap();
+    let document = open(&folder.path().join("b.obj"));
+    let [warning] = document.warnings() else { panic!("one library is missing") };
+    assert!(warning.contains("b.mtl") && !warning.contains("a.mtl"), "{warning}");
     let late = open(&folder.path().join("a.obj"));
     assert_eq!(materials(&late), expected);
     assert_eq!(late.json()["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"], [1.0, 0.0, 0.0, 1.0]);
     assert_eq!(late.warnings(), ["no library has the material blue; it is kept with default values"]);
+}
+
+/// Two scans in one file, of which one has colours.
+#[test]
+fn colours_of_some_positions_are_left_out_with_a_word() {
+    for positions in ["v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\n", "v 0 0 0\nv 1 0 0\nv 1 1 0 1 0 0\n"] {
+        let obj = format!("{positions}f 1 2 3\n");
+        let document = Document::from_bytes("a", obj.into(), None, &LoadOptions::default()).unwrap();
+        assert_eq!(document.warnings(), ["not carried over: 1 colour for 3 positions"]);
+    }
 }
 
 #[test]

@@ -92,7 +92,8 @@ impl FileLookup {
     }
 
     fn libraries(&self, line: &[u8]) -> Vec<Companion> {
-        let find = || lookup::libraries(&self.files, line).into_iter().map(Companion::from).collect();
+        let find =
+            || lookup::libraries(&self.files, line).into_iter().flatten().map(Companion::from).collect();
         self.libraries.borrow_mut().entry(line.to_owned()).or_insert_with(find).clone()
     }
 

@@ -10,15 +10,19 @@ const LONGEST_PATH: usize = 4096;
 /// A reference, and the file that it names.
 pub type Found = (String, FoundFile);
 
-/// The libraries that a `mtllib` line names: one whose name may contain spaces, or several.
-pub fn libraries(files: &ModelFiles, line: &[u8]) -> Vec<Found> {
+/// The libraries that a `mtllib` line names: one whose name may contain spaces, or several. Errors: names
+/// without a file.
+pub fn libraries(files: &ModelFiles, line: &[u8]) -> Vec<Result<Found, String>> {
     if line.len() > LONGEST_PATH {
         return Vec::new();
     }
     let text = decoded(line);
     match find(files, "", &text) {
-        Some(found) => vec![found],
-        None => text.split_ascii_whitespace().filter_map(|word| find(files, "", word)).collect(),
+        Some(found) => vec![Ok(found)],
+        None => {
+            let of_word = |word: &str| find(files, "", word).ok_or_else(|| word.to_owned());
+            text.split_ascii_whitespace().map(of_word).collect()
+        }
     }
 }
 

@@ -85,11 +85,15 @@ impl<'a> Materials<'a> {
             return;
         }
         let found = lookup::libraries(self.files, line);
-        if found.is_empty() {
-            let problem = self.files.problem(&decoded(line));
-            self.warnings.push(format!("{problem}; its materials are left out"));
+        let left_out = |name: &str| format!("{}; its materials are left out", self.files.problem(name));
+        if found.iter().all(Result::is_err) {
+            // One name with spaces, as far as anyone can tell.
+            self.warnings.push(left_out(&decoded(line)));
+            return;
         }
-        for (reference, library) in found {
+        self.warnings
+            .extend(found.iter().filter_map(|found| found.as_ref().err()).map(|name| left_out(name)));
+        for (reference, library) in found.into_iter().flatten() {
             if !self.loaded.insert(library.path.clone()) {
                 continue;
             }

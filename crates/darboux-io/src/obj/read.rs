@@ -27,6 +27,7 @@ pub fn read(bytes: &[u8], files: &ModelFiles, _: &LoadOptions) -> Result<SourceS
     if text.corners.is_empty() {
         return Err(ContentError::invalid("", without_faces(&text)));
     }
+    text.leave_out_colors(&mut scene);
     text.use_zbrush_colors(&mut scene);
     scene.meshes = meshes::build(&text)
         .map_err(|missing| invalid(line_of_corner(bytes, missing.corner), &missing.problem))?;
@@ -127,12 +128,22 @@ impl ObjText {
         if count < 3 {
             return Err("is a position with fewer than three numbers".to_owned());
         }
+        self.colored_positions += usize::from(count == 6);
         if count == 6 && self.colors.len() == self.positions.len() {
             let linear = [r, g, b].map(|x| srgb_to_linear(f64::from(x).clamp(0.0, 1.0)) as f32);
             self.colors.push([linear[0], linear[1], linear[2], 1.0]);
         }
         self.positions.push([x, y, z]);
         Ok(())
+    }
+
+    /// Colours that only some positions have are left out.
+    fn leave_out_colors(&self, scene: &mut SourceScene) {
+        let (colored, positions) = (self.colored_positions, self.positions.len());
+        if colored > 0 && colored < positions {
+            let colors = counted(colored, "colour", "colours");
+            scene.not_carried.push(format!("{colors} for {positions} positions"));
+        }
     }
 
     /// Takes the colours of ZBrush where the file has no others and each position has one.

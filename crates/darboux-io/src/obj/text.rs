@@ -8,6 +8,8 @@ pub struct ObjText {
     pub positions: Vec<[f32; 3]>,
     /// Linear RGBA of positions with a colour, which follow without gaps where all have one.
     pub colors: Vec<[f32; 4]>,
+    /// The positions with a colour, in whatever order.
+    pub colored_positions: usize,
     /// Linear RGBA of positions, as ZBrush writes them in comments.
     pub zbrush_colors: Vec<[f32; 4]>,
     pub uvs: Vec<[f32; 2]>,
