@@ -67,7 +67,7 @@ fn baked(model: &Model) -> Vec<[u8; 3]> {
     for triangle in model.indices.as_chunks::<3>().0 {
         let at = triangle.map(|vertex| vertex as usize);
         let uvs = at.map(|vertex| model.uvs[model.uv_set][vertex].map(|x| x * SIDE as f32 - 0.5));
-        for (x, y, weights) in support::baked::texels_inside(uvs) {
+        for (x, y, weights) in support::texels::texels_inside(uvs) {
             let mean = |of: &dyn Fn(usize) -> [f32; 3]| -> [f32; 3] {
                 [0, 1, 2].map(|i| (0..3).map(|corner| weights[corner] * of(at[corner])[i]).sum())
             };

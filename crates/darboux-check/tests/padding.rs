@@ -3,8 +3,8 @@
 mod support;
 
 use darboux_check::{CheckOptions, Code, Finding, check_document};
-use support::baked::texels_inside;
 use support::models::{Model, healthy_models};
+use support::texels::texels_inside;
 
 /// A sheet whose UVs leave an edge of a twentieth of its map free. `times`: how many times each texel of the
 /// map is there along both axes.

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use darboux::Method;
 use darboux_check::Code;
 
-use super::baked::texels_inside;
 use super::models::Model;
+use super::texels::texels_inside;
 
 /// A mistake in a model.
 pub struct Mistake {

@@ -14,3 +14,4 @@ pub mod page;
 pub mod pairs;
 pub mod shown;
 pub mod table;
+pub mod texels;
