@@ -242,9 +242,10 @@ fn references_that_are_not_looked_up_say_so() {
     let line = |i: usize| format!("newmtl {i}\nmap_Kd {i} {}a.png\n", "- ".repeat(1500));
     let library: String = (0..100).map(line).collect();
     let warnings = warnings("v 0 0 0\nf 1 1 1\n", &library);
-    let counts =
-        ["is not in the model's folder", "was not looked up, because the model names more than 100000 files"]
-            .map(|problem| warnings.iter().filter(|warning| warning.contains(problem)).count());
+    let left =
+        "was not looked up, because more than 100000 paths were tried for the files that the model names";
+    let counts = ["is not in the model's folder", left]
+        .map(|problem| warnings.iter().filter(|warning| warning.contains(problem)).count());
     assert_eq!(counts, [11, 89]);
     assert!(warnings.iter().all(|warning| warning.len() < 400));
 }

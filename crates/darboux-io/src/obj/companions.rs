@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::lookup::{self, Found};
-use super::statements::statements;
+use super::statements::{is_face, statements};
 use super::texture_map::MtlMap;
 use crate::error::ContentError;
 use crate::source::{FileSource, FoundFile, ModelFiles};
@@ -44,7 +44,7 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, Error> {
     let mut library_lines = Vec::new();
     let mut has_faces = false;
     for (_, word, rest) in statements(&bytes) {
-        has_faces |= word == b"f";
+        has_faces |= is_face(word);
         if word == b"mtllib" {
             library_lines.push(rest);
         }

@@ -3,7 +3,7 @@
 use super::companions::NO_FACES;
 use super::materials::Materials;
 use super::meshes;
-use super::statements::{statements, words};
+use super::statements::{is_face, statements, words};
 use super::text::{Corner, KINDS, ObjText, Run};
 use crate::LoadOptions;
 use crate::code_page::decoded;
@@ -67,10 +67,6 @@ fn line_of_corner(bytes: &[u8], corner: usize) -> usize {
         Some((line, *end))
     });
     ends.find(|&(_, end)| end > corner).map_or(0, |(line, _)| line)
-}
-
-fn is_face(statement: &[u8]) -> bool {
-    matches!(statement, b"f" | b"fo")
 }
 
 /// The program that the comments at the start name, as in `# Blender 5.0.1`.

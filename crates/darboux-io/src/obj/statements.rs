@@ -38,3 +38,8 @@ pub fn statements(text: &[u8]) -> impl Iterator<Item = (usize, &[u8], &[u8])> {
 pub fn words(rest: &[u8]) -> impl Iterator<Item = &[u8]> {
     rest.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty() && *word != b"\\")
 }
+
+/// Whether a statement is a face: `fo` is an older word for it.
+pub fn is_face(statement: &[u8]) -> bool {
+    matches!(statement, b"f" | b"fo")
+}

@@ -214,7 +214,9 @@ impl ModelFiles {
         let shown = quoted(reference);
         match &self.source {
             _ if self.lookups_left.get() == 0 => {
-                format!("{shown} was not looked up, because the model names more than {MAX_LOOKUPS} files")
+                format!(
+                    "{shown} was not looked up, because more than {MAX_LOOKUPS} paths were tried for the files that the model names"
+                )
             }
             FileSource::None => {
                 format!("{shown} was not looked up, because the model came without a folder")
