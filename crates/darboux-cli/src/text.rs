@@ -3,15 +3,10 @@
 use std::borrow::Cow;
 use std::ffi::OsStr;
 
-use indicatif::HumanCount;
+pub use darboux_io::words::counted;
 
 /// The most characters of a message that are printed.
 const MAX_SENTENCE: usize = 1000;
-
-/// Formats a number with its noun.
-pub fn counted(count: usize, one: &str, many: &str) -> String {
-    format!("{} {}", HumanCount(count as u64), if count == 1 { one } else { many })
-}
 
 /// Formats ", 3 nouns" for each count that is not zero.
 pub fn nonzero_counts<'a>(counts: impl IntoIterator<Item = (usize, &'a str, &'a str)>) -> String {

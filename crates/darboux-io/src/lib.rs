@@ -53,7 +53,9 @@ mod staging;
 #[cfg(feature = "stl")]
 mod stl;
 mod temporary;
-mod words;
+/// The words of other crates' sentences. No promise of stability.
+#[doc(hidden)]
+pub mod words;
 
 pub use error::{Error, system_reason};
 pub use files::Files;

@@ -1,11 +1,44 @@
 //! Words of sentences.
 
+use std::fmt;
+
+/// A number of things, an unsigned integer, with commas between groups of three digits: 3,983.
+#[derive(Clone, Copy, Debug)]
+pub struct Count<T>(pub T);
+
+impl<T: fmt::Display> fmt::Display for Count<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let digits = self.0.to_string();
+        for (place, digit) in digits.char_indices() {
+            let separator = if place > 0 && (digits.len() - place).is_multiple_of(3) { "," } else { "" };
+            write!(f, "{separator}{digit}")?;
+        }
+        Ok(())
+    }
+}
+
 /// A number with what is said of one thing, or of several.
 pub fn counted(count: usize, one: &str, several: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { several })
+    format!("{} {}", Count(count), if count == 1 { one } else { several })
 }
 
 /// As [`counted`]; none for none.
-pub fn counted_if_any(count: usize, one: &str, several: &str) -> Option<String> {
+pub(crate) fn counted_if_any(count: usize, one: &str, several: &str) -> Option<String> {
     (count > 0).then(|| counted(count, one, several))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn commas_stand_between_groups_of_three_digits() {
+        let written =
+            [0, 7, 999, 1000, 3983, 65_536, 100_000, 1_234_567].map(|count| Count(count).to_string());
+        assert_eq!(written, ["0", "7", "999", "1,000", "3,983", "65,536", "100,000", "1,234,567"]);
+        assert_eq!(
+            counted(1, "face", "faces") + &counted(1200, " and face", "and faces"),
+            "1 face1,200 and faces"
+        );
+    }
 }

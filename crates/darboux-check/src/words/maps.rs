@@ -2,7 +2,7 @@
 
 use darboux::{BitangentDirection, SrgbMistake};
 
-use super::counts::counted;
+use super::counts::{Count, counted};
 use super::said::Said;
 use crate::code::Code;
 use crate::defect::{
@@ -322,7 +322,7 @@ fn not_unit(texels: &Texels, mean_length: f32, doubt: Option<LengthDoubt>) -> Sa
             "Put the normal map into the slot; if this is one, normalise it in the program that made it.",
         ),
     };
-    Said::new(format!("{} texels have another length than 1{clause}", texels.count))
+    Said::new(format!("{} texels have another length than 1{clause}", Count(texels.count)))
         .with_cure(cure)
         .with("texels", texels.percent, "%")
         .with("mean length", mean_length.into(), "")

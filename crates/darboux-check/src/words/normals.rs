@@ -1,6 +1,6 @@
 //! The words of defects of positions and normals.
 
-use super::counts::counted;
+use super::counts::{Count, counted};
 use super::said::Said;
 use crate::defect::NormalFault;
 use crate::indices::Part;
@@ -59,7 +59,7 @@ fn partly_reversed(whole: usize, mixed: usize, [parts, all_parts]: [usize; 2]) -
     let all_parts = counted(all_parts, "connected part", "connected parts");
     let triangles = counted(whole, "triangle", "triangles");
     let verb = if whole == 1 { "points to its back" } else { "point to their back" };
-    let reversed = format!("the normals of {triangles}, in {parts} of {all_parts}, {verb}");
+    let reversed = format!("the normals of {triangles}, in {} of {all_parts}, {verb}", Count(parts));
     match (whole, mixed) {
         (0, _) => {
             let what = counted(mixed, "triangle has", "triangles have");
@@ -67,7 +67,9 @@ fn partly_reversed(whole: usize, mixed: usize, [parts, all_parts]: [usize; 2]) -
         }
         (_, 0) => reversed,
         (_, 1) => format!("{reversed}, and 1 triangle beside them has normals on both sides"),
-        (_, count) => format!("{reversed}, and {count} triangles beside them have normals on both sides"),
+        (_, count) => {
+            format!("{reversed}, and {} triangles beside them have normals on both sides", Count(count))
+        }
     }
 }
 

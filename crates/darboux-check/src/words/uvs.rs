@@ -1,6 +1,6 @@
 //! The words of defects of UVs.
 
-use super::counts::counted;
+use super::counts::{Count, counted};
 use super::said::Said;
 use crate::defect::UvFault;
 use crate::measure::hard_edges::HardEdges;
@@ -30,7 +30,7 @@ pub fn said(fault: &UvFault) -> Said {
         }
         UvFault::Overlapping { set, triangles, is_complete, area_share } => {
             let at_least = if *is_complete { "" } else { "at least " };
-            let count = triangles.len();
+            let count = Count(triangles.len());
             Said::new(format!("{at_least}{count} triangles share area in TEXCOORD_{set} with others")).with(
                 "part of the UV area",
                 100.0 * area_share,

@@ -5,7 +5,8 @@ pub mod arguments;
 use std::fmt::Write as _;
 
 use darboux_io::system_reason;
-use indicatif::{HumanBytes, HumanCount};
+use darboux_io::words::Count;
+use indicatif::HumanBytes;
 use serde::Serialize;
 
 use crate::exit;
@@ -45,7 +46,7 @@ fn describe(adapters: &[Adapter]) -> String {
     adapters.iter().fold(String::new(), |mut text, adapter| {
         let Adapter { name, kind, backend, driver, largest_binding, triangle_limit, problem } = adapter;
         let usability = match problem {
-            None => format!("usable, {} triangles per dispatch", HumanCount(*triangle_limit)),
+            None => format!("usable, {} triangles per dispatch", Count(triangle_limit)),
             Some(problem) => format!("not usable: {problem}"),
         };
         let binding = HumanBytes(*largest_binding);

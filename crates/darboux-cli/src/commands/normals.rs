@@ -6,7 +6,7 @@ use darboux_io::gltf::{
     AddNormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, Progress, WrittenNormals,
     add_normals,
 };
-use indicatif::HumanCount;
+use darboux_io::words::Count;
 
 use crate::batch::command::{FileCommand, ProcessedFile};
 use crate::batch::plan::Job;
@@ -124,7 +124,7 @@ fn describe(written: &WrittenNormals) -> String {
         counted(*vertices_before, "vertex", "vertices")
     );
     if vertices_after != vertices_before {
-        text += &format!(" became {}", HumanCount(*vertices_after as u64));
+        text += &format!(" became {}", Count(vertices_after));
     }
     text += &nonzero_counts([
         (written.creased_edges, "creased edge in its mesh", "creased edges in its mesh"),

@@ -10,7 +10,7 @@ use darboux_io::gltf::{
     AddNormalsOptions, AddTangentsOptions, Generate, Progress, TangentsOutcome, TangentsTotals,
     WrittenTangents, add_normals, add_tangents_with,
 };
-use indicatif::HumanCount;
+use darboux_io::words::Count;
 
 use crate::batch::command::{FileCommand, ProcessedFile};
 use crate::batch::plan::Job;
@@ -196,7 +196,7 @@ fn describe(written: &WrittenTangents) -> String {
         if written.sharing_primitives > 1 {
             text += &format!(" shared by {} primitives", written.sharing_primitives);
         }
-        text += &format!(" became {}", HumanCount(*vertices_after as u64));
+        text += &format!(" became {}", Count(vertices_after));
     }
     text + &nonzero_counts([
         (counts.split_vertices, "vertex split", "vertices split"),

@@ -8,7 +8,7 @@ use super::primitives::limits;
 use super::primitives::triangles::{TriangleMode, mode_name};
 use super::tangents::compute::{self, Generate, Vertices};
 use super::tangents::groups;
-use super::tangents::select::{self, TangentCandidate, TangentVerdict};
+use super::tangents::select::{self, TangentCandidate};
 use super::tangents::{AddTangentsOptions, ReportCounts};
 use super::{Document, PrimitiveName};
 use crate::Error;
@@ -83,10 +83,6 @@ fn describe(document: &Document, candidate: &TangentCandidate) -> PrimitiveInfo 
     let corners = primitive.indices.map_or(vertices, count);
     let triangles =
         TriangleMode::from_mode(primitive.mode).map_or(0, |topology| topology.triangle_count(corners));
-    let ineligible = match &candidate.verdict {
-        TangentVerdict::Chosen(_) => None,
-        TangentVerdict::Kept(reason) | TangentVerdict::Skipped(reason) => Some(reason.clone()),
-    };
     PrimitiveInfo {
         mode: mode_name(primitive.mode).unwrap_or_default(),
         vertices,
@@ -96,7 +92,7 @@ fn describe(document: &Document, candidate: &TangentCandidate) -> PrimitiveInfo 
         uv_reason: candidate.uv.reason.clone(),
         has_tangents: primitive.attributes.contains_key("TANGENT"),
         needs_tangents: candidate.needs_tangents,
-        ineligible,
+        ineligible: candidate.verdict.reason().map(str::to_owned),
         mirrored_triangles: 0,
         counts: ReportCounts { triangles, ..ReportCounts::default() },
         name,

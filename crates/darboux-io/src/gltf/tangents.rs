@@ -240,12 +240,17 @@ impl Run<'_, '_> {
         let Self { selection, mut summary, .. } = self;
         summary.warnings.splice(0..0, selection.warnings);
         for (place, candidate) in selection.candidates.into_iter().enumerate() {
+            let reason = candidate.verdict.reason().unwrap_or_default().to_owned();
             let outcome = match candidate.verdict {
                 TangentVerdict::Chosen(_) => {
                     TangentsOutcome::Written(written.remove(&place).unwrap_or_default())
                 }
-                TangentVerdict::Kept(reason) => TangentsOutcome::Kept { reason },
-                TangentVerdict::Skipped(reason) => TangentsOutcome::Skipped { reason },
+                TangentVerdict::Kept(_) => TangentsOutcome::Kept { reason },
+                TangentVerdict::WithoutNormals => {
+                    summary.totals.without_normals += 1;
+                    TangentsOutcome::Skipped { reason }
+                }
+                TangentVerdict::Skipped(_) => TangentsOutcome::Skipped { reason },
             };
             summary.push(PrimitiveTangents { name: candidate.name, outcome });
         }

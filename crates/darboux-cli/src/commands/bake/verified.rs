@@ -7,6 +7,7 @@ use darboux_bake::{
 };
 use darboux_io::Outputs;
 use darboux_io::image::{Channels, PngImage, normal_vectors};
+use darboux_io::words::Count;
 use serde::Serialize;
 
 use super::arguments::BakeArguments;
@@ -130,8 +131,9 @@ impl Verified {
         ] {
             if *count > 0 {
                 lines.push(format!(
-                    "{count} of {} {what}",
-                    all.points + points_without_hit + points_without_frame
+                    "{} of {} {what}",
+                    Count(count),
+                    Count(all.points + points_without_hit + points_without_frame)
                 ));
             }
         }

@@ -1,7 +1,7 @@
 //! A comparison as text: totals, a histogram of the angles, the worst corners, and a verdict in one sentence.
 
 use darboux::{Choice, Method};
-use indicatif::HumanCount;
+use darboux_io::words::Count;
 
 use super::report::{CompareReport, Verdict};
 use super::statistics::{Bin, ROUNDING, Statistics, WorstCorner};
@@ -85,7 +85,7 @@ fn verdict(report: &CompareReport) -> String {
 /// How many corners differ, and how.
 fn difference(totals: &Statistics) -> String {
     let Statistics { corners, different, sign_flips, without_angle, .. } = *totals;
-    let [shown, all, rest] = [different, corners, corners - different].map(|count| HumanCount(count as u64));
+    let [shown, all, rest] = [different, corners, corners - different].map(Count);
     if sign_flips == corners && without_angle == 0 && totals.max <= ROUNDING {
         return format!(
             "the sign w is opposite at all {all} corners and the directions agree to {ROUNDING} degrees, as for UVs whose v axis is inverted"
@@ -104,7 +104,7 @@ fn difference(totals: &Statistics) -> String {
 fn describe_primitive(statistics: &Statistics) -> String {
     let Statistics { corners, identical, median, max, sign_flips, without_angle, .. } = statistics;
     if identical == corners {
-        return format!("all {} corners are identical", HumanCount(*corners as u64));
+        return format!("all {} corners are identical", Count(corners));
     }
     let angles = match corners - without_angle {
         0 => "no corner has an angle".to_owned(),
@@ -119,8 +119,7 @@ fn describe_primitive(statistics: &Statistics) -> String {
 
 fn describe_totals(totals: &Statistics) -> String {
     let [corners, identical, flips, without] =
-        [totals.corners, totals.identical, totals.sign_flips, totals.without_angle]
-            .map(|count| HumanCount(count as u64));
+        [totals.corners, totals.identical, totals.sign_flips, totals.without_angle].map(Count);
     let [min, median, p95, max, mean, weighted] =
         [totals.min, totals.median, totals.p95, totals.max, totals.mean, totals.area_weighted_mean]
             .map(degrees);
@@ -135,7 +134,7 @@ fn histogram(totals: &Statistics) -> String {
     let line = |bin: &Bin| {
         let length = (bin.corners * LONGEST_BAR).div_ceil(most);
         let label = if bin.up_to == 0.0 { "0".to_owned() } else { format!("to {}", bin.up_to) };
-        let count = HumanCount(bin.corners as u64);
+        let count = Count(bin.corners);
         let line = format!("{label:>8} | {:<LONGEST_BAR$} {count}", "#".repeat(length));
         format!("{}\n", line.trim_end())
     };

@@ -7,6 +7,7 @@ use darboux::{
 };
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveInfo};
+use darboux_io::words::Count;
 use serde::Serialize;
 
 use crate::text::counted;
@@ -92,14 +93,14 @@ impl MadeBy {
         let Self { method, corners, identical, close, details, .. } = self;
         let mode = self.mode.map(|mode| format!(", mode {mode}")).unwrap_or_default();
         let details: String = details.iter().map(|detail| format!(", {detail}")).collect();
-        let of = counted(*corners, "corner", "corners");
+        let (of, near) = (counted(*corners, "corner", "corners"), Count(close));
         if identical == corners {
             format!("tangents made by {method}{mode}{details}: all bits are equal")
         } else if *close as f64 >= IS_KNOWN * *corners as f64 {
-            format!("tangents made by {method}{mode}{details}: {close} of {of} within 0.1 degrees")
+            format!("tangents made by {method}{mode}{details}: {near} of {of} within 0.1 degrees")
         } else {
             format!(
-                "tangents made by no known method; nearest is {method}: {close} of {of} within 0.1 degrees"
+                "tangents made by no known method; nearest is {method}: {near} of {of} within 0.1 degrees"
             )
         }
     }

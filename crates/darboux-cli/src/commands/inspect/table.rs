@@ -4,7 +4,7 @@
 //! The columns fit into 80 characters unless the counts are very large.
 
 use darboux_io::gltf::PrimitiveInfo;
-use indicatif::HumanCount;
+use darboux_io::words::Count;
 
 use super::recipe::MadeBy;
 use super::report::{InspectedFile, InspectedPrimitive};
@@ -41,7 +41,7 @@ const fn column(title: [&'static str; 2], align: Align, cell: fn(&PrimitiveInfo)
 const GAP: &str = "  ";
 
 fn count(count: usize) -> String {
-    HumanCount(count as u64).to_string()
+    Count(count).to_string()
 }
 
 /// The number of triangles, and the mode of strips and fans.

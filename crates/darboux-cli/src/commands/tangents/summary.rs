@@ -3,7 +3,7 @@
 use darboux::Choice;
 use darboux_io::gltf::{Document, PrimitiveNormals, TangentsSummary};
 use darboux_io::source::{FaceCounts, Provenance};
-use indicatif::HumanCount;
+use darboux_io::words::Count;
 use serde::Serialize;
 
 use crate::text::{counted, printable};
@@ -80,7 +80,7 @@ pub struct DeviceReport {
 impl DeviceReport {
     /// One line for a terminal; `None` if the CPU computed everything.
     pub fn line(&self) -> Option<String> {
-        let (of_cpu, all) = (HumanCount(self.cpu_corners as u64), HumanCount(self.corners as u64));
+        let (of_cpu, all) = (Count(self.cpu_corners), Count(self.corners));
         (self.corners > 0).then_some(())?;
         Some(format!("on {}; {of_cpu} of {all} corners on the CPU", self.adapter.as_ref()?))
     }

@@ -5,12 +5,12 @@ use std::collections::BTreeSet;
 use darboux::Method;
 
 use super::options::AddTangentsOptions;
-use super::summary::NO_NORMAL;
 use super::uv::{UvChoice, UvTransform, changes_directions, needs_tangents};
 use crate::gltf::primitives::element_count;
 use crate::gltf::primitives::triangles::{TriangleMode, mode_name};
 use crate::gltf::schema::{Material, Primitive};
 use crate::gltf::{Document, PrimitiveName};
+use crate::words::Count;
 use crate::{Error, OptionNames};
 
 /// The wanted primitives of a document, in its order, each with a verdict.
@@ -36,7 +36,9 @@ pub enum TangentVerdict {
     Chosen(TangentInput),
     /// The primitive keeps its tangents, for a reason.
     Kept(String),
-    /// The primitive gets no tangents, for a reason.
+    /// The primitive gets no tangents, because it has no normals.
+    WithoutNormals,
+    /// The primitive gets no tangents, for another reason.
     Skipped(String),
 }
 
@@ -52,6 +54,17 @@ pub struct TangentInput {
     pub transform: Option<UvTransform>,
     pub index_count: usize,
     pub replaces: bool,
+}
+
+impl TangentVerdict {
+    /// Why the primitive keeps its tangents or gets none; none where it gets tangents.
+    pub fn reason(&self) -> Option<&str> {
+        match self {
+            Self::Chosen(_) => None,
+            Self::WithoutNormals => Some("it has no NORMAL, which tangents need"),
+            Self::Kept(reason) | Self::Skipped(reason) => Some(reason),
+        }
+    }
 }
 
 impl TangentCandidate {
@@ -76,7 +89,7 @@ impl TangentSelection {
     pub fn chosen(&self) -> impl Iterator<Item = (usize, &TangentInput)> {
         self.candidates.iter().enumerate().filter_map(|(place, candidate)| match &candidate.verdict {
             TangentVerdict::Chosen(chosen) => Some((place, chosen)),
-            TangentVerdict::Kept(_) | TangentVerdict::Skipped(_) => None,
+            TangentVerdict::Kept(_) | TangentVerdict::WithoutNormals | TangentVerdict::Skipped(_) => None,
         })
     }
 }
@@ -166,7 +179,7 @@ fn judge(
         return Ok(TangentVerdict::Skipped(missing_uv(primitive, uv)));
     }
     // Normals can be computed, so that missing ones are named where nothing else is missing.
-    let Some(normal) = attribute("NORMAL") else { return skipped(NO_NORMAL) };
+    let Some(normal) = attribute("NORMAL") else { return Ok(TangentVerdict::WithoutNormals) };
     let vertex_count = element_count(document, position)?;
     let index_count =
         primitive.indices.map_or(Ok(vertex_count), |indices| element_count(document, indices))?;
@@ -229,7 +242,7 @@ impl Warnings {
         if chosen.topology == TriangleMode::Triangles && over != 0 {
             self.sentences.push(format!(
                 "{name}: its last {over} of {} corners do not form a triangle; they are kept, without tangents of their own",
-                chosen.index_count
+                Count(chosen.index_count)
             ));
         }
     }

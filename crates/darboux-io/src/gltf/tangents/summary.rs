@@ -6,9 +6,6 @@ use serde::Serialize;
 
 use crate::gltf::PrimitiveName;
 
-/// The reason why a primitive without normals gets no tangents.
-pub(super) const NO_NORMAL: &str = "it has no NORMAL, which tangents need";
-
 /// The result of [`add_tangents`](super::add_tangents).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -24,9 +21,6 @@ pub struct TangentsSummary {
 impl TangentsSummary {
     /// Appends a primitive and counts it.
     pub(super) fn push(&mut self, primitive: PrimitiveTangents) {
-        let lacks_normals =
-            matches!(&primitive.outcome, TangentsOutcome::Skipped { reason } if reason == NO_NORMAL);
-        self.totals.without_normals += usize::from(lacks_normals);
         *match primitive.outcome {
             TangentsOutcome::Written(_) => &mut self.totals.written,
             TangentsOutcome::Kept { .. } => &mut self.totals.kept,

@@ -2,6 +2,7 @@
 
 use darboux::Choice;
 use darboux_bake::BakeReport as Counts;
+use darboux_io::words::Count;
 
 use super::super::arguments::{BakeArguments, MatchChoice};
 use super::super::report::BakeReport;
@@ -13,12 +14,13 @@ use crate::html_page::raster::Raster;
 pub fn misses(counts: &Counts, raster: &Raster) -> Result<String, String> {
     let Counts { charted_texels, missed_texels, back_facing_texels, .. } = *counts;
     let share = 100.0 * missed_texels as f64 / charted_texels.max(1) as f64;
+    let [missed, charted] = [missed_texels, charted_texels].map(Count);
     let behind = match back_facing_texels {
         0 => String::new(),
-        count => format!(" The rays of {count} of them, orange, met triangles from behind."),
+        count => format!(" The rays of {} of them, orange, met triangles from behind.", Count(count)),
     };
     let sentence = format!(
-        "<p>{missed_texels} of {charted_texels} texels ({share:.2} %) have no hit and are filled from around.{behind}</p>\n"
+        "<p>{missed} of {charted} texels ({share:.2} %) have no hit and are filled from around.{behind}</p>\n"
     );
     Ok(sentence + &figure(raster, "Texels without a hit are red or orange", "")?)
 }
@@ -73,7 +75,10 @@ fn counts(counts: &Counts) -> Vec<(&'static str, String)> {
         ("low triangles that are not finite", counts.non_finite_low_triangles),
         ("high triangles that are not finite", counts.non_finite_triangles),
     ];
-    all.into_iter().filter(|(_, count)| *count > 0).map(|(what, count)| (what, count.to_string())).collect()
+    all.into_iter()
+        .filter(|(_, count)| *count > 0)
+        .map(|(what, count)| (what, Count(count).to_string()))
+        .collect()
 }
 
 fn table(first: &str, rows: &[(&str, String)], are_numbers: bool) -> String {

@@ -1,6 +1,7 @@
 //! The part of the page about one file.
 
 use darboux_check::{ReportedFinding, Severity};
+use darboux_io::words::Count;
 
 use super::super::groups::by_kind;
 use super::super::report::CheckedFile;
@@ -101,7 +102,10 @@ fn card(group: &[&ReportedFinding]) -> String {
         let more: String = group[1..].iter().take(PLACES).map(|finding| place(finding)).collect();
         let rest = match group.len().saturating_sub(1 + PLACES) {
             0 => String::new(),
-            count => format!("<p>and {count} more: <code>darboux check -v</code> prints all of them.</p>\n"),
+            count => format!(
+                "<p>and {} more: <code>darboux check -v</code> prints all of them.</p>\n",
+                Count(count)
+            ),
         };
         let summary = counted(group.len() - 1, "more place", "more places");
         html += &format!("<details><summary>{summary}</summary>\n{more}{rest}</details>\n");
@@ -126,8 +130,9 @@ fn with_fix(group: &[&ReportedFinding]) -> String {
         (0, Some(reason)) => format!("<code>--fix</code> leaves it: {}", escaped(reason)),
         (fixable, Some(reason)) => {
             format!(
-                "<code>--fix</code> repairs {fixable} of {} places; it leaves others: {}",
-                group.len(),
+                "<code>--fix</code> repairs {} of {} places; it leaves others: {}",
+                Count(fixable),
+                Count(group.len()),
                 escaped(reason)
             )
         }
