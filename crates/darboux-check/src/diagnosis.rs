@@ -3,6 +3,8 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
+use darboux_io::words::Count;
+
 use crate::code::Code;
 use crate::report::ReportedFinding;
 use crate::severity::Severity;
@@ -49,7 +51,7 @@ fn happened(main: Code, of_main: &[&ReportedFinding], others: usize, worst: Seve
     let others = match others {
         0 => String::new(),
         1 => format!(" 1 other {kind} is listed below."),
-        count => format!(" {count} other {kind}s are listed below."),
+        count => format!(" {} other {kind}s are listed below.", Count(count)),
     };
     format!("{place}: {}.{others}{}", first.text.trim_end_matches('.'), usual_cause(main))
 }
@@ -113,12 +115,14 @@ fn healthy(findings: &[ReportedFinding], repaired: usize) -> String {
     let nothing = match repaired {
         0 => "Nothing is wrong.".to_owned(),
         1 => "1 finding was repaired, and nothing is wrong any more.".to_owned(),
-        count => format!("{count} findings were repaired, and nothing is wrong any more."),
+        count => format!("{} findings were repaired, and nothing is wrong any more.", Count(count)),
     };
     match unchecked {
         0 => nothing,
         1 => format!("{nothing} 1 normal map was not checked; its finding says why."),
-        count => format!("{nothing} {count} normal maps were not checked; their findings say why."),
+        count => {
+            format!("{nothing} {} normal maps were not checked; their findings say why.", Count(count))
+        }
     }
 }
 

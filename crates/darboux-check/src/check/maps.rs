@@ -6,6 +6,7 @@ use darboux::{MapJudgement, SrgbMistake};
 use darboux_io::Error;
 use darboux_io::gltf::{Document, ImageSource, Material};
 use darboux_io::image::RgbaImage;
+use darboux_io::words::Count;
 
 use super::surfaces::{defects_of_surface, for_each_surface, weigh};
 use crate::cancelling;
@@ -381,13 +382,13 @@ fn defects_of_image(
         return Ok((with_obstacle(found), *witness));
     }
     if decoded.are_many() {
-        let texels = decoded.texels;
+        let texels = Count(decoded.texels);
         return unread(Unread::LeftOut(format!(
             "comes after maps of {texels} texels, the most that one check decodes"
         )));
     }
     if decoded.triangles > decoded.most_triangles {
-        let triangles = decoded.triangles;
+        let triangles = Count(decoded.triangles);
         let problem =
             format!("comes after maps that were compared with {triangles} triangles, the most of one check");
         return unread(Unread::LeftOut(problem));

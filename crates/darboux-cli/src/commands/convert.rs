@@ -13,6 +13,7 @@ use darboux_io::FileKind;
 use darboux_io::gltf::{ConversionSummary, Document, Progress, convert_vertices};
 use darboux_io::image::{Channels, PngImage, convert_normal_map, count_invalid_normals};
 use darboux_io::source::SourceFormat;
+use darboux_io::words::Count;
 use serde::Serialize;
 
 use crate::batch::command::{FileCommand, ProcessedFile};
@@ -330,7 +331,8 @@ fn describe_image(image: &ImageSummary) -> String {
     let ImageSummary { width, height, bits, channels, .. } = image;
     if let Some(SpaceSummary { to, charted_texels, .. }) = image.space {
         return format!(
-            "{width} x {height}, {bits} bits, {channels}: {to} space, {charted_texels} texels in charts"
+            "{width} x {height}, {bits} bits, {channels}: {to} space, {} texels in charts",
+            Count(charted_texels)
         );
     }
     let done = [

@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use darboux_check::Severity;
+use darboux_io::words::Count;
 use darboux_io::{Outputs, SaveOptions};
 
 use super::checks::Checks;
@@ -112,7 +113,7 @@ fn summary(report: &CheckReport) -> String {
     let totals = &report.totals;
     let failed = match totals.failed {
         0 => String::new(),
-        count => format!(", {count} that cannot be read"),
+        count => format!(", {} that cannot be read", Count(count)),
     };
     format!(
         "{}: {} with errors, {} with warnings only, {} without{failed}.",

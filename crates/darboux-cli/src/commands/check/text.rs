@@ -3,6 +3,7 @@
 use std::cmp::Reverse;
 
 use darboux_check::{Code, Evidence, ReportedFinding, Severity};
+use darboux_io::words::Count;
 
 use super::arguments::FailOn;
 use super::groups::{by_kind, by_severity};
@@ -76,7 +77,7 @@ pub fn describe_briefly(file: &CheckedFile) -> String {
 fn with_count(group: &[&ReportedFinding]) -> String {
     match group.len() {
         1 => group[0].code.to_string(),
-        count => format!("{} ({count})", group[0].code),
+        count => format!("{} ({})", group[0].code, Count(count)),
     }
 }
 
@@ -114,14 +115,16 @@ pub fn total(totals: &CheckTotals) -> String {
         counted(*files, "file", "files")
     );
     if *failed > 0 {
-        text += &format!(", {failed} that cannot be read");
+        text += &format!(", {} that cannot be read", Count(failed));
     }
     let of_severities =
         [("error", &totals.errors), ("warning", &totals.warnings), ("not-checked", &totals.not_checked)];
     for (severity, codes) in of_severities {
         let mut codes: Vec<_> = codes.iter().collect();
         codes.sort_by_key(|(_, count)| Reverse(**count));
-        text.extend(codes.into_iter().map(|(code, count)| format!("\n  {severity:11} {code} {count}")));
+        text.extend(
+            codes.into_iter().map(|(code, count)| format!("\n  {severity:11} {code} {}", Count(count))),
+        );
     }
     text + "\n"
 }

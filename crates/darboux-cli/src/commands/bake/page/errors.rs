@@ -1,6 +1,7 @@
 //! The errors of `--verify`: by place, by part of the low model, and over the UV layout.
 
 use darboux_bake::ErrorStatistics;
+use darboux_io::words::Count;
 
 use super::super::verified::{PartErrors, Verified};
 use super::shared::figure;
@@ -22,7 +23,7 @@ pub fn tables(verified: &Verified) -> Result<String, String> {
         (verified.errors.points_without_frame, "have no tangent frame"),
     ] {
         if count > 0 {
-            html += &format!("<p>{count} further points {what}.</p>\n");
+            html += &format!("<p>{} further points {what}.</p>\n", Count(count));
         }
     }
     let picture = figure(&verified.picture(), "The errors over the UV layout", "")?;
@@ -57,5 +58,9 @@ fn row(what: &str, errors: &ErrorStatistics) -> String {
     let ErrorStatistics { points, median, mean, p95, p99, worst, .. } = errors;
     let angles: String =
         [median, mean, p95, p99, worst].map(|angle| format!("<td class=\"number\">{angle:.4}</td>")).concat();
-    format!("<tr><td{class}>{}</td><td class=\"number\">{points}</td>{angles}</tr>\n", escaped(what.trim()))
+    format!(
+        "<tr><td{class}>{}</td><td class=\"number\">{}</td>{angles}</tr>\n",
+        escaped(what.trim()),
+        Count(points)
+    )
 }

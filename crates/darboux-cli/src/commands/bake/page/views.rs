@@ -2,6 +2,7 @@
 
 use darboux_gpu::Gpu;
 use darboux_io::gltf::Document;
+use darboux_io::words::Count;
 use darboux_render::Model;
 
 use super::shared::View;
@@ -28,7 +29,9 @@ const MOST_TRIANGLES: u64 = 1_000_000;
 pub fn draw(arguments: &BakeArguments, low: &Document, high_triangles: u64) -> Result<Vec<View>, String> {
     if high_triangles > MOST_TRIANGLES {
         return Err(format!(
-            "the high models have {high_triangles} triangles, and at most {MOST_TRIANGLES} are drawn"
+            "the high models have {} triangles, and at most {} are drawn",
+            Count(high_triangles),
+            Count(MOST_TRIANGLES)
         ));
     }
     let gpu = open_adapter()?;
