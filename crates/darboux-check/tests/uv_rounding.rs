@@ -3,7 +3,7 @@
 mod support;
 
 use darboux::Method;
-use darboux_check::{Code, Finding, Severity, check_document};
+use darboux_check::{Code, Finding, FixOptions, Severity, check_document, fix_document};
 use support::models::{Model, healthy_models};
 use support::table::without_maps;
 
@@ -66,6 +66,14 @@ fn tangents_that_are_older_than_the_rounding_do_not_suffer() {
     let mut rounded = rounded(&sheet, 40.0);
     rounded.tangents = sheet.tangents;
     assert_eq!(found(&rounded), None);
+    // New tangents would be worse than these.
+    let mut document = rounded.document();
+    let findings = check_document(&document, &without_maps()).expect("a valid document");
+    assert!(findings.iter().all(|finding| finding.severity < Severity::Error), "{findings:#?}");
+    let recipe = findings.iter().find(|finding| finding.code == Code::TangentOtherRecipe);
+    assert!(recipe.is_some_and(|finding| !finding.is_fixable()), "{recipe:#?}");
+    let options = FixOptions::default().with_check(without_maps());
+    assert!(!fix_document(&mut document, findings, &options).expect("a repair").is_changed);
     rounded.tangents = None;
     assert!(found(&rounded).is_some());
 }

@@ -19,6 +19,10 @@ pub enum Obstacle {
     NoTangents(String),
     DifferenceIsInvisible,
     BakedOnQuads,
+    /// The tangents may be older than the rounding of the UVs, and right.
+    UvsWereRounded {
+        steps: usize,
+    },
     /// A map's vectors point against z, or along another axis.
     UndecidedOrder {
         is_z: bool,

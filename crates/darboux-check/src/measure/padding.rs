@@ -112,7 +112,7 @@ impl Charts {
                 in_uvs += uv_area(&uvs, triangle).abs() / 2.0;
                 let corners = triangle
                     .map(|vertex| [0, 1].map(|axis| f64::from(uvs[vertex][axis]) * size[axis] as f64 - 0.5));
-                filled += charts.fill(corners, first + parts[triangle[0]] as u32);
+                filled += charts.fill(corners, first + parts[triangle[0]]);
                 if filled > MOST_FILLED {
                     return None;
                 }

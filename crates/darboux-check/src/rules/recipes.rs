@@ -8,7 +8,9 @@ use crate::defect::{Defect, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::indices::Part;
 use crate::measure::recipe::{Far, IS_KNOWN, Recipes, close};
+use crate::measure::uv_rounding::UvRounding;
 use crate::severity::Severity;
+use crate::surface::Surface;
 
 pub const RULES: &[SurfaceRule] = &[other_recipe];
 
@@ -41,8 +43,16 @@ fn of_all(facts: &SurfaceFacts<'_>, recipes: &Recipes) -> Option<Defect> {
     } else {
         Severity::Info
     };
+    let rounding = rounding_of_uvs(facts.surface).filter(|_| recognised.other_method().is_none());
+    let severity = if rounding.is_some() { severity.min(Severity::Warning) } else { severity };
     let defect = Defect::new(TangentFault::OtherRecipe { recognised, far }).with_severity(severity);
-    Some(defect.with_obstacle(obstacle(best, severity)))
+    let rounding = rounding.map(|rounding| Obstacle::UvsWereRounded { steps: rounding.steps });
+    Some(defect.with_obstacle(rounding.or_else(|| obstacle(best, severity))))
+}
+
+/// Tangents of no known method may be older than the rounding of UVs, and right.
+fn rounding_of_uvs(surface: &Surface) -> Option<UvRounding> {
+    UvRounding::of(surface, surface.uv_sets.get(&surface.uv_set)?)
 }
 
 fn obstacle(best: &RecipeMatch, severity: Severity) -> Option<Obstacle> {
