@@ -162,6 +162,7 @@ pub fn leave_unidentified(
     sibling: Option<(usize, Inverted)>,
     image: usize,
 ) {
+    leave_of_other_layout(on_map, surfaces, image);
     let is_flipped = |surface: &Vec<&mut Defect>| surface.iter().any(|defect| has_flipped_signs(defect));
     let are_flipped = !surfaces.is_empty() && surfaces.iter().all(is_flipped);
     let found = inverted(on_map);
@@ -184,6 +185,23 @@ pub fn leave_unidentified(
         defect.obstacle.get_or_insert(Obstacle::MapMayCancel { image, is_of_sketchfab: false });
         defect.severity = defect.severity.min(Severity::Warning);
     }
+}
+
+/// Where a map was made for another UV layout, tangents that do not fit the UVs may fit the layout of the
+/// map: the UVs were changed after the bake and the tangents kept. New ones would follow the wrong UVs.
+fn leave_of_other_layout(on_map: &[Defect], surfaces: &mut [Vec<&mut Defect>], image: usize) {
+    if !on_map.iter().any(|defect| defect.code() == Code::MapOtherLayout) {
+        return;
+    }
+    for defect in surfaces.iter_mut().flatten().filter(|defect| follows_other_uvs(defect)) {
+        defect.obstacle.get_or_insert(Obstacle::MapHasOtherLayout { image });
+        defect.severity = defect.severity.min(Severity::Warning);
+    }
+}
+
+/// Whether tangents follow other UVs than those of the file.
+fn follows_other_uvs(defect: &Defect) -> bool {
+    matches!(defect.fault, Fault::Tangent(TangentFault::Differs(_) | TangentFault::OtherRecipe { .. }))
 }
 
 #[cfg(test)]

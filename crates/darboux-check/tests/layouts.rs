@@ -4,7 +4,7 @@
 mod support;
 
 use darboux::internal::vectors::single::cross;
-use darboux_check::{CheckOptions, Code, Finding, check_document};
+use darboux_check::{CheckOptions, Code, Finding, FixOptions, Severity, check_document, fix_document};
 use darboux_tests::{OwnedMesh, families};
 use support::maps::{Map, healthy_map, png};
 use support::models::Model;
@@ -103,6 +103,20 @@ fn layout(model: &Model) -> Option<Finding> {
     findings.into_iter().find(|finding| finding.code == Code::MapOtherLayout)
 }
 
+/// New tangents would follow the UVs that were turned after the bake. `code`: the finding about those of
+/// before.
+fn tangents_are_left(turned: &Model, healthy: &Model, code: Code) {
+    let model = Model { tangents: healthy.tangents.clone(), ..turned.clone() };
+    let mut document = model.document();
+    let findings = check_document(&document, &CheckOptions::default()).expect("a valid document");
+    let errors = findings.iter().filter(|found| found.severity == Severity::Error);
+    let errors: Vec<Code> = errors.map(|found| found.code).collect();
+    assert_eq!(errors, [Code::MapOtherLayout], "{findings:#?}");
+    assert!(findings.iter().any(|found| found.code == code), "{findings:#?}");
+    let fixed = fix_document(&mut document, findings, &FixOptions::default()).expect("a repair");
+    assert!(!fixed.is_changed);
+}
+
 #[test]
 fn maps_of_a_turned_layout_are_named() {
     let healthy = model();
@@ -112,6 +126,15 @@ fn maps_of_a_turned_layout_are_named() {
     turned.tangents = Some(turned.computed(Default::default(), turned.uv_set));
     let found = layout(&turned).expect("the finding");
     assert!(found.text.contains("v of the UVs is turned") && !found.is_fixable(), "{found:?}");
+    for turn in [|[u, v]: [f32; 2]| [1.0 - v, u], |[u, v]: [f32; 2]| [v, 1.0 - u]] {
+        let mut turned = healthy.clone();
+        turned.uvs.iter_mut().flatten().for_each(|uv| *uv = turn(*uv));
+        tangents_are_left(&turned, &healthy, Code::TangentRotated);
+        turned.tangents = Some(turned.computed(Default::default(), turned.uv_set));
+        let found = layout(&turned).expect("the finding");
+        assert!(found.text.contains("the UVs are turned by 90 degrees"), "{found:?}");
+    }
+    tangents_are_left(&turned, &healthy, Code::TangentSignFlipped);
     let mut reversed = healthy.clone();
     let rows = healthy.map.texels.chunks_exact(SIDE).rev();
     reversed.map = with_texels(rows.flatten().copied().collect());

@@ -57,6 +57,10 @@ pub enum Obstacle {
         /// Whether the file is from Sketchfab, most of whose maps do.
         is_of_sketchfab: bool,
     },
+    /// The map was made for another UV layout, which the tangents may fit.
+    MapHasOtherLayout {
+        image: usize,
+    },
     /// A mistake of the model cancels that of the map.
     OnTheModelToo,
     /// Why an image cannot be rewritten, as a clause of darboux-io.

@@ -26,16 +26,20 @@ pub enum Layout {
     Same,
     /// The UVs were mirrored after the bake: their u, their v or both, which is a turn by 180 degrees.
     TurnedUvs([bool; 2]),
+    /// The UVs were turned by a right angle after the bake: (u, v) was (v, 1 - u), or (1 - v, u).
+    QuarterTurnedUvs { was_back: bool },
     /// The rows or the columns of the image were reversed, or both.
     TurnedImage([bool; 2]),
 }
 
 /// All layouts that are compared.
-const LAYOUTS: [Layout; 7] = [
+const LAYOUTS: [Layout; 9] = [
     Layout::Same,
     Layout::TurnedUvs([false, true]),
     Layout::TurnedUvs([true, false]),
     Layout::TurnedUvs([true, true]),
+    Layout::QuarterTurnedUvs { was_back: false },
+    Layout::QuarterTurnedUvs { was_back: true },
     Layout::TurnedImage([false, true]),
     Layout::TurnedImage([true, false]),
     Layout::TurnedImage([true, true]),
@@ -173,13 +177,16 @@ fn correlation(points: &[[Side; 2]], image: &RgbaImage, layout: Layout, offset: 
 /// The lean of the normal in space that the texel of a side gives; none for a texel without a normal.
 fn lean(side: &Side, image: &RgbaImage, layout: Layout, offset: [usize; 2]) -> Option<[f32; 3]> {
     let size = [image.width, image.height].map(|side| side as usize);
-    let (turned, inverts) = match layout {
-        Layout::Same => ([false; 2], [false; 2]),
-        Layout::TurnedUvs(turned) => (turned, turned),
-        Layout::TurnedImage(turned) => (turned, [false; 2]),
+    let [u, v] = side.texel;
+    let (texel, turned) = match layout {
+        Layout::Same => ([u, v], [false; 2]),
+        Layout::TurnedUvs(turned) | Layout::TurnedImage(turned) => ([u, v], turned),
+        Layout::QuarterTurnedUvs { was_back } => {
+            ([v * size[0] / size[1], u * size[1] / size[0]], [was_back, !was_back])
+        }
     };
     let at = |i: usize| {
-        let own = if turned[i] { size[i] - 1 - side.texel[i] } else { side.texel[i] };
+        let own = if turned[i] { size[i] - 1 - texel[i] } else { texel[i] };
         (own + offset[i]) % size[i]
     };
     let texel = image.texels[at(1) * size[0] + at(0)];
@@ -188,7 +195,12 @@ fn lean(side: &Side, image: &RgbaImage, layout: Layout, offset: [usize; 2]) -> O
     }
     let [x, y, _] = TexelLayout::RGBA.vector(texel);
     let sign = |inverts: bool| if inverts { -1.0 } else { 1.0 };
-    let (x, y) = (sign(inverts[0]) * x, sign(inverts[1]) * y);
+    let (x, y) = match layout {
+        Layout::Same | Layout::TurnedImage(_) => (x, y),
+        Layout::TurnedUvs([u, v]) => (sign(u) * x, sign(v) * y),
+        // The directions of red and green of the bake, in those of the file.
+        Layout::QuarterTurnedUvs { was_back } => (sign(was_back) * y, sign(!was_back) * x),
+    };
     Some([0, 1, 2].map(|i| x * side.tangent[i] + y * side.bitangent[i]))
 }
 

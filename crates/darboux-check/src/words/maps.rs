@@ -136,6 +136,7 @@ fn turned(layout: Layout) -> &'static str {
     match layout {
         Layout::TurnedUvs([true, true]) => "if the UVs are turned by 180 degrees",
         Layout::TurnedUvs([true, false]) => "if u of the UVs is turned to 1 - u",
+        Layout::QuarterTurnedUvs { .. } => "if the UVs are turned by 90 degrees",
         Layout::TurnedUvs(_) => "if v of the UVs is turned to 1 - v",
         Layout::TurnedImage([true, true]) => "if the image is turned by 180 degrees",
         Layout::TurnedImage([true, false]) => "if the image is mirrored from left to right",

@@ -28,6 +28,11 @@ pub fn reason(obstacle: &Obstacle) -> String {
                 "the convention of the normal map in images[{image}] is not known, and inverted green there would cancel the flipped signs{prior}; `--assume map=opengl` says that the map is right, `--assume map=directx` that its green is inverted"
             );
         }
+        Obstacle::MapHasOtherLayout { image } => {
+            return format!(
+                "the normal map in images[{image}] was made for another UV layout, and these tangents may fit that one: put the UVs back first, and check again"
+            );
+        }
         Obstacle::UvsWereRounded { steps } => {
             return format!(
                 "the UVs were rounded to {steps} steps, perhaps after these tangents were computed, and new ones would follow the rounding; `darboux tangents --overwrite` computes them all the same"
