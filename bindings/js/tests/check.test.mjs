@@ -188,7 +188,9 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
     assert.throws(() => check(undefined), /^TypeError: file must be a Uint8Array, not Undefined/);
     assert.throws(() => check(asset('made/shield.glb'), { green: 'left' }), RangeError);
     assert.throws(() => check(asset('made/shield.glb'), { assume: 'left' }), RangeError);
-    assert.deepEqual(errors(check(new Uint8Array([0x89, 0x50, 0x4e, 0x47]))), ['map-unreadable']);
+    const png = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
+    const tga = [0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 9, 0, 7, 0, 24, 0, 128, 128];
+    for (const image of [png, tga]) assert.deepEqual(errors(check(new Uint8Array(image))), ['map-unreadable']);
     assert.throws(() => convertFile(asset('made/shield.glb'), 'metal', 'gltf'), /^Error: source: "metal" is not a convention/);
     assert.throws(() => convertFile(asset('made/shield.glb'), 'gltf', 'gltf', { layout: 'xyz' }), /^Error: layout: /);
     assert.throws(() => convertFile('model.glb', 'gltf', 'gltf'), TypeError);
