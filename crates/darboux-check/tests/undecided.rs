@@ -203,14 +203,20 @@ fn mistakes_that_cancel_are_one_warning() {
     assert!(left.iter().all(|finding| finding.severity <= Severity::Info), "{left:#?}");
 }
 
+/// A model whose signs are flipped on all triangles but the first part of them.
+fn flipped_but_one_in(parts: usize) -> Model {
+    let mut model = healthy_models().remove(9);
+    let kept: BTreeSet<u32> = model.indices.iter().take(model.indices.len() / parts).copied().collect();
+    let flipped = (0u32..).zip(model.tangents().iter_mut()).filter(|(vertex, _)| !kept.contains(vertex));
+    flipped.for_each(|(_, tangent)| tangent[3] *= -1.0);
+    model
+}
+
 /// Where the signs of most triangles are flipped, a map of the other convention makes most of the picture
 /// right.
 #[test]
 fn signs_of_most_triangles_that_a_map_may_cancel_are_left() {
-    let mut most = healthy_models().remove(9);
-    let kept: BTreeSet<u32> = most.indices.iter().take(most.indices.len() / 5).copied().collect();
-    let flipped = (0u32..).zip(most.tangents().iter_mut()).filter(|(vertex, _)| !kept.contains(vertex));
-    flipped.for_each(|(_, tangent)| tangent[3] *= -1.0);
+    let most = flipped_but_one_in(5);
     let mut unread = most.clone();
     unread.map.file = AVIF.to_vec();
     for (model, severity, is_left) in [(&most, Severity::Error, false), (&unread, Severity::Warning, true)] {
@@ -231,10 +237,7 @@ fn signs_of_most_triangles_that_a_map_may_cancel_are_left() {
 /// So does a map that is read: the two are one finding, and are repaired together.
 #[test]
 fn signs_of_nearly_all_triangles_may_cancel() {
-    let mut model = healthy_models().remove(9);
-    let kept: BTreeSet<u32> = model.indices.iter().take(model.indices.len() / 10).copied().collect();
-    let flipped = (0u32..).zip(model.tangents().iter_mut()).filter(|(vertex, _)| !kept.contains(vertex));
-    flipped.for_each(|(_, tangent)| tangent[3] *= -1.0);
+    let mut model = flipped_but_one_in(10);
     model.map = model.map.through(|[r, g, b]| [r, 1.0 - g, b]);
     let findings = check(&model);
     assert!(findings.iter().all(|finding| finding.severity < Severity::Error), "{findings:#?}");

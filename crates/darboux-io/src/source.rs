@@ -33,7 +33,7 @@ pub use polygons::PolygonRule;
 pub use provenance::{FaceCounts, PrimitiveSource, Provenance};
 
 pub(crate) use build::{Built, build};
-pub(crate) use files::{FileSource, FoundFile, ModelFiles};
+pub(crate) use files::{FileSource, FoundFile, LONGEST_PATH, ModelFiles};
 pub(crate) use format::{detect, without_byte_order_mark};
 pub(crate) use others::problem as problem_of_other;
 #[cfg(any(feature = "obj", feature = "stl"))]

@@ -165,7 +165,7 @@ fn attributes_of_some_corners_are_a_warning() {
     assert_eq!(warnings("f 1/1/1 2//1 3/1/1\n"), [uvs]);
     assert_eq!(
         warnings("f 1/1/1 2 3/1/1\no b\nf 1/1/1 2/1 3/1/1\n"),
-        [uvs, "2 meshes have normals at some corners only; they are left out"]
+        [uvs, "2 meshes have normals at some corners only; these normals are left out"]
     );
     let several = "o a\nf 1/1/1 2/1/1 3/1/1\nf 1//1 2//1 3//1\nf 1/1/1 2//1 3/1/1\n";
     let warnings = warnings(&format!("{several}{}", several.replace('a', "b")));

@@ -2,10 +2,7 @@
 
 use super::texture_map::MtlMap;
 use crate::code_page::decoded;
-use crate::source::{FoundFile, ModelFiles};
-
-/// No path has more bytes. Longer references are not looked up: one may begin at every word of a line.
-const LONGEST_PATH: usize = 4096;
+use crate::source::{FoundFile, LONGEST_PATH, ModelFiles};
 
 /// A reference, and the file that it names.
 pub type Found = (String, FoundFile);

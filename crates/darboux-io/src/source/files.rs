@@ -19,8 +19,8 @@ use crate::{Files, LoadOptions, files, paths};
 /// The most paths that are looked up for one model. Each lookup asks the operating system.
 const MAX_LOOKUPS: usize = 100_000;
 
-/// No path has more bytes.
-const LONGEST_PATH: usize = 4096;
+/// No path has more bytes. Longer references are not looked up: one may begin at every word of a line.
+pub const LONGEST_PATH: usize = 4096;
 
 /// The ends of a path that are looked up have at most as many parts.
 const MOST_PARTS: usize = 16;

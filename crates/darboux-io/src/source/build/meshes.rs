@@ -249,7 +249,10 @@ impl Incomplete {
         let lost = |meshes: &SomeMeshes, attribute: &str| {
             let have = if meshes.count == 1 { "has" } else { "have" };
             (meshes.count > 0).then(|| {
-                format!("{} {have} {attribute} at some corners only; they are left out", meshes.names())
+                format!(
+                    "{} {have} {attribute} at some corners only; these {attribute} are left out",
+                    meshes.names()
+                )
             })
         };
         [uvs, lost(&self.normals, "normals"), lost(&self.colors, "colours")].into_iter().flatten()
