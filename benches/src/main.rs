@@ -141,7 +141,8 @@ fn time_check(arguments: &Arguments) -> Result<(), String> {
     let rows = judging::measure(&Sizes { side: arguments.map_side, triangles }, rounds);
     println!("{}", judging::table(&rows));
     println!(
-        "ms: processor time; ratio: to the first task in the same round; memory: the peak over the file and the decoded map"
+        "ms: processor time; ratio: to the first task in the same round; memory: the peak over the file and \
+         the decoded map"
     );
     if !arguments.quick {
         println!("recorded in {}", record::checks(&rows, arguments.machine.as_deref())?.display());
@@ -195,7 +196,8 @@ fn time(arguments: &Arguments, mut engines: Vec<Engine>, meshes: &[Named]) -> Re
     }
     println!("{}", table::table(&rows));
     println!(
-        "ns/triangle: processor time where one thread works, else wall time; x: how many times faster, by medians"
+        "ns/triangle: processor time where one thread works, else wall time; x: how many times faster, by \
+         medians"
     );
     if arguments.quick || !arguments.engines.is_empty() || !arguments.meshes.is_empty() {
         println!("not recorded: only a full run is");

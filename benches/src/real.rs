@@ -159,7 +159,8 @@ fn line(rows: &[Row], (ours, memory): (usize, &str), (peer, name): (usize, &str)
         |engine: usize| -> f64 { rows.iter().map(|row| row.times[engine] * row.triangles as f64).sum() };
     let slower = ratios.iter().filter(|ratio| **ratio < 1.0).count();
     format!(
-        "times {name}, {memory}: least, 5 %, 25 %, median, 75 %, 95 %: {shown}; all together {:.2}; slower than it: {slower} of {}\n",
+        "times {name}, {memory}: least, 5 %, 25 %, median, 75 %, 95 %: {shown}; all together {:.2}; slower \
+         than it: {slower} of {}\n",
         total(peer) / total(ours),
         rows.len()
     )

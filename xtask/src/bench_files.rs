@@ -29,7 +29,8 @@ pub fn bench(words: &[&str]) -> Outcome {
         }
     }
     println!(
-        "tool, version: wall time (least to most), processor time, both in seconds; peak of memory; size of the output"
+        "tool, version: wall time (least to most), processor time, both in seconds; peak of memory; size of \
+         the output"
     );
     for (tool, mut runs) in tools.iter().zip(runs) {
         runs.sort_by(|a, b| a.wall.total_cmp(&b.wall));

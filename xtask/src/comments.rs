@@ -43,7 +43,8 @@ mod tests {
     fn wide_comments_are_found_outside_of_blocks() {
         let wide = "word ".repeat(30);
         let text = format!(
-            "/// {wide}\nlet x = \"{wide}\";\n//! ```text\n//! {wide}\n//! ```\n    // {wide}\n// https://{wide}"
+            "/// {wide}\nlet x = \"{wide}\";\n//! ```text\n//! {wide}\n//! ```\n    // {wide}\n// \
+             https://{wide}"
         );
         assert_eq!(wide_lines(&text).collect::<Vec<_>>(), [1, 6]);
     }

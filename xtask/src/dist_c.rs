@@ -71,7 +71,8 @@ pub fn make_folder() -> Result<PathBuf, String> {
     let start = Instant::now();
     if !matches!(std::env::consts::OS, "linux" | "macos") {
         return Err(format!(
-            "dist-c makes the folder on Linux and macOS, not on {}; docs/c.md says how the libraries are built elsewhere",
+            "dist-c makes the folder on Linux and macOS, not on {}; docs/c.md says how the libraries are \
+             built elsewhere",
             std::env::consts::OS
         ));
     }

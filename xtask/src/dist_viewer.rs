@@ -63,7 +63,8 @@ pub fn test(without: WithoutNpm) -> Outcome {
     let browser = std::env::var_os("CHROMIUM").unwrap_or_else(|| CHROMIUM.into());
     if can_skip && !Path::new(&browser).exists() {
         println!(
-            "skipped: the viewer's tests need Chromium at {CHROMIUM}, or its path in the environment variable CHROMIUM"
+            "skipped: the viewer's tests need Chromium at {CHROMIUM}, or its path in the environment \
+             variable CHROMIUM"
         );
         return Ok(());
     }

@@ -118,7 +118,8 @@ mod tests {
 
     #[test]
     fn comments_and_tests_are_no_code() {
-        let rust = "//! x\nfn a() {\n    // y\n}\n#[cfg(test)]\nmod tests {\n    f();\n}\n#[cfg(test)]\nuse b;\nfn c() {}";
+        let rust = "//! x\nfn a() {\n    // y\n}\n#[cfg(test)]\nmod tests {\n    f();\n}\n#[cfg(test)]\nuse \
+             b;\nfn c() {}";
         assert_eq!(of_rust(&mut rust.lines()), 3);
         assert_eq!(of_c_like(&mut ["/* x", "y", "*/", "/** z */", "f();", "// w", "g();"].into_iter()), 2);
         assert_eq!(of_python(&mut ["# x", "f()"].into_iter()), 1);

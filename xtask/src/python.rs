@@ -82,10 +82,15 @@ pub fn with_blender() -> Result<PathBuf, String> {
     }
     let python = environment_of("python3.11", "blender-bake")?;
     run(pip(&python).arg("bpy==4.5.0")).map_err(|error| {
-        format!("{error}; bench --bake needs Blender's module bpy 4.5.0, from pypi.org or as a wheel in the folder PIP_FIND_LINKS")
+        format!(
+            "{error}; bench --bake needs Blender's module bpy 4.5.0, from pypi.org or as a wheel in the \
+             folder PIP_FIND_LINKS"
+        )
     })?;
     if !works(with(&python, "-c").arg("import bpy")) {
-        return Err("Blender's module bpy cannot be loaded; install the packages of Debian that CONTRIBUTING.md names beside bench --bake".into());
+        return Err("Blender's module bpy cannot be loaded; install the packages of Debian that \
+             CONTRIBUTING.md names beside bench --bake"
+            .into());
     }
     Ok(python)
 }

@@ -25,7 +25,8 @@ const STEPS: &[Step] = &[
     ("metadata", "descriptions, keywords, licences, READMEs and the changelog are complete", metadata::check),
     (
         "msrv",
-        "the libraries and the command compile with the oldest supported compiler, without and with all features",
+        "the libraries and the command compile with the oldest supported compiler, without and with all \
+         features",
         crates::check_rust_version,
     ),
     (

@@ -142,7 +142,8 @@ mod tests {
     fn dead_links_are_named() {
         let folder = tempfile::tempdir().expect("a folder");
         let output = Output::new(&folder.path().join("site")).expect("a folder");
-        let text = "# Command\n[a](../README.md#top) [b](#command) [c](../README.md#bottom) [d](missing.md) ![e](f.png)\n";
+        let text = "# Command\n[a](../README.md#top) [b](#command) [c](../README.md#bottom) [d](missing.md) \
+             ![e](f.png)\n";
         let pages = pages(&[("README.md", "# Top\n"), ("docs/cli.md", text)]);
         for path in pages.keys() {
             output.write(&html::target(path), b"a page").expect("a page");

@@ -21,7 +21,9 @@ impl Clang {
             works(&mut program(&line))
         };
         CLANGS.into_iter().find(compiles).map(Self).ok_or_else(|| {
-            "clang for WebAssembly is missing, which compiles the reader of FBX; install it (Debian: apt install clang)".into()
+            "clang for WebAssembly is missing, which compiles the reader of FBX; install it (Debian: apt \
+             install clang)"
+                .into()
         })
     }
 

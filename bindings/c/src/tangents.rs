@@ -126,7 +126,8 @@ pub(crate) unsafe fn options(options: *const darboux_tangent_options) -> Result<
     // SAFETY: the caller's promise.
     let options = unsafe { pointers::read_or_zeros(options) }?;
     if options.reserved != 0 {
-        let message = "reserved of darboux_tangent_options is not 0; set it to 0, or use a later version of the library";
+        let message = "reserved of darboux_tangent_options is not 0; set it to 0, or use a later version of \
+             the library";
         return Err(Error::new(darboux_status::StructSize, message.into()));
     }
     let mut mikkt = MikkTSpaceOptions::new().with_mode(codes::mode(options.mode)?);

@@ -372,7 +372,10 @@ fn warnings(low: &LowModel<'_>, highs: &[HighModel<'_>]) -> Vec<String> {
     }
     if low.materials.len() > 1 {
         let count = low.materials.len();
-        warnings.push(format!("the {count} materials of the low model share one map; where their charts overlap, the first triangle wins"));
+        warnings.push(format!(
+            "the {count} materials of the low model share one map; where their charts \
+             overlap, the first triangle wins"
+        ));
     }
     warnings
 }

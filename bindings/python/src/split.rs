@@ -122,8 +122,8 @@ const MAX_VERTICES_PER_CORNER: usize = 64;
 fn check_vertex_count(vertex_count: usize, corners: usize) -> PyResult<()> {
     if vertex_count > MAX_UNUSED_VERTICES.max(corners.saturating_mul(MAX_VERTICES_PER_CORNER)) {
         return Err(PyValueError::new_err(format!(
-            "vertex_count is {vertex_count}, more than {MAX_VERTICES_PER_CORNER} times the {corners} corners; \
-             pass the number of vertices of this mesh"
+            "vertex_count is {vertex_count}, more than {MAX_VERTICES_PER_CORNER} times the {corners} \
+             corners; pass the number of vertices of this mesh"
         )));
     }
     // Bytes per vertex: a tangent, its source and a link.

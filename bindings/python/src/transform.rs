@@ -148,7 +148,8 @@ impl<'py> Influences<'py> {
             if shape.len() != 2 || shape[0] != vertices || shape != joints.shape() {
                 let (shape, other) = (shape_text(shape), shape_text(joints.shape()));
                 return Err(PyValueError::new_err(format!(
-                    "{name} has shape {shape} beside {vertices} normals and joints of shape {other}; both must be (V, K)"
+                    "{name} has shape {shape} beside {vertices} normals and joints of shape {other}; both \
+                     must be (V, K)"
                 )));
             }
         }

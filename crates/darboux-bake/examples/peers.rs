@@ -83,7 +83,8 @@ fn main() -> Result<()> {
     let analytic = PAIRS.into_iter().map(|pair| Ok(analytic(pair)));
     let real = models.iter().map(|model| simplified(Path::new(model)));
     println!(
-        "| pair, {0} x {0}, 16 bits, {1} threads | samples | Cycles: median | 99 % | s | Darboux: median | 99 % | s | times as fast |",
+        "| pair, {0} x {0}, 16 bits, {1} threads | samples | Cycles: median | 99 % | s | Darboux: median | \
+         99 % | s | times as fast |",
         runs.size, runs.threads
     );
     println!("|---|---|---|---|---|---|---|---|---|");

@@ -97,7 +97,8 @@ impl fmt::Display for BakeError {
             Self::NotTriangles => f.write_str("the surface has faces that are not triangles; triangulate it"),
             Self::Cage { vertices, found } => write!(
                 f,
-                "the cage has {found} vertices but the low surface has {vertices}; make the cage by moving the vertices of the low surface only"
+                "the cage has {found} vertices but the low surface has {vertices}; make the cage by moving \
+                 the vertices of the low surface only"
             ),
             Self::Uvs { vertices, found } => write!(
                 f,
@@ -114,17 +115,20 @@ impl fmt::Display for BakeError {
             }
             Self::Distance { found: [outwards, inwards] } => write!(
                 f,
-                "rays cannot begin {outwards} outside the low surface and end {inwards} inside it; give two finite distances of which none is negative and one is positive"
+                "rays cannot begin {outwards} outside the low surface and end {inwards} inside it; give two \
+                 finite distances of which none is negative and one is positive"
             ),
             Self::Option { what, expected, found } => write!(f, "{what} is {found}; it must be {expected}"),
             Self::NoMaps => f.write_str("no map was chosen; choose at least one"),
             Self::Texels { expected, found } => write!(
                 f,
-                "the map has {found} texels but its size needs {expected}; give one vector per texel, and at least one"
+                "the map has {found} texels but its size needs {expected}; give one vector per texel, and at \
+                 least one"
             ),
             Self::NoUdim { tile: [column, row] } => write!(
                 f,
-                "charts lie in the tile {column} to the right of the first and {row} above it, which has no UDIM number; move them to columns 0 to 9 and rows 0 to {}",
+                "charts lie in the tile {column} to the right of the first and {row} above it, which has no \
+                 UDIM number; move them to columns 0 to 9 and rows 0 to {}",
                 Udim::ROWS - 1
             ),
             Self::NoLowTriangles => {
@@ -138,13 +142,15 @@ impl fmt::Display for BakeError {
             }
             Self::Memory { needed, limit: Some(limit) } => write!(
                 f,
-                "the run needs {} MiB of memory, which is more than the limit of {} MiB; choose a smaller size or fewer maps, or raise the limit",
+                "the run needs {} MiB of memory, which is more than the limit of {} MiB; choose a smaller \
+                 size or fewer maps, or raise the limit",
                 mebibytes(needed),
                 mebibytes(limit)
             ),
             Self::Memory { needed, limit: None } => write!(
                 f,
-                "the run needs {} MiB of memory, which the system refuses; choose a smaller size or fewer maps",
+                "the run needs {} MiB of memory, which the system refuses; choose a smaller size or fewer \
+                 maps",
                 mebibytes(needed)
             ),
         }

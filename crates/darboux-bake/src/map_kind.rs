@@ -84,7 +84,8 @@ choice! { MapKind, "maps",
     BentNormal => "bent-normal", "The mean of the open directions, in tangent space";
     ObjectBentNormal => "object-bent-normal", "The mean of the open directions, in the space of the scene";
     Thickness => "thickness", "The mean distance to the other side: black is thin";
-    Curvature => "curvature", "Convex is brighter than half grey, concave darker; white curves with the radius of --curvature-radius";
+    Curvature => "curvature", "Convex is brighter than half grey, concave darker; white curves with the \
+         radius of --curvature-radius";
     Id => "id", "A colour for each material, mesh or part of the high models";
     VertexColor => "vertex-color", "The colours of the high model's vertices";
     BaseColor => "base-color", "The base colours that the high models show";

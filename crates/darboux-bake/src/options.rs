@@ -269,7 +269,8 @@ pub enum IdSource {
 }
 
 choice! { Bitangent, "bitangent",
-    PerPixel => "pixel", "Per pixel from the interpolated normal and tangent, as glTF, MikkTSpace, Blender, Unreal and Unity";
+    PerPixel => "pixel", "Per pixel from the interpolated normal and tangent, as glTF, MikkTSpace, Blender, \
+         Unreal and Unity";
     PerVertex => "vertex", "Per vertex, then interpolated";
 }
 

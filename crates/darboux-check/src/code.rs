@@ -117,7 +117,8 @@ codes! {
     TangentZero "tangent-zero" Error {
         "Tangents have length zero."
         "Black spots or NaN in shaders that normalise the tangent; bumps vanish in others."
-        "glTF-Transform writes zeros for faces without UV area (its issue 1859); so does the reference code of MikkTSpace."
+        "glTF-Transform writes zeros for faces without UV area (its issue 1859); so does the reference code \
+         of MikkTSpace."
         "Compute the tangents again: `darboux tangents --overwrite`; the default mode repairs such corners."
         Repair "these tangents are computed again in the way that the others were"
     }
@@ -145,21 +146,25 @@ codes! {
     TangentSignMixed "tangent-sign-mixed" Warning {
         "Faces have corners with both signs."
         "The bitangent flips within the face: a smeared band."
-        "Tangents were computed per vertex on a mesh with mirrored UVs (three.js computeTangents, many tutorials)."
+        "Tangents were computed per vertex on a mesh with mirrored UVs (three.js computeTangents, many \
+         tutorials)."
         "Compute the tangents again: `darboux tangents --overwrite` splits the vertices."
         Repair "the wrong signs are negated, and vertices split where their corners need both"
     }
     TangentSharedAcrossMirror "tangent-shared-across-mirror" Error {
         "One vertex serves both sides of a mirrored UV seam, so that it has a wrong tangent on one of them."
         "A line along the middle of the model where every second bump is lit from the wrong side."
-        "Tangents of corners were written through the old index list (nvpro-samples/vk_gltf_renderer 33), or computed per vertex."
+        "Tangents of corners were written through the old index list (nvpro-samples/vk_gltf_renderer 33), or \
+         computed per vertex."
         "Split the vertices: `darboux tangents --overwrite`."
-        Repair "the vertices are split, and the tangents of the other side computed in the way that the rest was"
+        Repair "the vertices are split, and the tangents of the other side computed in the way that the rest \
+             was"
     }
     TangentSignFlipped "tangent-sign-flipped" Error {
         "The sign w is that of the other convention everywhere."
         "Bumps are lit as if green were inverted: from below instead of from above."
-        "The exporter did not negate w for glTF's v axis, which points down, or negated it twice (filament 528, three.js 11438)."
+        "The exporter did not negate w for glTF's v axis, which points down, or negated it twice (filament \
+         528, three.js 11438)."
         "Compute the tangents again: `darboux tangents --overwrite`."
         Repair "the signs are negated"
     }
@@ -172,7 +177,8 @@ codes! {
     }
     TangentSignPartlyFlipped "tangent-sign-partly-flipped" Error {
         "The sign w is wrong on a part of the surface."
-        "Some faces are lit as if green were inverted: their bumps look like dents when the light is above or below."
+        "Some faces are lit as if green were inverted: their bumps look like dents when the light is above \
+         or below."
         "Parts with different conventions were joined, or vertices were merged or moved without their signs."
         "Compute the tangents again: `darboux tangents --overwrite`."
         Repair "the wrong signs are negated"
@@ -182,12 +188,14 @@ codes! {
         "Bumps are lit as if the map were turned by 90 degrees."
         "Bitangents were stored as tangents, or u and v were exchanged."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        Repair "all tangents of the primitive are computed again by MikkTSpace, or by the method that `--method` names"
+        Repair "all tangents of the primitive are computed again by MikkTSpace, or by the method that \
+             `--method` names"
     }
     TangentNegated "tangent-negated" Error {
         "Tangents point against u."
         "Bumps are lit from the wrong side along u."
-        "The u axis was mirrored after the tangents were computed, or tangents were negated with the handedness."
+        "The u axis was mirrored after the tangents were computed, or tangents were negated with the \
+         handedness."
         "Compute the tangents again: `darboux tangents --overwrite`."
         Repair "these tangents are negated"
     }
@@ -201,9 +209,12 @@ codes! {
     TangentOtherRecipe "tangent-other-recipe" Warning {
         "Tangents were computed in another way than MikkTSpace."
         "Smooth shading differs a little from the bake: faint gradients and seams on low-poly models."
-        "meshoptimizer's and gltfpack's default weights, three.js computeTangents, averages of an own importer (glTF-Blender-IO 2226)."
-        "Keep them if the map was baked for them, as is likely for those of MikkTSpace on quads (`--allow tangent-other-recipe`); otherwise `darboux tangents --overwrite`."
-        Repair "the tangents are computed again by MikkTSpace, or by the method that `--method` names; those of MikkTSpace on quads are kept"
+        "meshoptimizer's and gltfpack's default weights, three.js computeTangents, averages of an own \
+         importer (glTF-Blender-IO 2226)."
+        "Keep them if the map was baked for them, as is likely for those of MikkTSpace on quads (`--allow \
+         tangent-other-recipe`); otherwise `darboux tangents --overwrite`."
+        Repair "the tangents are computed again by MikkTSpace, or by the method that `--method` names; those \
+             of MikkTSpace on quads are kept"
     }
     TangentMissing "tangent-missing" Info {
         "The material has a normal map and the primitive has no tangents."
@@ -222,7 +233,8 @@ codes! {
     [Positions]
     PositionNotFinite "position-not-finite" Error {
         "Positions contain NaN or infinity."
-        "Faces are missing, or stretch across the picture; the whole model may vanish, because its bounds are not finite."
+        "Faces are missing, or stretch across the picture; the whole model may vanish, because its bounds \
+         are not finite."
         "A division by zero in a modifier, a simulation or an exporter."
         "Find these vertices in the modelling program, and delete or move them."
         Leave "where these vertices should be is not in the file"
@@ -244,24 +256,31 @@ codes! {
     }
     NormalNotUnit "normal-not-unit" Warning {
         "Normals do not have length 1."
-        "Lighting is too strong or too weak in shaders that do not normalise; black spots where the length is zero."
+        "Lighting is too strong or too weak in shaders that do not normalise; black spots where the length \
+         is zero."
         "A scaled node was applied to the normals."
         "`darboux normals --overwrite`, or normalise on export."
-        Repair "the normals are scaled to length 1; those without a direction are computed from the faces around them"
+        Repair "the normals are scaled to length 1; those without a direction are computed from the faces \
+             around them"
     }
     NormalAgainstWinding "normal-against-winding" Error {
         "Normals point to the back of their faces."
         "The surface, or a part of it, is dark where it faces the light, or is culled."
-        "The model or a part of it was mirrored without reversing its faces, or its faces were reversed without its normals."
+        "The model or a part of it was mirrored without reversing its faces, or its faces were reversed \
+         without its normals."
         "Recompute normals outside in the modelling program and export again."
-        Repair "the corners of the faces are put in the other order where the faces are reversed, and the normals are negated where the normals are"
+        Repair "the corners of the faces are put in the other order where the faces are reversed, and the \
+             normals are negated where the normals are"
     }
     NormalOtherAxes "normal-other-axes" Error {
         "Normals are in other axes than the positions."
-        "Light comes from a wrong side on the whole model: its top is lit as if it were its front, or its left side as if it were its right one."
+        "Light comes from a wrong side on the whole model: its top is lit as if it were its front, or its \
+         left side as if it were its right one."
         "The positions were turned to another up axis (z to y) or mirrored, and the normals were not."
-        "Apply the rotation and the scale of the object in the modelling program and export again; or `darboux normals --overwrite`, which computes smooth normals from the faces."
-        Leave "what turned them may have turned the tangents and the morph targets, too: export again, or compute all with `darboux normals --overwrite`"
+        "Apply the rotation and the scale of the object in the modelling program and export again; or \
+         `darboux normals --overwrite`, which computes smooth normals from the faces."
+        Leave "what turned them may have turned the tangents and the morph targets, too: export again, or \
+             compute all with `darboux normals --overwrite`"
     }
     [Uvs]
     UvMissing "uv-missing" Error {
@@ -294,7 +313,8 @@ codes! {
     }
     UvOverlapping "uv-overlapping" Info {
         "Faces share UV space with other faces."
-        "Nothing, if the same texels are wanted on all of them; otherwise a bake shows the bumps of one part on another."
+        "Nothing, if the same texels are wanted on all of them; otherwise a bake shows the bumps of one part \
+         on another."
         "Parts were mirrored or stacked to save texture space, or parts of the unwrapping collided."
         "None needed. For a bake, move all but one of the parts by a whole tile."
         Leave "it is no mistake"
@@ -302,7 +322,8 @@ codes! {
     UvStretched "uv-stretched" Info {
         "UVs stretch the normal map on some faces far more than on the others."
         "Bumps are drawn out to grooves there, and details are smeared along one direction."
-        "Faces were moved or scaled after they were unwrapped, or the unwrapping projected them at a flat angle."
+        "Faces were moved or scaled after they were unwrapped, or the unwrapping projected them at a flat \
+         angle."
         "Unwrap these faces again, or relax their UVs."
         Leave "UVs are made in a modelling program"
     }
@@ -315,31 +336,41 @@ codes! {
     }
     UvRounded "uv-rounded" Warning {
         "UVs were rounded to steps so coarse that tangents turn."
-        "Bumps wobble: light on them changes from face to face, as if the map were turned a little on each, most visible in reflections on smooth parts."
-        "UVs were stored in 8 bits, or in 12 or fewer on a dense mesh (KHR_mesh_quantization, Draco, gltfpack), or written with two or three decimals, before the tangents were computed."
-        "Export the UVs with more bits (gltfpack `-vt 16`, Draco's texture coordinates at 14 bits or more, or as floats), or compute the tangents before the UVs are rounded and keep them in the file."
+        "Bumps wobble: light on them changes from face to face, as if the map were turned a little on each, \
+         most visible in reflections on smooth parts."
+        "UVs were stored in 8 bits, or in 12 or fewer on a dense mesh (KHR_mesh_quantization, Draco, \
+         gltfpack), or written with two or three decimals, before the tangents were computed."
+        "Export the UVs with more bits (gltfpack `-vt 16`, Draco's texture coordinates at 14 bits or more, \
+         or as floats), or compute the tangents before the UVs are rounded and keep them in the file."
         Leave "the digits that were rounded away are not in the file"
     }
     UvHardEdge "uv-hard-edge" Info {
         "Hard edges have no UV seam."
-        "With a map that was baked for the mesh, a thin line along these edges, and a wider one from afar; with one that tiles, nothing."
+        "With a map that was baked for the mesh, a thin line along these edges, and a wider one from afar; \
+         with one that tiles, nothing."
         "Normals were made hard after the mesh was unwrapped, or edges were marked as sharp and not as seams."
-        "Cut the UVs at these edges and leave a gap of some texels, or make the edges smooth and let the map do the rest; then bake again."
+        "Cut the UVs at these edges and leave a gap of some texels, or make the edges smooth and let the map \
+         do the rest; then bake again."
         Leave "UVs are made in a modelling program"
     }
     [Maps]
     MapGreenFlipped "map-green-flipped" Error {
         "The normal map's green points the wrong way for the format."
         "Dents look like bumps when the light is above or below, and right when it is beside."
-        "A DirectX map was put into glTF, which wants OpenGL's (glTF-Sample-Models PR 336, BabylonJS/Exporters 940, glTF-Blender-IO 2626)."
-        "Export or bake the map with green up (OpenGL, +Y), or let `darboux check FILE --fix --assume map=directx -o FIXED` invert its green."
+        "A DirectX map was put into glTF, which wants OpenGL's (glTF-Sample-Models PR 336, \
+         BabylonJS/Exporters 940, glTF-Blender-IO 2626)."
+        "Export or bake the map with green up (OpenGL, +Y), or let `darboux check FILE --fix --assume \
+         map=directx -o FIXED` invert its green."
         Repair "green is inverted"
     }
     MapDetailFlipped "map-detail-flipped" Warning {
         "The relief of the normal map is in one convention, and its fine detail in the other."
-        "Fine grain looks sunken where it should be raised when the light is above or below; the large shapes are right."
-        "A detail map of another convention was laid over the map, or a baked map was mixed with a scanned one."
-        "Invert green of the detail map (`darboux check DETAIL --fix --assume map=directx`) and lay it over the map again."
+        "Fine grain looks sunken where it should be raised when the light is above or below; the large \
+         shapes are right."
+        "A detail map of another convention was laid over the map, or a baked map was mixed with a scanned \
+         one."
+        "Invert green of the detail map (`darboux check DETAIL --fix --assume map=directx`) and lay it over \
+         the map again."
         Leave "relief and detail share their texels, so that no channel can be inverted for one of them"
     }
     MapRedFlipped "map-red-flipped" Error {
@@ -351,16 +382,21 @@ codes! {
     }
     MapMayBeDents "map-may-be-dents" Info {
         "The normal map leans against the faces of the mesh, so that its red and green may both be inverted."
-        "Dents look like bumps, whatever side the light comes from; or the map has a dome on every face, and is right."
-        "The baker was set to -X and -Y, or the map was turned by 180 degrees; or studs, rivets or cushions lie on the faces."
+        "Dents look like bumps, whatever side the light comes from; or the map has a dome on every face, and \
+         is right."
+        "The baker was set to -X and -Y, or the map was turned by 180 degrees; or studs, rivets or cushions \
+         lie on the faces."
         "Look at one bump. If it is a dent, type `darboux check FILE --fix --assume map=both-inverted`."
-        Leave "a map with bumps on the faces looks the same to every test; `--assume map=both-inverted` says that both channels are inverted, `--assume map=opengl` that the map is right"
+        Leave "a map with bumps on the faces looks the same to every test; `--assume map=both-inverted` says \
+             that both channels are inverted, `--assume map=opengl` that the map is right"
     }
     MapChannelsSwapped "map-channels-swapped" Error {
         "Channels of the normal map seem to be exchanged: red and green, or one of them and blue."
-        "Bumps are lit as if the map were turned by 90 degrees and mirrored; with blue exchanged, the whole surface is dark or lit from a side."
+        "Bumps are lit as if the map were turned by 90 degrees and mirrored; with blue exchanged, the whole \
+         surface is dark or lit from a side."
         "Channels were packed in another order."
-        "Exchange red and green of the map with `darboux convert --from opengl --to opengl --layout grb --to-layout rgb`."
+        "Exchange red and green of the map with `darboux convert --from opengl --to opengl --layout grb \
+         --to-layout rgb`."
         Repair "red and green are exchanged"
     }
     MapSrgb "map-srgb" Error {
@@ -374,7 +410,8 @@ codes! {
         "A grey height or bump map is in the slot of the normal map."
         "The surface leans to one corner everywhere and looks noisy."
         "A bump map was put into the normal slot."
-        "Compute a normal map from it (GIMP: Filters, Generic, Normal Map; Blender: a Bump node, then bake), and put that into the slot."
+        "Compute a normal map from it (GIMP: Filters, Generic, Normal Map; Blender: a Bump node, then bake), \
+         and put that into the slot."
         Leave "how high the bumps are is not in the file, so a normal map has to be made from it first"
     }
     MapObjectSpace "map-object-space" Error {
@@ -386,35 +423,42 @@ codes! {
     }
     MapNotNormal "map-not-normal" Error {
         "The image in the slot of the normal map holds no normals."
-        "Lighting does not follow the surface: it is random for a picture, and tilted or black for one colour."
+        "Lighting does not follow the surface: it is random for a picture, and tilted or black for one \
+         colour."
         "Another texture was put into the slot."
         "Put the normal map into the slot, or leave the slot empty if the material has none."
         Leave "the right image is not in the file"
     }
     MapTwoChannel "map-two-channel" Error {
         "The normal map stores x and y only, and the format wants three channels."
-        "Where blue is 0 or 128, bumps are far too strong or the surface is black, as z is wrong; where it is 255, they are a little too weak."
+        "Where blue is 0 or 128, bumps are far too strong or the surface is black, as z is wrong; where it \
+         is 255, they are a little too weak."
         "The map was packed for an engine that reconstructs z (BC5, DXT5nm)."
-        "`darboux convert --from opengl --to opengl --layout rg --to-layout rgb` on the map, with `--layout ag` where x is in alpha (DXT5nm)."
+        "`darboux convert --from opengl --to opengl --layout rg --to-layout rgb` on the map, with `--layout \
+         ag` where x is in alpha (DXT5nm)."
         Repair "blue is computed from red and green"
     }
     MapNotUnit "map-not-unit" Warning {
         "Vectors of the normal map do not have length 1."
-        "Lighting is weaker or stronger in renderers that do not normalise, and bumps are too flat or too steep."
+        "Lighting is weaker or stronger in renderers that do not normalise, and bumps are too flat or too \
+         steep."
         "The map was blended, scaled or resized without being normalised."
-        "Normalise the map in the program that made it, or let `darboux check --fix` scale its vectors to length 1."
+        "Normalise the map in the program that made it, or let `darboux check --fix` scale its vectors to \
+         length 1."
         Repair "the vectors are scaled to length 1"
     }
     MapNegativeZ "map-negative-z" Warning {
         "Vectors of the normal map point below the surface."
         "Dark or bright specks; where all vectors do, the surface is dark."
-        "The map was sharpened, painted on, or baked through the surface (KhronosGroup/glTF 2368); or blue was inverted."
+        "The map was sharpened, painted on, or baked through the surface (KhronosGroup/glTF 2368); or blue \
+         was inverted."
         "Bake again with a fitting cage, or clamp blue to at least 128."
         Leave "where these texels should point is lost"
     }
     MapFlatOff "map-flat-off" Warning {
         "The flat parts of the normal map lean to one side, or the whole map is one colour that leans."
-        "A faint seam or gradient between charts, most visible in reflections; with one colour, the whole surface is lit from a wrong side."
+        "A faint seam or gradient between charts, most visible in reflections; with one colour, the whole \
+         surface is lit from a wrong side."
         "The flat colour was painted by hand or shifted by a colour profile."
         "Fill flat parts with 128, 128, 255."
         Leave "the surface may lean so on purpose"
@@ -428,44 +472,57 @@ codes! {
     }
     MapEnlarged "map-enlarged" Warning {
         "The normal map was enlarged without interpolation: every texel is there several times."
-        "Light changes in square steps from close up, and the map costs the memory of its size without showing more."
+        "Light changes in square steps from close up, and the map costs the memory of its size without \
+         showing more."
         "The image was resized with nearest-neighbour sampling, as for pixel art, to reach a required size."
-        "Use the map in the size that it was made in, bake it in the larger one, or resize it with bicubic interpolation and normalise it."
+        "Use the map in the size that it was made in, bake it in the larger one, or resize it with bicubic \
+         interpolation and normalise it."
         Leave "the texels between the ones that are left are not in the file"
     }
     MapBanding "map-banding" Warning {
         "The normal map is stored in few levels per channel."
         "Gentle slopes show bands, most visible in reflections."
-        "The image went through a format of 16 bits per texel (R5G6B5), a palette, or a program that reduced its colours."
+        "The image went through a format of 16 bits per texel (R5G6B5), a palette, or a program that reduced \
+         its colours."
         "Export the map again with 8 or 16 bits per channel."
         Leave "the levels in between are lost"
     }
     MapBlocks "map-blocks" Warning {
         "The normal map was compressed in blocks so strongly that their borders are in the light."
         "A grid of squares in reflections, and slopes that are smeared or end in steps."
-        "The image was saved as JPEG with a low quality, or with a block compression for colours (ETC1S, BC1)."
-        "Export the map again as PNG, as JPEG with a quality of 95 and whole colour resolution, or as KTX2 with UASTC."
+        "The image was saved as JPEG with a low quality, or with a block compression for colours (ETC1S, \
+         BC1)."
+        "Export the map again as PNG, as JPEG with a quality of 95 and whole colour resolution, or as KTX2 \
+         with UASTC."
         Leave "what the compression took is lost"
     }
     MapPadding "map-padding" Warning {
-        "The background of the normal map is no normal, and its charts have too little padding for smaller mip levels."
-        "Dark or bright lines along UV seams, which become wider and plainer as the model becomes smaller on the screen."
-        "The map was baked without padding (margin, dilation), and its background is black, as of bakers that leave what no ray hits empty."
+        "The background of the normal map is no normal, and its charts have too little padding for smaller \
+         mip levels."
+        "Dark or bright lines along UV seams, which become wider and plainer as the model becomes smaller on \
+         the screen."
+        "The map was baked without padding (margin, dilation), and its background is black, as of bakers \
+         that leave what no ray hits empty."
         "Bake again with more padding, such as `darboux bake --padding 16`, or the margin of other bakers."
         Leave "which texels are background is known to the baker: a bake makes the padding in one go"
     }
     MapOtherLayout "map-other-layout" Error {
         "The normal map was made for another UV layout."
         "Details are at wrong places, and seams show; with UVs upside down, the whole texture is."
-        "The UVs or the image were mirrored or turned after the bake, as where one program counts v upwards and the next one downwards."
+        "The UVs or the image were mirrored or turned after the bake, as where one program counts v upwards \
+         and the next one downwards."
         "Turn the UVs or the image back, or bake the map again for these UVs."
-        Leave "nothing says whether the UVs or the image should be turned back, and other textures may use the same UVs"
+        Leave "nothing says whether the UVs or the image should be turned back, and other textures may use \
+             the same UVs"
     }
     ConventionsCancel "conventions-cancel" Warning {
         "The normal map and the tangents are both in the other convention, and the mistakes cancel."
-        "Bumps look right in renderers that read the tangents of the file, and like dents in those that compute them."
-        "A converter turned the UVs upside down, or wrote tangents for DirectX, and kept the map: from FBX or from Unreal, for example."
-        "`darboux check --fix`, which repairs both together, or export the model with the settings for glTF (OpenGL)."
+        "Bumps look right in renderers that read the tangents of the file, and like dents in those that \
+         compute them."
+        "A converter turned the UVs upside down, or wrote tangents for DirectX, and kept the map: from FBX \
+         or from Unreal, for example."
+        "`darboux check --fix`, which repairs both together, or export the model with the settings for glTF \
+         (OpenGL)."
         Repair "the map and the tangents are repaired together"
     }
     MapUnreadable "map-unreadable" Error {
@@ -478,28 +535,33 @@ codes! {
     MapScaleNegative "map-scale-negative" Warning {
         "The scale of the normal texture is negative, which inverts red and green."
         "Dents look like bumps, whatever side the light comes from, or the map is right and needs this."
-        "A slider for the strength of the bumps was pulled below zero, or it was used to turn an inverted map over."
-        "Set the scale to its size without the sign, unless the map has both red and green inverted; then invert these and do the same."
+        "A slider for the strength of the bumps was pulled below zero, or it was used to turn an inverted \
+         map over."
+        "Set the scale to its size without the sign, unless the map has both red and green inverted; then \
+         invert these and do the same."
         Leave "whether the map needs it is not in the file"
     }
     MapScaleZero "map-scale-zero" Warning {
         "The scale of the normal texture is 0, so that the map does nothing."
         "A smooth surface; the map costs memory."
-        "A slider for the strength of the bumps was pulled to 0 to hide them, or an exporter wrote a strength that it did not know as 0."
+        "A slider for the strength of the bumps was pulled to 0 to hide them, or an exporter wrote a \
+         strength that it did not know as 0."
         "Set the scale to 1, or leave the normal map out."
         Leave "how strong the bumps should be is not in the file"
     }
     MapScaleExtreme "map-scale-extreme" Warning {
         "The scale of the normal texture makes its slopes more than four times as steep."
         "Bumps that are far too strong: gentle slopes look like walls, and noise of the map like gravel."
-        "The strength was given in percent or in the units of another program, or it makes up for a map of too gentle slopes."
+        "The strength was given in percent or in the units of another program, or it makes up for a map of \
+         too gentle slopes."
         "Set the scale to 1, or bake the map with the height that is wanted."
         Leave "how strong the bumps should be is not in the file"
     }
     [Transforms]
     TransformMirrors "transform-mirrors" Warning {
         "KHR_texture_transform turns or mirrors the normal texture."
-        "Renderers disagree on whether tangents follow the transformed UVs, so that some light the bumps from a wrong side."
+        "Renderers disagree on whether tangents follow the transformed UVs, so that some light the bumps \
+         from a wrong side."
         "The texture was rotated or scaled by a negative number in the material."
         "Apply the transform to the UVs, or see `darboux tangents --apply-texture-transform`."
         Leave "renderers disagree on what is right"

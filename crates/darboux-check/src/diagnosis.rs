@@ -103,7 +103,8 @@ fn to_do(findings: &[&ReportedFinding]) -> String {
     let reason = findings.iter().find_map(|finding| finding.left_because.as_deref()).unwrap_or_default();
     match ["directx", "opengl"].iter().find(|name| reason.contains(&format!("--assume map={name}"))) {
         Some(name) => format!(
-            "Nothing in the file decides which of two repairs is right: look, and if it is so, type `darboux check FILE --fix --assume map={name}`."
+            "Nothing in the file decides which of two repairs is right: look, and if it is so, type `darboux \
+             check FILE --fix --assume map={name}`."
         ),
         None => findings[0].cure.clone(),
     }

@@ -68,7 +68,9 @@ fn typescript(lists: &[List]) -> String {
     let lines: String = lists.iter().map(list).collect();
     let channels: Vec<String> = MapKind::ALL.iter().map(|kind| kind.channels().to_string()).collect();
     format!(
-        "// Generated from Rust. The position of a name in its list is the code that WebAssembly takes.\n\n{lines}\n/** Numbers per texel of each of {{@link MAP_KINDS}}. */\nexport const MAP_CHANNELS = [{}] as const;\n",
+        "// Generated from Rust. The position of a name in its list is the code that WebAssembly \
+         takes.\n\n{lines}\n/** Numbers per texel of each of {{@link MAP_KINDS}}. */\nexport const \
+         MAP_CHANNELS = [{}] as const;\n",
         channels.join(", ")
     )
 }

@@ -91,20 +91,24 @@ fn reference(command: &mut Command) -> String {
 const SAID: &[(Code, &str)] = &[
     (
         Code::ConventionsCancel,
-        "the normal map looks right in one program and inverted in the next, although the file is the same (mrdoob/three.js 11438, google/filament 528)",
+        "the normal map looks right in one program and inverted in the next, although the file is the same \
+         (mrdoob/three.js 11438, google/filament 528)",
     ),
     (Code::MapPadding, "there are lines along the UV seams, and only when the camera is far away"),
     (
         Code::MapOtherLayout,
-        "the texture is upside down after the export, and the bumps are at wrong places (mrdoob/three.js 25263)",
+        "the texture is upside down after the export, and the bumps are at wrong places (mrdoob/three.js \
+         25263)",
     ),
     (
         Code::TangentNotFinite,
-        "triangles are black or full of noise, most often after compression made UVs equal (google/model-viewer PR 1078)",
+        "triangles are black or full of noise, most often after compression made UVs equal \
+         (google/model-viewer PR 1078)",
     ),
     (
         Code::TangentZero,
-        "the model has black triangles, or does not load at all (donmccurdy/glTF-Transform 1859, KhronosGroup/glTF-Blender-Exporter 110, vpenades/SharpGLTF 14)",
+        "the model has black triangles, or does not load at all (donmccurdy/glTF-Transform 1859, \
+         KhronosGroup/glTF-Blender-Exporter 110, vpenades/SharpGLTF 14)",
     ),
     (
         Code::TangentNotUnit,
@@ -116,7 +120,8 @@ const SAID: &[(Code, &str)] = &[
     ),
     (
         Code::TangentSignNotOne,
-        "the mirrored parts are wrong, because a library reads or writes tangents as three numbers (KhronosGroup/glTF-Sample-Models 160, pplux/px PR 16)",
+        "the mirrored parts are wrong, because a library reads or writes tangents as three numbers \
+         (KhronosGroup/glTF-Sample-Models 160, pplux/px PR 16)",
     ),
     (Code::TangentSignMixed, "there are seams where the UVs are mirrored (mrdoob/three.js 18565)"),
     (
@@ -125,11 +130,13 @@ const SAID: &[(Code, &str)] = &[
     ),
     (
         Code::TangentSignFlipped,
-        "bumps become dips; normal maps look upside down in one viewer and right in another (mrdoob/three.js 25263, google/filament 528, o3de/o3de 10642)",
+        "bumps become dips; normal maps look upside down in one viewer and right in another (mrdoob/three.js \
+         25263, google/filament 528, o3de/o3de 10642)",
     ),
     (
         Code::TangentSignFlippedWhereMirrored,
-        "one half of the model is lit from the wrong side (assimp/assimp 1892 and its PR 6322, defold/defold 8733)",
+        "one half of the model is lit from the wrong side (assimp/assimp 1892 and its PR 6322, defold/defold \
+         8733)",
     ),
     (
         Code::TangentSignPartlyFlipped,
@@ -137,7 +144,8 @@ const SAID: &[(Code, &str)] = &[
     ),
     (
         Code::TangentRotated,
-        "the light comes from the left and the shadows go up and down (asny/three-d 157, bhouston/threeify 124)",
+        "the light comes from the left and the shadows go up and down (asny/three-d 157, bhouston/threeify \
+         124)",
     ),
     (
         Code::TangentNegated,
@@ -145,15 +153,18 @@ const SAID: &[(Code, &str)] = &[
     ),
     (
         Code::TangentOtherUvSet,
-        "the normal map breaks as soon as it is not on the first UV set (ucupumar/ucupaint 81, KhronosGroup/glTF 1637)",
+        "the normal map breaks as soon as it is not on the first UV set (ucupumar/ucupaint 81, \
+         KhronosGroup/glTF 1637)",
     ),
     (
         Code::TangentOtherRecipe,
-        "the shading is not that of the program that baked the map (KhronosGroup/glTF-Blender-IO 2226, godotengine/godot 86131 and 114508)",
+        "the shading is not that of the program that baked the map (KhronosGroup/glTF-Blender-IO 2226, \
+         godotengine/godot 86131 and 114508)",
     ),
     (
         Code::TangentMissing,
-        "tangents get lost at export, and a warning names no model (KhronosGroup/glTF-Blender-IO 172, playcanvas/engine 2787, bevyengine/bevy 11831)",
+        "tangents get lost at export, and a warning names no model (KhronosGroup/glTF-Blender-IO 172, \
+         playcanvas/engine 2787, bevyengine/bevy 11831)",
     ),
     (
         Code::TangentUnused,
@@ -161,47 +172,58 @@ const SAID: &[(Code, &str)] = &[
     ),
     (
         Code::PositionNotFinite,
-        "the export fails and does not say which of a thousand objects is to blame (KhronosGroup/glTF-Blender-IO 1446)",
+        "the export fails and does not say which of a thousand objects is to blame \
+         (KhronosGroup/glTF-Blender-IO 1446)",
     ),
     (
         Code::NormalMissing,
-        "the model is black in one viewer, faceted in the next and smooth in a third (Moguri/panda3d-gltf PR 87, atteneder/glTFast 340)",
+        "the model is black in one viewer, faceted in the next and smooth in a third (Moguri/panda3d-gltf PR \
+         87, atteneder/glTFast 340)",
     ),
     (
         Code::NormalNotFinite,
-        "the validator reports NaN after an export, and nobody knows where it comes from (KhronosGroup/glTF-Blender-IO 2540)",
+        "the validator reports NaN after an export, and nobody knows where it comes from \
+         (KhronosGroup/glTF-Blender-IO 2540)",
     ),
     (
         Code::NormalNotUnit,
-        "the model looks good, and the validator has thousands of errors (KhronosGroup/glTF-Validator 72, vrm-c/UniVRM 1389)",
+        "the model looks good, and the validator has thousands of errors (KhronosGroup/glTF-Validator 72, \
+         vrm-c/UniVRM 1389)",
     ),
     (
         Code::NormalAgainstWinding,
-        "what was mirrored has its normals backwards after the export (facebookincubator/FBX2glTF 31, KhronosGroup/glTF-Blender-IO 2454)",
+        "what was mirrored has its normals backwards after the export (facebookincubator/FBX2glTF 31, \
+         KhronosGroup/glTF-Blender-IO 2454)",
     ),
     (
         Code::NormalOtherAxes,
-        "the shading is wrong after the export although the shape is right, as if the light came from another side",
+        "the shading is wrong after the export although the shape is right, as if the light came from \
+         another side",
     ),
     (
         Code::UvMissing,
-        "the texture does not show up; the map is on the second UV set, and the exporter knows one (KhronosGroup/glTF-Blender-IO 1438, KhronosGroup/glTF 1637)",
+        "the texture does not show up; the map is on the second UV set, and the exporter knows one \
+         (KhronosGroup/glTF-Blender-IO 1438, KhronosGroup/glTF 1637)",
     ),
     (
         Code::UvNotFinite,
-        "the exporter leaves holes in the JSON, where the bounds of the UVs should be, and the file does not load (iimachines/Maya2glTF 70)",
+        "the exporter leaves holes in the JSON, where the bounds of the UVs should be, and the file does not \
+         load (iimachines/Maya2glTF 70)",
     ),
     (
         Code::UvDegenerate,
-        "black dots and static come and go when the camera turns (KhronosGroup/glTF-Sample-Viewer 433, X-Plane/XPlane2Blender 258)",
+        "black dots and static come and go when the camera turns (KhronosGroup/glTF-Sample-Viewer 433, \
+         X-Plane/XPlane2Blender 258)",
     ),
     (
         Code::UvMirrored,
-        "a mirrored model needs tangents in the file, and they make it several times as large (KhronosGroup/glTF 1236)",
+        "a mirrored model needs tangents in the file, and they make it several times as large \
+         (KhronosGroup/glTF 1236)",
     ),
     (
         Code::UvOverlapping,
-        "a strange line runs through the normal map, until the overlapping UVs are moved apart (supertuxkart/stk-code 2243)",
+        "a strange line runs through the normal map, until the overlapping UVs are moved apart \
+         (supertuxkart/stk-code 2243)",
     ),
     (Code::UvStretched, "the texture is smeared on the sides of the model, and the normal map with it"),
     (Code::UvCoarse, "one part of the model is blurred, and the part beside it is sharp"),
@@ -212,15 +234,18 @@ const SAID: &[(Code, &str)] = &[
     (Code::UvHardEdge, "a line runs along every hard edge of the bake, until the edges are UV seams, too"),
     (
         Code::MapGreenFlipped,
-        "bumps are dents; hours went into debugging the shader (KhronosGroup/glTF-Sample-Models PR 336, BabylonJS/Exporters 940)",
+        "bumps are dents; hours went into debugging the shader (KhronosGroup/glTF-Sample-Models PR 336, \
+         BabylonJS/Exporters 940)",
     ),
     (
         Code::MapDetailFlipped,
-        "maps from several sources are mixed, and each may need its green inverted (redeclipse/base 1331, boku-ilen/landscapelab 339)",
+        "maps from several sources are mixed, and each may need its green inverted (redeclipse/base 1331, \
+         boku-ilen/landscapelab 339)",
     ),
     (
         Code::MapRedFlipped,
-        "up and down are right, left and right are exchanged (TombEngine/TombEngine 617, makehumancommunity/makehuman2 12)",
+        "up and down are right, left and right are exchanged (TombEngine/TombEngine 617, \
+         makehumancommunity/makehuman2 12)",
     ),
     (
         Code::MapMayBeDents,
@@ -232,15 +257,18 @@ const SAID: &[(Code, &str)] = &[
     ),
     (
         Code::MapSrgb,
-        "normal maps look washed out or too strong after the import (atteneder/glTFast 67, KhronosGroup/UnityGLTF 362)",
+        "normal maps look washed out or too strong after the import (atteneder/glTFast 67, \
+         KhronosGroup/UnityGLTF 362)",
     ),
     (
         Code::MapHeight,
-        "the exported normal map is grey; the model got an ugly metallic cover (KhronosGroup/UnityGLTF 26, BabylonJS/Exporters 412, Stykka/glTF-Bin 32)",
+        "the exported normal map is grey; the model got an ugly metallic cover (KhronosGroup/UnityGLTF 26, \
+         BabylonJS/Exporters 412, Stykka/glTF-Bin 32)",
     ),
     (
         Code::MapObjectSpace,
-        "the map looks right in one viewer, and the next one knows tangent space only (mrdoob/three.js 14139, KhronosGroup/glTF 1284)",
+        "the map looks right in one viewer, and the next one knows tangent space only (mrdoob/three.js \
+         14139, KhronosGroup/glTF 1284)",
     ),
     (
         Code::MapNotNormal,
@@ -261,11 +289,13 @@ const SAID: &[(Code, &str)] = &[
     ),
     (
         Code::MapFlat,
-        "a material without bumps has to have a normal map all the same, and each placeholder adds megabytes (TokisanGames/Terrain3D 614)",
+        "a material without bumps has to have a normal map all the same, and each placeholder adds megabytes \
+         (TokisanGames/Terrain3D 614)",
     ),
     (
         Code::MapUnreadable,
-        "one damaged texture, and the whole model does not load (mrdoob/three.js PR 25014, google/model-viewer 796)",
+        "one damaged texture, and the whole model does not load (mrdoob/three.js PR 25014, \
+         google/model-viewer 796)",
     ),
     (
         Code::MapScaleNegative,
@@ -273,11 +303,13 @@ const SAID: &[(Code, &str)] = &[
     ),
     (
         Code::MapScaleZero,
-        "the strength of the normal map is not copied out of the file, or not into it (KhronosGroup/glTF-Blender-IO 241, assimp/assimp 1693)",
+        "the strength of the normal map is not copied out of the file, or not into it \
+         (KhronosGroup/glTF-Blender-IO 241, assimp/assimp 1693)",
     ),
     (
         Code::MapScaleExtreme,
-        "the exporter ignores that the bump map is set to 10 %, and it becomes far too strong (BabylonJS/Exporters 311)",
+        "the exporter ignores that the bump map is set to 10 %, and it becomes far too strong \
+         (BabylonJS/Exporters 311)",
     ),
     (
         Code::MapEnlarged,
@@ -285,15 +317,18 @@ const SAID: &[(Code, &str)] = &[
     ),
     (
         Code::MapBanding,
-        "the normal map has stair steps, as from too few bits (RodZill4/material-maker 84, kmkolasinski/AwesomeBump 127)",
+        "the normal map has stair steps, as from too few bits (RodZill4/material-maker 84, \
+         kmkolasinski/AwesomeBump 127)",
     ),
     (
         Code::MapBlocks,
-        "there should not be any squares on the wall: they are compression artifacts of the normal map (mrdoob/three.js 8235, Neos-Metaverse/NeosPublic 498)",
+        "there should not be any squares on the wall: they are compression artifacts of the normal map \
+         (mrdoob/three.js 8235, Neos-Metaverse/NeosPublic 498)",
     ),
     (
         Code::TransformMirrors,
-        "the light seems to turn with the texture, in one viewer and not in the others (KhronosGroup/glTF-Sample-Assets 156, panda3d/panda3d 808)",
+        "the light seems to turn with the texture, in one viewer and not in the others \
+         (KhronosGroup/glTF-Sample-Assets 156, panda3d/panda3d 808)",
     ),
 ];
 
@@ -301,7 +336,8 @@ const SAID: &[(Code, &str)] = &[
 const NO_PICTURE: &[(Code, &str)] = &[
     (
         Code::NormalMissing,
-        "renderers shade it flat, which is hardly seen on faces as small as those of the model in these pictures",
+        "renderers shade it flat, which is hardly seen on faces as small as those of the model in these \
+         pictures",
     ),
     (
         Code::ConventionsCancel,
@@ -355,7 +391,8 @@ fn picture(code: Code, pictures: &Path) -> String {
     let exists = |ending: &str| pictures.join(code.name()).with_extension(ending).exists();
     match (exists("png"), exists("svg"), entry(NO_PICTURE, code)) {
         (true, false, None) => format!(
-            "| healthy | {code} |\n|---|---|\n| ![healthy](check/healthy.png) | ![{code}](check/{code}.png) |\n\n"
+            "| healthy | {code} |\n|---|---|\n| ![healthy](check/healthy.png) | ![{code}](check/{code}.png) \
+             |\n\n"
         ),
         (false, true, None) => {
             let caption = if code == Code::MapOtherLayout {

@@ -34,17 +34,19 @@ pub struct Arguments {
 }
 
 const LONG_ABOUT: &str = "\
-Finds and repairs what is wrong with the normal maps and tangents of 3D models; computes, bakes and converts them.
+Finds and repairs what is wrong with the normal maps and tangents of 3D models; computes, bakes and converts \
+them.
 
-A normal map looks right only if the renderer uses the tangents of the program that baked it, and most bakers use MikkTSpace. Darboux computes \
-these tangents bit for bit, splits vertices at mirrored UV seams, and bakes maps for them. Where a file is wrong, `darboux check` names what is \
-wrong, what it looks like and the cure; with --fix it writes the repaired file.
+A normal map looks right only if the renderer uses the tangents of the program that baked it, and most \
+bakers use MikkTSpace. Darboux computes these tangents bit for bit, splits vertices at mirrored UV seams, \
+and bakes maps for them. Where a file is wrong, `darboux check` names what is wrong, what it looks like and \
+the cure; with --fix it writes the repaired file.
 
 The commands that write models change what they name and leave everything else in the file as it is.
 
-Messages go to standard error, results to standard output. Exit codes: 0 done (also if there was nothing to do), 1 an input is bad or a file \
-failed, 2 wrong usage, 3 compared files differ by more than the tolerance. After Ctrl-C (exit code 130), SIGTERM or SIGHUP the file that is \
-being written is completed first.";
+Messages go to standard error, results to standard output. Exit codes: 0 done (also if there was nothing to \
+do), 1 an input is bad or a file failed, 2 wrong usage, 3 compared files differ by more than the tolerance. \
+After Ctrl-C (exit code 130), SIGTERM or SIGHUP the file that is being written is completed first.";
 
 /// The subcommands.
 #[derive(Debug, Subcommand)]

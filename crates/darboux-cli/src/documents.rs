@@ -91,7 +91,8 @@ fn in_gltf_convention(input: &Input, document: Document) -> Result<Document, Str
 pub fn load_any(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
     match input {
         Input::File(path) if path.is_file() && is_other_image(path) => Err(format!(
-            "{input}: is an image in a format that is not read here; save it as .png (8 or 16 bits), .jpg, .webp or .tga, and darboux check judges it as a normal map"
+            "{input}: is an image in a format that is not read here; save it as .png (8 or 16 bits), .jpg, \
+             .webp or .tga, and darboux check judges it as a normal map"
         )),
         Input::File(path) => reading.open(path).map_err(|error| error.to_string()),
         Input::Stdin => from_stdin(input, read_stdin()?, reading),

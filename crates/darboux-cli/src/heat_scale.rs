@@ -79,7 +79,8 @@ impl std::str::FromStr for HeatRange {
             .split_once(',')
             .and_then(|(from, to)| Some([from.trim().parse().ok()?, to.trim().parse().ok()?]));
         let is_range = |[from, to]: &[f64; 2]| *from >= 1e-4 && *to <= 180.0 && *to >= 2.0 * *from;
-        let sentence = "expected two angles such as 0.1,20: at least 0.0001, at most 180, the second at least twice the first";
+        let sentence = "expected two angles such as 0.1,20: at least 0.0001, at most 180, the second at \
+             least twice the first";
         ends.filter(is_range).map(Self).ok_or_else(|| sentence.to_owned())
     }
 }

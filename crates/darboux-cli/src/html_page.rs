@@ -43,9 +43,11 @@ impl HtmlPage<'_> {
         format!(
             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-            <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'{allowed}\">\n\
+            <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; \
+            style-src 'unsafe-inline'{allowed}\">\n\
             <title>{title}</title>\n<style>\n{STYLE}{style}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<p>{summary}</p>\n</header>\n\
-            {contents}<main>\n{main}</main>\n<footer><p>Written by darboux {VERSION}. This file is complete: it loads nothing.</p></footer>\n\
+            {contents}<main>\n{main}</main>\n<footer><p>Written by darboux {VERSION}. This file is complete: \
+            it loads nothing.</p></footer>\n\
             {script}</body>\n</html>\n"
         )
     }

@@ -12,8 +12,8 @@ use crate::exit;
 /// only.
 pub struct ExitWithoutMemory;
 
-const SENTENCE: &[u8] = b"error: there is not enough memory; give the process more memory (ulimit -v, the limit of its container), \
-    process fewer files at the same time (--jobs 1), or smaller ones\n";
+const SENTENCE: &[u8] = b"error: there is not enough memory; give the process more memory (ulimit -v, the \
+     limit of its container), process fewer files at the same time (--jobs 1), or smaller ones\n";
 
 /// Ends the process where `memory` is null. Nothing is allocated, and no handler runs: temporary files are
 /// left to the next run.

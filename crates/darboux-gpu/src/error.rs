@@ -47,7 +47,8 @@ pub enum GpuError {
     },
     /// A written attribute overlaps another attribute of its vertex, or the next vertex.
     #[error(
-        "the {what} at byte {offset} of every {stride} overlap another attribute or the next element: use another offset or a larger stride"
+        "the {what} at byte {offset} of every {stride} overlap another attribute or the next element: use \
+         another offset or a larger stride"
     )]
     Overlap {
         /// The written attribute.
@@ -109,13 +110,14 @@ pub enum GpuError {
     },
     /// A check of a plan whose mesh has faces other than triangles.
     #[error(
-        "a plan of quads cannot be checked on a GPU, because the diagonals of quads may change as they move: use count_regrouped of darboux::Plan"
+        "a plan of quads cannot be checked on a GPU, because the diagonals of quads may change as they move: \
+         use count_regrouped of darboux::Plan"
     )]
     NotTriangles,
     /// A plan of quads whose two triangles have different tangents at one corner.
     #[error(
-        "{corners} corners of quads average the tangents of two triangles, or take the tangent of the other triangle because one is \
-         degenerate: plan the triangles that are drawn, or use darboux::Plan"
+        "{corners} corners of quads average the tangents of two triangles, or take the tangent of the other \
+         triangle because one is degenerate: plan the triangles that are drawn, or use darboux::Plan"
     )]
     QuadHalvesDiffer {
         /// The number of such corners.

@@ -54,7 +54,8 @@ impl OptionNames {
             memory_limit: "--memory-limit of the command darboux",
             allow_outside: "--allow-outside of the command darboux",
             apply_texture_transform: "--apply-texture-transform of the command darboux",
-            missing_reader: "export the model as .glb, or convert it with the command: darboux tangents model.fbx -o model.glb",
+            missing_reader: "export the model as .glb, or convert it with the command: darboux tangents \
+                 model.fbx -o model.glb",
         }
     }
 

@@ -89,7 +89,8 @@ impl Budget {
             ("", "")
         };
         format!(
-            "{what} more than the memory limit of {limit} MiB{reason}; {advice}if you trust the file, raise the limit ({option})"
+            "{what} more than the memory limit of {limit} MiB{reason}; {advice}if you trust the file, raise \
+             the limit ({option})"
         )
     }
 }

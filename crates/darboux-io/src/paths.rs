@@ -133,7 +133,8 @@ pub fn wrong_output(kind: Option<FileKind>) -> String {
     let endings = FileKind::written_endings();
     match kind.and_then(|kind| Some((kind, kind.format_name()?))) {
         Some((FileKind::Usd, _)) => format!(
-            "is named as USD, which is not written here; end its name in one of {endings}, or use darboux.usd in Python"
+            "is named as USD, which is not written here; end its name in one of {endings}, or use \
+             darboux.usd in Python"
         ),
         Some((_, format)) => {
             format!("is named as {format}, which is not written; end its name in one of {endings}")

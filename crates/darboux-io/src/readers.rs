@@ -45,7 +45,8 @@ fn scene(
         SourceFormat::Stl => crate::stl::read(bytes),
         SourceFormat::Usd => Err(ContentError::unsupported(
             "",
-            "is USD, which is not read here; export the model as .glb, or compute its tangents with darboux.usd in Python",
+            "is USD, which is not read here; export the model as .glb, or compute its tangents with \
+             darboux.usd in Python",
         )),
         #[allow(unreachable_patterns, reason = "with all readers, no format is left")]
         other => {

@@ -67,7 +67,8 @@ impl Losses {
             count => {
                 let normals = counted(count, "facet's normal points", "facets' normals point");
                 scene.warnings.push(format!(
-                    "{normals} against the winding, which decides; if the model looks inside out, turn its faces over"
+                    "{normals} against the winding, which decides; if the model looks inside out, turn its \
+                     faces over"
                 ));
             }
         }

@@ -8,11 +8,13 @@ use darboux_gpu::GpuError;
 pub enum RenderError {
     /// The model has no triangles with finite positions, or the UV layout no UVs.
     #[error(
-        "has nothing to draw: it has no triangles with finite positions, or for the UV layout none with finite UVs"
+        "has nothing to draw: it has no triangles with finite positions, or for the UV layout none with \
+         finite UVs"
     )]
     NothingToDraw,
     /// The size is outside the limits of the adapter.
-    #[error("{adapter:?} cannot draw {} x {} pixels: choose a size from 1 x 1 to {limit} x {limit} with at most {most} pixels in total", .size[0], .size[1])]
+    #[error("{adapter:?} cannot draw {} x {} pixels: choose a size from 1 x 1 to {limit} x {limit} with at \
+         most {most} pixels in total", .size[0], .size[1])]
     UnsupportedSize {
         /// The width and height in pixels.
         size: [u32; 2],
@@ -35,7 +37,8 @@ pub enum RenderError {
     },
     /// The device is out of memory.
     #[error(
-        "the adapter does not have enough memory for this model and size: choose a smaller size, or render a part of the scene"
+        "the adapter does not have enough memory for this model and size: choose a smaller size, or render a \
+         part of the scene"
     )]
     OutOfMemory,
     /// The device is lost, or reported an error.

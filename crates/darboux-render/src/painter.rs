@@ -214,7 +214,10 @@ impl Painter<'_> {
             count: lines.len() as u32,
         });
         let warning = (!are_all).then(|| {
-            format!("has more than {MAX_SEGMENTS} lines, of which only the first are drawn; render a part of the scene")
+            format!(
+                "has more than {MAX_SEGMENTS} lines, of which only the first are drawn; render a part of \
+                 the scene"
+            )
         });
         (resources, warning)
     }

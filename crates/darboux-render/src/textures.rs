@@ -103,7 +103,9 @@ impl<'a> Textures<'a> {
         self.bytes += bytes.len();
         if self.texels > MAX_TEXELS.min(texels(self.bytes, BYTES_PER_TEXEL)) {
             return Err(message(
-                "and the other images have too many texels together; make them smaller, or raise the memory limit".to_owned(),
+                "and the other images have too many texels together; make them smaller, or raise the memory \
+                 limit"
+                    .to_owned(),
             ));
         }
         Ok(decoded)

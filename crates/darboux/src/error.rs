@@ -163,11 +163,13 @@ impl fmt::Display for Error {
             }
             Error::OutputLength { what, expected, found } => write!(
                 f,
-                "the output array of {what} has {found} elements but the mesh has {expected} corners; make it as long as the corners"
+                "the output array of {what} has {found} elements but the mesh has {expected} corners; make \
+                 it as long as the corners"
             ),
             Error::OtherMesh { what, expected, found } => write!(
                 f,
-                "the mesh has {found} {what} but this plan or splitter was made for {expected}; make a new one for this mesh"
+                "the mesh has {found} {what} but this plan or splitter was made for {expected}; make a new \
+                 one for this mesh"
             ),
             Error::ImageSize { width, height, found } => {
                 write!(f, "{found} texels were passed but the image has {width} x {height}; pass all of them")

@@ -49,7 +49,8 @@ fn reference(CorpusCase { mesh, threshold, .. }: &CorpusCase) -> String {
     });
     let tangents = |frames: &[Frame]| rows_text(frames.iter().map(Frame::tangent_and_sign));
     format!(
-        "{{\"seconds\": {seconds:?},\n\"tangents\": {},\n\"bitangents\": {},\n\"magnitudes\": {},\n\"repaired\": {},\n\"corrected\": {}}}\n",
+        "{{\"seconds\": {seconds:?},\n\"tangents\": {},\n\"bitangents\": {},\n\"magnitudes\": \
+         {},\n\"repaired\": {},\n\"corrected\": {}}}\n",
         tangents(&frames),
         rows_text(frames.iter().map(|frame| frame.bitangent)),
         rows_text(frames.iter().map(|frame| frame.magnitude)),

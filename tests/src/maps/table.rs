@@ -77,7 +77,8 @@ pub fn failures(set: &MapSet, outcomes: &[Outcome]) -> String {
         let Outcome { number, truth, verdict, z_score, log_energy_ratio, .. } = outcome;
         _ = writeln!(
             text,
-            "{number}: {truth:?} judged {verdict:?}, z score {z_score:.1}, log energy ratio {log_energy_ratio:.2}; {:?}",
+            "{number}: {truth:?} judged {verdict:?}, z score {z_score:.1}, log energy ratio \
+             {log_energy_ratio:.2}; {:?}",
             set.case(*number)
         );
         text

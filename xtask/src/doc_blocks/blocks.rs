@@ -114,7 +114,8 @@ mod tests {
 
     #[test]
     fn blocks_have_languages_and_lines() {
-        let text = "# A\n```sh\na\nb\n```\n\n<!-- hidden cpp\nint x;\n-->\n<!-- not run: needs a GPU -->\n```rust,no_run\nc\n```\n";
+        let text = "# A\n```sh\na\nb\n```\n\n<!-- hidden cpp\nint x;\n-->\n<!-- not run: needs a GPU \
+             -->\n```rust,no_run\nc\n```\n";
         let page = parse("a.md", text).expect("a page");
         let block =
             |language: &str, line, text: &str| Block { language: language.into(), line, text: text.into() };

@@ -103,7 +103,8 @@ mod tests {
     #[test]
     fn statements_are_read() {
         let text = "import { a,\n  b } from './c';\nimport type { D } from \"../d\";\nimport './e.js';\n\
-                    export * from './f';\nimport { x } from 'three';\nexport { g };\nconst h = await import('./h');\n";
+                    export * from './f';\nimport { x } from 'three';\nexport { g };\nconst h = await \
+                    import('./h');\n";
         let found: Vec<_> =
             statements(text).into_iter().map(|(names, path)| (names.join(" "), path)).collect();
         let expected = [("a b", "./c"), ("D", "../d"), ("*", "./e.js"), ("*", "./f"), ("import()", "./h")];

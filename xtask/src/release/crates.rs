@@ -70,7 +70,8 @@ fn run_example(work: &Path, sources: &[(String, PathBuf)]) -> Outcome {
     let cannot_write = |error| format!("{} cannot be written: {error}", folder.display());
     fs::create_dir_all(folder.join("src")).map_err(cannot_write)?;
     let manifest = format!(
-        "[package]\nname = \"example\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[dependencies]\ndarboux = \"{VERSION}\"\n[workspace]\n"
+        "[package]\nname = \"example\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[dependencies]\ndarboux \
+         = \"{VERSION}\"\n[workspace]\n"
     );
     fs::write(folder.join("Cargo.toml"), manifest).map_err(cannot_write)?;
     fs::write(folder.join("src/main.rs"), doc_blocks::first("README.md", "rust")?).map_err(cannot_write)?;

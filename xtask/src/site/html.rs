@@ -166,7 +166,8 @@ impl Page {
         let alt = alt.replace('&', "&amp;").replace('"', "&quot;").replace('<', "&lt;");
         if source.ends_with(".svg") {
             return format!(
-                "<object class=\"figure\" type=\"image/svg+xml\" data=\"{source}\" role=\"img\" aria-label=\"{alt}\">{alt}</object>"
+                "<object class=\"figure\" type=\"image/svg+xml\" data=\"{source}\" role=\"img\" \
+                 aria-label=\"{alt}\">{alt}</object>"
             );
         }
         format!("<img src=\"{source}\" alt=\"{alt}\">")
@@ -190,7 +191,8 @@ fn viewer(page: &Path, state: &str, caption: &str) -> String {
     let base = "../".repeat(page.components().count() - 1);
     let (address, caption) = (escaped(&format!("{base}viewer/index.html#{state}")), escaped(caption));
     format!(
-        "<figure class=\"viewer\">\n<iframe src=\"{address}\" title=\"The viewer\" loading=\"lazy\"></iframe>\n\
+        "<figure class=\"viewer\">\n<iframe src=\"{address}\" title=\"The viewer\" \
+         loading=\"lazy\"></iframe>\n\
          <figcaption>{caption} <a href=\"{address}\">The whole viewer</a></figcaption>\n</figure>\n"
     )
 }

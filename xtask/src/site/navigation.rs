@@ -154,7 +154,8 @@ fn contents(body: &str) -> String {
         return String::new();
     }
     format!(
-        "<details class=\"contents\"><summary>On this page</summary><nav aria-label=\"On this page\"><ul>{}</ul></nav></details>\n",
+        "<details class=\"contents\"><summary>On this page</summary><nav aria-label=\"On this \
+         page\"><ul>{}</ul></nav></details>\n",
         items.concat()
     )
 }

@@ -90,6 +90,7 @@ fn list(path: &Path, folder: &Path) -> Result<String, String> {
     Ok(format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{title}</title>\
          <link rel=\"stylesheet\" href=\"{base}style.css\"></head>\n<body><main>\n<h1>{title}</h1>\n\
-         <p>A folder of the repository. <a href=\"{base}index.html\">Darboux</a></p>\n<ul>\n{items}</ul>\n</main></body></html>\n"
+         <p>A folder of the repository. <a \
+         href=\"{base}index.html\">Darboux</a></p>\n<ul>\n{items}</ul>\n</main></body></html>\n"
     ))
 }

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 pub const USAGE: &str = "\
-usage: cargo xtask soak [--minutes N] [--cases N] [--seed S] [--program PATH] [--models FOLDER] [--keep FOLDER] [--only WORD] [--case I]
+usage: cargo xtask soak [--minutes N] [--cases N] [--seed S] [--program PATH] [--models FOLDER] [--keep \
+FOLDER] [--only WORD] [--case I]
   --minutes N      how long to run; by default 10
   --cases N        run the cases 0 to N - 1 instead, however long they take
   --seed S         where the random numbers start; the same seed gives the same cases; by default 1

@@ -145,7 +145,8 @@ impl Report {
         println!("\nruns by subcommand: {}", subcommands.join(", "));
         let sum = |count: fn(&Row) -> usize| self.rows.values().map(count).sum::<usize>();
         println!(
-            "{} runs in {:.1} minutes: {} done, {} refused, {} sent a signal; {} outputs read again; {} broken promises",
+            "{} runs in {:.1} minutes: {} done, {} refused, {} sent a signal; {} outputs read again; {} \
+             broken promises",
             self.runs(),
             self.start.elapsed().as_secs_f32() / 60.0,
             sum(|row| row.done),

@@ -253,7 +253,8 @@ mod tests {
     fn findings_of_a_check_are_no_failure() {
         let case = Case::new(["check", "a.glb", "--fix", "-o", "b.glb"]);
         let after = tree(&[("work/a.glb", 1), ("work/b.glb", 2)]);
-        let found = "error: a.glb: the image: map-height: it is grey\n1 finding repaired, 1 that --fix cannot repair\n";
+        let found = "error: a.glb: the image: map-height: it is grey\n1 finding repaired, 1 that --fix \
+             cannot repair\n";
         for code in [0, 1] {
             assert!(kinds(&case, &ended(code, found), &after).is_empty(), "{code}");
         }

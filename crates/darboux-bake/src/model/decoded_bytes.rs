@@ -39,7 +39,8 @@ impl DecodedBytes {
             let texels = u64::from(width) * u64::from(height);
             if texels > limits.max_texels {
                 return Err(format!(
-                    "its {width} x {height} texels and those of the images before need more than the memory limit; make them smaller, or raise the limit ({})",
+                    "its {width} x {height} texels and those of the images before need more than the memory \
+                     limit; make them smaller, or raise the limit ({})",
                     document.load_options().option_names.memory_limit
                 ));
             }

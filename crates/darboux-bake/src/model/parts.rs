@@ -28,7 +28,8 @@ impl UnpairedParts {
         if !self.low.is_empty() {
             let names = named(&self.low);
             warnings.push(format!(
-                "no part of the high models belongs to {names}; name it as the low part with _high in place of _low, or do not match names"
+                "no part of the high models belongs to {names}; name it as the low part with _high in place \
+                 of _low, or do not match names"
             ));
         }
         if !self.high.is_empty() {

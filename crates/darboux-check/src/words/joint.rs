@@ -18,6 +18,8 @@ pub fn text(map: &Defect) -> String {
         format!(", by a program that computes tangents by {}", name(&recipe))
     });
     format!(
-        "two conventions cancel: {of_map} of the map, and {of_surface} of {most}{place}{further}, as after a conversion that turned the UVs upside down and kept the map (from FBX or Unreal){program}; bumps look right where the tangents of the file are used{most_of_them}"
+        "two conventions cancel: {of_map} of the map, and {of_surface} of {most}{place}{further}, as after a \
+         conversion that turned the UVs upside down and kept the map (from FBX or Unreal){program}; bumps \
+         look right where the tangents of the file are used{most_of_them}"
     )
 }

@@ -56,13 +56,15 @@ pub fn said(fault: &MapFault) -> Said {
             with_directions(Said::new(text), evidence)
         }
         MapFault::MayBeDents(score) => {
-            let text = "its texels lean against the faces of the mesh: it has a bump on every face, or its red and green are both inverted, so that bumps are dents";
+            let text = "its texels lean against the faces of the mesh: it has a bump on every face, or its \
+                 red and green are both inverted, so that bumps are dents";
             with_faces(Said::new(text), Some(score))
         }
         MapFault::DetailFlipped { is_relief_up, evidence } => detail_flipped(*is_relief_up, evidence),
         MapFault::ChannelsSwapped { by_derivatives, log_energy_ratio, residuals, certainty, faces } => {
             let text = if *by_derivatives {
-                "its red changes from texel to texel as green should, and its green as red should: they are exchanged"
+                "its red changes from texel to texel as green should, and its green as red should: they are \
+                 exchanged"
             } else {
                 "its texels follow the faces of the mesh with red and green exchanged"
             };
@@ -86,17 +88,17 @@ pub fn said(fault: &MapFault) -> Said {
                 .with("correlation as it is", as_it_is.correlation, "")
                 .with("points of seams that were compared", *points as f64, "points")
         }
-        MapFault::Padding(Padding { wanted, fewer_than, degrees, inside }) => {
-            Said::new(format!(
-                "its background is no normal and gets into the borders of its charts from afar: they want {wanted} texels of padding and have fewer than {fewer_than}"
-            ))
-            .with("typical lean of the borders", *degrees, "degrees")
-            .with("the same inside of charts", *inside, "degrees")
-            .with("size of the model on the screen", Padding::PIXELS, "pixels")
-        }
+        MapFault::Padding(Padding { wanted, fewer_than, degrees, inside }) => Said::new(format!(
+            "its background is no normal and gets into the borders of its charts from afar: they want \
+                 {wanted} texels of padding and have fewer than {fewer_than}"
+        ))
+        .with("typical lean of the borders", *degrees, "degrees")
+        .with("the same inside of charts", *inside, "degrees")
+        .with("size of the model on the screen", Padding::PIXELS, "pixels"),
         MapFault::Enlarged(Enlargement { factors: [across, down], size: [width, height], step }) => {
             Said::new(format!(
-                "it was enlarged from {width} x {height} texels without interpolation: each of them is there {across} times across and {down} times down"
+                "it was enlarged from {width} x {height} texels without interpolation: each of them is there \
+                 {across} times across and {down} times down"
             ))
             .with("typical step between them", *step, "degrees")
         }
@@ -121,8 +123,10 @@ pub fn said(fault: &MapFault) -> Said {
 fn unread(why: &Unread, bytes: f64) -> Said {
     match why {
         Unread::Damaged(problem) => Said::new(format!("it {problem}")).with("file", bytes, "bytes"),
-        Unread::Absent(problem) => Said::new(format!("it {problem}"))
-            .with_cure("Put the image where the model refers to it, or correct the reference; in the command, --allow-outside reads images of other folders."),
+        Unread::Absent(problem) => Said::new(format!("it {problem}")).with_cure(
+            "Put the image where the model refers to it, or correct the reference; in the \
+                 command, --allow-outside reads images of other folders.",
+        ),
         Unread::OtherFormat(problem) => Said::new(format!("it was not checked, because it {problem}"))
             .with_cure("None needed. To check the map, check the model before its images are compressed.")
             .with("file", bytes, "bytes"),
@@ -145,7 +149,8 @@ fn turned(layout: Layout) -> &'static str {
 }
 
 /// What the z score of the derivatives is called, and the number of tiles that it is from.
-const CERTAINTY: &str = "distance of the tiles' mean agreement from zero (positive for OpenGL, negative for DirectX), each tile alike";
+const CERTAINTY: &str = "distance of the tiles' mean agreement from zero (positive for OpenGL, negative for \
+     DirectX), each tile alike";
 const TILES: &str = "tiles that were compared";
 
 /// What the z score of the faces is called, and their number.
@@ -195,22 +200,29 @@ fn detail_flipped(is_relief_up: bool, evidence: &ReliefEvidence) -> Said {
     let [relief, detail] = ["green up (OpenGL)", "green down (DirectX)"];
     let [relief, detail] = if is_relief_up { [relief, detail] } else { [detail, relief] };
     let text = format!(
-        "its relief is with {relief}, and its fine detail, which most of the map shows, with {detail}, as where a detail map was laid over it"
+        "its relief is with {relief}, and its fine detail, which most of the map shows, with {detail}, as \
+         where a detail map was laid over it"
     );
     with_relief(Said::new(text), evidence)
 }
 
 fn along_other_axis(reordered: &Reordered) -> Said {
     if reordered.is_z() {
-        return Said::new("its vectors point into the surface: blue is inverted, or the whole image is a negative").with_cure(
-            "Invert blue, or all three channels if the image is a negative: with blue alone, bumps of a negative become dents.",
+        return Said::new(
+            "its vectors point into the surface: blue is inverted, or the whole image is a \
+             negative",
+        )
+        .with_cure(
+            "Invert blue, or all three channels if the image is a negative: with blue alone, bumps of a \
+             negative become dents.",
         );
     }
     let channel = ["red", "green", "blue"][reordered.channel];
     let axis = if reordered.is_negative { format!("inverted {channel}") } else { channel.to_owned() };
     let orders: Vec<String> = reordered.orders.iter().map(|order| letters(*order).to_uppercase()).collect();
     let text = format!(
-        "its vectors point along {axis}, and those of a map in tangent space along blue: its channels are in another order (x, y and z in {}), or it is in the object space of a flat surface",
+        "its vectors point along {axis}, and those of a map in tangent space along blue: its channels are in \
+         another order (x, y and z in {}), or it is in the object space of a flat surface",
         orders.join(" or ")
     );
     let command = |order: &[usize; 3]| {
@@ -223,7 +235,8 @@ fn along_other_axis(reordered: &Reordered) -> Said {
         String::new()
     };
     Said::new(text).with_cure(format!(
-        "If the channels were packed in another order, {invert}put them back: {}. If the baker was set to object space, bake in tangent space.",
+        "If the channels were packed in another order, {invert}put them back: {}. If the baker was set to \
+         object space, bake in tangent space.",
         commands.join(" or ")
     ))
 }
@@ -245,8 +258,9 @@ fn transfer(mistake: Option<SrgbMistake>) -> &'static str {
 fn no_normals(kind: &NoNormals) -> String {
     match kind {
         NoNormals::Background => {
-            "all its texels are black, white or middle grey, which are no normals: a flat map is 128, 128, 255"
-                .to_owned()
+            "all its texels are black, white or middle grey, which are no normals: a flat map is 128, 128, \
+             255"
+            .to_owned()
         }
         NoNormals::OneColour(colour) => {
             let colour = colour_text(colour);
@@ -254,7 +268,8 @@ fn no_normals(kind: &NoNormals) -> String {
         }
         NoNormals::MostlyImpossible => "most of its texels cannot be normals".to_owned(),
         NoNormals::Picture => {
-            "most of its texels have no length near 1, and red and green are light and dark together, as in a picture"
+            "most of its texels have no length near 1, and red and green are light and dark together, as in \
+             a picture"
                 .to_owned()
         }
         NoNormals::NoSlopes => {
@@ -272,7 +287,8 @@ fn contradictory(Contradiction { side, parts: [up, down] }: &Contradiction) -> S
         format!("texels x {} to {}, y {} to {}", columns[0], columns[1] - 1, rows[0], rows[1] - 1)
     };
     Said::new(format!(
-        "parts of it contradict each other: of blocks of {side} x {side} texels, {} with green up (OpenGL) ({}), and {} with green down (DirectX) or red inverted ({})",
+        "parts of it contradict each other: of blocks of {side} x {side} texels, {} with green up (OpenGL) \
+         ({}), and {} with green down (DirectX) or red inverted ({})",
         counted(up.blocks, "is", "are"),
         place(up),
         counted(down.blocks, "is", "are"),
@@ -294,16 +310,19 @@ fn green_flipped(wanted: BitangentDirection, doubt: RedDoubt, evidence: &Directi
         }
         BitangentDirection::Down => (
             "OpenGL (green up) instead of DirectX (green down)",
-            "Export or bake the map with green down (DirectX, -Y), or let `darboux check FILE --convention directx --fix --assume map=opengl -o FIXED` invert its green.",
+            "Export or bake the map with green down (DirectX, -Y), or let `darboux check FILE --convention \
+             directx --fix --assume map=opengl -o FIXED` invert its green.",
         ),
     };
     let doubt = match doubt {
         RedDoubt::None => "",
         RedDoubt::FacesLeanToRed => {
-            ", or its red is inverted, which looks the same to this test: the faces of the model lean that way"
+            ", or its red is inverted, which looks the same to this test: the faces of the model lean that \
+             way"
         }
         RedDoubt::FacesUndecided => {
-            ", or its red is inverted, which is much rarer, looks the same to this test, and is not decided by the faces of the model"
+            ", or its red is inverted, which is much rarer, looks the same to this test, and is not decided \
+             by the faces of the model"
         }
         RedDoubt::NoModel => ", or its red is inverted, which is much rarer and looks the same to this test",
     };
@@ -332,7 +351,8 @@ fn not_unit(texels: &Texels, mean_length: f32, doubt: Option<LengthDoubt>) -> Sa
 fn flat_off([red, green]: [u8; 2], colour: Option<&[f64; 3]>, degrees: f64, texels: &Texels) -> Said {
     let said = match colour {
         Some(colour) => Said::new(format!(
-            "all its texels are about {} instead of 128, 128, 255, so that the whole surface is lit as if it leaned by {degrees:.0} degrees",
+            "all its texels are about {} instead of 128, 128, 255, so that the whole surface is lit as if it \
+             leaned by {degrees:.0} degrees",
             colour_text(colour)
         ))
         .with_cure("Leave the map out, or fill it with 128, 128, 255."),

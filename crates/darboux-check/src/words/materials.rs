@@ -8,7 +8,8 @@ pub fn said(fault: &MaterialFault) -> Said {
         MaterialFault::TransformMirrors { axes: [u, v], determinant, rotation } => {
             let what = if *determinant < 0.0 { "mirrors" } else { "rotates" };
             Said::new(format!(
-                "KHR_texture_transform {what} its normal texture: u goes to ({:.3}, {:.3}) and v to ({:.3}, {:.3})",
+                "KHR_texture_transform {what} its normal texture: u goes to ({:.3}, {:.3}) and v to ({:.3}, \
+                 {:.3})",
                 u[0], u[1], v[0], v[1]
             ))
             .with("determinant of the transform (negative if mirrored)", *determinant, "")

@@ -12,7 +12,10 @@ pub fn reason(obstacle: &Obstacle) -> String {
         Obstacle::Unsure(percent) => return format!("this is only {percent:.0} % sure"),
         Obstacle::NotIdentified { percent } => {
             return format!(
-                "this is {percent:.0} % sure, because inverted red and inverted green look alike and no faces of the model tell them apart, so that inverting the wrong one would make it worse; look at one bump with a light beside it: if that is right, green is inverted, and `--assume map=directx` says so (`--assume map=red-inverted`: red is)"
+                "this is {percent:.0} % sure, because inverted red and inverted green look alike and no \
+                 faces of the model tell them apart, so that inverting the wrong one would make it worse; \
+                 look at one bump with a light beside it: if that is right, green is inverted, and `--assume \
+                 map=directx` says so (`--assume map=red-inverted`: red is)"
             );
         }
         Obstacle::RedLikelier { image } => {
@@ -25,17 +28,21 @@ pub fn reason(obstacle: &Obstacle) -> String {
                 ""
             };
             return format!(
-                "the convention of the normal map in images[{image}] is not known, and inverted green there would cancel the flipped signs{prior}; `--assume map=opengl` says that the map is right, `--assume map=directx` that its green is inverted"
+                "the convention of the normal map in images[{image}] is not known, and inverted green there \
+                 would cancel the flipped signs{prior}; `--assume map=opengl` says that the map is right, \
+                 `--assume map=directx` that its green is inverted"
             );
         }
         Obstacle::MapHasOtherLayout { image } => {
             return format!(
-                "the normal map in images[{image}] was made for another UV layout, and these tangents may fit that one: put the UVs back first, and check again"
+                "the normal map in images[{image}] was made for another UV layout, and these tangents may \
+                 fit that one: put the UVs back first, and check again"
             );
         }
         Obstacle::UvsWereRounded { steps } => {
             return format!(
-                "the UVs were rounded to {steps} steps, perhaps after these tangents were computed, and new ones would follow the rounding; `darboux tangents --overwrite` computes them all the same"
+                "the UVs were rounded to {steps} steps, perhaps after these tangents were computed, and new \
+                 ones would follow the rounding; `darboux tangents --overwrite` computes them all the same"
             );
         }
         Obstacle::NotRewritable(clause) => return format!("the image {clause}"),
@@ -63,10 +70,12 @@ pub fn reason(obstacle: &Obstacle) -> String {
         Obstacle::DifferenceIsInvisible => "the difference cannot be seen",
         Obstacle::BakedOnQuads => "the map was probably baked on the quads, for these tangents",
         Obstacle::EncodedAndInverted => {
-            "invert the channel near 67 of the map again first: `darboux convert --from directx --to opengl` inverts green"
+            "invert the channel near 67 of the map again first: `darboux convert --from directx --to opengl` \
+             inverts green"
         }
         Obstacle::XInAlpha => {
-            "alpha may be wanted for something else; if it is x, `darboux convert --from opengl --to opengl --layout ag --to-layout rgb` computes blue"
+            "alpha may be wanted for something else; if it is x, `darboux convert --from opengl --to opengl \
+             --layout ag --to-layout rgb` computes blue"
         }
         Obstacle::UnclearChannels => {
             "its red and green are too few or too even to tell the slopes of a surface from other data"
@@ -76,31 +85,41 @@ pub fn reason(obstacle: &Obstacle) -> String {
         }
         Obstacle::OnlyAPartOfMap => "nothing says where one part ends and the other one begins",
         Obstacle::FacesLeanToRed => {
-            "the faces of the model lean towards inverted red without deciding it; look at one bump with a light beside it and one above it, and say which channel is inverted with `--assume map=red-inverted` or `--assume map=directx`"
+            "the faces of the model lean towards inverted red without deciding it; look at one bump with a \
+             light beside it and one above it, and say which channel is inverted with `--assume \
+             map=red-inverted` or `--assume map=directx`"
         }
         Obstacle::OnlyTheModelTells => {
-            "only the faces of the model tell inverted green from inverted red; name the model with --model, or say which it is with `--assume map=directx` or `--assume map=red-inverted`"
+            "only the faces of the model tell inverted green from inverted red; name the model with --model, \
+             or say which it is with `--assume map=directx` or `--assume map=red-inverted`"
         }
         Obstacle::ExchangedAndInverted => {
-            "one channel is inverted, too, and no faces of a model show which: once red and green are exchanged back, either green is inverted or red is"
+            "one channel is inverted, too, and no faces of a model show which: once red and green are \
+             exchanged back, either green is inverted or red is"
         }
         Obstacle::VectorsLean => {
-            "scaled to length 1, the vectors would still lean; undo the change of the colours, or export the map again"
+            "scaled to length 1, the vectors would still lean; undo the change of the colours, or export the \
+             map again"
         }
         Obstacle::MayBeNoMap => {
-            "scaled to length 1, the texels of another kind of image would still be no normals; if this is a normal map, normalise it in the program that made it"
+            "scaled to length 1, the texels of another kind of image would still be no normals; if this is a \
+             normal map, normalise it in the program that made it"
         }
         Obstacle::NegativeScale => {
-            "the scale of its material is negative, which inverts red and green: make it positive first, and check again"
+            "the scale of its material is negative, which inverts red and green: make it positive first, and \
+             check again"
         }
         Obstacle::TransformTurns => {
-            "the texture transform of its material mirrors or turns the image, so that what is inverted before the transform is right after it, and renderers disagree on which of both counts: apply the transform to the UVs first, and check again"
+            "the texture transform of its material mirrors or turns the image, so that what is inverted \
+             before the transform is right after it, and renderers disagree on which of both counts: apply \
+             the transform to the UVs first, and check again"
         }
         Obstacle::OnTheModelToo => {
             "the tangents of the model have to be repaired with it; put the map on the model and repair that"
         }
         Obstacle::OtherImageFormat => {
-            "PNG, JPEG and TGA images are rewritten, and no others, because only PNG files are written; save it as a PNG first"
+            "PNG, JPEG and TGA images are rewritten, and no others, because only PNG files are written; save \
+             it as a PNG first"
         }
         Obstacle::NotChosen => "its code is not among those to repair",
         Obstacle::OtherMethodWanted => "another method than MikkTSpace was asked for",
@@ -121,13 +140,16 @@ fn undecided(reason: Undecided) -> &'static str {
             "only a part of the surface is reversed, and nothing says whether its faces or its normals are"
         }
         Undecided::NoTangents => {
-            "it is open and has no tangents, so that nothing says whether its faces or its normals are reversed"
+            "it is open and has no tangents, so that nothing says whether its faces or its normals are \
+             reversed"
         }
         Undecided::TangentsFollowNormals => {
-            "it is open, so that nothing says whether its faces are reversed or both its normals and the signs w"
+            "it is open, so that nothing says whether its faces are reversed or both its normals and the \
+             signs w"
         }
         Undecided::ContradictoryTangents => {
-            "it is open and its tangents contradict each other, so that nothing says whether its faces or its normals are reversed"
+            "it is open and its tangents contradict each other, so that nothing says whether its faces or \
+             its normals are reversed"
         }
     }
 }

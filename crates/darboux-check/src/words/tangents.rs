@@ -75,7 +75,8 @@ fn differing(found: &TangentDifference) -> Said {
         Difference::SignFlipped => {
             let which = if supporting == measured { "all" } else { "nearly all" };
             let follows = if *follows_from_normals {
-                "; they are right again once the normals are flipped, unless space was mirrored, which reverses faces and signs"
+                "; they are right again once the normals are flipped, unless space was mirrored, which \
+                 reverses faces and signs"
             } else {
                 ""
             };
@@ -107,7 +108,8 @@ fn differing(found: &TangentDifference) -> Said {
 fn outliers(recipe: &Recipe, part: &Part) -> Said {
     let what = counted(part.len(), "tangent differs", "tangents differ");
     let text = format!(
-        "{what} by more than {FAR} degrees from those of {}, which made the others, and bumps are lit from wrong directions there",
+        "{what} by more than {FAR} degrees from those of {}, which made the others, and bumps are lit from \
+         wrong directions there",
         name(recipe)
     );
     Said::of_vertices(text, part)

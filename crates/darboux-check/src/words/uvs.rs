@@ -59,7 +59,8 @@ pub fn said(fault: &UvFault) -> Said {
         UvFault::Rounded(UvRounding { steps, triangles, share, degrees, error }) => {
             let what = counted(triangles.len(), "triangle", "triangles");
             Said::new(format!(
-                "UVs were rounded to {steps} steps: half a step turns the tangents of {what} by {:.0} degrees or more",
+                "UVs were rounded to {steps} steps: half a step turns the tangents of {what} by {:.0} \
+                 degrees or more",
                 UvRounding::SEEN
             ))
             .with("part of the primitive's area", 100.0 * share, "%")

@@ -64,7 +64,8 @@ pub enum Earlier {
 /// Why a file is skipped: runs were killed while they worked on it.
 pub fn skipped(file: &impl Display) -> String {
     format!(
-        "{file}: is skipped, because two runs were killed while they worked on it, often for lack of memory; give the process more memory, and try it again with --retry"
+        "{file}: is skipped, because two runs were killed while they worked on it, often for lack of memory; \
+         give the process more memory, and try it again with --retry"
     )
 }
 

@@ -157,7 +157,10 @@ fn moved(pairs: &[Pair<'_>]) -> impl Iterator<Item = String> {
         (moved > 0).then_some((&pair.name, moved))
     });
     moved.map(|(name, moved)| {
-        format!("{name}: {moved} corners have other positions in the second file; check that both are the same model with corners in the same order")
+        format!(
+            "{name}: {moved} corners have other positions in the second file; check that both are the \
+             same model with corners in the same order"
+        )
     })
 }
 
@@ -169,7 +172,8 @@ fn draw(pairs: &[Pair<'_>], path: &Path, force: bool, warnings: &mut Vec<String>
     map.draw();
     if map.too_large() > 0 {
         warnings.push(format!(
-            "{}: only the corners of {} triangles are drawn: their UVs span more than the map, or there are too many triangles",
+            "{}: only the corners of {} triangles are drawn: their UVs span more than the map, or there are \
+             too many triangles",
             path.display(),
             map.too_large()
         ));

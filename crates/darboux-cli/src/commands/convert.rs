@@ -242,7 +242,8 @@ impl ConvertArguments {
         match inputs.iter().find(|input| !changes(input)) {
             None => Ok(()),
             Some(input) => Err(UsageError(format!(
-                "{}: nothing would change; name its convention and the wanted one (--from and --to), or an output of another format (-o model.glb)",
+                "{}: nothing would change; name its convention and the wanted one (--from and --to), or an \
+                 output of another format (-o model.glb)",
                 input.display()
             ))),
         }
@@ -256,7 +257,10 @@ impl ConvertArguments {
         (odd > 0.5 * texels).then(|| {
             let percent = (100.0 * odd / texels).round();
             let layout = self.layout;
-            format!("this does not look like a normal map: {percent} % of its texels hold no unit vector in {layout}")
+            format!(
+                "this does not look like a normal map: {percent} % of its texels hold no unit vector in \
+                 {layout}"
+            )
         })
     }
 
@@ -269,7 +273,8 @@ impl ConvertArguments {
         let [from, to] = self.conventions();
         if to.convention != Convention::GLTF && !self.raw {
             return Err(format!(
-                "{}: what is written must be in glTF's convention; use --to gltf, or, for a .glb or .gltf and a program that uses its numbers as they are, --raw",
+                "{}: what is written must be in glTF's convention; use --to gltf, or, for a .glb or .gltf \
+                 and a program that uses its numbers as they are, --raw",
                 job.input
             ));
         }
@@ -303,14 +308,18 @@ fn turned_again(from: &NamedConvention, document: &Document) -> Option<String> {
     let provenance = document.provenance()?;
     if provenance.format == SourceFormat::Fbx && *convention != Convention::GLTF {
         return Some(format!(
-            "this FBX was turned to glTF's convention when it was read, and --from {name} turns it again; unless that is wanted, use --from gltf"
+            "this FBX was turned to glTF's convention when it was read, and --from {name} turns it again; \
+             unless that is wanted, use --from gltf"
         ));
     }
     let mut primitives = document.meshes().iter().flat_map(|mesh| &mesh.primitives);
     let has_uvs = primitives.any(|primitive| primitive.attributes.contains_key("TEXCOORD_0"));
-    (has_uvs && convention.uv_origin != UvOrigin::TopLeft).then(|| format!(
-            "v points down since this file was read, and --from {name} turns it again; unless that is wanted, add v0=top: --from {name},v0=top"
-        ))
+    (has_uvs && convention.uv_origin != UvOrigin::TopLeft).then(|| {
+        format!(
+            "v points down since this file was read, and --from {name} turns it again; unless that is \
+             wanted, add v0=top: --from {name},v0=top"
+        )
+    })
 }
 
 /// Whether the file starts with the PNG signature.

@@ -7,11 +7,13 @@ use crate::exit;
 use crate::terminal::{Messages, write_stdout};
 
 const INTRODUCTION: &str = "\
-A normal map stores directions relative to the tangents of the program that baked it: use the method of that program.
+A normal map stores directions relative to the tangents of the program that baked it: use the method of that \
+program.
 ";
 
 const CONCLUSION: &str = "\
-`darboux compare model.glb --method NAME` shows how much a file's tangents differ from a method's; docs/algorithms/methods.md derives them.
+`darboux compare model.glb --method NAME` shows how much a file's tangents differ from a method's; \
+docs/algorithms/methods.md derives them.
 ";
 
 /// Runs the command and returns its exit code.

@@ -15,8 +15,8 @@ const OUTPUT: &str = "Output file for a single input, in an existing folder; - i
 const LONG_OUTPUT: &str = "\
 Output file for a single input, in an existing folder; - is standard output, as GLB
 
-Its ending is one of {written}. A PLY holds the faces of the scene and their tangents, an OBJ the faces and materials; a warning lists what is left \
-out.";
+Its ending is one of {written}. A PLY holds the faces of the scene and their tangents, an OBJ the faces and \
+materials; a warning lists what is left out.";
 
 /// Which files are read, and where their outputs go.
 #[derive(Debug, Args)]

@@ -69,7 +69,8 @@ impl std::fmt::Display for CpuFallback {
             Self::Method => "only MikkTSpace runs on the GPU",
             Self::Faces => "only meshes of triangles run on the GPU",
             Self::Values => {
-                "the vertices have NaN, infinite or huge values, or equal positions whose zeros have different signs"
+                "the vertices have NaN, infinite or huge values, or equal positions whose zeros have \
+                 different signs"
             }
         })
     }

@@ -142,7 +142,8 @@ pub fn warnings(scene: &ufbx::Scene) -> Vec<String> {
     let mut sentences = Vec::new();
     if !KNOWN_VERSIONS.contains(&version) {
         sentences.push(format!(
-            "the file has FBX version {version}; readers are tested with {} to {}, so compare the result with the original",
+            "the file has FBX version {version}; readers are tested with {} to {}, so compare the result \
+             with the original",
             KNOWN_VERSIONS.start(),
             KNOWN_VERSIONS.end()
         ));
@@ -153,7 +154,8 @@ pub fn warnings(scene: &ufbx::Scene) -> Vec<String> {
             WarningType::MissingGeometryData => "the file is damaged: meshes lack a part of their data",
             WarningType::IndexClamped => "the file is damaged: indices out of range were clamped",
             WarningType::DuplicateObjectId => {
-                "two objects have the same id, so that materials, bones or textures may belong to another object"
+                "two objects have the same id, so that materials, bones or textures may belong to another \
+                 object"
             }
             WarningType::BadBase64Content => "an embedded texture cannot be decoded and is left out",
             WarningType::DuplicateConnection => "objects are connected twice; the first connection counts",

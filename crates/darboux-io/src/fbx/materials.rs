@@ -95,7 +95,8 @@ impl<'a> MaterialReader<'a> {
                 });
                 if *is_grey {
                     self.warnings.push(format!(
-                        "the bump map of material {name:?} is grey, so it holds heights and is left out; normal maps are coloured"
+                        "the bump map of material {name:?} is grey, so it holds heights and is left out; \
+                         normal maps are coloured"
                     ));
                     return None;
                 }
@@ -104,7 +105,8 @@ impl<'a> MaterialReader<'a> {
         };
         if self.green.is_none() {
             self.warnings.push(format!(
-                "FBX does not say whether green points up or down in the normal map of material {name:?}; it is taken as glTF's, up: darboux check judges the image"
+                "FBX does not say whether green points up or down in the normal map of material {name:?}; it \
+                 is taken as glTF's, up: darboux check judges the image"
             ));
         }
         Some(NormalMap { texture, scale: None, green: self.green })
@@ -174,7 +176,8 @@ impl<'a> MaterialReader<'a> {
         let name = &self.images[image].name;
         if uv_set.is_none() && !uv_sets.is_empty() && !["", "default"].contains(&&*wanted) {
             self.warnings.push(format!(
-                "{name} is placed by the UV set {wanted:?}, which its mesh does not have; the first set is taken"
+                "{name} is placed by the UV set {wanted:?}, which its mesh does not have; the first set is \
+                 taken"
             ));
         }
         let uv_set = uv_set.unwrap_or(0);
@@ -190,7 +193,8 @@ impl<'a> MaterialReader<'a> {
             Placement::Moved(transform) => {
                 if self.convention == Convention::Blender {
                     self.warnings.push(format!(
-                        "{name} is placed as by a Mapping node of the type Texture; Blender's FBX does not say the type: with Point, export glTF"
+                        "{name} is placed as by a Mapping node of the type Texture; Blender's FBX does not \
+                         say the type: with Point, export glTF"
                     ));
                 }
                 Some(transform)

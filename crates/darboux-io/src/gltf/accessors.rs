@@ -335,7 +335,8 @@ fn check_sparse_indices(indices: &SparseIndices<'_>, count: usize, at: &str) -> 
         let place = place as usize;
         if place < next || place >= count {
             let problem = format!(
-                "index {place} at place {i} is not greater than the one before, or not below {count}; export the file again"
+                "index {place} at place {i} is not greater than the one before, or not below {count}; export \
+                 the file again"
             );
             return Err(ContentError::invalid(format!("{at}.indices"), problem));
         }
@@ -384,7 +385,8 @@ fn end_in_view(view_length: usize, layout: &ElementLayout, at: &str) -> Result<u
     }
     layout.end().filter(|&end| end <= view_length).ok_or_else(|| {
         let problem = format!(
-            "{count} elements of {size} bytes from byte {offset} on do not fit its buffer view of {view_length} bytes"
+            "{count} elements of {size} bytes from byte {offset} on do not fit its buffer view of \
+             {view_length} bytes"
         );
         ContentError::invalid(at, format!("{problem}; export the file again"))
     })

@@ -407,7 +407,8 @@ mod tests {
     fn references_to_nothing_are_errors_with_their_path() {
         let dangling = r#"{"accessors": [{}, {}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}},
             {"attributes": {"POSITION" : 1, "TEXCOORD_0": 2}}]}]}"#;
-        let expected = "x: meshes[0].primitives[1].attributes.TEXCOORD_0: accessor 2 does not exist: there are 2; export the file again";
+        let expected = "x: meshes[0].primitives[1].attributes.TEXCOORD_0: accessor 2 does not exist: there \
+             are 2; export the file again";
         assert_eq!(problem(dangling).as_deref(), Some(expected));
         for (json, expected) in [
             (

@@ -306,7 +306,8 @@ fn refuse_unsupported(color: ColorType, depth: BitDepth, chunks: &Chunks<'_>) ->
     let refused = |problem: &str| Err(ContentError::unsupported("", problem));
     match (color, depth) {
         (ColorType::Grayscale, _) => refused(
-            "has one channel, but a normal map has two or more; bake a normal map from it if it is a height map",
+            "has one channel, but a normal map has two or more; bake a normal map from it if it is a height \
+             map",
         ),
         (ColorType::Indexed, _) | (_, BitDepth::Eight | BitDepth::Sixteen) => {
             if chunks.of(b"acTL").next().is_some() {

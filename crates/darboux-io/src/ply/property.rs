@@ -42,7 +42,8 @@ pub fn cut_off(element: &Element, index: usize, values: &Values<'_>) -> ContentE
     }
     let place = format!("{} {index}", element.name);
     let problem = format!(
-        "is missing, cut off or no number; the header says that there are {}; export or download the file again",
+        "is missing, cut off or no number; the header says that there are {}; export or download the file \
+         again",
         element.count
     );
     ContentError::invalid(place, problem)

@@ -92,7 +92,8 @@ fn surplus_warning(values: &Values<'_>) -> Option<String> {
         (1, _) => format!("line {first} has 1 value more than its header says, which is ignored"),
         (_, 1) => format!("line {first} has {count} values more than its header says, which are ignored"),
         _ => format!(
-            "{lines} lines have {count} values more than its header says, line {first} first; they are ignored"
+            "{lines} lines have {count} values more than its header says, line {first} first; they are \
+             ignored"
         ),
     })
 }

@@ -215,7 +215,8 @@ impl ModelFiles {
         match &self.source {
             _ if self.lookups_left.get() == 0 => {
                 format!(
-                    "{shown} was not looked up, because more than {MAX_LOOKUPS} paths were tried for the files that the model names"
+                    "{shown} was not looked up, because more than {MAX_LOOKUPS} paths were tried for the \
+                     files that the model names"
                 )
             }
             FileSource::None => {

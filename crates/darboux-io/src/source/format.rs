@@ -37,7 +37,8 @@ impl SourceFormat {
     pub fn importer_note(self) -> Option<&'static str> {
         match self {
             Self::Fbx => Some(
-                "An importer of FBX that computes tangents itself, as Unreal and Unity do by default, meets what is wrong with positions, normals and UVs, but not what is wrong with tangents.",
+                "An importer of FBX that computes tangents itself, as Unreal and Unity do by default, meets \
+                 what is wrong with positions, normals and UVs, but not what is wrong with tangents.",
             ),
             Self::Obj => Some(
                 "OBJ has no tangents: every importer computes its own from these positions, normals and UVs.",

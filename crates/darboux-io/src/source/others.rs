@@ -29,7 +29,8 @@ fn unknown(kind: Option<FileKind>) -> String {
     let endings = FileKind::model_endings();
     match kind.and_then(FileKind::format_name) {
         Some(format) => format!(
-            "is named as {format}, but its content is that of no format that is read ({endings}); export or download it again"
+            "is named as {format}, but its content is that of no format that is read ({endings}); export or \
+             download it again"
         ),
         None => {
             format!("is of no format that is read; give a model in one of those that are: {endings}")
@@ -190,11 +191,13 @@ fn part_of_stl(bytes: &[u8], kind: Option<FileKind>) -> Option<String> {
     Some(match count {
         _ if is_text => unknown(kind),
         None => format!(
-            "is named as STL and has {} bytes, fewer than the 84 of an STL's header; export or download it again",
+            "is named as STL and has {} bytes, fewer than the 84 of an STL's header; export or download it \
+             again",
             bytes.len()
         ),
         Some(count) => format!(
-            "is named as STL, whose header counts {count} facets, which take {} bytes, but there are {}; export or download it again",
+            "is named as STL, whose header counts {count} facets, which take {} bytes, but there are {}; \
+             export or download it again",
             84 + 50 * u64::from(count),
             bytes.len()
         ),

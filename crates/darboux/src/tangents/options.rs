@@ -71,13 +71,16 @@ pub enum Method {
 choice! {
     Method, "method",
     Self::MikkTSpace(_) = Self::MikkTSpace(MikkTSpaceOptions::new()) =>
-        "mikktspace", "The standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF)";
+        "mikktspace", "The standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, \
+             Unreal, glTF)";
     Self::AngleArea = Self::AngleArea =>
-        "angle-area", "Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map";
+        "angle-area", "Weighted by angle and area: follows the UVs most closely, for surfaces without a \
+             baked normal map";
     Self::Lengyel = Self::Lengyel =>
         "lengyel", "The sum of dP/du, not normalised, separate for each UV orientation";
     Self::LengyelPerVertex = Self::LengyelPerVertex =>
-        "lengyel-per-vertex", "The sum of dP/du per vertex, as in three.js and many tutorials: wrong at mirrored seams";
+        "lengyel-per-vertex", "The sum of dP/du per vertex, as in three.js and many tutorials: wrong at \
+             mirrored seams";
     Self::Average = Self::Average =>
         "average", "The mean of the triangles' tangents, for engines that compute it on the GPU";
     Self::Area = Self::Area =>
@@ -85,9 +88,11 @@ choice! {
     Self::Face = Self::Face =>
         "face", "One tangent per face, not smoothed: for flat shading and measurements";
     Self::FromNormal = Self::FromNormal =>
-        "from-normal", "Any direction perpendicular to the normal, independent of UVs: for sampling, not for normal maps";
+        "from-normal", "Any direction perpendicular to the normal, independent of UVs: for sampling, not for \
+             normal maps";
     Self::AngleEdge = Self::AngleEdge =>
-        "angle-edge", "Weighted by angle and edge lengths: the default of meshoptimizer, gltfpack -gt and Godot from 4.6 on";
+        "angle-edge", "Weighted by angle and edge lengths: the default of meshoptimizer, gltfpack -gt and \
+             Godot from 4.6 on";
 }
 
 impl Default for Method {

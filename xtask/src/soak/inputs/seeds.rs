@@ -159,9 +159,12 @@ fn sparse() -> Seed {
 
 /// A square in OBJ, with a library and images of both kinds.
 fn obj() -> Seed {
-    let text = "mtllib square.mtl\no square\nv 0 0 0\nv 1 0 0 0.5 0.5 0.5\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n\
-                vn 0 0 1\nusemtl a\nf 1/1/1 2/2/1 3/3/1 4/4/1\nusemtl b\ng part\nf 1//1 2//1 3//1\nl 1 2\np 1\n";
-    let library = "newmtl a\nKd 1 0.5 0.2\nmap_Kd color.jpg\nnorm normal.png\nnewmtl b\nmap_Bump -bm 0.5 normal.png\nd 0.5\nillum 2\n";
+    let text = "mtllib square.mtl\no square\nv 0 0 0\nv 1 0 0 0.5 0.5 0.5\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 \
+         0\nvt 1 1\nvt 0 1\n\
+                vn 0 0 1\nusemtl a\nf 1/1/1 2/2/1 3/3/1 4/4/1\nusemtl b\ng part\nf 1//1 2//1 3//1\nl 1 2\np \
+                1\n";
+    let library = "newmtl a\nKd 1 0.5 0.2\nmap_Kd color.jpg\nnorm normal.png\nnewmtl b\nmap_Bump -bm 0.5 \
+         normal.png\nd 0.5\nillum 2\n";
     Seed::new("square.obj", text.into())
         .with("square.mtl", library)
         .with("color.jpg", BUMPS_JPEG)
@@ -177,7 +180,8 @@ fn scans() -> [Seed; 4] {
             .map(|name| format!("property float {name}\n"))
             .concat();
         format!(
-            "ply\nformat {format} 1.0\ncomment made\nelement vertex 4\n{vertex}element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+            "ply\nformat {format} 1.0\ncomment made\nelement vertex 4\n{vertex}element face 2\nproperty list \
+             uchar int vertex_indices\nend_header\n"
         )
     };
     let vertices = || (0..4).map(|i| [&mesh.positions[i][..], &mesh.normals[i], &mesh.uvs[i]].concat());

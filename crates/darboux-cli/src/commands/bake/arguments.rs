@@ -26,13 +26,15 @@ use crate::options::shading::{NormalsChoice, normals_choice};
 pub const ABOUT: &str = "\
 Bake the detail of high-poly models into maps of a low-poly model.
 
-From every texel of the low model a ray passes from outside through its surface; the first surface of the high models that it hits gives the \
-content. A normal map holds those normals in the tangent frames that renderers will use, so that the low model is shaded as the high one is. The \
-frames are those in the file of the low model; if it has no tangents, run darboux tangents on it before it is used.
+From every texel of the low model a ray passes from outside through its surface; the first surface of the \
+high models that it hits gives the content. A normal map holds those normals in the tangent frames that \
+renderers will use, so that the low model is shaded as the high one is. The frames are those in the file of \
+the low model; if it has no tangents, run darboux tangents on it before it is used.
 
-All models are placed as their scenes have them; skinned meshes have the pose in which they are stored. Texels that several triangles cover \
-belong to the first one. Texels outside the UV charts are filled from the nearest chart, so that no background shows at a distance. If the rays \
-of more than 1 % of the texels hit nothing, a picture beside the map shows where, as in crate.misses.png: red, or orange where rays met \
+All models are placed as their scenes have them; skinned meshes have the pose in which they are stored. \
+Texels that several triangles cover belong to the first one. Texels outside the UV charts are filled from \
+the nearest chart, so that no background shows at a distance. If the rays of more than 1 % of the texels hit \
+nothing, a picture beside the map shows where, as in crate.misses.png: red, or orange where rays met \
 triangles from behind. The maps are the same for every number of threads, and made on the processor.";
 
 pub const EXAMPLES: &str = "\
@@ -60,10 +62,12 @@ pub struct BakeArguments {
     #[command(flatten)]
     pub given: Given,
 
-    #[arg(value_name = "LOW", help = with_endings("The low model ({models}), which gets the maps; or a job: a TOML file, or a folder with --suffixes"))]
+    #[arg(value_name = "LOW", help = with_endings("The low model ({models}), which gets the maps; or a job: \
+         a TOML file, or a folder with --suffixes"))]
     pub low: PathBuf,
 
-    #[arg(long, value_name = "HIGH", num_args = 1.., help = with_endings("The high models ({models}), which have the detail; their materials count, with normal maps and textures"))]
+    #[arg(long, value_name = "HIGH", num_args = 1.., help = with_endings("The high models ({models}), which \
+         have the detail; their materials count, with normal maps and textures"))]
     pub high: Vec<PathBuf>,
 
     /// The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in

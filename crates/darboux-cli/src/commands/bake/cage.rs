@@ -79,7 +79,8 @@ impl Rays {
             Self::AutoCage { share, least, most, inwards, .. } => {
                 let [least, most, inwards] = [least, most, inwards].map(|distance| rounded(*distance));
                 format!(
-                    "a cage at {least} to {most}, which all but {share} of the rays allow, to {inwards} inside"
+                    "a cage at {least} to {most}, which all but {share} of the rays allow, to {inwards} \
+                     inside"
                 )
             }
         }
@@ -133,7 +134,8 @@ impl Cages {
                 }
                 None if arguments.offset_colors => {
                     return Err(format!(
-                        "{}: has triangles without vertex colours, which --offset-colors needs; paint them, or leave the option out",
+                        "{}: has triangles without vertex colours, which --offset-colors needs; paint them, \
+                         or leave the option out",
                         arguments.low.display()
                     ));
                 }
@@ -167,7 +169,8 @@ fn of_document(document: &Document, low: &[LowSurface<'_>]) -> Result<Vec<Vec<[f
     let surfaces = cage.surfaces().map_err(sentence)?;
     if surfaces.len() != low.len() {
         return Err(format!(
-            "{}: the cage has {} primitives but the low model has {}; make the cage by moving the vertices of the low model only",
+            "{}: the cage has {} primitives but the low model has {}; make the cage by moving the vertices \
+             of the low model only",
             document.name(),
             surfaces.len(),
             low.len()
@@ -180,7 +183,9 @@ fn of_document(document: &Document, low: &[LowSurface<'_>]) -> Result<Vec<Vec<[f
             let [cage_corners, low_corners] = [cage.mesh(), low.mesh()].map(|mesh| mesh.corner_count());
             if found != expected || cage_corners != low_corners {
                 return Err(format!(
-                    "{}: primitive {index} of the cage has {found} vertices and {} triangles but that of the low model has {expected} and {}; make the cage by moving the vertices of the low model only",
+                    "{}: primitive {index} of the cage has {found} vertices and {} triangles but that of the \
+                     low model has {expected} and {}; make the cage by moving the vertices of the low model \
+                     only",
                     document.name(),
                     cage_corners / 3,
                     low_corners / 3

@@ -60,7 +60,8 @@ fn of_file(path: &Path, job: &BakeArguments) -> Result<Job, String> {
     if !misplaced.is_empty() {
         let options: Vec<String> = misplaced.iter().map(|name| format!("--{name}")).collect();
         return Err(format!(
-            "{}: sets the options of its bakes itself, so {} beside it would be without effect; write {} into its [defaults]",
+            "{}: sets the options of its bakes itself, so {} beside it would be without effect; write {} \
+             into its [defaults]",
             path.display(),
             options.join(", "),
             misplaced.join(", ")

@@ -16,7 +16,8 @@ use super::write::WrittenMaps;
 pub fn refuse_model(arguments: &BakeArguments, low: &LowModel<'_>) -> Result<(), String> {
     if arguments.write_model.is_some() && has_mixed_tangents(low) {
         return Err(format!(
-            "{}: some primitives were baked with their own tangents and others with computed ones; add --method, which computes all",
+            "{}: some primitives were baked with their own tangents and others with computed ones; add \
+             --method, which computes all",
             arguments.low.display()
         ));
     }

@@ -105,7 +105,8 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
     }
     if map.contains(&MapKind::Texture) != arguments.content.texture.is_some() {
         return Err(
-            "the map texture and --texture go together: --texture names the place of a texture in the high models' materials, such as occlusionTexture"
+            "the map texture and --texture go together: --texture names the place of a texture in the high \
+             models' materials, such as occlusionTexture"
                 .to_owned(),
         );
     }
@@ -124,7 +125,8 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
         let conversion = arguments.map_convention().to(Convention::GLTF);
         if conversion.inverts_red() || conversion.inverts_green() {
             return Err(
-                "--write-model needs a map in glTF's convention; leave --convention out, or convert the map afterwards"
+                "--write-model needs a map in glTF's convention; leave --convention out, or convert the map \
+                 afterwards"
                     .to_owned(),
             );
         }

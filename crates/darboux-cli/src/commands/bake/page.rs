@@ -161,7 +161,8 @@ fn section(title: &str, content: &str) -> String {
 fn warnings(warnings: &[String]) -> String {
     let article = |warning: &String| {
         format!(
-            "<article class=\"warning\">\n<h3><span class=\"severity\">△ Warning</span></h3>\n<p>{}</p>\n</article>\n",
+            "<article class=\"warning\">\n<h3><span class=\"severity\">△ \
+             Warning</span></h3>\n<p>{}</p>\n</article>\n",
             with_code(warning)
         )
     };

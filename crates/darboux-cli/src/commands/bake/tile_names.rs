@@ -34,7 +34,8 @@ pub fn check(arguments: &BakeArguments) -> Result<(), String> {
     }
     if write_model.is_some() || heat_model.is_some() {
         return Err(
-            "materials of glTF cannot have UDIM tiles; leave --write-model and --heat-model out, or bake without %UDIM%"
+            "materials of glTF cannot have UDIM tiles; leave --write-model and --heat-model out, or bake \
+             without %UDIM%"
                 .to_owned(),
         );
     }

@@ -142,7 +142,13 @@ impl Verified {
                 .iter()
                 .map(|path| format!("{path}: these errors over the UV layout, from {}", self.range)),
         );
-        lines.extend(self.heat_model.iter().map(|path| format!("{path}: these errors on the low model, from {}; their scale is in the file of that name that ends in .scale.png", self.range)));
+        lines.extend(self.heat_model.iter().map(|path| {
+            format!(
+                "{path}: these errors on the low model, from \
+             {}; their scale is in the file of that name that ends in .scale.png",
+                self.range
+            )
+        }));
         lines
     }
 }

@@ -16,16 +16,21 @@ use crate::options::shading::{ShadingChoice, shading};
 pub const ABOUT: &str = "\
 Say what is wrong with models and normal maps, and repair it.
 
-Checks the tangents, normals and UVs of every primitive, how the tangents were computed, and the texels of every normal map: whether green points \
-up (OpenGL) or down (DirectX), and whether they are normals at all. Every finding has a code, numbers as evidence, what it looks like on screen and \
-the cure. Images (.png, .jpg, .webp, .tga) are checked as normal maps.\n\n\
-Without --fix no file is written. With --fix the repaired file is written beside its input, model.glb as model.fixed.glb, unless -o, --out-dir or \
---in-place says otherwise; what cannot be repaired without guessing is left, and the reason printed. Nothing is left to repair in the repaired file. \
-Where nothing is repaired, only -o and --out-dir write a copy, of models and of images that could be repaired (PNG, JPEG and TGA; \
-WebP images are read and never written). In a folder, files named like repaired ones (model.fixed.glb) are skipped, and one that an earlier run has written is kept if it is still what would be written.\n\n\
-The report begins with a diagnosis: what happened, what it looks like, and what to type. Findings of one kind are one entry; -v prints each of them.\n\n\
-Exit codes: 0: no finding is as severe as --fail-on says (by default error) or all that were are repaired; 1: one is, or a file cannot be read; 2: the \
-command line is wrong. Maps in a format that is not read are not checked, and fail nothing. docs/check.md lists all codes.";
+Checks the tangents, normals and UVs of every primitive, how the tangents were computed, and the texels of \
+every normal map: whether green points up (OpenGL) or down (DirectX), and whether they are normals at all. \
+Every finding has a code, numbers as evidence, what it looks like on screen and the cure. Images (.png, \
+.jpg, .webp, .tga) are checked as normal maps.\n\n\
+Without --fix no file is written. With --fix the repaired file is written beside its input, model.glb as \
+model.fixed.glb, unless -o, --out-dir or --in-place says otherwise; what cannot be repaired without guessing \
+is left, and the reason printed. Nothing is left to repair in the repaired file. Where nothing is repaired, \
+only -o and --out-dir write a copy, of models and of images that could be repaired (PNG, JPEG and TGA; WebP \
+images are read and never written). In a folder, files named like repaired ones (model.fixed.glb) are \
+skipped, and one that an earlier run has written is kept if it is still what would be written.\n\n\
+The report begins with a diagnosis: what happened, what it looks like, and what to type. Findings of one \
+kind are one entry; -v prints each of them.\n\n\
+Exit codes: 0: no finding is as severe as --fail-on says (by default error) or all that were are repaired; \
+1: one is, or a file cannot be read; 2: the command line is wrong. Maps in a format that is not read are not \
+checked, and fail nothing. docs/check.md lists all codes.";
 
 pub const INPUTS: &str =
     "Models ({models}), folders of models, and normal maps (.png, .jpg, .webp, .tga); - is standard input";

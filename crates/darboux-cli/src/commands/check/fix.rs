@@ -334,7 +334,13 @@ impl Repair<'_> {
     fn stale_output(&self, job: &Job, is_changed: bool) -> Option<String> {
         let Output::File(path) = &job.output else { return None };
         let is_stale = !is_changed && !self.arguments.files.names_output() && path.exists();
-        is_stale.then(|| format!("{} exists and was not written, because nothing was repaired; delete it if an earlier run made it", path.display()))
+        is_stale.then(|| {
+            format!(
+                "{} exists and was not written, because nothing was repaired; delete it if \
+             an earlier run made it",
+                path.display()
+            )
+        })
     }
 
     /// The status where nothing is to be written: without a named output, nothing was changed, or an earlier
@@ -357,7 +363,8 @@ impl Repair<'_> {
             Ok(Some(Status::UpToDate))
         } else {
             Err(format!(
-                "{output}: exists, and other data would be written; use --force to replace it, or name another output"
+                "{output}: exists, and other data would be written; use --force to replace it, or name \
+                 another output"
             ))
         }
     }

@@ -42,7 +42,8 @@ pub fn unused_maps<'a>(folder: &Path, models: impl Iterator<Item = &'a Path>) ->
     let command = command_line(&["check"], &[&first]);
     let what = counted(images.len(), "image named like a normal map is", "images named like normal maps are");
     Some(format!(
-        "{}: {what} used by no model there, and not checked; name such an image to check it, as in `{command}`",
+        "{}: {what} used by no model there, and not checked; name such an image to check it, as in \
+         `{command}`",
         folder.display()
     ))
 }

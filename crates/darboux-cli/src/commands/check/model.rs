@@ -29,7 +29,8 @@ impl Model {
         };
         if let Some(other) = inputs.iter().find(|input| !may_be_image(input)) {
             return Err(UsageError(format!(
-                "--model names the model of normal maps, and {other} is no image (.png, .jpg, .webp, .tga); check models without it"
+                "--model names the model of normal maps, and {other} is no image (.png, .jpg, .webp, .tga); \
+                 check models without it"
             )));
         }
         let document = load(&Input::File(model.clone()), &arguments.files.reading);

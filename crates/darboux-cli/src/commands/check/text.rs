@@ -204,7 +204,8 @@ pub fn number(evidence: &Evidence) -> String {
 /// The section of a code.
 pub fn explain(code: Code) -> String {
     format!(
-        "{code} ({})\n\n{}\n\nWhat it looks like: {}\n\nHow it comes about: {}\n\nCure: {}\n\nWith --fix: {}.\n",
+        "{code} ({})\n\n{}\n\nWhat it looks like: {}\n\nHow it comes about: {}\n\nCure: {}\n\nWith --fix: \
+         {}.\n",
         code.severity(),
         code.meaning(),
         code.looks_like(),

@@ -14,12 +14,14 @@ use crate::options::reading::ReadOptions;
 pub const ABOUT: &str = "\
 Compare the tangents of two files of one model, or of a file with those of a method.
 
-Prints, over all corners, the angles between the tangents (minimum, median, 95th percentile, maximum, mean, mean weighted by area), the number \
-of opposite signs w, a histogram of the angles, and the worst corners. An angle is between the directions of two tangents, whatever their signs. \
-The two files may split vertices differently, but must have the same corners in the same order. Primitives are matched by the indices of mesh and \
-primitive.
+Prints, over all corners, the angles between the tangents (minimum, median, 95th percentile, maximum, mean, \
+mean weighted by area), the number of opposite signs w, a histogram of the angles, and the worst corners. An \
+angle is between the directions of two tangents, whatever their signs. The two files may split vertices \
+differently, but must have the same corners in the same order. Primitives are matched by the indices of mesh \
+and primitive.
 
-Exit codes: 0 compared, 1 a file is bad or the models differ, 2 wrong usage, 3 the difference is larger than --tolerance.";
+Exit codes: 0 compared, 1 a file is bad or the models differ, 2 wrong usage, 3 the difference is larger than \
+--tolerance.";
 
 pub const USAGE: &str = "\
 darboux compare [OPTIONS] <A> <B>

@@ -31,8 +31,8 @@ pub fn describe(report: &CompareReport) -> String {
         let ticks = TICKS.map(|tick| tick.to_string()).join(", ");
         let [from, to] = ENDS;
         text += &format!(
-            "\n{}: colours from violet ({from} degrees or less) to yellow ({to} degrees), ticks at {ticks}; red where the sign w is opposite; \
-             where UVs overlap, the largest angle\n",
+            "\n{}: colours from violet ({from} degrees or less) to yellow ({to} degrees), ticks at {ticks}; \
+             red where the sign w is opposite; where UVs overlap, the largest angle\n",
             printable(path)
         );
     }
@@ -47,7 +47,8 @@ fn other_side(report: &CompareReport) -> String {
     }
 }
 
-const OF_QUADS: &str = "tangents that were computed on quads before these were cut, as darboux computes those of FBX, OBJ and PLY, differ so in a few places: keep them; otherwise, ";
+const OF_QUADS: &str = "tangents that were computed on quads before these were cut, as darboux computes \
+     those of FBX, OBJ and PLY, differ so in a few places: keep them; otherwise, ";
 
 /// Whether the tangents may be MikkTSpace's of quads: most corners agree.
 fn may_be_of_quads(method: &str, totals: &Statistics) -> bool {
@@ -88,13 +89,15 @@ fn difference(totals: &Statistics) -> String {
     let [shown, all, rest] = [different, corners, corners - different].map(Count);
     if sign_flips == corners && without_angle == 0 && totals.max <= ROUNDING {
         return format!(
-            "the sign w is opposite at all {all} corners and the directions agree to {ROUNDING} degrees, as for UVs whose v axis is inverted"
+            "the sign w is opposite at all {all} corners and the directions agree to {ROUNDING} degrees, as \
+             for UVs whose v axis is inverted"
         );
     }
     let extent = match corners - different {
         0 => format!("all {all} corners differ by more than {ROUNDING} degrees or in the sign w"),
         _ => format!(
-            "{shown} of {all} corners differ by more than {ROUNDING} degrees or in the sign w, the other {rest} agree"
+            "{shown} of {all} corners differ by more than {ROUNDING} degrees or in the sign w, the other \
+             {rest} agree"
         ),
     };
     let signs = if sign_flips == corners { "; the sign w is opposite at all of them" } else { "" };
@@ -124,8 +127,10 @@ fn describe_totals(totals: &Statistics) -> String {
         [totals.min, totals.median, totals.p95, totals.max, totals.mean, totals.area_weighted_mean]
             .map(degrees);
     format!(
-        "\n{corners} corners: {identical} identical, {flips} with opposite signs w, {without} without an angle (a tangent is zero or not finite)\n\
-         angles in degrees: minimum {min}, median {median}, 95th percentile {p95}, maximum {max}; mean {mean}, weighted by area {weighted}\n\n"
+        "\n{corners} corners: {identical} identical, {flips} with opposite signs w, {without} without an \
+         angle (a tangent is zero or not finite)\n\
+         angles in degrees: minimum {min}, median {median}, 95th percentile {p95}, maximum {max}; mean \
+         {mean}, weighted by area {weighted}\n\n"
     )
 }
 

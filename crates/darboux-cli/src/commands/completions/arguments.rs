@@ -6,7 +6,8 @@ use clap_complete::Shell;
 pub const ABOUT: &str = "\
 Print a script that completes subcommands, options and their values in a shell.
 
-The script goes to standard output. Save it where the shell looks for completions, or load it when the shell starts.";
+The script goes to standard output. Save it where the shell looks for completions, or load it when the shell \
+starts.";
 
 pub const EXAMPLES: &str = "\
 Examples:

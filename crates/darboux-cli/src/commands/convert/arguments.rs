@@ -13,26 +13,31 @@ use crate::options::messages::MessageOptions;
 pub const ABOUT: &str = "\
 Convert normal maps and models between conventions.
 
-What is converted depends on the input: of an image its texels, of a model its geometry, never the images in or beside it. To invert green in the \
-normal maps of a model, use darboux check MODEL --fix --assume map=directx (or map=opengl): convert would mirror or turn the model instead.
+What is converted depends on the input: of an image its texels, of a model its geometry, never the images in \
+or beside it. To invert green in the normal maps of a model, use darboux check MODEL --fix --assume \
+map=directx (or map=opengl): convert would mirror or turn the model instead.
 
-Normal maps (PNG, 8 or 16 bits): red and green are inverted where the conventions differ. This is exact, so that converting back restores the \
-original texels. --layout and --to-layout move the vector to other channels (DXT5nm uses ag, two-channel maps use rg); a channel that holds no \
-part of the vector keeps its values unless a component moves into it. Metadata chunks are kept, except for palettes, colour profiles and others that \
-do not fit the new channels. A warning names images that do not look like normal maps.
+Normal maps (PNG, 8 or 16 bits): red and green are inverted where the conventions differ. This is exact, so \
+that converting back restores the original texels. --layout and --to-layout move the vector to other \
+channels (DXT5nm uses ag, two-channel maps use rg); a channel that holds no part of the vector keeps its \
+values unless a component moves into it. Metadata chunks are kept, except for palettes, colour profiles and \
+others that do not fit the new channels. A warning names images that do not look like normal maps.
 
---space converts object-space maps to tangent space, for any renderer's convention, and back. Texels outside the UV charts of --model are filled from \
-the nearest one. It is in builds with the feature bake or full.
+--space converts object-space maps to tangent space, for any renderer's convention, and back. Texels outside \
+the UV charts of --model are filled from the nearest one. It is in builds with the feature bake or full.
 
-Models: positions, normals, tangents, UVs, morph targets and the winding of triangles are converted; if the axes differ, nodes, skins and \
-animations too. A glTF file must be in glTF's convention, so this repairs files whose writer copied the numbers of another convention (--to gltf). \
-For programs that use the numbers of a file as they are, --raw allows any --to; such a file is no valid glTF until it is converted back. It names its \
-convention in asset.extras, and the other commands refuse it. Images, cameras and lights are not converted; warnings name them. Without --from \
-and --to, a model is only written in another format: readers of OBJ, FBX, PLY and STL have already turned it to glTF's convention.
+Models: positions, normals, tangents, UVs, morph targets and the winding of triangles are converted; if the \
+axes differ, nodes, skins and animations too. A glTF file must be in glTF's convention, so this repairs \
+files whose writer copied the numbers of another convention (--to gltf). For programs that use the numbers \
+of a file as they are, --raw allows any --to; such a file is no valid glTF until it is converted back. It \
+names its convention in asset.extras, and the other commands refuse it. Images, cameras and lights are not \
+converted; warnings name them. Without --from and --to, a model is only written in another format: readers \
+of OBJ, FBX, PLY and STL have already turned it to glTF's convention.
 
-A convention is a preset, optionally followed by differences after commas: gltf,green=down. The differences are: axes=-x/y/z (right, up, front), \
-fronts=ccw or cw, v0=bottom or top, red=right or left, green=up or down, w=n-cross-t or t-cross-n. docs/conventions.md in the source of Darboux \
-defines them. Without -o, --out-dir or --in-place the output is named after its convention: brick.png becomes brick.directx.png, or \
+A convention is a preset, optionally followed by differences after commas: gltf,green=down. The differences \
+are: axes=-x/y/z (right, up, front), fronts=ccw or cw, v0=bottom or top, red=right or left, green=up or \
+down, w=n-cross-t or t-cross-n. docs/conventions.md in the source of Darboux defines them. Without -o, \
+--out-dir or --in-place the output is named after its convention: brick.png becomes brick.directx.png, or \
 brick.converted.png if the convention is not a preset.";
 
 pub const EXAMPLES: &str = "\

@@ -11,12 +11,15 @@ use crate::options::shading::{ShadingChoice, shading};
 pub const ABOUT: &str = "\
 Add normals to models.
 
-Every triangle primitive without normals gets normals; with --overwrite all primitives get new ones. The primitives of a mesh are shaded as one \
-surface: vertices at equal positions count as one, so that UV seams and material borders are invisible. Vertices are split where their corners \
-need different normals (flat shading, creases); skins, colours, UV sets and morph targets are split with them. Tangents that belong to replaced \
-normals are removed: run darboux tangents afterwards, or use its option --normals. The rest of the file does not change.
+Every triangle primitive without normals gets normals; with --overwrite all primitives get new ones. The \
+primitives of a mesh are shaded as one surface: vertices at equal positions count as one, so that UV seams \
+and material borders are invisible. Vertices are split where their corners need different normals (flat \
+shading, creases); skins, colours, UV sets and morph targets are split with them. Tangents that belong to \
+replaced normals are removed: run darboux tangents afterwards, or use its option --normals. The rest of the \
+file does not change.
 
-Without -o, --out-dir or --in-place the output is written beside its input: model.glb becomes model.normals.glb.";
+Without -o, --out-dir or --in-place the output is written beside its input: model.glb becomes \
+model.normals.glb.";
 
 pub const EXAMPLES: &str = "\
 Examples:

@@ -15,11 +15,13 @@ use crate::options::reading::ReadOptions;
 pub const ABOUT: &str = "\
 Draw a model or its tangents into a PNG, without a window.
 
-The views are those of `darboux view`, with the same names: colours on the surface, vectors as lines, mirrored seams, the UV layout, two sources \
-of tangents side by side, and typical mistakes. The scene is drawn in its rest pose, with nodes, skins, morph targets and instances. Parts without a \
-normal map hide wrong tangents; --view bumps puts test bumps on them.
+The views are those of `darboux view`, with the same names: colours on the surface, vectors as lines, \
+mirrored seams, the UV layout, two sources of tangents side by side, and typical mistakes. The scene is \
+drawn in its rest pose, with nodes, skins, morph targets and instances. Parts without a normal map hide \
+wrong tangents; --view bumps puts test bumps on them.
 
-Drawing needs a graphics adapter; `darboux devices` lists them. Software adapters such as Mesa's lavapipe work.";
+Drawing needs a graphics adapter; `darboux devices` lists them. Software adapters such as Mesa's lavapipe \
+work.";
 
 pub const EXAMPLES: &str = "\
 Examples:

@@ -301,7 +301,8 @@ fn with_name(name: &str, warning: String) -> String {
 pub fn no_adapter(error: GpuError) -> String {
     match error {
         GpuError::NoAdapter => {
-            "no graphics adapter was found; install a driver for Vulkan, Metal or Direct3D 12 (Mesa's lavapipe works without a GPU)"
+            "no graphics adapter was found; install a driver for Vulkan, Metal or Direct3D 12 (Mesa's \
+             lavapipe works without a GPU)"
                 .to_owned()
         }
         error => error.to_string(),

@@ -12,13 +12,14 @@ use crate::options::reading::ReadOptions;
 pub const ABOUT: &str = "\
 Write what is wrong with models as one HTML file with pictures.
 
-Checks as `darboux check` does. The page begins with the diagnosis of each file; below it are two pictures, of the file and of what `darboux check --fix` \
-would write, under one slider, from the side on which they differ most; then the findings, one entry per kind. The page is one file and loads nothing from \
-a network, so CI can keep it and people can send it. No model is changed.\n\n\
-Pictures are drawn by the adapter of `darboux render`, which may be software (Mesa's lavapipe). Without an adapter the page says so and has the findings \
-alone.\n\n\
-Exit codes are those of `darboux check`: 0: no finding is as severe as --fail-on says (by default error); 1: one is, or a file cannot be read; 2: the \
-command line is wrong.";
+Checks as `darboux check` does. The page begins with the diagnosis of each file; below it are two pictures, \
+of the file and of what `darboux check --fix` would write, under one slider, from the side on which they \
+differ most; then the findings, one entry per kind. The page is one file and loads nothing from a network, \
+so CI can keep it and people can send it. No model is changed.\n\n\
+Pictures are drawn by the adapter of `darboux render`, which may be software (Mesa's lavapipe). Without an \
+adapter the page says so and has the findings alone.\n\n\
+Exit codes are those of `darboux check`: 0: no finding is as severe as --fail-on says (by default error); 1: \
+one is, or a file cannot be read; 2: the command line is wrong.";
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -29,7 +30,8 @@ Examples:
 /// What is checked, and where the page goes.
 #[derive(Debug, Args)]
 pub struct ReportArguments {
-    #[arg(required = true, value_name = "INPUT", help = with_endings("Models ({models}), folders of models, and normal maps (.png, .jpg, .webp, .tga)"))]
+    #[arg(required = true, value_name = "INPUT", help = with_endings("Models ({models}), folders of models, \
+         and normal maps (.png, .jpg, .webp, .tga)"))]
     pub inputs: Vec<PathBuf>,
 
     /// The page, in an existing folder

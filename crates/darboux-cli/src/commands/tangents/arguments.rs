@@ -14,18 +14,20 @@ use crate::options::shading::{NormalsChoice, normals_choice};
 pub const ABOUT: &str = "\
 Add tangents to models, which are read as glTF, GLB or other formats and written as glTF, GLB, PLY or OBJ.
 
-Every triangle primitive with positions, normals and UVs gets MikkTSpace tangents for the UV set that its normal map uses. \
-Vertices are split where their corners need different tangents, as at mirrored seams; skins, colours, UV sets and morph targets \
-are split with them. The rest of the file does not change. The command names each primitive that gets no tangents, with the reason; a file \
-without changes is copied.
+Every triangle primitive with positions, normals and UVs gets MikkTSpace tangents for the UV set that its \
+normal map uses. Vertices are split where their corners need different tangents, as at mirrored seams; \
+skins, colours, UV sets and morph targets are split with them. The rest of the file does not change. The \
+command names each primitive that gets no tangents, with the reason; a file without changes is copied.
 
-Without -o, --out-dir or --in-place the output is written beside its input: model.glb becomes model.tangents.glb. The extension of the \
-output selects the container: .glb contains everything; .gltf gets files beside it: its buffer, in which images stay that were in a buffer or \
-in another format, and copies of image files.
+Without -o, --out-dir or --in-place the output is written beside its input: model.glb becomes \
+model.tangents.glb. The extension of the output selects the container: .glb contains everything; .gltf gets \
+files beside it: its buffer, in which images stay that were in a buffer or in another format, and copies of \
+image files.
 
-Folders are searched for models of all formats that are read, subfolders included; with --in-place for glTF only. A model of another format \
-becomes a .glb: chair.fbx becomes chair.tangents.glb, or chair.fbx.tangents.glb where there is a chair.glb as well. Files named like outputs (model.tangents.glb) and the folder of \
---out-dir are skipped in this search; name such a file to process it.";
+Folders are searched for models of all formats that are read, subfolders included; with --in-place for glTF \
+only. A model of another format becomes a .glb: chair.fbx becomes chair.tangents.glb, or \
+chair.fbx.tangents.glb where there is a chair.glb as well. Files named like outputs (model.tangents.glb) and \
+the folder of --out-dir are skipped in this search; name such a file to process it.";
 
 pub const EXAMPLES: &str = "\
 Examples:

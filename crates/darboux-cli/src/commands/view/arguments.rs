@@ -8,13 +8,15 @@ use crate::options::formats::with_endings;
 use crate::options::reading::ReadOptions;
 
 pub const ABOUT: &str = "\
-Show a model in the browser: its normal map lit with the tangents of two sources side by side, its frames, signs and seams, and what `darboux check` finds in it.
+Show a model in the browser: its normal map lit with the tangents of two sources side by side, its frames, \
+signs and seams, and what `darboux check` finds in it.
 
-The page and the model are served on a random port of this machine, and only under the printed address, which contains a secret; nothing \
-leaves the machine. Ctrl-C ends the viewer. Without a model the page shows a sample. Models can be dropped onto the page.
+The page and the model are served on a random port of this machine, and only under the printed address, \
+which contains a secret; nothing leaves the machine. Ctrl-C ends the viewer. Without a model the page shows \
+a sample. Models can be dropped onto the page.
 
-`cargo xtask dist-viewer` builds the page's files. The command looks for them in the folder `viewer` beside this program, then in the \
-source folder of this program.";
+`cargo xtask dist-viewer` builds the page's files. The command looks for them in the folder `viewer` beside \
+this program, then in the source folder of this program.";
 
 pub const EXAMPLES: &str = "\
 Examples:

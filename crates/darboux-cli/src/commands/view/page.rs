@@ -24,7 +24,10 @@ impl Page {
         let found = folders.iter().find(is_page).ok_or_else(|| {
             let folders: Vec<_> = folders.iter().map(|folder| folder.display().to_string()).collect();
             let folders = folders.join(" or ");
-            format!("the viewer's page was not found in {folders}; build it with `cargo xtask dist-viewer`, which needs Node.js, or name its folder with --page")
+            format!(
+                "the viewer's page was not found in {folders}; build it with `cargo xtask dist-viewer`, \
+                 which needs Node.js, or name its folder with --page"
+            )
         })?;
         Ok(Self { files: files_in(found) })
     }

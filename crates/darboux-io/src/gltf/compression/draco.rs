@@ -75,7 +75,8 @@ impl Document {
             && with_data < wanted.len()
             && !wanted.iter().any(|(index, _)| sources.contains_key(index))
         {
-            let problem = "is compressed in part only, so that the order of its vertices is unknown; export the file again";
+            let problem = "is compressed in part only, so that the order of its vertices is unknown; export \
+                 the file again";
             return Err(ContentError::unsupported(at, problem));
         }
         Ok(with_data == wanted.len())

@@ -140,7 +140,8 @@ impl Document {
         let filter = compressed.filter.as_deref().unwrap_or("NONE");
         decode(mode, filter, stride, stream, count).ok_or_else(|| {
             let problem = format!(
-                "the stream is broken, or is not of mode {mode:?} with elements of {stride} bytes and filter {filter:?}; compress the file again"
+                "the stream is broken, or is not of mode {mode:?} with elements of {stride} bytes and filter \
+                 {filter:?}; compress the file again"
             );
             ContentError::invalid(at, problem)
         })

@@ -28,7 +28,10 @@ pub fn warning(document: &Document, name: &PrimitiveName) -> Option<String> {
     let extensions = affected_extensions(primitive);
     (!extensions.is_empty()).then(|| {
         let names = extensions.join(", ");
-        format!("{name}: vertices were split, but {names} may refer to the old ones; check the model if you use it")
+        format!(
+            "{name}: vertices were split, but {names} may refer to the old ones; check the model if you \
+             use it"
+        )
     })
 }
 

@@ -121,13 +121,14 @@ impl GroupComputation<'_> {
         let keeps_them = matches!(self.options.tangents.method, Method::MikkTSpace(options) if options.mode == Mode::Reference);
         let of_unusable = (keeps_them && unusable > 0).then(|| {
             format!(
-                "{name}: {unusable} corners have an unusable tangent, as in the reference implementation; validators will report them"
+                "{name}: {unusable} corners have an unusable tangent, as in the reference implementation; \
+                 validators will report them"
             )
         });
         let of_merged = (merged > 0).then(|| {
             format!(
-                "{name}: {merged} vertices on mirrored seams have one tangent for both sides with this method; \
-                 normal maps are wrong there"
+                "{name}: {merged} vertices on mirrored seams have one tangent for both sides with this \
+                 method; normal maps are wrong there"
             )
         });
         of_unusable.into_iter().chain(of_merged)

@@ -220,7 +220,8 @@ impl Warnings {
         let Some((first, others)) = choices.split_first() else { return };
         if let Some(other) = others.iter().find(|other| other.set != first.set) {
             self.sentences.push(format!(
-                "{name}: the tangents follow TEXCOORD_{} ({}), so they do not fit the variant whose {} uses TEXCOORD_{}",
+                "{name}: the tangents follow TEXCOORD_{} ({}), so they do not fit the variant whose {} uses \
+                 TEXCOORD_{}",
                 first.set, first.reason, other.reason, other.set
             ));
         }
@@ -230,8 +231,8 @@ impl Warnings {
         let changes = uv.transform.as_ref().is_some_and(changes_directions);
         if changes && !options.apply_texture_transform && self.transformed.insert(uv.reason.clone()) {
             self.sentences.push(format!(
-                "{}: KHR_texture_transform rotates or mirrors its UVs; the tangents follow the stored UVs, as the \
-                 specification says; for renderers that transform them first, use {}",
+                "{}: KHR_texture_transform rotates or mirrors its UVs; the tangents follow the stored UVs, \
+                 as the specification says; for renderers that transform them first, use {}",
                 uv.reason, names.apply_texture_transform
             ));
         }
@@ -241,7 +242,8 @@ impl Warnings {
         let over = chosen.index_count % 3;
         if chosen.topology == TriangleMode::Triangles && over != 0 {
             self.sentences.push(format!(
-                "{name}: its last {over} of {} corners do not form a triangle; they are kept, without tangents of their own",
+                "{name}: its last {over} of {} corners do not form a triangle; they are kept, without \
+                 tangents of their own",
                 Count(chosen.index_count)
             ));
         }

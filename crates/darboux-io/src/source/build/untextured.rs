@@ -43,7 +43,8 @@ pub fn replace(scene: &mut SourceScene, meshes: &mut [Value]) -> Option<String> 
     let lack = if primitives == 1 { "lacks" } else { "lack" };
     let primitives = counted(primitives, "primitive", "primitives");
     Some(format!(
-        "{primitives} of the material {first}{others} {lack} UVs of its textures; a copy of the material without these textures is used there"
+        "{primitives} of the material {first}{others} {lack} UVs of its textures; a copy of the material \
+         without these textures is used there"
     ))
 }
 

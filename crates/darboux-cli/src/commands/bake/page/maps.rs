@@ -45,6 +45,7 @@ fn color(LegendEntry { color, id, name, texels }: &LegendEntry) -> String {
     let name = name.as_ref().map_or_else(|| format!("number {id}"), |name| escaped(name));
     let texels = counted(usize::try_from(*texels).unwrap_or(usize::MAX), "texel", "texels");
     format!(
-        "<li><svg width=\"14\" height=\"14\" aria-hidden=\"true\"><rect width=\"14\" height=\"14\" fill=\"{color}\"/></svg><span>{name} <span class=\"faint\">{color}, {texels}</span></span></li>"
+        "<li><svg width=\"14\" height=\"14\" aria-hidden=\"true\"><rect width=\"14\" height=\"14\" \
+         fill=\"{color}\"/></svg><span>{name} <span class=\"faint\">{color}, {texels}</span></span></li>"
     )
 }

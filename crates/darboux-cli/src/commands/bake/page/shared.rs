@@ -15,6 +15,7 @@ pub struct View {
 pub fn figure(raster: &Raster, caption: &str, more: &str) -> Result<String, String> {
     let ([width, height], address, caption) = (raster.size, raster.address()?, escaped(caption));
     Ok(format!(
-        "<figure><img src=\"{address}\" width=\"{width}\" height=\"{height}\" alt=\"{caption}\"><figcaption>{caption}{more}</figcaption></figure>\n"
+        "<figure><img src=\"{address}\" width=\"{width}\" height=\"{height}\" \
+         alt=\"{caption}\"><figcaption>{caption}{more}</figcaption></figure>\n"
     ))
 }

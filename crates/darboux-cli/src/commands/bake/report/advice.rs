@@ -30,12 +30,16 @@ pub fn of_models(low: &LowModel<'_>, low_name: &str, high: &[HighModel<'_>]) -> 
     let of_low = of_low.map(|(count, one, many)| format!("{low_name}: {}", counted(count, one, many)));
     let of_high = (flat > 0).then(|| {
         let subject = counted(flat, "primitive of the high models has", "primitives of the high models have");
-        format!("{subject} no normals, so every triangle is flat, as glTF requires; darboux normals makes smooth ones")
+        format!(
+            "{subject} no normals, so every triangle is flat, as glTF requires; darboux normals makes \
+             smooth ones"
+        )
     });
     let materials = low.materials.len();
     let of_materials = (materials > 1).then(|| {
         format!(
-            "{low_name}: {materials} materials share this map, which is right only where their charts lie beside each other; for materials with maps of their own use --material"
+            "{low_name}: {materials} materials share this map, which is right only where their charts lie \
+             beside each other; for materials with maps of their own use --material"
         )
     });
     let of_maps = high.iter().flat_map(HighModel::warnings).cloned();
@@ -72,7 +76,8 @@ pub fn of_rays<'n>(
                 None => "a smaller distance, or --auto-cage",
             };
             vec![format!(
-                "rays of neighbouring texels cross before they reach the low model, so that detail may be mirrored or doubled there: {others}; use {cure}"
+                "rays of neighbouring texels cross before they reach the low model, so that detail may be \
+                 mirrored or doubled there: {others}; use {cure}"
             )]
         }
     }
@@ -89,13 +94,15 @@ pub fn failure(report: &BakeReport, arguments: &BakeArguments, elongation: f64) 
     let is_all = |count: u64, of: u64| count > 0 && count == of;
     if is_all(report.non_finite_low_triangles, report.low_triangles) {
         return Some(
-            "every triangle of the low model has positions or normals that are not finite where the scene has them, so there is nothing to bake; scale the model down"
+            "every triangle of the low model has positions or normals that are not finite where the scene \
+             has them, so there is nothing to bake; scale the model down"
                 .to_owned(),
         );
     }
     if is_all(report.non_finite_triangles, report.high_triangles) {
         return Some(
-            "every triangle of the high models has positions that are not finite where their scenes have them, or is too large beside the low model; scale the models to one size"
+            "every triangle of the high models has positions that are not finite where their scenes have \
+             them, or is too large beside the low model; scale the models to one size"
                 .to_owned(),
         );
     }
@@ -110,7 +117,10 @@ pub fn failure(report: &BakeReport, arguments: &BakeArguments, elongation: f64) 
     (report.missed_texels as f64 > most * report.charted_texels as f64).then(|| {
         let missed = percent(report, report.missed_texels);
         let cause = cause();
-        format!("the rays of {missed} of the texels hit nothing, which --max-misses {most} forbids, and nothing was written: {cause}")
+        format!(
+            "the rays of {missed} of the texels hit nothing, which --max-misses {most} forbids, and \
+             nothing was written: {cause}"
+        )
     })
 }
 
@@ -121,11 +131,14 @@ fn percent(report: &BakeReport, count: u64) -> String {
 
 fn cause_of_misses(report: &BakeReport, arguments: &BakeArguments, elongation: f64) -> &'static str {
     if elongation > LONGEST {
-        "the low model is more than a million times as long as wide, so that numbers cannot hold its directions; scale it evenly in its scene"
+        "the low model is more than a million times as long as wide, so that numbers cannot hold its \
+         directions; scale it evenly in its scene"
     } else if 2 * report.back_facing_texels > report.missed_texels {
-        "most of these rays meet the high models from behind, so their faces are turned inside out; turn them, or use --back-faces"
+        "most of these rays meet the high models from behind, so their faces are turned inside out; turn \
+         them, or use --back-faces"
     } else if arguments.distance.is_some() {
-        "begin rays farther outside or end them farther inside (--distance), or use a cage (--cage-offset), and check that the models lie on each other"
+        "begin rays farther outside or end them farther inside (--distance), or use a cage (--cage-offset), \
+         and check that the models lie on each other"
     } else {
         "choose a larger --cage-offset, and check that the models lie on each other"
     }
@@ -151,14 +164,22 @@ pub fn of_report(
     }
     if share(report.inverted_texels) > NOTABLE {
         warnings.push(format!(
-            "at {} of the texels the normals of the high models point to the back of their triangles; make them again with darboux normals --overwrite",
+            "at {} of the texels the normals of the high models point to the back of their triangles; make \
+             them again with darboux normals --overwrite",
             percent(report.inverted_texels)
         ));
     }
     if report.overlapping_texels > 0 {
         warnings.push(format!(
-            "{} covered by several triangles of the low model, of which the first is baked; all texels of charts together are covered {:.2} times on average; charts may share texels only where their surfaces are equal: otherwise choose UVs that neither overlap nor repeat (--uv-set), or unwrap the model anew",
-            counted(usize::try_from(report.overlapping_texels).unwrap_or(usize::MAX), "texel is", "texels are"),
+            "{} covered by several triangles of the low model, of which the first is baked; all texels of \
+             charts together are covered {:.2} times on average; charts may share texels only where their \
+             surfaces are equal: otherwise choose UVs that neither overlap nor repeat (--uv-set), or unwrap \
+             the model anew",
+            counted(
+                usize::try_from(report.overlapping_texels).unwrap_or(usize::MAX),
+                "texel is",
+                "texels are"
+            ),
             share(report.chart_area)
         ));
     }
@@ -170,8 +191,10 @@ pub fn of_report(
         ),
         (
             report.non_finite_low_triangles,
-            "triangle of the low model has positions or normals that are not finite and is not baked (darboux check says where)",
-            "triangles of the low model have positions or normals that are not finite and are not baked (darboux check says where)",
+            "triangle of the low model has positions or normals that are not finite and is not baked \
+             (darboux check says where)",
+            "triangles of the low model have positions or normals that are not finite and are not baked \
+             (darboux check says where)",
         ),
         (
             report.non_finite_triangles,

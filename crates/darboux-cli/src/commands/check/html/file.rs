@@ -30,7 +30,8 @@ pub fn section(number: usize, file: &CheckedFile, pictures: Pictures) -> String 
     let (class, word) = verdict(file);
     let name = escaped(&file.input);
     let mut html = format!(
-        "<section id=\"file-{number}\" class=\"file {class}\" aria-labelledby=\"name-{number}\">\n<h2 id=\"name-{number}\">{name} <span class=\"verdict\">{word}</span></h2>\n"
+        "<section id=\"file-{number}\" class=\"file {class}\" aria-labelledby=\"name-{number}\">\n<h2 \
+         id=\"name-{number}\">{name} <span class=\"verdict\">{word}</span></h2>\n"
     );
     match &file.error {
         Some(error) => html += &format!("<p class=\"diagnosis\">{}</p>\n", escaped(error)),
@@ -60,7 +61,8 @@ fn of_pictures(pictures: Pictures) -> String {
         Pictures::One { png, size, why } => {
             let [width, height] = size;
             format!(
-                "<figure><img src=\"{png}\" width=\"{width}\" height=\"{height}\" alt=\"The model as it is in the file\"><figcaption>{}</figcaption></figure>\n",
+                "<figure><img src=\"{png}\" width=\"{width}\" height=\"{height}\" alt=\"The model as it is \
+                 in the file\"><figcaption>{}</figcaption></figure>\n",
                 escaped(&why)
             )
         }
@@ -75,9 +77,12 @@ fn of_pictures(pictures: Pictures) -> String {
 fn pair(Pair { caption, before, after, size: [width, height], split }: &Pair) -> String {
     let caption = escaped(caption);
     format!(
-        "<figure class=\"pair\">\n<div class=\"frame\">\n<div class=\"before\"><img src=\"{before}\" width=\"{width}\" height=\"{height}\" alt=\"{caption}, in the file\"><p>In the file</p></div>\n\
-        <div class=\"after\"><img src=\"{after}\" width=\"{width}\" height=\"{height}\" alt=\"{caption}, repaired\"><p>Repaired</p></div>\n\
-        <input type=\"range\" min=\"0\" max=\"100\" value=\"{split}\" aria-label=\"{caption}: percent of the picture that shows the file\" hidden>\n</div>\n<figcaption>{caption}</figcaption>\n</figure>\n"
+        "<figure class=\"pair\">\n<div class=\"frame\">\n<div class=\"before\"><img src=\"{before}\" \
+         width=\"{width}\" height=\"{height}\" alt=\"{caption}, in the file\"><p>In the file</p></div>\n\
+        <div class=\"after\"><img src=\"{after}\" width=\"{width}\" height=\"{height}\" alt=\"{caption}, \
+        repaired\"><p>Repaired</p></div>\n\
+        <input type=\"range\" min=\"0\" max=\"100\" value=\"{split}\" aria-label=\"{caption}: percent of the \
+        picture that shows the file\" hidden>\n</div>\n<figcaption>{caption}</figcaption>\n</figure>\n"
     )
 }
 

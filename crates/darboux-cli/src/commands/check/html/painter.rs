@@ -73,7 +73,8 @@ impl<'a> Painter<'a> {
         let before = Model::read(&original).map_err(sentence)?;
         if !is_changed {
             let picture = draw(gpu, &before, &before, CAMERAS[0], SIZE)?;
-            let why = "The model as it is in the file. Nothing that was found is repaired without guessing, so there is no second picture.";
+            let why = "The model as it is in the file. Nothing that was found is repaired without guessing, \
+                 so there is no second picture.";
             return picture.address().map(|png| Pictures::One { png, size: SIZE, why: why.to_owned() });
         }
         complete(&mut repaired).map_err(sentence)?;
@@ -96,7 +97,8 @@ fn pairs(gpu: &Gpu, before: &Model<'_>, after: &Model<'_>) -> Result<Pictures, S
     if count < LEAST {
         let picture = draw(gpu, before, before, camera, SIZE)?;
         let why = format!(
-            "The file and the repaired file look alike from {} sides in this light: the repair changes numbers, not this picture.",
+            "The file and the repaired file look alike from {} sides in this light: the repair changes \
+             numbers, not this picture.",
             CAMERAS.len()
         );
         return picture.address().map(|png| Pictures::One { png, size: SIZE, why });
