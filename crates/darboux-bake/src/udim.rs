@@ -16,6 +16,9 @@ impl Udim {
     /// Rows of tiles.
     pub const ROWS: u16 = 899;
 
+    /// Digits of every number.
+    pub const DIGITS: usize = 4;
+
     /// The tile of a number from 1001 to 9990; none for others.
     pub fn from_number(number: u32) -> Option<Self> {
         let place = number.checked_sub(1001)?;

@@ -135,6 +135,31 @@ fn bakes_of_a_job_do_not_write_what_others_read() {
     refused(&format!("{pair_of}output = \"./a.png\"\n"), "is written by two bakes of the job");
 }
 
+/// Which tiles there are is known when a low model is open.
+#[test]
+fn images_of_tiles_count_before_models_are_open() {
+    let pair = Pair::new();
+    let job = pair.path("job.toml");
+    let bake = |outputs: [&str; 2]| {
+        let entry = |output: &str| format!("[[bake]]\nlow = \"low.glb\"\nhigh = \"high.glb\"\n{output}\n");
+        let entries: String = outputs.iter().map(|output| entry(output)).collect();
+        fs::write(&job, format!("[defaults]\nsize = 8\ncage-offset = 1\n{entries}")).expect("a file");
+        darboux(&["bake", text(&job), "--force"])
+    };
+    for other in ["a.1001.png", "./a.<UDIM>.png", "a.9990.png", "a.%UDIM%.png"] {
+        let run = bake(["output = \"a.%UDIM%.png\"", &format!("output = \"{other}\"")]).exits(2);
+        assert!(run.stderr.contains("is written by two bakes of the job"), "{other}: {}", run.stderr);
+        assert!(!pair.path("a.1001.png").exists());
+    }
+    let skew = "output = \"a.png\"\nskew = \"paint.1001.png\"";
+    image(&pair.path("paint.1001.png"));
+    let run = bake([skew, "output = \"paint.%UDIM%.png\""]).exits(2);
+    assert!(run.stderr.contains("would replace the image of --skew"), "{}", run.stderr);
+    for other in ["a.1000.png", "b.1001.png", "a.9991.png", "a.1001.exr"] {
+        bake(["output = \"a.%UDIM%.png\"", &format!("output = \"{other}\"")]).exits(0);
+    }
+}
+
 /// A FIFO would block the command, and a device never ends.
 #[test]
 #[cfg(unix)]

@@ -128,6 +128,9 @@ fn jobs_that_cannot_be_right_are_refused() {
     refused(&format!("{entry}uv-set = 1979-05-27\n"), "line 5: uv-set is neither text nor a number");
     refused(&"[".repeat(100_000), "line 1");
     refused(&format!("{entry}{}", "# long\n".repeat(700_000)), "has more than 4 MiB");
+    // Every bake has the defaults.
+    let defaults = format!("[defaults]\nmap = \"{}normal\"\n", "normal,".repeat(50_000));
+    refused(&format!("{defaults}{}", entry.repeat(100)), "have more than 16 MiB");
     // A path that begins with a dash is no option.
     fs::write(&job, "[[bake]]\nlow = \"--force\"\nhigh = \"-x\"\noutput = \"-o.png\"\n").expect("a file");
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_darboux"));

@@ -8,6 +8,7 @@ use darboux_io::gltf::Document;
 use super::arguments::BakeArguments;
 use super::outputs::{all_outputs, picture_of_misses};
 use super::skew::SkewChoice;
+use super::tile_names::{self, has_place};
 use crate::file_id::FileId;
 
 /// A file that is read.
@@ -56,18 +57,30 @@ pub fn outputs_of(arguments: &BakeArguments, bake: usize) -> Vec<OutputFile> {
     all.map(|(path, is_occasional)| OutputFile { path, bake, is_occasional }).collect()
 }
 
-/// Refuses a file that would be written twice, or over an input. The error is one sentence.
+/// Refuses a file that would be written twice, or over an input: also one that `%UDIM%` in the name of an output
+/// may stand for. The error is one sentence.
 pub fn refuse_twice(outputs: &[OutputFile], inputs: &[InputFile]) -> Result<(), String> {
     let mut writers: HashMap<FileId, &OutputFile> = HashMap::new();
+    let is_conflict = |a: &OutputFile, b: &OutputFile| !(a.is_occasional && b.is_occasional);
     for output in outputs {
-        match writers.insert(FileId::of(&output.path), output) {
-            Some(other) if !(other.is_occasional && output.is_occasional) => {
-                return Err(written_twice(other, output));
-            }
+        match writers.insert(FileId::of(&tile_names::canonical(&output.path)), output) {
+            Some(other) if is_conflict(other, output) => return Err(written_twice(other, output)),
             _ => {}
         }
     }
-    match inputs.iter().find_map(|input| Some((input, *writers.get(&FileId::of(&input.path))?))) {
+    let has_tiles = outputs.iter().any(|output| has_place(&output.path));
+    let tile_of = |path: &Path| {
+        let mut templates = has_tiles.then(|| tile_names::templates_of(path)).into_iter().flatten();
+        templates.find_map(|template| writers.get(&FileId::of(&template)).copied())
+    };
+    let tile = outputs.iter().find_map(|output| {
+        tile_of(&output.path).filter(|other| is_conflict(other, output)).map(|other| (other, output))
+    });
+    if let Some((other, output)) = tile {
+        return Err(written_twice(other, output));
+    }
+    let writer = |path: &Path| writers.get(&FileId::of(path)).copied().or_else(|| tile_of(path));
+    match inputs.iter().find_map(|input| Some((input, writer(&input.path)?))) {
         Some((InputFile { path, role }, output)) => {
             let alias = alias(&output.path, path);
             Err(format!("{}: would replace {role}{alias}; choose another name", output.path.display()))

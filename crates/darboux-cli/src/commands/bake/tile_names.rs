@@ -15,6 +15,24 @@ pub fn has_place(path: &Path) -> bool {
     PLACES.iter().any(|place| text.contains(place))
 }
 
+/// A name with one spelling of the place.
+pub fn canonical(path: &Path) -> PathBuf {
+    with_place(path, PLACES[0])
+}
+
+/// The names with a place that may stand for a file: each with the place where the file's name has the number of
+/// a tile.
+pub fn templates_of(path: &Path) -> impl Iterator<Item = PathBuf> {
+    let text = path.to_string_lossy().into_owned();
+    let starts = 0..text.len().saturating_sub(Udim::DIGITS - 1);
+    starts.filter_map(move |start| {
+        let digits = text.get(start..start + Udim::DIGITS)?;
+        let is_number = digits.bytes().all(|byte| byte.is_ascii_digit());
+        Udim::from_number(digits.parse().ok().filter(|_| is_number)?)?;
+        Some(text.replace(digits, PLACES[0]).into())
+    })
+}
+
 /// Refuses names of images that do not go together, and results that tiles do not have. The error is one
 /// sentence.
 pub fn check(arguments: &BakeArguments) -> Result<(), String> {
@@ -49,6 +67,10 @@ pub fn check(arguments: &BakeArguments) -> Result<(), String> {
 
 /// The name of the image of a tile.
 pub fn named(path: &Path, udim: Udim) -> PathBuf {
-    let text = path.to_string_lossy();
-    PLACES.iter().fold(text.into_owned(), |text, place| text.replace(place, &udim.to_string())).into()
+    with_place(path, &udim.to_string())
+}
+
+fn with_place(path: &Path, text: &str) -> PathBuf {
+    let name = path.to_string_lossy().into_owned();
+    PLACES.iter().fold(name, |name, place| name.replace(place, text)).into()
 }

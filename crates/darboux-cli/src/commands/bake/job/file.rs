@@ -22,6 +22,9 @@ use crate::regular_file::{Links, open_regular};
 /// The longest job. Its tables take fifty times as much memory.
 const MAX_LENGTH: u64 = 4 << 20;
 
+/// The longest options of all bakes together: each has the defaults, too.
+const MAX_OPTIONS: usize = 16 << 20;
+
 #[derive(Parser)]
 #[command(name = "darboux bake", no_binary_name = true, disable_help_flag = true)]
 struct CommandLine {
@@ -59,12 +62,21 @@ pub fn entries(path: &Path) -> Result<Vec<Entry>, String> {
     }
     let folder = path.parent().unwrap_or(Path::new(""));
     let keys = Keys::new();
-    let entry = |(at, own): (usize, Values<'_>)| {
+    let (mut entries, mut length) = (Vec::new(), 0);
+    for (at, own) in bakes {
         let mut all = defaults.clone();
         all.extend(own);
-        read(&keys, &all, at, folder, place(at)).map_err(sentence)
-    };
-    bakes.into_iter().map(entry).collect()
+        let entry = read(&keys, &all, at, folder, place(at)).map_err(sentence)?;
+        length += entry.options.len();
+        if length > MAX_OPTIONS {
+            let what = "the options of the bakes up to here have more than 16 MiB, with [defaults] in each; \
+                        divide the job"
+                .to_owned();
+            return Err(sentence(Problem { at, what }));
+        }
+        entries.push(entry);
+    }
+    Ok(entries)
 }
 
 /// A text, or the part of a longer one that shows that it is too long.
