@@ -3,17 +3,15 @@
 
 use darboux::Recipe;
 
+use crate::check::MIN_SPOILED;
 use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Fault, MapFault, PAIRS, Pair, TangentFault};
-use crate::hypotheses::flipped_percent;
+use crate::hypotheses::{are_nearly_all_flipped, spoiled_under_inverted_map};
 use crate::severity::Severity;
 
 /// All codes of the pairs.
 const CODES: [Code; 4] =
     [Code::MapGreenFlipped, Code::MapRedFlipped, Code::TangentSignFlipped, Code::TangentNegated];
-
-/// The share of flipped triangles, in percent, from which on a map that cancels them makes the picture right.
-const NEARLY_ALL: f64 = 80.0;
 
 /// The pair that the defects of a map and those of a surface that uses it make; none where they do not
 /// cancel.
@@ -37,28 +35,42 @@ pub fn is_part(pair: &Pair, defect: &Defect) -> bool {
 /// The code of a defect as a part of a pair. One that lists vertices or triangles is about a part of the
 /// surface and none, unless it is about the signs of nearly all of it.
 fn code_in_pair(defect: &Defect) -> Option<Code> {
-    if flipped_percent(defect) >= NEARLY_ALL {
+    if are_nearly_all_flipped(defect) {
         Some(Code::TangentSignFlipped)
     } else {
         Some(defect.code()).filter(|_| !defect.lists_items())
     }
 }
 
+/// The pair that the defects of a map make with those of each of some surfaces.
+pub fn pairs_of(on_map: &[Defect], surfaces: &[Vec<&mut Defect>]) -> Vec<Option<&'static Pair>> {
+    surfaces.iter().map(|surface| pair_of(on_map, surface.iter().map(|defect| &**defect))).collect()
+}
+
 /// Marks which defects of a map and of the surfaces that use it cancel. The map's are marked where they
 /// cancel on all surfaces, and their codes are returned. What cancels makes no picture wrong: it is a
-/// warning, and one finding says all where the map is marked. `image`: that of the map.
+/// warning, but where much of a surface has other signs, and one finding says all where the map is marked.
+/// `image`: that of the map. `cancels`: per surface whether all maps that it uses cancel its defects.
 pub fn mark(
     on_map: &mut [Defect],
     surfaces: &mut [Vec<&mut Defect>],
+    cancels: impl Fn(usize) -> bool,
     image: Option<usize>,
 ) -> &'static [Code] {
-    let pairs: Vec<Option<&Pair>> =
-        surfaces.iter().map(|surface| pair_of(&*on_map, surface.iter().map(|defect| &**defect))).collect();
+    let mut pairs = pairs_of(on_map, surfaces);
+    for (index, pair) in pairs.iter_mut().enumerate() {
+        *pair = pair.filter(|_| cancels(index));
+    }
+    let mut severity = Severity::Warning;
     for (pair, surface) in pairs.iter().zip(&mut *surfaces) {
         let Some(pair) = *pair else { continue };
         for defect in surface.iter_mut().filter(|defect| is_part(pair, defect)) {
             defect.cancelled.get_or_insert(Cancelled::ByMap { pair, image, is_whole: false });
-            defect.severity = defect.severity.min(Severity::Warning);
+            if spoiled_under_inverted_map(defect) < MIN_SPOILED {
+                defect.severity = defect.severity.min(Severity::Warning);
+            } else {
+                severity = defect.severity;
+            }
         }
     }
     let first_pair = pairs.first().copied().flatten();
@@ -71,7 +83,7 @@ pub fn mark(
     for defect in on_map.iter_mut().filter(|defect| is_part(pair, defect)) {
         let (first, are_several) = (first.clone(), surfaces.len() > 1);
         defect.cancelled.get_or_insert(Cancelled::BySurface { pair, first, are_several, is_of_most, recipe });
-        defect.severity = defect.severity.min(Severity::Warning);
+        defect.severity = defect.severity.min(severity);
     }
     for defect in surfaces.iter_mut().flatten().filter(|defect| is_part(pair, defect)) {
         if let Some(Cancelled::ByMap { image: of, is_whole, .. }) = &mut defect.cancelled {

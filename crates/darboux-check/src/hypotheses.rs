@@ -16,6 +16,7 @@
 
 use darboux::BitangentDirection;
 
+use crate::check::MIN_SPOILED;
 use crate::check_options::{AssumedMap, CheckOptions};
 use crate::code::Code;
 use crate::defect::{Defect, Fault, MapFault, Obstacle, TangentFault};
@@ -134,36 +135,67 @@ pub fn is_about_channels(defect: &Defect) -> bool {
     matches!(defect.fault, Fault::Map(MapFault::GreenFlipped { .. } | MapFault::RedFlipped(_)))
 }
 
-/// Whether all signs of a surface are flipped, or those of most triangles: a map that cancels the signs of
-/// most of them makes most of the picture right.
-pub fn has_flipped_signs(defect: &Defect) -> bool {
-    flipped_percent(defect) > 50.0
+/// All of a surface, in percent.
+pub const ALL_PERCENT: f64 = 100.0;
+
+/// The share of flipped triangles, in percent, from which on a map that cancels them makes the picture right.
+const NEARLY_ALL: f64 = 80.0;
+
+/// Whether the signs of all or nearly all of a surface are flipped: a map that cancels them makes the picture
+/// right.
+pub fn are_nearly_all_flipped(defect: &Defect) -> bool {
+    flipped_percent(defect).is_some_and(|percent| percent >= NEARLY_ALL)
 }
 
-/// The triangles whose signs a defect calls flipped, in percent of those that were measured.
-pub fn flipped_percent(defect: &Defect) -> f64 {
-    match &defect.fault {
-        Fault::Tangent(TangentFault::Differs(found)) => match found.difference {
-            Difference::SignFlipped => 100.0,
-            Difference::SignPartlyFlipped => found.percent(),
-            _ => 0.0,
-        },
+/// Whether the signs of most of a surface are flipped.
+pub fn are_most_flipped(defect: &Defect) -> bool {
+    flipped_percent(defect).is_some_and(|percent| percent > 50.0)
+}
+
+/// Whether signs of a surface are flipped, at least those of a part: a map that is inverted cancels them there.
+pub fn is_about_signs(defect: &Defect) -> bool {
+    flipped_percent(defect).is_some()
+}
+
+/// What a defect calls flipped, in percent of the triangles or corners that were measured; none for a defect
+/// that is not about the signs of triangles.
+pub fn flipped_percent(defect: &Defect) -> Option<f64> {
+    let Fault::Tangent(TangentFault::Differs(found)) = &defect.fault else { return None };
+    match found.difference {
+        Difference::SignFlipped => Some(ALL_PERCENT),
+        Difference::SignPartlyFlipped | Difference::SignFlippedWhereMirrored => Some(found.percent()),
+        _ => None,
+    }
+}
+
+/// In percent of the model's area: what looks wrong whether a map cancels flipped signs or not, which is the
+/// smaller one of the part with flipped signs and the rest.
+fn surely_spoiled(defect: &Defect) -> f64 {
+    defect.spoiled.unwrap_or(0.0).min(spoiled_under_inverted_map(defect))
+}
+
+/// In percent of the model's area: the rest beside flipped signs, which looks wrong where a map cancels those.
+pub fn spoiled_under_inverted_map(defect: &Defect) -> f64 {
+    match (defect.spoiled, flipped_percent(defect)) {
+        (Some(spoiled), Some(percent)) if percent > 0.0 => {
+            spoiled * (ALL_PERCENT - percent).max(0.0) / percent
+        }
         _ => 0.0,
     }
 }
 
 /// Leaves what is not identified: inverted channels of a map, and flipped signs that it may cancel.
 /// `surfaces`: the defects of each that uses the map. `sibling`: another image of the model and what the
-/// faces show of it. `image`: that of the map.
+/// faces show of it. `image`: that of the map; none for a map without a document.
 pub fn leave_unidentified(
     on_map: &mut [Defect],
     witness: &MapWitness,
     surfaces: &mut [Vec<&mut Defect>],
     sibling: Option<(usize, Inverted)>,
-    image: usize,
+    image: Option<usize>,
 ) {
     leave_of_other_layout(on_map, surfaces, image);
-    let is_flipped = |surface: &Vec<&mut Defect>| surface.iter().any(|defect| has_flipped_signs(defect));
+    let is_flipped = |surface: &Vec<&mut Defect>| surface.iter().any(|defect| are_nearly_all_flipped(defect));
     let are_flipped = !surfaces.is_empty() && surfaces.iter().all(is_flipped);
     let found = inverted(on_map);
     let posterior = witness.posterior(are_flipped, sibling.map(|(_, inverted)| inverted));
@@ -181,15 +213,17 @@ pub fn leave_unidentified(
         }
     }
     // Where the map is right after all, flipped signs are a mistake; where it is not, they cancel it.
-    for defect in surfaces.iter_mut().flatten().filter(|defect| has_flipped_signs(defect)) {
+    for defect in surfaces.iter_mut().flatten().filter(|defect| is_about_signs(defect)) {
         defect.obstacle.get_or_insert(Obstacle::MapMayCancel { image, is_of_sketchfab: false });
-        defect.severity = defect.severity.min(Severity::Warning);
+        if surely_spoiled(defect) < MIN_SPOILED {
+            defect.severity = defect.severity.min(Severity::Warning);
+        }
     }
 }
 
 /// Where a map was made for another UV layout, tangents that do not fit the UVs may fit the layout of the
 /// map: the UVs were changed after the bake and the tangents kept. New ones would follow the wrong UVs.
-fn leave_of_other_layout(on_map: &[Defect], surfaces: &mut [Vec<&mut Defect>], image: usize) {
+fn leave_of_other_layout(on_map: &[Defect], surfaces: &mut [Vec<&mut Defect>], image: Option<usize>) {
     if !on_map.iter().any(|defect| defect.code() == Code::MapOtherLayout) {
         return;
     }

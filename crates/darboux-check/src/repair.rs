@@ -125,6 +125,6 @@ fn waits_for_repaired_map(left: &FixedFinding, all: &[FixedFinding]) -> bool {
         let mut of_image = all.iter().filter(|fixed| fixed.finding.place.image == Some(image));
         of_image.any(|fixed| fixed.repaired)
     };
-    let waits = |defect: &Defect| matches!(defect.obstacle, Some(Obstacle::MapMayCancel { image, .. }) if is_repaired(image));
+    let waits = |defect: &Defect| matches!(defect.obstacle, Some(Obstacle::MapMayCancel { image: Some(image), .. }) if is_repaired(image));
     !left.repaired && left.finding.defects.iter().any(waits)
 }

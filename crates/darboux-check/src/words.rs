@@ -48,7 +48,7 @@ fn of_pair(defects: Vec<Defect>) -> Finding {
     let left = defects.iter().find_map(|defect| defect.obstacle.as_ref());
     Finding {
         code,
-        severity: code.severity(),
+        severity: defects.iter().map(|defect| defect.severity).fold(code.severity(), Severity::max),
         place: map.place.clone(),
         count: 1,
         first: Vec::new(),

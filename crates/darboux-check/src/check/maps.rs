@@ -11,7 +11,6 @@ use darboux_io::words::Count;
 use super::surfaces::{defects_of_surface, for_each_surface, weigh};
 use crate::cancelling;
 use crate::check_options::CheckOptions;
-use crate::code::Code;
 use crate::defect::{Defect, Fault, MapFault, Obstacle, Unread, UvFault};
 use crate::finding::Finding;
 use crate::hypotheses::{self, Inverted, MapWitness, inverted, is_about_channels};
@@ -87,7 +86,7 @@ pub fn map_defects_on_surfaces(file: &[u8], surfaces: &MapSurfaces, options: &Ch
 /// of which repairs revealed more.
 pub fn identified_defects(file: &[u8], surfaces: &MapSurfaces, options: &CheckOptions) -> MapDefects {
     let mut checked = map_defects_on_surfaces(file, surfaces, options);
-    hypotheses::leave_unidentified(&mut checked.defects, &checked.witness, &mut [], None, 0);
+    hypotheses::leave_unidentified(&mut checked.defects, &checked.witness, &mut [], None, None);
     checked
 }
 
@@ -106,22 +105,24 @@ impl ModelOfMaps {
         &self.findings
     }
 
-    /// Marks defects of a map and of this model's surfaces that cancel each other, and returns the codes of
-    /// those of the map.
-    fn mark_cancelling(&self, on_map: &mut [Defect], on_model: &mut [Defect]) -> &'static [Code] {
-        BySurface::new(on_model).visit(&self.keys(), |surfaces| cancelling::mark(on_map, surfaces, None))
-    }
-
-    /// Leaves what is not identified of a map on these surfaces.
-    fn leave_unidentified(&self, on_map: &mut MapDefects, on_model: &mut [Defect]) {
-        let witness = on_map.witness;
-        BySurface::new(on_model).visit(&self.keys(), |surfaces| {
-            hypotheses::leave_unidentified(&mut on_map.defects, &witness, surfaces, None, 0);
+    /// The defects of the map, and those of this model beside it: what is not identified is left, and what
+    /// cancels is marked.
+    fn with_map(&self, file: &[u8], options: &CheckOptions) -> (MapDefects, Vec<Defect>) {
+        let uses: Vec<MapUse<'_>> = self.surfaces.iter().map(|surface| (surface, None)).collect();
+        let vote = |image: &RgbaImage| MeshVotes::of(&uses, image);
+        let mut on_map = map_defects(file, options, Some(&vote));
+        let mut on_model = self.defects.clone();
+        let keys: Vec<Key> =
+            self.surfaces.iter().filter_map(|surface| surface.place.primitive.as_ref().map(key)).collect();
+        let found = &mut on_map.defects;
+        let cancelled = BySurface::new(&mut on_model).visit(&keys, |surfaces| {
+            hypotheses::leave_unidentified(found, &on_map.witness, surfaces, None, None);
+            cancelling::mark(found, surfaces, |_| true, None)
         });
-    }
-
-    fn keys(&self) -> Vec<Key> {
-        self.surfaces.iter().filter_map(|surface| surface.place.primitive.as_ref().map(key)).collect()
+        for defect in found.iter_mut().filter(|defect| cancelled.contains(&defect.code())) {
+            defect.obstacle.get_or_insert(Obstacle::OnTheModelToo);
+        }
+        (on_map, on_model)
     }
 }
 
@@ -145,24 +146,14 @@ pub fn check_model_of_maps(document: &Document) -> Result<ModelOfMaps, Error> {
 /// The findings on the map come first, then those on the model. A finding about green says where the signs of
 /// the model's tangents are flipped, too, so that both mistakes cancel.
 pub fn check_map_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptions) -> CheckedMap {
-    let mut checked = map_defects_on_model(file, model, options);
-    let mut on_model = model.defects.clone();
-    model.mark_cancelling(&mut checked.defects, &mut on_model);
+    let (mut checked, on_model) = model.with_map(file, options);
     checked.defects.extend(on_model);
     checked.into()
 }
 
 /// The defects of the map alone, on a model.
 pub fn map_defects_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptions) -> MapDefects {
-    let uses: Vec<MapUse<'_>> = model.surfaces.iter().map(|surface| (surface, None)).collect();
-    let vote = |image: &RgbaImage| MeshVotes::of(&uses, image);
-    let mut checked = map_defects(file, options, Some(&vote));
-    model.leave_unidentified(&mut checked, &mut model.defects.clone());
-    let cancelled = model.mark_cancelling(&mut checked.defects, &mut model.defects.clone());
-    for defect in checked.defects.iter_mut().filter(|defect| cancelled.contains(&defect.code())) {
-        defect.obstacle.get_or_insert(Obstacle::OnTheModelToo);
-    }
-    checked
+    model.with_map(file, options).0
 }
 
 /// The defects of materials and of the images of their normal maps, each image once. `on_surfaces`: the other
@@ -213,13 +204,22 @@ pub fn defects_of_materials(
     let without_uv_area: HashSet<Key> = on_surfaces.iter().filter_map(primitive_without_uv_area).collect();
     let mut by_surface = BySurface::new(on_surfaces);
     let shown: Vec<(usize, Inverted)> = judged.iter().filter_map(shown_by_faces).take(2).collect();
+    let keys_of = |image: usize| -> Vec<Key> {
+        users.names(image).map(key).filter(|own| !without_uv_area.contains(own)).collect()
+    };
+    let mut not_cancelled: HashSet<Key> = HashSet::new();
+    for (image, found, _) in &judged {
+        let keys = keys_of(*image);
+        let cancels = by_surface.visit(&keys, |surfaces| cancelling::pairs_of(found, surfaces));
+        let others = keys.iter().zip(cancels).filter(|(_, pair)| pair.is_none());
+        not_cancelled.extend(others.map(|(key, _)| *key));
+    }
     for (image, found, witness) in &mut judged {
         let sibling = shown.iter().find(|(other, _)| *other != *image).copied();
-        let keys: Vec<Key> =
-            users.names(*image).map(key).filter(|own| !without_uv_area.contains(own)).collect();
+        let keys = keys_of(*image);
         by_surface.visit(&keys, |surfaces| {
-            hypotheses::leave_unidentified(found, witness, surfaces, sibling, *image);
-            cancelling::mark(found, surfaces, Some(*image));
+            hypotheses::leave_unidentified(found, witness, surfaces, sibling, Some(*image));
+            cancelling::mark(found, surfaces, |index| !not_cancelled.contains(&keys[index]), Some(*image));
         });
     }
     let is_flat =

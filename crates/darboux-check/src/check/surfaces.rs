@@ -57,7 +57,7 @@ pub fn for_each_surface(
 
 /// In percent of the model's area: what defects of one kind spoil together at least to be errors. Half a
 /// percent of a model that fills a screen of 1920 x 1080 is a square of a hundred pixels.
-const MIN_SPOILED: f64 = 0.5;
+pub const MIN_SPOILED: f64 = 0.5;
 
 /// The least part of what all defects of one kind spoil that is an error: the smallest ones, which are less
 /// together, are not seen beside the others.

@@ -53,13 +53,13 @@ pub enum Obstacle {
     },
     /// The convention of a map is unknown, and inverted green in it would cancel the defect.
     MapMayCancel {
-        image: usize,
+        image: Option<usize>,
         /// Whether the file is from Sketchfab, most of whose maps do.
         is_of_sketchfab: bool,
     },
     /// The map was made for another UV layout, which the tangents may fit.
     MapHasOtherLayout {
-        image: usize,
+        image: Option<usize>,
     },
     /// A mistake of the model cancels that of the map.
     OnTheModelToo,
@@ -68,6 +68,8 @@ pub enum Obstacle {
     OtherImageFormat,
     /// A mistake elsewhere cancels it, and is left.
     PairIsLeft(&'static Pair),
+    /// Flipped signs of a part of the surface are left, and new tangents would have the right ones.
+    SignsAreLeft,
     NotChosen,
     OtherMethodWanted,
     /// The rest needs all tangents computed again, and their recipe is kept.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::options::FixOptions;
 use crate::code::{Code, Family};
 use crate::defect::{Defect, Fault, NormalFault, TangentFault};
-use crate::hypotheses::has_flipped_signs;
+use crate::hypotheses::{ALL_PERCENT, are_most_flipped, flipped_percent};
 use crate::indices::Indices;
 use crate::instances::{Key, key};
 use crate::measure::fit::Difference;
@@ -34,10 +34,8 @@ impl Kept {
     fn of(defects: &[&Defect], options: &FixOptions) -> Self {
         let left = || defects.iter().filter(|defect| !options.repairs(defect));
         let is_negated = |defect: &&&Defect| defect.code() == Code::TangentNegated && !defect.lists_items();
-        Self {
-            flipped: left().any(|defect| has_flipped_signs(defect)),
-            negated: left().any(|defect| is_negated(&defect)),
-        }
+        let is_about_all = |defect: &&Defect| flipped_percent(defect) == Some(ALL_PERCENT);
+        Self { flipped: left().any(is_about_all), negated: left().any(|defect| is_negated(&defect)) }
     }
 }
 
@@ -181,7 +179,15 @@ fn next_action(defects: &[&Defect], options: &FixOptions, stage: Stage) -> Optio
         return Some(Action::CorrectTangents(Box::new(wrong_tangents(defects, &of_tangents))));
     }
     let is_kept = stage == Stage::Corrected && are_single && keeps_recipe(defects, options);
+    let is_kept = is_kept || leaves_some_signs(defects, options);
     (stage < Stage::Made && !is_kept).then_some(Action::MakeTangents)
+}
+
+/// Whether flipped signs of a part are left, which new tangents would not have.
+fn leaves_some_signs(defects: &[&Defect], options: &FixOptions) -> bool {
+    let is_about_a_part =
+        |defect: &Defect| flipped_percent(defect).is_some_and(|percent| percent < ALL_PERCENT);
+    defects.iter().any(|defect| is_about_a_part(defect) && !options.repairs(defect))
 }
 
 fn repair_of_normals(defects: &[&Defect]) -> Action {
@@ -209,7 +215,7 @@ fn is_about_all_signs(defect: &Defect) -> bool {
 }
 
 /// Whether a defect is about single tangents, which can be corrected without changing others.
-fn is_about_single_tangents(defect: &Defect) -> bool {
+pub fn is_about_single_tangents(defect: &Defect) -> bool {
     let Fault::Tangent(fault) = &defect.fault else { return false };
     match fault {
         TangentFault::NotFinite(_)
@@ -255,7 +261,7 @@ fn wrong_tangents(defects: &[&Defect], wanted: &[&Defect]) -> WrongTangents {
             },
             _ => {}
         }
-        wrong.are_most_flipped |= has_flipped_signs(defect);
+        wrong.are_most_flipped |= are_most_flipped(defect);
     }
     wrong
 }

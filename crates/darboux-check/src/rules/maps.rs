@@ -212,7 +212,8 @@ fn red_flipped(map: &Map) -> Option<Defect> {
     let judgement = directed(map)?;
     let is_left = directions(judgement, map)?.red == TangentDirection::Left;
     let found = || Defect::new(MapFault::RedFlipped(direction_evidence(judgement, map)));
-    is_left.then(|| with_confidence(found(), judgement))
+    let obstacle = judgement.has_opposed_detail.then_some(Obstacle::DetailIsOpposed);
+    is_left.then(|| with_confidence(found().with_obstacle(obstacle), judgement))
 }
 
 /// A map whose channels seem to be right, and that leans against the faces: bumps on the faces, or dents that

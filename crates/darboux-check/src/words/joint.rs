@@ -13,7 +13,7 @@ pub fn text(map: &Defect) -> String {
     let place = first.as_ref().map_or("the model".to_owned(), ToString::to_string);
     let further = if *are_several { " and of all others that use the map" } else { "" };
     let most = if *is_of_most { "nearly all triangles of " } else { "" };
-    let most_of_them = if *is_of_most { ", on these triangles" } else { "" };
+    let most_of_them = if *is_of_most { ", on these triangles, and inverted on the others" } else { "" };
     let program = recipe.map_or_else(String::new, |recipe| {
         format!(", by a program that computes tangents by {}", name(&recipe))
     });

@@ -52,7 +52,10 @@ pub fn said(fault: &MapFault) -> Said {
         MapFault::Contradiction { contradiction, .. } => contradictory(contradiction),
         MapFault::GreenFlipped { wanted, doubt, evidence } => green_flipped(*wanted, *doubt, evidence),
         MapFault::RedFlipped(evidence) => {
-            let text = "its red is inverted: its texels lean against the faces of the mesh";
+            let text = match evidence.faces {
+                Some(_) => "its red is inverted: its texels lean against the faces of the mesh",
+                None => "its red is inverted, as was assumed",
+            };
             with_directions(Said::new(text), evidence)
         }
         MapFault::MayBeDents(score) => {

@@ -28,15 +28,17 @@ pub fn reason(obstacle: &Obstacle) -> String {
                 ""
             };
             return format!(
-                "the convention of the normal map in images[{image}] is not known, and inverted green there \
-                 would cancel the flipped signs{prior}; `--assume map=opengl` says that the map is right, \
-                 `--assume map=directx` that its green is inverted"
+                "the convention of {} is not known, and inverted green there would cancel the flipped \
+                 signs{prior}; `--assume map=opengl` says that the map is right, `--assume map=directx` that \
+                 its green is inverted",
+                map_in(*image)
             );
         }
         Obstacle::MapHasOtherLayout { image } => {
             return format!(
-                "the normal map in images[{image}] was made for another UV layout, and these tangents may \
-                 fit that one: put the UVs back first, and check again"
+                "{} was made for another UV layout, and these tangents may fit that one: put the UVs back \
+                 first, and check again",
+                map_in(*image)
             );
         }
         Obstacle::UvsWereRounded { steps } => {
@@ -64,6 +66,10 @@ pub fn reason(obstacle: &Obstacle) -> String {
         }
         Obstacle::FlatShadingMayBeWanted => "flat shading may be wanted; `darboux normals` makes smooth ones",
         Obstacle::MorphTargetsMoveNormals => "morph targets move these normals",
+        Obstacle::SignsAreLeft => {
+            "the signs w of these tangents are left, because the map may cancel them, and computing the \
+             tangents again would repair them"
+        }
         Obstacle::NormalsInOtherAxes => {
             "the normals of the primitive are in other axes, which has to be repaired first"
         }
@@ -81,7 +87,7 @@ pub fn reason(obstacle: &Obstacle) -> String {
             "its red and green are too few or too even to tell the slopes of a surface from other data"
         }
         Obstacle::DetailIsOpposed => {
-            "its fine detail is in the other convention, and inverting green would turn that over"
+            "its fine detail is in the other convention, and would be inverted with the rest"
         }
         Obstacle::OnlyAPartOfMap => "nothing says where one part ends and the other one begins",
         Obstacle::FacesLeanToRed => {
@@ -132,6 +138,11 @@ pub fn reason(obstacle: &Obstacle) -> String {
         }
     };
     clause.to_owned()
+}
+
+/// The normal map in an image; none for one without a document.
+fn map_in(image: Option<usize>) -> String {
+    image.map_or_else(|| "the normal map".to_owned(), |image| format!("the normal map in images[{image}]"))
 }
 
 fn undecided(reason: Undecided) -> &'static str {

@@ -134,7 +134,8 @@ impl<'a> Corrector<'a> {
         // Where flipped signs are to stay, the others follow them.
         let follows_flipped = wrong.are_most_flipped
             && !wrong.codes.contains(&Code::TangentSignFlipped)
-            && !wrong.codes.contains(&Code::TangentSignPartlyFlipped);
+            && !wrong.codes.contains(&Code::TangentSignPartlyFlipped)
+            && !wrong.codes.contains(&Code::TangentSignFlippedWhereMirrored);
         let flips = flips_signs(wrong.reversal) != follows_flipped;
         if flips {
             expected.iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
