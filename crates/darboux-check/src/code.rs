@@ -274,13 +274,12 @@ codes! {
     }
     NormalOtherAxes "normal-other-axes" Error {
         "Normals are in other axes than the positions."
-        "Light comes from a wrong side on the whole model: its top is lit as if it were its front, or its \
+        "Light comes from a wrong side on all of this part: its top is lit as if it were its front, or its \
          left side as if it were its right one."
         "The positions were turned to another up axis (z to y) or mirrored, and the normals were not."
-        "Apply the rotation and the scale of the object in the modelling program and export again; or \
-         `darboux normals --overwrite`, which computes smooth normals from the faces."
-        Leave "what turned them may have turned the tangents and the morph targets, too: export again, or \
-             compute all with `darboux normals --overwrite`"
+        "Let `darboux check FILE --fix` turn the normals of this part back, and no others; or apply the \
+         rotation and the scale of the object in the modelling program and export again."
+        Repair "the components of the normals are exchanged and negated as they fit the faces"
     }
     [Uvs]
     UvMissing "uv-missing" Error {
@@ -395,8 +394,8 @@ codes! {
         "Bumps are lit as if the map were turned by 90 degrees and mirrored; with blue exchanged, the whole \
          surface is dark or lit from a side."
         "Channels were packed in another order."
-        "Exchange red and green of the map with `darboux convert --from opengl --to opengl --layout grb \
-         --to-layout rgb`."
+        "Let `darboux check FILE --fix` exchange red and green, where FILE is the model or the image of the \
+         map; or export or bake the map again with x in red and y in green."
         Repair "red and green are exchanged"
     }
     MapSrgb "map-srgb" Error {
@@ -528,7 +527,7 @@ codes! {
     MapUnreadable "map-unreadable" Error {
         "The image of the normal map cannot be decoded."
         "The normal map is not shown, or the model does not load."
-        "The file is damaged, missing, or in a format without a decoder here."
+        "The file is damaged, missing, not fetched by Git LFS, or in a format without a decoder here."
         "Save the image again as PNG, JPEG or WebP."
         Leave "there are no texels to repair"
     }

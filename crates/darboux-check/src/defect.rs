@@ -172,6 +172,17 @@ impl Defect {
         Self { obstacle: self.obstacle.or(obstacle), ..self }
     }
 
+    /// The same in an image; `obstacle`: why it cannot be rewritten. No option overcomes that, so it takes
+    /// the place of reasons that one would.
+    #[must_use]
+    pub fn in_image(self, obstacle: Option<&Obstacle>) -> Self {
+        let is_free = self.obstacle.as_ref().is_none_or(Obstacle::depends_on_options);
+        match obstacle.filter(|_| is_free) {
+            Some(obstacle) => Self { obstacle: Some(obstacle.clone()), ..self },
+            None => self,
+        }
+    }
+
     /// The same with another severity.
     #[must_use]
     pub fn with_severity(self, severity: Severity) -> Self {

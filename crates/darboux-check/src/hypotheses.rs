@@ -206,7 +206,7 @@ pub fn leave_unidentified(
     if found != Inverted::None {
         let obstacle = match sibling {
             Some((image, Inverted::Red)) if found == Inverted::Green => Obstacle::RedLikelier { image },
-            _ => Obstacle::NotIdentified { percent: 100.0 * probability },
+            _ => Obstacle::NotIdentified { probability },
         };
         for defect in on_map.iter_mut().filter(|defect| is_about_channels(defect)) {
             defect.obstacle.get_or_insert(obstacle.clone());

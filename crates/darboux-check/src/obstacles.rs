@@ -5,7 +5,8 @@ use darboux_io::image::{PngImage, RgbaImage};
 use crate::code::Family;
 use crate::defect::{Defect, Fault, NormalFault, Obstacle};
 use crate::facts::SurfaceFacts;
-use crate::measure::reversal::{Reversal, Undecided};
+use crate::measure::other_axes::OtherAxes;
+use crate::measure::reversal::{Reversal, Undecided, are_faces_inwards};
 use crate::surface::Surface;
 
 /// Obstacles to the repair of a defect of a surface.
@@ -22,6 +23,7 @@ pub fn of_surface(defect: &Defect, facts: &SurfaceFacts<'_>) -> Option<Obstacle>
             Some(Obstacle::NormalsInOtherAxes)
         }
         Fault::Normal(NormalFault::NotFinite(_) | NormalFault::NotUnit { .. }) => moves_normals(),
+        Fault::Normal(NormalFault::OtherAxes { axes, .. }) => of_other_axes(axes, surface),
         Fault::Normal(NormalFault::Reversed { reversal, .. }) => match reversal {
             Reversal::Faces => None,
             Reversal::Normals | Reversal::NormalsByTangents => moves_normals(),
@@ -33,6 +35,18 @@ pub fn of_surface(defect: &Defect, facts: &SurfaceFacts<'_>) -> Option<Obstacle>
         _ if defect.family() != Family::Tangents => None,
         _ if facts.other_axes.is_some() => Some(Obstacle::NormalsInOtherAxes),
         _ => no_tangents(surface).or_else(|| undecided_side(facts.reversal?)),
+    }
+}
+
+fn of_other_axes(axes: &OtherAxes, surface: &Surface) -> Option<Obstacle> {
+    if surface.tangents.is_some() {
+        Some(Obstacle::TangentsMayBeTurned)
+    } else if surface.moves_normals {
+        Some(Obstacle::MorphTargetsMoveNormals)
+    } else if !axes.is_clear {
+        Some(Obstacle::AxesUnclear)
+    } else {
+        are_faces_inwards(surface).then_some(Obstacle::FacesMayBeReversed)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The words of defects: the one place that says them, for the command, Python and npm.
 
 pub mod counts;
+mod cures;
 pub mod edits;
 mod joint;
 mod maps;
@@ -54,7 +55,7 @@ fn of_pair(defects: Vec<Defect>) -> Finding {
         first: Vec::new(),
         evidence: evidence.collect(),
         text: joint::text(map),
-        cure: code.cure().into(),
+        cure: left.map_or(code.cure(), |_| cures::OF_PAIR).into(),
         left_because: left.map(obstacles::reason),
         defects,
     }
@@ -75,6 +76,8 @@ fn single(defect: Defect) -> Finding {
     if let Some(cancelled) = &defect.cancelled {
         text += &format!("; {}, so that bumps look right now: repair both or none", cancels(cancelled));
     }
+    let cure = cure.unwrap_or(code.cure().into());
+    let cure = cures::without_repair(&defect, &cure).map_or(cure, Into::into);
     Finding {
         code,
         severity: defect.severity,
@@ -83,7 +86,7 @@ fn single(defect: Defect) -> Finding {
         first: fault.items().into_iter().flat_map(|items| items.indices().iter()).take(FIRST).collect(),
         evidence,
         text,
-        cure: cure.unwrap_or(code.cure().into()),
+        cure,
         left_because: defect.obstacle.as_ref().map(obstacles::reason),
         defects: vec![defect],
     }

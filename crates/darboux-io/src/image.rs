@@ -7,6 +7,8 @@ mod decoding;
 #[cfg(feature = "ktx2")]
 mod ktx2_image;
 mod normal_map;
+#[cfg(feature = "textures")]
+mod other_formats;
 mod palette;
 mod png_image;
 mod reasons;

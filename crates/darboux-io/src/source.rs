@@ -30,7 +30,7 @@ mod vertices;
 
 pub use format::SourceFormat;
 pub use polygons::PolygonRule;
-pub use provenance::{FaceCounts, PrimitiveSource, Provenance};
+pub use provenance::{FaceCounts, PrimitiveSource, Provenance, UnreadMap};
 
 pub(crate) use build::{Built, build};
 pub(crate) use files::{FileSource, FoundFile, LONGEST_PATH, ModelFiles};

@@ -17,6 +17,26 @@ impl<T: fmt::Display> fmt::Display for Count<T> {
     }
 }
 
+/// A probability in percent, rounded down to a tenth: 0.99902 is `99.9 %`. Nothing is 100 % sure, so that 1
+/// is `99.9 %`, too.
+#[derive(Clone, Copy, Debug)]
+pub struct Sure(pub f64);
+
+impl Sure {
+    /// The number before the sign.
+    pub fn percent(self) -> f64 {
+        const MOST: f64 = 999.0;
+        // What single precision makes of 0.9 is a little less than 0.9.
+        (1000.0 * self.0 + 1e-3).floor().clamp(0.0, MOST) / 10.0
+    }
+}
+
+impl fmt::Display for Sure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.1} %", self.percent())
+    }
+}
+
 /// A number with what is said of one thing, or of several.
 pub fn counted(count: usize, one: &str, several: &str) -> String {
     format!("{} {}", Count(count), if count == 1 { one } else { several })
@@ -30,6 +50,13 @@ pub(crate) fn counted_if_any(count: usize, one: &str, several: &str) -> Option<S
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_sure_is_rounded_down() {
+        let said =
+            [0.0, 0.5, 0.98, f64::from(0.9_f32), 0.99902, 0.99999, 1.0].map(|sure| Sure(sure).to_string());
+        assert_eq!(said, ["0.0 %", "50.0 %", "98.0 %", "90.0 %", "99.9 %", "99.9 %", "99.9 %"]);
+    }
 
     #[test]
     fn commas_stand_between_groups_of_three_digits() {

@@ -555,6 +555,19 @@ fn normals_and_colours_of_facets_are_listed() {
     assert_eq!(not_carried(ascii.into()).1, [against]);
 }
 
+/// The program of a PLY is found as that of an OBJ is.
+#[test]
+fn comments_of_a_ply_name_its_program() {
+    let program = |comment: &str| {
+        let text = String::from_utf8(square("ascii")).unwrap();
+        let ply = text.replacen("element vertex", &format!("comment {comment}\nelement vertex"), 1);
+        read(ply).provenance().unwrap().generator.clone()
+    };
+    assert_eq!(program("rhino head"), None);
+    assert_eq!(program("VCGLIB generated").as_deref(), Some("VCGLIB generated"));
+    assert_eq!(program("File exported by Rhinoceros").as_deref(), Some("Rhinoceros"));
+}
+
 /// A model without triangles would be a glTF with empty lists, which are invalid.
 #[test]
 fn a_ply_of_edges_has_no_faces() {

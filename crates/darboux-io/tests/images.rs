@@ -221,9 +221,11 @@ fn vectors_move_to_other_channels_and_back() {
 
 #[test]
 fn unsupported_images_are_errors() {
-    let cases: [(Vec<u8>, &str); 6] = [
+    let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n";
+    let cases: [(Vec<u8>, &str); 7] = [
         (png(ColorType::Grayscale, BitDepth::Eight), "one channel"),
         (b"GIF89a".to_vec(), "not a PNG"),
+        (pointer.to_vec(), "a pointer of Git LFS, not the image; run: git lfs pull"),
         (png(ColorType::Rgb, BitDepth::Eight)[..100].to_vec(), "ends within a chunk"),
         (claiming(u32::MAX >> 1), "too short for"),
         (claiming(65), "not a complete PNG"),

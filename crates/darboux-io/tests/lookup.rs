@@ -160,6 +160,17 @@ fn paths_of_many_parts_are_looked_up_to_a_limit() {
     assert_eq!((found, warnings.len()), (vec!["w.png".to_owned()], 1001));
 }
 
+/// Lines of many words, each of which may begin a name, do not take the lookups of other names.
+#[test]
+fn lines_of_many_words_leave_other_names_their_lookups() {
+    let line = |i: usize| format!("newmtl {i}\nmap_Kd {i} {}x.png\n", "a/b ".repeat(900));
+    for (lines, name) in [(30, "D:\\x\\w.png"), (300, "w.png")] {
+        let library: String = (0..lines).map(line).chain([format!("newmtl a\nmap_Kd {name}\n")]).collect();
+        let (found, _) = opened("a.mtl", library.as_bytes(), &["w.png"]);
+        assert_eq!(found, ["w.png"], "after {lines} lines");
+    }
+}
+
 #[test]
 fn names_in_quotes_are_found() {
     let (found, warnings) = opened("\"a b.mtl\"", b"newmtl a\nmap_Kd \"my tex.png\"\n", &["my tex.png"]);
@@ -239,6 +250,29 @@ fn a_texture_that_git_lfs_did_not_fetch_is_named() {
     let model = Document::open(&folder.path().join("a.obj"), &LoadOptions::default()).unwrap();
     let problem = "is a pointer of Git LFS, not the image; run: git lfs pull; the texture is left out";
     assert_eq!(model.warnings(), [format!("w.png: {problem}")]);
+}
+
+#[test]
+fn a_library_that_git_lfs_did_not_fetch_is_named() {
+    let (_, warnings) =
+        opened("a.mtl", b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n", &[]);
+    let problem = "is a pointer of Git LFS, not the file; run: git lfs pull; its materials are left out";
+    assert_eq!(warnings[0], format!("a.mtl: {problem}"));
+}
+
+/// The normal map of a material that glTF cannot hold.
+#[test]
+fn normal_maps_that_are_left_out_are_told_by_their_materials() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "a.obj", OBJ);
+    write(folder.path(), "a.mtl", "newmtl b\nmap_Kd w.dds\nnewmtl a\nmap_Kd w.dds\nnorm n.bmp\n");
+    write(folder.path(), "w.dds", "DDS ");
+    write(folder.path(), "n.bmp", "BM and so on");
+    let model = Document::open(&folder.path().join("a.obj"), &LoadOptions::default()).unwrap();
+    let unread = &model.provenance().unwrap().unread_maps;
+    let told: Vec<_> = unread.iter().map(|map| (map.material, &*map.file, &*map.problem)).collect();
+    assert_eq!(told, [(1, "n.bmp", "is BMP, which is not read; save it as PNG")]);
+    assert_eq!(model.warnings().len(), 2, "{:?}", model.warnings());
 }
 
 /// Several statements of one material, in several of its textures.

@@ -59,6 +59,10 @@ fn other_formats_are_named() {
     #[cfg(not(feature = "ktx2"))]
     assert_eq!(error(b"\xABKTX 20\xBB\r\n\x1A\n"), DecodeError::NoDecoder("KTX 2"));
     assert_eq!(error(b"\0\0\0\x20ftypavif"), DecodeError::NoDecoder("AVIF"));
+    assert_eq!(error(b"DDS |\0\0\0"), DecodeError::NoDecoder("DDS"));
+    assert_eq!(error(b"II*\0\x08\0\0\0"), DecodeError::NoDecoder("TIFF"));
+    assert_eq!(error(b"8BPS\0\x01"), DecodeError::NoDecoder("PSD"));
+    assert_eq!(error(b"BM6\0"), DecodeError::NoDecoder("BMP"));
     assert_eq!(error(b"junk"), DecodeError::UnknownFormat);
     assert!(matches!(error(b"\x89PNG\r\n\x1a\nabc"), DecodeError::Broken(_)));
     assert!(matches!(error(b"\xFF\xD8\xFF"), DecodeError::Broken(_)));

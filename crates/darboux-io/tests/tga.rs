@@ -39,6 +39,38 @@ fn all_kinds_decode() {
     }
 }
 
+/// A TGA of 15 bits is as long as one of 16, without the bit of alpha.
+#[test]
+fn texels_of_15_bits_are_read() {
+    let mut file = bytes("rgb16.tga");
+    assert_eq!(file[16], 16);
+    file[16] = 15;
+    assert!(RgbaImage::is_tga(&file));
+    assert_eq!(decode(&file), decode(&bytes("rgb16.png")));
+}
+
+/// The extension area says what alpha holds (TGA 2.0, field 24): 3 and 4 are alpha, with 0 there is none, 1
+/// and 2 stand for bytes without a meaning.
+#[test]
+fn alpha_counts_where_the_file_says_so() {
+    let whole = bytes("rgba-rle.tga");
+    let image = whole.strip_suffix(b"TRUEVISION-XFILE.\0").map_or(&*whole, |rest| &rest[..rest.len() - 8]);
+    let has_alpha = |kind: u8| {
+        let mut area = vec![0; 495];
+        area[0..2].copy_from_slice(&495_u16.to_le_bytes());
+        area[494] = kind;
+        let offsets = [image.len() as u32, 0].map(u32::to_le_bytes).concat();
+        let file = [image, &area, &offsets, b"TRUEVISION-XFILE.\0"].concat();
+        let decoded = decode(&file).expect("an image");
+        let original = decode(&whole).expect("an image");
+        let colors =
+            |image: &RgbaImage| image.texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect::<Vec<_>>();
+        assert_eq!(colors(&decoded), colors(&original));
+        decoded == original
+    };
+    assert_eq!([0, 1, 2, 3, 4].map(has_alpha), [false, false, false, true, true]);
+}
+
 /// Two offsets behind the image lead to metadata. Wrong ones, in one footer or several, change no texel.
 #[test]
 fn damaged_files_are_refused() {

@@ -172,3 +172,22 @@ fn an_obj_may_begin_with_any_of_its_statements() {
         assert_eq!(read.expect(first).meshes().len(), 1, "{first}");
     }
 }
+
+/// A buffer that Git LFS has not fetched is not called too short.
+#[test]
+fn buffers_that_git_lfs_did_not_fetch_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let json = r#"{"asset":{"version":"2.0"},"buffers":[{"uri":"a.bin","byteLength":1000}]}"#;
+    fs::write(folder.path().join("a.gltf"), json).unwrap();
+    fs::write(
+        folder.path().join("a.bin"),
+        "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n",
+    )
+    .unwrap();
+    let error =
+        Document::open(&folder.path().join("a.gltf"), &LoadOptions::default()).unwrap_err().to_string();
+    assert!(
+        error.ends_with("buffers[0].uri: is a pointer of Git LFS, not the file; run: git lfs pull"),
+        "{error}"
+    );
+}

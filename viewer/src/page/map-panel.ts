@@ -68,10 +68,15 @@ function figure(map: ShownMap): HTMLElement {
   return out;
 }
 
+/** A probability in percent, rounded down, as the command prints it: nothing is 100 % sure. */
+function sureOf(probability: number): string {
+  return `${(Math.min(Math.floor(1000 * probability + 1e-3), 999) / 10).toFixed(1)} %`;
+}
+
 /** The verdict in a sentence. */
 function verdictOf(judgement: MapJudgement | null): string {
   if (!judgement) return 'The image cannot be decoded.';
-  const sure = `${(100 * judgement.confidence).toFixed(1)} % sure`;
+  const sure = `${sureOf(judgement.confidence)} sure`;
   switch (judgement.verdict) {
     case 'opengl':
       return `OpenGL: green points up, as glTF wants it (${sure}).`;

@@ -69,7 +69,7 @@ pub fn map_defects(file: &[u8], options: &CheckOptions, vote: Option<Vote<'_>>) 
     let obstacle = obstacles::of_image(file);
     let defects = MAP_RULES.iter().filter_map(|rule| rule(&map));
     MapDefects {
-        defects: defects.map(|defect| defect.with_obstacle(obstacle.clone())).collect(),
+        defects: defects.map(|defect| defect.in_image(obstacle.as_ref())).collect(),
         directions: directions_by_mesh(&map),
         witness: witness(&map),
         srgb_mistake: map.srgb_mistake,
@@ -170,6 +170,8 @@ pub fn defects_of_materials(
         let place = Place { material: Some(index), ..Place::default() };
         let found = MATERIAL_RULES.iter().filter_map(|rule| rule(material));
         defects.extend(found.map(|defect| Defect { place: place.clone(), ..defect }));
+        let unread = unread_maps(document, index).filter(|_| options.maps);
+        defects.extend(unread.map(|defect| Defect { place: place.clone(), ..defect }));
         for image in material.normal_maps().filter_map(|texture| texture.image).filter(|_| options.maps) {
             images.entry(image).or_insert(index);
         }
@@ -188,6 +190,9 @@ pub fn defects_of_materials(
         let (mut found, witness) = defects_of_image(document, &users, image, options, &mut decoded)?;
         for defect in &mut found {
             defect.place = place.clone();
+            if let Fault::Map(MapFault::Unreadable { name, .. }) = &mut defect.fault {
+                *name = name_of_image(document, image);
+            }
             if !is_about_channels(defect) {
                 continue;
             }
@@ -238,6 +243,27 @@ pub fn defects_of_materials(
     }
     defects.extend(judged.into_iter().flat_map(|(_, found, _)| found));
     Ok(defects)
+}
+
+/// The normal maps of a material that the reader of another format than glTF left out.
+fn unread_maps(document: &Document, material: usize) -> impl Iterator<Item = Defect> {
+    let unread = document.provenance().into_iter().flat_map(|provenance| &provenance.unread_maps);
+    unread.filter(move |map| map.material == material).map(|map| {
+        let why = Unread::NotCarried(map.problem.clone());
+        let fault = MapFault::Unreadable { name: map.file.clone(), why, bytes: 0 };
+        Defect::new(fault).with_severity(Severity::NotChecked)
+    })
+}
+
+/// The most characters of a name that are shown.
+const LONGEST_NAME: usize = 200;
+
+/// The name of the file of an image, or that of the image.
+fn name_of_image(document: &Document, image: usize) -> String {
+    let json = &document.json()["images"][image];
+    let is_file = |uri: &&str| !uri.starts_with("data:");
+    let name = json["uri"].as_str().filter(is_file).or(json["name"].as_str()).unwrap_or_default();
+    name.chars().take(LONGEST_NAME).collect()
 }
 
 /// Whether the program that wrote a document, or the source that it names, is Sketchfab. All 26 models from
@@ -375,9 +401,8 @@ fn defects_of_image(
     let key = document.image_source(image).map(|source| (source, users.hash_of_uses(image)));
     let same = key.as_ref().and_then(|key| decoded.judged.get(key));
     let obstacle = users.obstacle(image).map(str::to_owned).map(Obstacle::NotRewritable);
-    let with_obstacle = |found: &[Defect]| {
-        found.iter().map(|defect| defect.clone().with_obstacle(obstacle.clone())).collect()
-    };
+    let with_obstacle =
+        |found: &[Defect]| found.iter().map(|defect| defect.clone().in_image(obstacle.as_ref())).collect();
     if let Some((_, found, witness)) = same.filter(|(other, ..)| users.are_same(*other, image)) {
         return Ok((with_obstacle(found), *witness));
     }

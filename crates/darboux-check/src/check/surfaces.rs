@@ -63,6 +63,10 @@ pub const MIN_SPOILED: f64 = 0.5;
 /// together, are not seen beside the others.
 const MIN_PART: f64 = 0.1;
 
+/// In percent of the model's area: what defects of one kind spoil together at least to be seen at all, 20
+/// pixels of a screen of 1920 x 1080 that the model fills. Less is worth knowing only.
+const MIN_SEEN: f64 = 0.001;
+
 /// Lowers the severity of defects that spoil too small a part of the model, all of one code together: what is
 /// cut into many primitives looks as it would in one.
 pub fn weigh(defects: &mut [Defect]) {
@@ -78,11 +82,22 @@ pub fn weigh(defects: &mut [Defect]) {
         let mut below = 0.0;
         for (index, percent) in found {
             below += percent;
-            if all < MIN_SPOILED || below < MIN_PART * all {
-                defects[index].severity = defects[index].severity.min(Severity::Warning);
-            }
+            let most = if below < MIN_SEEN && is_by_area(&defects[index]) {
+                Severity::Info
+            } else if all < MIN_SPOILED || below < MIN_PART * all {
+                Severity::Warning
+            } else {
+                Severity::Error
+            };
+            defects[index].severity = defects[index].severity.min(most);
         }
     }
+}
+
+/// Whether what a defect spoils is the area of its faces. That of tangents that lean or are of another method
+/// counts large angles only, and smaller ones are worth a warning.
+fn is_by_area(defect: &Defect) -> bool {
+    !matches!(defect.fault, Fault::Tangent(TangentFault::Leaning { .. } | TangentFault::OtherRecipe { .. }))
 }
 
 /// The defects of one surface, with severities that [`weigh`] may lower.
@@ -151,7 +166,7 @@ mod tests {
         let mut defects = [0.001, 5.0, 0.0, 0.8].map(defect);
         weigh(&mut defects);
         let severities = defects.map(|defect| defect.severity);
-        let [error, warning] = [Severity::Error, Severity::Warning];
-        assert_eq!(severities, [warning, error, warning, error]);
+        let [error, warning, info] = [Severity::Error, Severity::Warning, Severity::Info];
+        assert_eq!(severities, [warning, error, info, error]);
     }
 }

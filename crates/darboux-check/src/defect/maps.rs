@@ -113,12 +113,18 @@ pub enum Unread {
     OtherFormat(String),
     /// The map was left out: it is on another machine, or beyond what a check decodes.
     LeftOut(String),
+    /// The reader of another format than glTF left it out.
+    NotCarried(String),
+    /// Git LFS has not fetched the image.
+    GitLfsPointer,
 }
 
 /// What is wrong with the texels of a normal map.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MapFault {
     Unreadable {
+        /// The name of the image's file, or of the image; empty for an image that is checked alone.
+        name: String,
         why: Unread,
         /// 0 where there is no file.
         bytes: usize,

@@ -15,6 +15,12 @@ pub enum Obstacle {
     UndecidedReversal(Undecided),
     /// All normals are in other axes, and new normals and tangents would not fit them.
     NormalsInOtherAxes,
+    /// What turned the normals may have turned the tangents.
+    TangentsMayBeTurned,
+    /// The normals fit the faces in several ways nearly as well, or in none of them closely.
+    AxesUnclear,
+    /// The faces enclose a negative volume, so that they may be reversed, too.
+    FacesMayBeReversed,
     /// Why tangents cannot be computed.
     NoTangents(String),
     DifferenceIsInvisible,
@@ -30,7 +36,7 @@ pub enum Obstacle {
     EncodedAndInverted,
     XInAlpha,
     UnclearChannels,
-    /// The direction is sure by this percentage only.
+    /// The probability of the direction, which is too small.
     Unsure(f64),
     OnlyAPartOfMap,
     /// The fine detail of the map is in the other convention.
@@ -38,7 +44,7 @@ pub enum Obstacle {
     FacesLeanToRed,
     /// Inverted green and inverted red look alike; the one that is named is so likely.
     NotIdentified {
-        percent: f64,
+        probability: f64,
     },
     OnlyTheModelTells,
     ExchangedAndInverted,
@@ -80,4 +86,20 @@ pub enum Obstacle {
     OnlyInvertedRedIsCertain,
     /// The sentence of the error that stopped the repair.
     Failed(String),
+}
+
+impl Obstacle {
+    /// Whether other options of the repair overcome it.
+    pub fn depends_on_options(&self) -> bool {
+        matches!(
+            self,
+            Self::NotChosen
+                | Self::OtherMethodWanted
+                | Self::NotIdentified { .. }
+                | Self::RedLikelier { .. }
+                | Self::OnlyTheModelTells
+                | Self::FacesLeanToRed
+                | Self::ExchangedAndInverted
+        )
+    }
 }

@@ -51,10 +51,14 @@ fn has_red_inverted(assumed: AssumedMap) -> bool {
 /// Whether the user says which of the possibilities that the derivatives leave is so.
 pub fn is_assumed(map: &Map) -> bool {
     let shown = map.judged().and_then(arrangement);
-    let is_one_inverted = |assumed| matches!(assumed, AssumedMap::DirectX | AssumedMap::RedInverted);
     map.assumed.is_some_and(|assumed| {
-        shown.is_some_and(|shown| (shown == Arrangement::GreenInverted) == is_one_inverted(assumed))
+        shown.is_some_and(|shown| (shown == Arrangement::GreenInverted) == has_one_inverted(assumed))
     })
+}
+
+/// Whether what a user says of a map is that one of its channels is inverted.
+pub fn has_one_inverted(assumed: AssumedMap) -> bool {
+    matches!(assumed, AssumedMap::DirectX | AssumedMap::RedInverted)
 }
 
 /// The directions of the channels, if the faces of the mesh decide them.

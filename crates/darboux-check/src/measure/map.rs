@@ -134,9 +134,13 @@ impl Map {
                 }
             }
             Err(error) => {
-                let is_other_format = !matches!(error, DecodeError::Broken(_)) && is_other_format(file);
-                let why = if is_other_format { Unread::OtherFormat } else { Unread::Damaged };
-                Self { file_size: file.len(), ..Self::unread(why(error.to_string()), wanted) }
+                let why = match error {
+                    DecodeError::GitLfsPointer => Unread::GitLfsPointer,
+                    DecodeError::Broken(_) => Unread::Damaged(error.to_string()),
+                    _ if is_other_format(file) => Unread::OtherFormat(error.to_string()),
+                    _ => Unread::Damaged(error.to_string()),
+                };
+                Self { file_size: file.len(), ..Self::unread(why, wanted) }
             }
         }
     }

@@ -136,6 +136,11 @@ fn by_volume(surface: &Surface) -> Option<Reversal> {
     }
 }
 
+/// Whether the faces enclose a negative volume.
+pub fn are_faces_inwards(surface: &Surface) -> bool {
+    by_volume(surface) == Some(Reversal::Faces)
+}
+
 impl Solid {
     const EMPTY: Self = Self {
         area: 0.0,

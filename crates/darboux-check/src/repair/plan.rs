@@ -9,6 +9,7 @@ use crate::hypotheses::{ALL_PERCENT, are_most_flipped, flipped_percent};
 use crate::indices::Indices;
 use crate::instances::{Key, key};
 use crate::measure::fit::Difference;
+use crate::measure::other_axes::OtherAxes;
 use crate::measure::reversal::Reversal;
 use crate::place::Place;
 
@@ -42,8 +43,9 @@ impl Kept {
 /// What is changed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
-    /// Faces or normals are flipped, then normals get length 1, then missing normals are made.
-    RepairNormals { flip: Option<Flip>, make_unit: bool, make: bool },
+    /// Normals are turned to the axes of the positions, faces or normals are flipped, then normals get length
+    /// 1, then missing normals are made.
+    RepairNormals { turn: Option<OtherAxes>, flip: Option<Flip>, make_unit: bool, make: bool },
     /// All signs w are negated.
     NegateSigns,
     /// Tangents that are wrong one by one are corrected.
@@ -200,8 +202,12 @@ fn repair_of_normals(defects: &[&Defect]) -> Action {
         },
         _ => None,
     });
+    let turn = defects.iter().find_map(|defect| match defect.fault {
+        Fault::Normal(NormalFault::OtherAxes { axes, .. }) => Some(axes),
+        _ => None,
+    });
     let make_unit = has(Code::NormalNotFinite) || has(Code::NormalNotUnit);
-    Action::RepairNormals { flip, make_unit, make: has(Code::NormalMissing) }
+    Action::RepairNormals { turn, flip, make_unit, make: has(Code::NormalMissing) }
 }
 
 /// Whether a defect says that all signs w of a primitive are flipped.

@@ -11,7 +11,7 @@ use crate::defect::{
 use crate::measure::arrangement::Arrangement;
 use crate::measure::directions::{
     SURE_PERCENT, arrangement, candidates, directed, directions, directions_by_mesh, facets_show_exchange,
-    is_assumed, with_directed_channels,
+    has_one_inverted, is_assumed, with_directed_channels,
 };
 use crate::measure::map::{Map, TwoChannels, percent};
 use crate::measure::map_kind::{Kind, kind};
@@ -57,8 +57,8 @@ fn of_kind(map: &Map, wanted: Kind) -> Option<&MapJudgement> {
 
 fn unreadable(map: &Map) -> Option<Defect> {
     let why = map.judgement.as_ref().err()?.clone();
-    let is_wrong = matches!(why, Unread::Damaged(_) | Unread::Absent(_));
-    let found = Defect::new(MapFault::Unreadable { why, bytes: map.file_size });
+    let is_wrong = matches!(why, Unread::Damaged(_) | Unread::Absent(_) | Unread::GitLfsPointer);
+    let found = Defect::new(MapFault::Unreadable { name: String::new(), why, bytes: map.file_size });
     Some(if is_wrong { found } else { found.with_severity(Severity::NotChecked) })
 }
 
@@ -156,11 +156,11 @@ fn direction_evidence(judgement: &MapJudgement, map: &Map) -> DirectionEvidence 
 /// The defect with the severity of its confidence: an error where it is sure. A direction that is not sure is
 /// a warning and left.
 fn with_confidence(found: Defect, judgement: &MapJudgement) -> Defect {
-    let percent = 100.0 * f64::from(judgement.confidence);
-    if percent >= SURE_PERCENT {
+    let probability = f64::from(judgement.confidence);
+    if 100.0 * probability >= SURE_PERCENT {
         found.with_severity(Severity::Error)
     } else {
-        found.with_severity(Severity::Warning).with_obstacle(Some(Obstacle::Unsure(percent)))
+        found.with_severity(Severity::Warning).with_obstacle(Some(Obstacle::Unsure(probability)))
     }
 }
 
@@ -242,7 +242,9 @@ fn channels_swapped(map: &Map) -> Option<Defect> {
     if !by_derivatives && !by_facets {
         return None;
     }
-    let is_undecided = judgement.z_score < 0.0 && map.decide(Arrangement::ExchangedAndInverted).is_none();
+    let is_decided =
+        map.decide(Arrangement::ExchangedAndInverted).is_some() || map.assumed.is_some_and(has_one_inverted);
+    let is_undecided = judgement.z_score < 0.0 && !is_decided;
     let [up, down] = judgement.residuals;
     // What is a gradient with exchanged channels is the rest of one in the other convention.
     let found = Defect::new(MapFault::ChannelsSwapped {

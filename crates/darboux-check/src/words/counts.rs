@@ -1,3 +1,3 @@
-//! Counts with their nouns.
+//! Counts with their nouns, and probabilities.
 
-pub use darboux_io::words::{Count, counted};
+pub use darboux_io::words::{Count, Sure, counted};

@@ -6,14 +6,15 @@ use crate::repair::plan::{Action, Flip};
 /// What an edit does, as a clause.
 pub fn clause(action: &Action) -> String {
     match action {
-        Action::RepairNormals { flip, make_unit, make } => {
+        Action::RepairNormals { turn, flip, make_unit, make } => {
+            let turn = turn.map(|_| "turn the normals to the axes of the positions");
             let flip = flip.map(|flip| match flip {
                 Flip::Faces => "flip the faces",
                 Flip::Normals => "flip the normals",
             });
             let make_unit = make_unit.then_some("give the normals length 1");
             let make = make.then_some("make normals");
-            [flip, make_unit, make].into_iter().flatten().collect::<Vec<&str>>().join(", ")
+            [turn, flip, make_unit, make].into_iter().flatten().collect::<Vec<&str>>().join(", ")
         }
         Action::NegateSigns => "negate all signs w".to_owned(),
         Action::CorrectTangents(wrong) => {

@@ -2,7 +2,7 @@
 
 use darboux::{BitangentDirection, SrgbMistake};
 
-use super::counts::{Count, counted};
+use super::counts::{Count, Sure, counted};
 use super::said::Said;
 use crate::code::Code;
 use crate::defect::{
@@ -17,7 +17,7 @@ use crate::measure::storage::{BlockSteps, Enlargement, FewLevels};
 
 pub fn said(fault: &MapFault) -> Said {
     match fault {
-        MapFault::Unreadable { why, bytes } => unread(why, *bytes as f64),
+        MapFault::Unreadable { name, why, bytes } => unread(name, why, *bytes as f64),
         MapFault::Height(texels) => Said::new("it is grey").with("grey texels", texels.percent, "%"),
         MapFault::ObjectSpace(texels) => Said::new("its unit vectors point in all directions").with(
             "texels with negative z",
@@ -123,18 +123,25 @@ pub fn said(fault: &MapFault) -> Said {
     }
 }
 
-fn unread(why: &Unread, bytes: f64) -> Said {
+fn unread(name: &str, why: &Unread, bytes: f64) -> Said {
+    let it = if name.is_empty() { "it".to_owned() } else { format!("its file {name}") };
     match why {
-        Unread::Damaged(problem) => Said::new(format!("it {problem}")).with("file", bytes, "bytes"),
-        Unread::Absent(problem) => Said::new(format!("it {problem}")).with_cure(
+        Unread::Damaged(problem) => Said::new(format!("{it} {problem}")).with("file", bytes, "bytes"),
+        Unread::GitLfsPointer => Said::new(format!("{it} is a pointer of Git LFS, not the image"))
+            .with_cure("Type `git lfs pull` in the repository of the file, and check again."),
+        Unread::Absent(problem) => Said::new(format!("{it} {problem}")).with_cure(
             "Put the image where the model refers to it, or correct the reference; in the \
                  command, --allow-outside reads images of other folders.",
         ),
-        Unread::OtherFormat(problem) => Said::new(format!("it was not checked, because it {problem}"))
+        Unread::OtherFormat(problem) => Said::new(format!("{it} was not checked, because it {problem}"))
             .with_cure("None needed. To check the map, check the model before its images are compressed.")
             .with("file", bytes, "bytes"),
-        Unread::LeftOut(problem) => Said::new(format!("it was not checked, because it {problem}"))
+        Unread::LeftOut(problem) => Said::new(format!("{it} was not checked, because it {problem}"))
             .with_cure("None needed. To check the map, check its file alone."),
+        Unread::NotCarried(problem) => {
+            Said::new(format!("its normal map {name} was not checked, because it {problem}"))
+                .with_cure("To check the map, let the material name an image that is read, and check again.")
+        }
     }
 }
 
@@ -150,6 +157,9 @@ fn turned(layout: Layout) -> &'static str {
         Layout::TurnedImage(_) | Layout::Same => "if the image is turned upside down",
     }
 }
+
+/// What the texels show: inverted red looks as inverted green does.
+const CONFIDENCE: &str = "confidence that one of red and green is inverted, by the texels";
 
 /// What the z score of the derivatives is called, and the number of tiles that it is from.
 const CERTAINTY: &str = "distance of the tiles' mean agreement from zero (positive for OpenGL, negative for \
@@ -179,7 +189,7 @@ fn with_faces(said: Said, faces: Option<&FacesScore>) -> Said {
 }
 
 fn with_directions(said: Said, evidence: &DirectionEvidence) -> Said {
-    let said = said.with("confidence", 100.0 * f64::from(evidence.confidence), "%").with(
+    let said = said.with(CONFIDENCE, Sure(evidence.confidence.into()).percent(), "%").with(
         "agreement of red and green as slopes, from -1 (DirectX) to 1 (OpenGL)",
         evidence.correlation.into(),
         "",

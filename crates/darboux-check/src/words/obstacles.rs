@@ -1,5 +1,6 @@
 //! The words of obstacles, as clauses.
 
+use super::counts::Sure;
 use crate::code::Code;
 use crate::defect::Obstacle;
 use crate::defect::Pair;
@@ -9,10 +10,11 @@ use crate::measure::reversal::Undecided;
 pub fn reason(obstacle: &Obstacle) -> String {
     let clause = match obstacle {
         Obstacle::NoTangents(reason) => return format!("tangents cannot be computed: {reason}"),
-        Obstacle::Unsure(percent) => return format!("this is only {percent:.0} % sure"),
-        Obstacle::NotIdentified { percent } => {
+        Obstacle::Unsure(probability) => return format!("this is only {} sure", Sure(*probability)),
+        Obstacle::NotIdentified { probability } => {
+            let sure = Sure(*probability);
             return format!(
-                "this is {percent:.0} % sure, because inverted red and inverted green look alike and no \
+                "which channel is inverted is only {sure} sure, because inverted red and inverted green look alike and no \
                  faces of the model tell them apart, so that inverting the wrong one would make it worse; \
                  look at one bump with a light beside it: if that is right, green is inverted, and `--assume \
                  map=directx` says so (`--assume map=red-inverted`: red is)"
@@ -73,6 +75,13 @@ pub fn reason(obstacle: &Obstacle) -> String {
         Obstacle::NormalsInOtherAxes => {
             "the normals of the primitive are in other axes, which has to be repaired first"
         }
+        Obstacle::TangentsMayBeTurned => "what turned these normals may have turned the tangents, too",
+        Obstacle::AxesUnclear => {
+            "they fit the faces in several ways nearly as well, or in none of them closely"
+        }
+        Obstacle::FacesMayBeReversed => {
+            "the faces enclose a negative volume, so that they may be reversed, too"
+        }
         Obstacle::DifferenceIsInvisible => "the difference cannot be seen",
         Obstacle::BakedOnQuads => "the map was probably baked on the quads, for these tangents",
         Obstacle::EncodedAndInverted => {
@@ -100,8 +109,9 @@ pub fn reason(obstacle: &Obstacle) -> String {
              or say which it is with `--assume map=directx` or `--assume map=red-inverted`"
         }
         Obstacle::ExchangedAndInverted => {
-            "one channel is inverted, too, and no faces of a model show which: once red and green are \
-             exchanged back, either green is inverted or red is"
+            "one channel is inverted, too, and no faces of a model show which: `--assume map=directx` says \
+             that green is, once red and green are exchanged back, and `--assume map=red-inverted` that red \
+             is"
         }
         Obstacle::VectorsLean => {
             "scaled to length 1, the vectors would still lean; undo the change of the colours, or export the \
@@ -125,7 +135,7 @@ pub fn reason(obstacle: &Obstacle) -> String {
         }
         Obstacle::OtherImageFormat => {
             "PNG, JPEG and TGA images are rewritten, and no others, because only PNG files are written; save \
-             it as a PNG first"
+             it as a PNG first, or export the model with PNG images"
         }
         Obstacle::NotChosen => "its code is not among those to repair",
         Obstacle::OtherMethodWanted => "another method than MikkTSpace was asked for",

@@ -80,10 +80,11 @@ pub fn all_pairs() -> Vec<[Made; 2]> {
     of_models.chain(with_maps).collect()
 }
 
-/// Mistakes that are repaired make pairs; those that remove data leave nothing for another one.
+/// Mistakes that are repaired make pairs; those that remove data leave nothing for another one, and normals
+/// in other axes are left on models with tangents.
 fn is_paired(mistake: &Mistake) -> bool {
-    let removes = [Code::TangentMissing, Code::NormalMissing];
-    mistake.code.repair().is_some() && !removes.contains(&mistake.code)
+    let others = [Code::TangentMissing, Code::NormalMissing, Code::NormalOtherAxes];
+    mistake.code.repair().is_some() && !others.contains(&mistake.code)
 }
 
 /// Makes pairs, checks and repairs them, each on the first of two curved models with two UV sets, mirrored

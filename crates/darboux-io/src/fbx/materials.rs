@@ -229,6 +229,7 @@ impl<'a> MaterialReader<'a> {
         if !file.content.is_empty() {
             return Some(SourceImage { name, bytes: file.content.to_vec() });
         }
+        self.files.begin_reference();
         // A path that leads to the file comes before one of which only the name is found.
         let found: Vec<_> =
             references.by_ref().filter_map(|path| Some((path, self.files.find("", path)?))).collect();

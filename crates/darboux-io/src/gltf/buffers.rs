@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::resources::{ResourceFile, Resources, UriTarget, decode_data_uri};
 use super::schema;
 use crate::error::{ContentError, system_reason};
+use crate::git_lfs;
 
 /// The source of a buffer's bytes.
 #[derive(Debug)]
@@ -51,6 +52,11 @@ pub fn load_buffer(
         }
         Some(Err(problem)) => return Err(ContentError::resource(at(), problem)),
     };
+    if let BufferSource::File(file) = &store
+        && git_lfs::is_pointer(&file.bytes)
+    {
+        return Err(ContentError::resource(at(), git_lfs::NOT_THE_FILE));
+    }
     let available = match &store {
         BufferSource::File(file) => file.bytes.len(),
         BufferSource::Data(bytes) => bytes.len(),

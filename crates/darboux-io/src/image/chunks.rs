@@ -1,6 +1,7 @@
 //! Splits a PNG into its chunks (PNG specification, third edition, section 5).
 
 use crate::error::ContentError;
+use crate::git_lfs;
 
 /// The first bytes of every PNG.
 pub const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
@@ -26,7 +27,9 @@ impl<'a> Chunks<'a> {
     /// within a chunk.
     pub fn split(file: &'a [u8]) -> Result<Self, ContentError> {
         let Some(mut rest) = file.strip_prefix(&SIGNATURE) else {
-            return Err(ContentError::invalid("", "is not a PNG; save it as one"));
+            let is_pointer = git_lfs::is_pointer(file);
+            let problem = if is_pointer { git_lfs::NOT_AN_IMAGE } else { "is not a PNG; save it as one" };
+            return Err(ContentError::invalid("", problem));
         };
         let mut chunks = Vec::new();
         loop {

@@ -13,7 +13,7 @@ use zune_jpeg::JpegDecoder;
 use super::chunks::SIGNATURE as PNG;
 use super::decoding::{DecodeError, DecodeLimits, broken, check_memory, rgba, texel_count, to_byte};
 use super::palette::check_palette;
-use super::{reasons, tga};
+use super::{other_formats, reasons, tga};
 use crate::image::PngImage;
 use crate::{Error, git_lfs};
 
@@ -46,13 +46,13 @@ impl RgbaImage {
             decode_ktx2(file, limits)
         } else if file.get(4..8) == Some(b"ftyp") && brand.is_some_and(|brand| brand.starts_with(b"avi")) {
             Err(DecodeError::NoDecoder("AVIF"))
-        } else if file.starts_with(git_lfs::START) {
+        } else if git_lfs::is_pointer(file) {
             Err(DecodeError::GitLfsPointer)
         } else if tga::is_tga(file) {
             let (width, height, texels) = tga::decode(file, limits)?;
             Ok(Self { width, height, texels })
         } else {
-            Err(DecodeError::UnknownFormat)
+            Err(other_formats::name(file).map_or(DecodeError::UnknownFormat, DecodeError::NoDecoder))
         }
     }
 
@@ -70,6 +70,12 @@ impl RgbaImage {
     /// no signature: a header whose fields fit each other tells it from others.
     pub fn is_tga(file: &[u8]) -> bool {
         tga::is_tga(file)
+    }
+
+    /// The name of the format of a file without a decoder here, by its first bytes: BMP, TIFF, PSD, DDS and
+    /// others.
+    pub(crate) fn other_format(file: &[u8]) -> Option<&'static str> {
+        other_formats::name(file)
     }
 
     /// The image as a PNG of 8 bits, without alpha where all texels are opaque.

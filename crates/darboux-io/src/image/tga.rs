@@ -1,5 +1,7 @@
 //! Decodes TGA files (Truevision TGA File Format Specification 2.0) to 8-bit RGBA texels.
 
+use std::borrow::Cow;
+
 use tinytga::{Bpp, Compression, DataType, ImageOrigin, RawTga, TgaHeader};
 
 use super::decoding::{DecodeError, DecodeLimits, broken, texel_count};
@@ -8,10 +10,15 @@ const FOOTER_SIGNATURE: &[u8] = b"TRUEVISION-XFILE.\0";
 /// The bytes of a footer before its signature: where metadata begins.
 const OFFSETS: usize = 8;
 const HEADER_LENGTH: usize = 18;
+/// The bytes of the header with the bits of an entry of the colour map, and of a texel.
+const DEPTHS: [usize; 2] = [7, 16];
+/// The byte of the extension area that says what alpha holds (field 24).
+const ATTRIBUTES_TYPE: usize = 494;
 
 /// Whether the fields of the header fit each other.
 pub fn is_tga(file: &[u8]) -> bool {
-    let Ok(tga) = RawTga::from_slice(without_footer(file)) else { return false };
+    let file = &*with_whole_bytes(without_footer(file));
+    let Ok(tga) = RawTga::from_slice(file) else { return false };
     let header = tga.header();
     let fits = match header.data_type {
         DataType::TrueColor => header.pixel_depth != Bpp::Bits8,
@@ -26,7 +33,9 @@ pub fn is_tga(file: &[u8]) -> bool {
 
 /// Decodes a file that [`is_tga`] to its width, its height and its texels.
 pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<(u32, u32, Vec<[u8; 4]>), DecodeError> {
-    let tga = RawTga::from_slice(without_footer(file)).map_err(|_| broken("its header is damaged"))?;
+    let is_opaque = !may_have_alpha(file);
+    let file = &*with_whole_bytes(without_footer(file));
+    let tga = RawTga::from_slice(file).map_err(|_| broken("its header is damaged"))?;
     let header = tga.header();
     let (width, height) = (usize::from(header.width), usize::from(header.height));
     let count = texel_count(width, height, limits)?;
@@ -47,6 +56,9 @@ pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<(u32, u32, Vec<[u8; 
         texels[y * width + x] = texel(&tga, &header, pixel.color)?;
         decoded += 1;
     }
+    if is_opaque {
+        texels.iter_mut().for_each(|texel| texel[3] = 255);
+    }
     if decoded < count {
         return Err(cut_off());
     }
@@ -64,6 +76,30 @@ fn without_footer(mut file: &[u8]) -> &[u8] {
         file = &rest[..rest.len().saturating_sub(OFFSETS)];
     }
     file
+}
+
+/// Whether alpha may hold something: the extension area, where there is one, says that it does (3), or that
+/// the colours are multiplied with it (4). Else it is absent (0), or holds anything (1 and 2).
+fn may_have_alpha(file: &[u8]) -> bool {
+    let offset = file.strip_suffix(FOOTER_SIGNATURE).and_then(|rest| rest.last_chunk::<OFFSETS>());
+    let offset = offset.map_or(0, |&[a, b, c, d, ..]| u32::from_le_bytes([a, b, c, d]) as usize);
+    let kind = file.get(offset..).filter(|_| offset > 0).and_then(|area| area.get(ATTRIBUTES_TYPE));
+    kind.is_none_or(|kind| matches!(kind, 3 | 4))
+}
+
+/// The file with texels of 15 bits called those of 16, which are as long: the first bit is that of alpha, and
+/// nothing reads it.
+fn with_whole_bytes(file: &[u8]) -> Cow<'_, [u8]> {
+    if file.len() < HEADER_LENGTH || DEPTHS.iter().all(|&at| file[at] != 15) {
+        return file.into();
+    }
+    let mut file = file.to_vec();
+    for at in DEPTHS {
+        if file[at] == 15 {
+            file[at] = 16;
+        }
+    }
+    file.into()
 }
 
 fn texel(tga: &RawTga<'_>, header: &TgaHeader, code: u32) -> Result<[u8; 4], DecodeError> {

@@ -14,6 +14,7 @@ pub fn libraries(files: &ModelFiles, line: &[u8]) -> Vec<Result<Found, String>> 
         return Vec::new();
     }
     let text = decoded(line);
+    files.begin_reference();
     match find(files, "", &text) {
         Some(found) => vec![Ok(found)],
         None => {
@@ -28,6 +29,7 @@ pub fn libraries(files: &ModelFiles, line: &[u8]) -> Vec<Result<Found, String>> 
 /// Options that are not known may stand before the name, so the longest end of the line that names a file is
 /// taken: one that leads to the file, or else one that has its name.
 pub fn texture(files: &ModelFiles, library: &str, map: &MtlMap) -> Option<Found> {
+    files.begin_reference();
     let line = &*map.statement;
     let starts = line
         .char_indices()

@@ -8,6 +8,7 @@ use super::mtl::{self, MtlMaterial};
 use super::texture_map::MtlMap;
 use crate::code_page::decoded;
 use crate::error::{shortened, system_reason};
+use crate::git_lfs;
 use crate::image::{DecodeLimits, RgbaImage, srgb_to_linear};
 use crate::source::{
     FoundFile, ModelFiles, NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture,
@@ -99,6 +100,11 @@ impl<'a> Materials<'a> {
             }
             self.warnings.extend(ModelFiles::by_name_warning(&reference, &library));
             match self.files.read(&library) {
+                Ok(text) if git_lfs::is_pointer(&text) => self.warnings.push(format!(
+                    "{}: {}; its materials are left out",
+                    library.name,
+                    git_lfs::NOT_THE_FILE
+                )),
                 Ok(text) => {
                     let is_linear = mtl::has_linear_colors(&text);
                     let materials = mtl::parse(&text).into_iter();

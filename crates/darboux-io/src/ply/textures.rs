@@ -43,6 +43,7 @@ fn with_stem<'a>(name: &'a str, stem: &str) -> Cow<'a, str> {
 
 /// The image of a texture; none where it cannot be read, which a warning says.
 fn image(name: &str, files: &ModelFiles, scene: &mut SourceScene) -> Option<usize> {
+    files.begin_reference();
     let Some(file) = files.find("", name) else {
         scene.warnings.push(format!("{}; the texture is left out", files.problem(name)));
         return None;

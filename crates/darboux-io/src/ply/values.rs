@@ -83,6 +83,15 @@ impl<'a> Values<'a> {
         Some((self.line_number(self.line_to_end), last.filter(|word| !is_number(word))))
     }
 
+    /// Whether records that could not be read line by line may wrap or share lines: the last text that was
+    /// read is a number, and values are left, after it or on lines before.
+    pub fn may_wrap(&self) -> bool {
+        let share_lines = self.surplus.lines > 0;
+        self.wrong_line().map_or(share_lines, |(_, wrong)| {
+            wrong.is_none() && (share_lines || !self.rest.trim_ascii().is_empty())
+        })
+    }
+
     /// The number of the first line with surplus values.
     pub fn first_surplus_line(&self) -> usize {
         self.line_number(self.surplus.line_to_end)

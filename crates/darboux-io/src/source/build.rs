@@ -60,6 +60,7 @@ pub fn build(mut scene: SourceScene, size: usize, options: &LoadOptions) -> Resu
         faces,
         polygon_rule: options.polygon_rule,
         not_carried: scene.not_carried,
+        unread_maps: materials.unread_maps,
         companions: Vec::new(),
         primitives: meshes.sources,
     };

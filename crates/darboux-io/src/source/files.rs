@@ -16,8 +16,12 @@ use crate::MemoryLimit;
 use crate::error::quoted;
 use crate::{Files, LoadOptions, files, paths};
 
-/// The most paths that are looked up for one model. Each lookup asks the operating system.
+/// The most paths that are looked up for one model beside those that its references state. Each lookup asks
+/// the operating system.
 const MAX_LOOKUPS: usize = 100_000;
+
+/// The most paths of these for one reference, so that a line of many words leaves the others theirs.
+const MAX_LOOKUPS_OF_ONE: usize = 1000;
 
 /// No path has more bytes. Longer references are not looked up: one may begin at every word of a line.
 pub const LONGEST_PATH: usize = 4096;
@@ -47,6 +51,8 @@ pub struct ModelFiles {
     #[cfg(any(feature = "fbx", feature = "obj"))]
     memory_limit: MemoryLimit,
     lookups_left: Cell<usize>,
+    /// The lookups that are left for the reference that is looked up now.
+    left_of_reference: Cell<usize>,
     /// The files that were read from the disk.
     read: RefCell<Vec<PathBuf>>,
     other_case: RefCell<OtherCase>,
@@ -75,6 +81,7 @@ impl ModelFiles {
             #[cfg(any(feature = "fbx", feature = "obj"))]
             memory_limit: options.memory_limit,
             lookups_left: Cell::new(MAX_LOOKUPS),
+            left_of_reference: Cell::new(MAX_LOOKUPS_OF_ONE),
             read: RefCell::default(),
             other_case: RefCell::default(),
         }
@@ -84,6 +91,11 @@ impl ModelFiles {
     #[cfg(feature = "ply")]
     pub fn stem(&self) -> &str {
         &self.stem
+    }
+
+    /// Begins the lookups of another reference. Its own path is looked up in any case.
+    pub fn begin_reference(&self) {
+        self.left_of_reference.set(self.lookups_left.get().clamp(1, MAX_LOOKUPS_OF_ONE));
     }
 
     /// The file that a reference names, relative to the folder of the file `base`; empty is the model itself.
@@ -142,7 +154,7 @@ impl ModelFiles {
     fn usable(&self, reference: &str) -> Option<String> {
         let reference = reference.trim();
         let is_usable =
-            !reference.is_empty() && reference.len() <= LONGEST_PATH && self.lookups_left.get() > 0;
+            !reference.is_empty() && reference.len() <= LONGEST_PATH && self.left_of_reference.get() > 0;
         is_usable.then(|| reference.replace('\\', "/"))
     }
 
@@ -185,8 +197,9 @@ impl ModelFiles {
     }
 
     fn may_look_up(&self) -> bool {
-        let left = self.lookups_left.get();
-        self.lookups_left.set(left.saturating_sub(1));
+        let left = self.left_of_reference.get();
+        self.left_of_reference.set(left.saturating_sub(1));
+        self.lookups_left.set(self.lookups_left.get().saturating_sub(1));
         left > 0
     }
 
@@ -215,9 +228,12 @@ impl ModelFiles {
         match &self.source {
             _ if self.lookups_left.get() == 0 => {
                 format!(
-                    "{shown} was not looked up, because more than {MAX_LOOKUPS} paths were tried for the \
-                     files that the model names"
+                    "{shown} was looked up at its own path only, because more than {MAX_LOOKUPS} paths were \
+                     tried for the files that the model names"
                 )
+            }
+            _ if self.left_of_reference.get() == 0 => {
+                format!("{shown} is not at the first {MAX_LOOKUPS_OF_ONE} paths that it may mean")
             }
             FileSource::None => {
                 format!("{shown} was not looked up, because the model came without a folder")

@@ -44,8 +44,9 @@ const NAMES: [&str; 28] = [
     "zbrush",
 ];
 
-/// The program that a comment names: what follows words such as `exported by`, or a comment with the name of
-/// a known program or a version. None for other comments.
+/// The program that a comment names: what follows words such as `exported by` as a name does, or a comment
+/// that begins with a known program and goes on with nothing but its version and what it wrote. None for
+/// other comments, such as `rhino head` over the mesh of an animal.
 pub fn program_of_comment(comment: &str) -> Option<String> {
     const MOST: usize = 200;
     let is_edge = |c: char| c.is_whitespace() || matches!(c, '#' | '*' | '-' | '=');
@@ -53,35 +54,51 @@ pub fn program_of_comment(comment: &str) -> Option<String> {
     let text = text.trim_matches(is_edge);
     let lower = text.to_ascii_lowercase();
     let after = BEFORE.iter().find_map(|word| lower.find(word).map(|at| &text[at + word.len()..]));
-    if let Some(after) = after.map(|after| after.trim_matches(is_edge)).filter(|after| !after.is_empty()) {
+    if let Some(after) = after.map(|after| after.trim_matches(is_edge)).filter(|after| is_name(after)) {
         return Some(after.to_owned());
     }
-    let has_name = NAMES.iter().any(|&name| has_word(&lower, name));
-    (has_name || has_version(&lower)).then(|| text.to_owned())
+    let is_whole = NAMES.iter().any(|&name| is_about_program(&lower, name)) || ends_in_version(&lower);
+    is_whole.then(|| text.to_owned())
 }
 
-/// Whether a text has words that are not parts of longer ones: `maya` is in `maya 2020`, not in `himalaya`.
-fn has_word(text: &str, word: &str) -> bool {
-    text.match_indices(word).any(|(at, _)| {
-        let is_part = |c: Option<char>| c.is_some_and(char::is_alphabetic);
-        !is_part(text[..at].chars().next_back()) && !is_part(text[at + word.len()..].chars().next())
-    })
+/// Whether a text begins as the name of a program or of a person: `Blender 4.2`, not `the scan`.
+fn is_name(text: &str) -> bool {
+    let lower = text.to_ascii_lowercase();
+    text.starts_with(|c: char| c.is_uppercase() || c.is_ascii_digit())
+        || NAMES.iter().any(|name| lower.starts_with(name))
 }
 
-/// Whether a text has a version: `v2`, `version 2` or `1.2.3`.
-fn has_version(text: &str) -> bool {
-    let is_number = |word: &str| word.starts_with(|c: char| c.is_ascii_digit());
-    let is_version = |word: &str| {
-        word.strip_prefix('v').is_some_and(is_number)
-            || (word.split('.').count() > 2 && word.split('.').all(is_number))
-    };
-    let mut words = text.split_whitespace();
-    let mut last = "";
-    words.any(|word| {
-        let found = is_version(word) || (last == "version" && is_number(word));
-        last = word;
-        found
-    })
+/// What a program says of a file beside its name.
+const ABOUT_FILES: [&str; 6] = ["export", "file", "generated", "obj", "ply", "version"];
+
+/// Whether a text is about a file of a program: its name, and then nothing, a version, or words such as `obj
+/// exporter`.
+fn is_about_program(text: &str, name: &str) -> bool {
+    let Some(rest) = text.strip_prefix(name) else { return false };
+    if rest.starts_with(char::is_alphabetic) && !rest.starts_with("3d") {
+        return false;
+    }
+    let mut words = rest.split(|c: char| !c.is_alphanumeric() && c != '.').filter(|word| !word.is_empty());
+    words.clone().next().is_none_or(is_version)
+        || words.any(|word| ABOUT_FILES.iter().any(|about| word.starts_with(about)))
+}
+
+/// Whether a word is a version: `2.91`, `v2`, `3d`.
+fn is_version(word: &str) -> bool {
+    word.trim_start_matches('v').starts_with(|c: char| c.is_ascii_digit())
+}
+
+/// Whether a text is a name of a few words and a version of three numbers: `program 1.0.2`.
+fn ends_in_version(text: &str) -> bool {
+    const MOST_WORDS: usize = 4;
+    let is_number = |word: &str| !word.is_empty() && word.bytes().all(|byte| byte.is_ascii_digit());
+    let words: Vec<&str> = text.split_whitespace().collect();
+    words.len() <= MOST_WORDS
+        && words.split_last().is_some_and(|(last, names)| {
+            !names.is_empty()
+                && last.split('.').count() > 2
+                && last.trim_start_matches('v').split('.').all(is_number)
+        })
 }
 
 #[cfg(test)]
@@ -104,6 +121,16 @@ mod tests {
             ("solid exported by Maya", Some("Maya")),
             ("Exported from Blender-2.91.0", Some("Blender-2.91.0")),
             (" Rhino", Some("Rhino")),
+            ("Created by Blender 4.2", Some("Blender 4.2")),
+            ("File exported by Rhinoceros", Some("Rhinoceros")),
+            ("Created in Blender version 5.0.1", Some("Blender version 5.0.1")),
+            ("VCGLIB generated", Some("VCGLIB generated")),
+            (" Blender v2.74 (sub 0) OBJ File: ''", Some("Blender v2.74 (sub 0) OBJ File: ''")),
+            (" rhino head", None),
+            (" Rhino head v2", None),
+            (" chair v2", None),
+            (" positions are exported from the scan", None),
+            (" written by hand", None),
             ("###", None),
             ("", None),
             (" exported by ", None),

@@ -23,6 +23,8 @@ pub struct Provenance {
     pub polygon_rule: PolygonRule,
     /// What was not carried over: a noun phrase each, such as `2 cameras`.
     pub not_carried: Vec<String>,
+    /// The normal maps of materials that are not in the document, because glTF cannot hold their images.
+    pub unread_maps: Vec<UnreadMap>,
     /// The files beside it that were read, links resolved: material libraries, textures.
     pub(crate) companions: Vec<PathBuf>,
     pub(crate) primitives: HashMap<(usize, usize), PrimitiveSource>,
@@ -41,6 +43,18 @@ impl Provenance {
         // A PLY is one mesh without a name.
         Some(if path.is_empty() { format!("your {format}") } else { format!("{path} in your {format}") })
     }
+}
+
+/// A normal map that is not in the document.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct UnreadMap {
+    /// The index of the material.
+    pub material: usize,
+    /// The name of the image's file.
+    pub file: String,
+    /// What is wrong with the file: a clause whose subject it is, with what to do.
+    pub problem: String,
 }
 
 /// Where a primitive came from.

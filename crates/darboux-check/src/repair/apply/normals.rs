@@ -1,5 +1,5 @@
-//! Repairs normals: missing ones are made, others get unit length, and normals or faces that are reversed are
-//! flipped.
+//! Repairs normals: missing ones are made, others get unit length, normals in other axes are turned, and
+//! normals or faces that are reversed are flipped.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -9,6 +9,7 @@ use darboux_io::gltf::{AddNormalsOptions, Document, NormalsOutcome, PrimitiveNam
 
 use super::attributes::{check_rewritten, users_of};
 use crate::instances::{Groups, Key, key};
+use crate::measure::other_axes::OtherAxes;
 use crate::measure::reversed::front;
 use crate::measure::values::is_unit;
 use crate::repair::options::FixOptions;
@@ -25,10 +26,10 @@ pub fn repair(
     edits: &[Edit],
     options: &FixOptions,
 ) -> Result<Vec<PrimitiveName>, Error> {
-    let (mut reversed, mut wrong, mut missing) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut turned, mut reversed, mut wrong, mut missing) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let groups = Groups::of(document, edits.iter().map(|edit| &edit.place));
     for edit in edits {
-        let Action::RepairNormals { flip, make_unit, make } = edit.action else { continue };
+        let Action::RepairNormals { turn, flip, make_unit, make } = edit.action else { continue };
         let names = groups.at(document, &edit.place);
         if make_unit {
             wrong.extend(names.iter().cloned());
@@ -36,8 +37,10 @@ pub fn repair(
         if make {
             missing.extend(names.iter().cloned());
         }
+        turned.extend(turn.map(|axes| (axes, names.clone())));
         reversed.extend(flip.map(|flip| (flip, names)));
     }
+    turn(document, &turned)?;
     // The faces are flipped first: normals that are made follow them.
     flip(document, &reversed)?;
     make_unit(document, &wrong)?;
@@ -128,6 +131,20 @@ fn smooth_normals(
         if is_behind { front.map(|x| (f64::from(x) / length) as f32) } else { smooth }
     };
     Ok(normals.into_iter().zip(fronts).map(on_front).collect())
+}
+
+/// Turns the normals of primitives to the axes of their positions, each list with the same data.
+fn turn(document: &mut Document, turned: &[(OtherAxes, Vec<PrimitiveName>)]) -> Result<(), Error> {
+    for (axes, names) in turned {
+        let users = users_of(document, NORMAL, names);
+        check_rewritten::<3>(document, users.keys().copied())?;
+        for (accessor, users) in users {
+            let normals = document.vectors::<3>(accessor)?;
+            let read: Vec<[f32; 3]> = normals.iter().map(|normal| axes.read(*normal)).collect();
+            document.set_normals(&users, &read)?;
+        }
+    }
+    Ok(())
 }
 
 /// Flips the faces or the normals of primitives, each list with the same data.

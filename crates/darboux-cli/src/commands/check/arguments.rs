@@ -171,8 +171,7 @@ fn code() -> impl TypedValueParser<Value = Code> {
 
 /// Parses `map=NAME`.
 fn assumption() -> impl TypedValueParser<Value = AssumedMap> {
-    // The names of values live as long as the process.
-    let name = |map: AssumedMap| -> &'static str { format!("map={}", map.name()).leak() };
+    let name = |map: AssumedMap| format!("map={}", map.name());
     let values = AssumedMap::ALL.iter().map(|&map| PossibleValue::new(name(map)).help(map.summary()));
     PossibleValuesParser::new(values).try_map(|name| name.trim_start_matches("map=").parse::<AssumedMap>())
 }

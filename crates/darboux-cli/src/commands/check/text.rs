@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 
 use darboux_check::{Code, Evidence, ReportedFinding, Severity};
-use darboux_io::words::Count;
+use darboux_io::words::{Count, Sure};
 
 use super::arguments::FailOn;
 use super::groups::{by_kind, by_severity};
@@ -40,12 +40,20 @@ pub fn describe_folded(file: &CheckedFile) -> String {
         };
         text += &format!("  {}{further}\n{}", printable(&group[0].place), lines(group[0]));
     }
+    let (unchecked, known): (Vec<_>, Vec<_>) =
+        known.into_iter().partition(|group| group[0].severity == Severity::NotChecked);
+    for finding in unchecked.into_iter().flatten().take(MOST_UNCHECKED) {
+        text += &format!("  not checked: {}: {}\n", printable(&finding.place), printable(&finding.text));
+    }
     if !known.is_empty() {
         let codes = known.iter().map(|group| with_count(group));
         text += &format!("  worth knowing (-v): {}\n", codes.collect::<Vec<_>>().join(", "));
     }
     text + &counts(file)
 }
+
+/// The most maps that were not checked of which the reason is printed.
+const MOST_UNCHECKED: usize = 5;
 
 /// What follows the total where files were described in one line each.
 pub const HOW_TO_SEE_MORE: &str =
@@ -142,15 +150,15 @@ pub fn failures(file: &CheckedFile, fail_on: FailOn) -> String {
 
 /// The verdict on an image as a clause.
 pub fn verdict(map: &ReportedMap) -> String {
-    let percent = 100.0 * map.confidence;
+    let sure = Sure(map.confidence.into());
     if let Some(DirectionsByModel { red, green }) = map.by_model {
         let convention = if green == "up" { "OpenGL" } else { "DirectX" };
         let red = if red == "left" { " and red is inverted" } else { "" };
         return format!("green points {green} ({convention}){red}, by the texels and the faces of the model");
     }
     match map.verdict {
-        "opengl" => format!("green points up (OpenGL), {percent:.1} % sure"),
-        "directx" => format!("green points down (DirectX) or red is inverted, {percent:.1} % sure"),
+        "opengl" => format!("green points up (OpenGL), {sure} sure"),
+        "directx" => format!("green points down (DirectX) or red is inverted, {sure} sure"),
         "flat" => "all its texels have one colour".to_owned(),
         "no_gradient" => {
             "red and green are not the slopes of a surface, as those of a normal map in tangent space are"
@@ -196,9 +204,21 @@ fn lines(finding: &ReportedFinding) -> String {
 /// A number with its name and unit.
 pub fn number(evidence: &Evidence) -> String {
     let Evidence { what, value, unit, .. } = evidence;
-    let digits = if value.fract() == 0.0 { 0 } else { 3 };
     let space = if unit.is_empty() { "" } else { " " };
-    format!("{what} {value:.digits$}{space}{unit}")
+    format!("{what} {}{space}{unit}", decimals(*value))
+}
+
+/// A number with at most three decimals, or as many as it takes to show that it is not zero.
+fn decimals(value: f64) -> String {
+    const MOST: usize = 9;
+    if value.fract() == 0.0 {
+        return format!("{value}");
+    }
+    let written = |digits: usize| format!("{value:.digits$}");
+    let is_shown =
+        |digits: &usize| written(*digits).contains(|digit: char| digit.is_ascii_digit() && digit != '0');
+    let written = written((3..=MOST).find(is_shown).unwrap_or(MOST));
+    written.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// The section of a code.
@@ -220,5 +240,16 @@ fn with_fix(code: Code) -> String {
     match (code.repair(), code.left_because()) {
         (Some(repair), _) => repair.to_owned(),
         (None, reason) => format!("left, because {}", reason.unwrap_or_default()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_numbers_are_not_written_as_zero() {
+        let written = [0.0, 3.0, 12.3456, 0.0004, 0.000_021, -0.000_04, 99.9].map(decimals);
+        assert_eq!(written, ["0", "3", "12.346", "0.0004", "0.00002", "-0.00004", "99.9"]);
     }
 }

@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 
 use super::data::DataBuilder;
 use crate::image::{Channels, PngImage, convert_normal_map};
+use crate::source::provenance::UnreadMap;
 use crate::source::scene::{NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture};
 use crate::words::counted;
 use crate::{FileKind, LoadOptions, git_lfs};
@@ -21,6 +22,7 @@ pub struct Materials {
     pub images: Vec<Value>,
     pub samplers: Vec<Value>,
     pub extensions: BTreeSet<&'static str>,
+    pub unread_maps: Vec<UnreadMap>,
 }
 
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
@@ -43,6 +45,7 @@ pub fn build(
         built: Materials::default(),
         texture_of_use: HashMap::new(),
         image_of_source: HashMap::new(),
+        problem_of_image: HashMap::new(),
         sampler_of_clamps: HashMap::new(),
         first_tga: String::new(),
         tga_images: 0,
@@ -65,6 +68,8 @@ struct MaterialBuilder<'a> {
     /// glTF cannot hold.
     texture_of_use: HashMap<(usize, bool, [bool; 2]), Option<usize>>,
     image_of_source: HashMap<(usize, bool), Option<GltfImage>>,
+    /// Why images are left out: a clause each, whose subject is the image.
+    problem_of_image: HashMap<usize, String>,
     sampler_of_clamps: HashMap<[bool; 2], usize>,
     /// The name of the first TGA, and their number.
     first_tga: String,
@@ -128,7 +133,19 @@ impl MaterialBuilder<'_> {
 
     fn set_normal_map(&mut self, json: &mut Value, map: &NormalMap) {
         let is_inverted = map.green == Some(BitangentDirection::Down);
-        let Some(mut info) = self.texture_info(&map.texture, is_inverted) else { return };
+        let Some(mut info) = self.texture_info(&map.texture, is_inverted) else {
+            let image = map.texture.image;
+            if let (Some(source), Some(problem)) =
+                (self.scene.images.get(image), self.problem_of_image.get(&image))
+            {
+                self.built.unread_maps.push(UnreadMap {
+                    material: self.built.materials.len(),
+                    file: source.name.clone(),
+                    problem: problem.clone(),
+                });
+            }
+            return;
+        };
         if let Some(scale) = map.scale.filter(|&scale| scale.is_finite() && scale != 1.0) {
             info["scale"] = json!(scale);
         }
@@ -190,17 +207,26 @@ impl MaterialBuilder<'_> {
         if let Some(&made) = self.image_of_source.get(&(image, is_inverted)) {
             return made;
         }
-        let made = self.scene.images.get(image).and_then(|source| self.add_image(source, is_inverted));
+        let made = self.scene.images.get(image).and_then(|source| match self.as_gltf_holds_it(source) {
+            Ok(file) => self.add_image(source, file, is_inverted),
+            Err(problem) => {
+                self.warnings.push(format!("{}: {problem}; the texture is left out", source.name));
+                self.problem_of_image.insert(image, problem);
+                None
+            }
+        });
         self.image_of_source.insert((image, is_inverted), made);
         made
     }
 
-    fn add_image(&mut self, image: &SourceImage, is_inverted: bool) -> Option<GltfImage> {
-        let made = match self.as_gltf_holds_it(image) {
-            Ok(file) if is_inverted => self.inverted(&image.name, file),
-            other => other,
-        };
-        let file = made.map_err(|problem| self.warnings.push(problem)).ok()?;
+    /// Adds an image. `file`: one that glTF can hold.
+    fn add_image(
+        &mut self,
+        image: &SourceImage,
+        file: Cow<'_, [u8]>,
+        is_inverted: bool,
+    ) -> Option<GltfImage> {
+        let file = if is_inverted { self.inverted(&image.name, file) } else { file };
         let mime = mime_type(&file)?;
         let view = self.data.view(&file);
         let is_converted = mime_type(&image.bytes) != Some(mime);
@@ -209,21 +235,23 @@ impl MaterialBuilder<'_> {
         Some(GltfImage { index: self.built.images.len() - 1, is_webp: mime == "image/webp" })
     }
 
-    /// The file of an image, as PNG where glTF cannot hold its format. Errors, as sentences: no PNG can be
-    /// made of it.
+    /// The file of an image, as PNG where glTF cannot hold its format. Errors, as clauses: no PNG can be made
+    /// of it.
     fn as_gltf_holds_it<'i>(&mut self, image: &'i SourceImage) -> Result<Cow<'i, [u8]>, String> {
         let (name, bytes) = (&image.name, &image.bytes);
         if mime_type(bytes).is_some() {
             return Ok(bytes.into());
         }
-        let left_out = |problem: &str| format!("{name}: {problem}; the texture is left out");
-        if bytes.starts_with(git_lfs::START) {
-            return Err(left_out(git_lfs::NOT_AN_IMAGE));
+        if git_lfs::is_pointer(bytes) {
+            return Err(git_lfs::NOT_AN_IMAGE.to_owned());
         }
         if !converted::is_tga(bytes) {
-            return Err(left_out("is neither PNG, JPEG, WebP nor TGA; save it as PNG"));
+            return Err(match converted::other_format(bytes) {
+                Some(format) => format!("is {format}, which is not read; save it as PNG"),
+                None => "is neither PNG, JPEG, WebP nor TGA; save it as PNG".to_owned(),
+            });
         }
-        let png = converted::to_png(name, bytes, self.options).map_err(|problem| left_out(&problem))?;
+        let png = converted::to_png(name, bytes, self.options)?;
         if self.tga_images == 0 {
             self.first_tga.clone_from(name);
         }
@@ -244,7 +272,7 @@ impl MaterialBuilder<'_> {
     }
 
     /// A normal map with green inverted; as it is, with a warning, where it cannot be.
-    fn inverted<'i>(&mut self, name: &str, file: Cow<'i, [u8]>) -> Result<Cow<'i, [u8]>, String> {
+    fn inverted<'i>(&mut self, name: &str, file: Cow<'i, [u8]>) -> Cow<'i, [u8]> {
         let down = Convention { bitangent: BitangentDirection::Down, ..Convention::GLTF };
         let png = match PngImage::is_png(&file) {
             true => Ok(file.to_vec()),
@@ -265,7 +293,7 @@ impl MaterialBuilder<'_> {
             }
             Err(error) => format!("{error}; its green points down, and is not inverted: save the map as PNG"),
         });
-        Ok(turned.map_or(file, Cow::from))
+        turned.map_or(file, Cow::from)
     }
 }
 
@@ -303,6 +331,10 @@ mod converted {
         RgbaImage::is_tga(bytes)
     }
 
+    pub fn other_format(bytes: &[u8]) -> Option<&'static str> {
+        RgbaImage::other_format(bytes)
+    }
+
     /// A PNG of an image. Errors, as clauses: the image cannot be decoded.
     pub fn to_png(name: &str, bytes: &[u8], options: &LoadOptions) -> Result<Vec<u8>, String> {
         let limits = DecodeLimits::of_file(bytes.len(), options.memory_limit);
@@ -320,6 +352,10 @@ mod converted {
 
     pub fn is_tga(_: &[u8]) -> bool {
         false
+    }
+
+    pub fn other_format(_: &[u8]) -> Option<&'static str> {
+        None
     }
 
     pub fn to_png(_: &str, _: &[u8], _: &LoadOptions) -> Result<Vec<u8>, String> {
