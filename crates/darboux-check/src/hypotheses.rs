@@ -152,7 +152,8 @@ pub fn are_most_flipped(defect: &Defect) -> bool {
     flipped_percent(defect).is_some_and(|percent| percent > 50.0)
 }
 
-/// Whether signs of a surface are flipped, at least those of a part: a map that is inverted cancels them there.
+/// Whether signs of a surface are flipped, at least those of a part: a map that is inverted cancels them
+/// there.
 pub fn is_about_signs(defect: &Defect) -> bool {
     flipped_percent(defect).is_some()
 }
@@ -174,7 +175,8 @@ fn surely_spoiled(defect: &Defect) -> f64 {
     defect.spoiled.unwrap_or(0.0).min(spoiled_under_inverted_map(defect))
 }
 
-/// In percent of the model's area: the rest beside flipped signs, which looks wrong where a map cancels those.
+/// In percent of the model's area: the rest beside flipped signs, which looks wrong where a map cancels
+/// those.
 pub fn spoiled_under_inverted_map(defect: &Defect) -> f64 {
     match (defect.spoiled, flipped_percent(defect)) {
         (Some(spoiled), Some(percent)) if percent > 0.0 => {

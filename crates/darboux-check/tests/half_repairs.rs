@@ -1,5 +1,5 @@
-//! No repair makes a corner wrong that looks right: where signs w are flipped, a map with inverted green looks
-//! right, and nothing but the repair of both may change that.
+//! No repair makes a corner wrong that looks right: where signs w are flipped, a map with inverted green
+//! looks right, and nothing but the repair of both may change that.
 
 mod support;
 

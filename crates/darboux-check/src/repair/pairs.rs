@@ -154,8 +154,8 @@ fn primitive_of(defect: &Defect) -> Option<Key> {
     defect.place.primitive.as_ref().map(key)
 }
 
-/// Whether signs of a surface and channels of its map are wrong, in other ways than as a pair, and one of both
-/// is left: where signs are flipped, inverted channels look right.
+/// Whether signs of a surface and channels of its map are wrong, in other ways than as a pair, and one of
+/// both is left: where signs are flipped, inverted channels look right.
 fn is_partly_left(on_map: &[&Defect], on_surface: &[&Defect], options: &FixOptions) -> bool {
     let channels = || on_map.iter().filter(|defect| is_about_channels(defect));
     let signs = || on_surface.iter().filter(|defect| is_about_signs(defect));

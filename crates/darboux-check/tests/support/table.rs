@@ -168,7 +168,8 @@ pub fn rgb(file: &[u8]) -> Vec<[u8; 3]> {
 
 impl Row {
     pub fn new(code: Code, how: &'static str) -> Self {
-        // All models have tangents, beside which normals in other axes are left (tests/cures.rs repairs them).
+        // All models have tangents, beside which normals in other axes are left (tests/cures.rs repairs
+        // them).
         let is_repaired = code.repair().is_some() && code != Code::NormalOtherAxes;
         let repaired = is_repaired.then_some(0);
         Self { code, how, models: 0, named: 0, with_other_errors: 0, repaired, failures: Vec::new() }

@@ -57,8 +57,8 @@ pub fn outputs_of(arguments: &BakeArguments, bake: usize) -> Vec<OutputFile> {
     all.map(|(path, is_occasional)| OutputFile { path, bake, is_occasional }).collect()
 }
 
-/// Refuses a file that would be written twice, or over an input: also one that `%UDIM%` in the name of an output
-/// may stand for. The error is one sentence.
+/// Refuses a file that would be written twice, or over an input: also one that `%UDIM%` in the name of an
+/// output may stand for. The error is one sentence.
 pub fn refuse_twice(outputs: &[OutputFile], inputs: &[InputFile]) -> Result<(), String> {
     let mut writers: HashMap<FileId, &OutputFile> = HashMap::new();
     let is_conflict = |a: &OutputFile, b: &OutputFile| !(a.is_occasional && b.is_occasional);

@@ -20,8 +20,8 @@ pub fn canonical(path: &Path) -> PathBuf {
     with_place(path, PLACES[0])
 }
 
-/// The names with a place that may stand for a file: each with the place where the file's name has the number of
-/// a tile.
+/// The names with a place that may stand for a file: each with the place where the file's name has the number
+/// of a tile.
 pub fn templates_of(path: &Path) -> impl Iterator<Item = PathBuf> {
     let text = path.to_string_lossy().into_owned();
     let starts = 0..text.len().saturating_sub(Udim::DIGITS - 1);
