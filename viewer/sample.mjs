@@ -2,9 +2,11 @@
 // halves share one half of the texture. Its tangents are one per vertex, as many tools write them, so that they are wrong in the middle.
 
 import { writeFileSync } from 'node:fs';
-import { crc32, deflateSync } from 'node:zlib';
+import { deflateSync } from 'node:zlib';
 
 import { generateNormals, generateTangents, ready } from 'darboux';
+
+import { glb, padded, pngChunk } from './tests/glb.mjs';
 
 /** The number of quads across one half, and from top to bottom. */
 const [ACROSS, DOWN] = [8, 24];
@@ -22,7 +24,7 @@ function sample() {
   const tangents = ofVertices(corners, 4, indices, positions.length / 3);
   // v points down in glTF.
   for (let w = 3; w < tangents.length; w += 4) tangents[w] = -tangents[w];
-  return glb({ positions, normals, uvs, tangents, indices }, png());
+  return model({ positions, normals, uvs, tangents, indices }, png());
 }
 
 /** Both halves. u grows from the middle outwards. */
@@ -85,20 +87,12 @@ function png() {
   header.writeUInt32BE(SIZE, 0);
   header.writeUInt32BE(SIZE, 4);
   header.set([8, 2], 8);
-  const parts = [chunk('IHDR', header), chunk('IDAT', deflateSync(raw, { level: 9 })), chunk('IEND', Buffer.alloc(0))];
+  const parts = [pngChunk('IHDR', header), pngChunk('IDAT', deflateSync(raw, { level: 9 })), pngChunk('IEND', Buffer.alloc(0))];
   return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), ...parts]);
 }
 
-function chunk(kind, data) {
-  const [length, sum] = [Buffer.alloc(4), Buffer.alloc(4)];
-  const content = Buffer.concat([Buffer.from(kind, 'latin1'), data]);
-  length.writeUInt32BE(data.length);
-  sum.writeUInt32BE(crc32(content));
-  return Buffer.concat([length, content, sum]);
-}
-
 /** The glTF: one mesh with one material and its normal map. */
-function glb({ positions, normals, uvs, tangents, indices }, image) {
+function model({ positions, normals, uvs, tangents, indices }, image) {
   const parts = [positions, normals, uvs, tangents, indices, image].map((part) => Buffer.from(part.buffer, part.byteOffset, part.byteLength));
   let at = 0;
   const bufferViews = parts.map((part) => {
@@ -129,23 +123,5 @@ function glb({ positions, normals, uvs, tangents, indices }, image) {
     bufferViews,
     buffers: [{ byteLength: at }],
   };
-  return container(Buffer.from(JSON.stringify(json)), Buffer.concat(parts.map((part) => padded(part, 0))));
-}
-
-function padded(part, by) {
-  return Buffer.concat([part, Buffer.alloc((4 - (part.length % 4)) % 4, by)]);
-}
-
-function container(json, binary) {
-  const chunks = [[0x4e4f534a, padded(json, 0x20)], [0x004e4942, binary]].flatMap(([kind, content]) => {
-    const head = Buffer.alloc(8);
-    head.writeUInt32LE(content.length, 0);
-    head.writeUInt32LE(kind, 4);
-    return [head, content];
-  });
-  const head = Buffer.alloc(12);
-  head.write('glTF', 'latin1');
-  head.writeUInt32LE(2, 4);
-  head.writeUInt32LE(12 + chunks.reduce((sum, part) => sum + part.length, 0), 8);
-  return Buffer.concat([head, ...chunks]);
+  return glb(json, Buffer.concat(parts.map((part) => padded(part, 0))));
 }

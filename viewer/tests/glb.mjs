@@ -46,7 +46,8 @@ export function changedMap(change) {
   return Buffer.concat([png.subarray(0, 8), ...made.map(([kind, content]) => pngChunk(kind, content))]);
 }
 
-function pngChunk(kind, content) {
+/** A chunk of a PNG. */
+export function pngChunk(kind, content) {
   const body = Buffer.concat([Buffer.from(kind, 'latin1'), content]);
   const [length, sum] = [Buffer.alloc(4), Buffer.alloc(4)];
   length.writeUInt32BE(content.length);
@@ -54,7 +55,8 @@ function pngChunk(kind, content) {
   return Buffer.concat([length, body, sum]);
 }
 
-function padded(part, by) {
+/** Bytes up to a multiple of four. */
+export function padded(part, by) {
   return Buffer.concat([part, Buffer.alloc(-part.length & 3, by)]);
 }
 

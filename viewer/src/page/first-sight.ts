@@ -3,6 +3,7 @@
 
 import type { Finding } from 'darboux/check';
 
+import { contentOf } from '../files/glb';
 import type { Difference } from '../surface/fault';
 import { counted } from '../plural';
 import { element } from './elements';
@@ -99,12 +100,10 @@ function differing({ median, worst, flipped }: Difference, show: () => void): (s
   return [`Both sides look alike from here: they differ by ${degrees(median)} (median), ${degrees(worst)} (worst)${signs}: `, button];
 }
 
-/** The vertices of all meshes in a GLB, from its JSON. */
-export function verticesIn(glb: Uint8Array): number {
-  const view = new DataView(glb.buffer, glb.byteOffset, glb.byteLength);
-  const json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + view.getUint32(12, true))));
-  const accessors: { count: number }[] = json.accessors ?? [];
-  const primitives: { attributes?: { POSITION?: number } }[] = (json.meshes ?? []).flatMap(({ primitives = [] }: { primitives?: object[] }) => primitives);
+/** The vertices of all meshes in a GLB. */
+export function verticesIn(glb: Uint8Array<ArrayBuffer>): number {
+  const { accessors = [], meshes = [] } = contentOf(glb).json;
+  const primitives = meshes.flatMap(({ primitives = [] }) => primitives);
   const positions = new Set(primitives.map(({ attributes }) => attributes?.POSITION).filter((at) => at !== undefined));
   return [...positions].reduce((sum, at) => sum + (accessors[at]?.count ?? 0), 0);
 }
