@@ -103,7 +103,7 @@ function derivatives(place) {
   const picture = new Drawing('The triangle in the picture', [300, 300], 240, [-0.12, -0.12]);
   const output = element('output');
   const draw = () => {
-    // A triangle that is turned over shows its back.
+    // A flipped triangle shows its back.
     const facing = determinant(points) < 0 ? -1 : 1;
     const { tangents, bitangents, magnitudes } = generateFrames(...flatMesh(points, uvs, [[0, 1, 2]], facing));
     const mirrored = determinant(uvs) < 0;

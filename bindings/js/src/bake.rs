@@ -320,15 +320,15 @@ fn with_read<T>(
         true => cages(&low_surfaces, setup.distance[0])?,
         false => Vec::new(),
     };
-    let mut placed = Vec::with_capacity(low_surfaces.len());
+    let mut caged_surfaces = Vec::with_capacity(low_surfaces.len());
     for (index, surface) in low_surfaces.into_iter().enumerate() {
-        placed.push(match cages.get(index) {
+        caged_surfaces.push(match cages.get(index) {
             Some(cage) => surface.with_cage(cage).map_err(text)?,
             None => surface,
         });
     }
     let settings = bake_settings(options, setup.distance)?;
-    work(Surfaces { low: &placed, high: &high_surfaces, settings: &settings }, context)
+    work(Surfaces { low: &caged_surfaces, high: &high_surfaces, settings: &settings }, context)
 }
 
 pub fn bake_settings(options: &Options, distance: [f32; 2]) -> Result<BakeOptions, String> {

@@ -66,10 +66,10 @@ pub fn with_meshes<T>(
             _ => None,
         };
         let cage = arrays.cage.as_deref().map(rows).or(inflated.as_deref());
-        let placed = cage.map_or(Ok(low), |cage| low.with_cage(cage)).map_err(text)?;
+        let caged = cage.map_or(Ok(low), |cage| low.with_cage(cage)).map_err(text)?;
         let high = high_surface(arrays)?;
         let settings = bake_settings(&options, distance)?;
-        let done = work(Surfaces { low: &[placed], high: &[high], settings: &settings }, context)?;
+        let done = work(Surfaces { low: &[caged], high: &[high], settings: &settings }, context)?;
         let setup = Setup {
             diagonal: low.diagonal(),
             distance,

@@ -91,9 +91,9 @@ impl Bake<'_> {
     /// Stage 2: finds the triangle of every sample of a block.
     fn cover(&self, [column, row]: [usize; 2], sample: [i64; 2], coverage: &mut Coverage) {
         coverage.clear();
-        for placed in self.layout.block(column, row) {
-            let low = &self.low[placed.surface as usize];
-            coverage.add(*placed, self.layout.steps_in_block(low, placed, [column, row]), sample);
+        for triangle in self.layout.block(column, row) {
+            let low = &self.low[triangle.surface as usize];
+            coverage.add(*triangle, self.layout.steps_in_block(low, triangle, [column, row]), sample);
         }
     }
 
@@ -114,9 +114,9 @@ impl Bake<'_> {
         for at_tile in 0..TILE * TILE {
             let in_block = [from[0] + at_tile % TILE, from[1] + at_tile / TILE];
             let texel = in_block[1] * BLOCK + in_block[0];
-            let Some(placed) = scratch.coverage.owners[texel] else { continue };
-            if last.as_ref().is_none_or(|face| face.placed != placed) {
-                last = Some(Face::new(self.layout, self.low, placed));
+            let Some(triangle) = scratch.coverage.owners[texel] else { continue };
+            if last.as_ref().is_none_or(|face| face.triangle != triangle) {
+                last = Some(Face::new(self.layout, self.low, triangle));
             }
             let Some(face) = &last else { continue };
             let sums = &mut scratch.sums[texel];

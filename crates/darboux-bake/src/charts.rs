@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use darboux::internal::DisjointSets;
 
 use crate::LowSurface;
-use crate::layout::Placed;
+use crate::layout::TileTriangle;
 
 /// The chart of every triangle.
 #[derive(Clone, Debug, Default)]
@@ -24,8 +24,8 @@ impl Charts {
     }
 
     /// The chart of a triangle.
-    pub fn of_triangle(&self, placed: &Placed) -> u32 {
-        self.chart_of_triangle[placed.surface as usize][placed.triangle as usize]
+    pub fn of_triangle(&self, triangle: &TileTriangle) -> u32 {
+        self.chart_of_triangle[triangle.surface as usize][triangle.index as usize]
     }
 }
 
@@ -40,7 +40,8 @@ fn number(surface: &LowSurface<'_>, next: &mut u32) -> Vec<u32> {
         let first = *first_of_place.entry([x, y, z, u, v].map(f32::to_bits)).or_insert(triangle);
         sets.join(first, triangle);
     }
-    // A chart is named by its first triangle, so that its number is known before those of the others.
+    // A chart is named by its first triangle, so that its number is known before its other triangles are
+    // visited.
     let mut charts = Vec::with_capacity(surface.triangle_count());
     for (triangle, first) in (0..).zip(sets.into_names()) {
         let chart =

@@ -4,7 +4,7 @@
 //! that contains the point a little to the right of it (and below it, if that decides nothing): two triangles
 //! that share an edge neither overlap there nor leave a gap.
 
-use crate::layout::{BLOCK, Placed, area};
+use crate::layout::{BLOCK, TileTriangle, area};
 use crate::samples::STEPS;
 
 /// Texels per block.
@@ -61,7 +61,7 @@ impl Open {
 #[derive(Debug)]
 pub struct Coverage {
     /// The first triangle, in the order of surfaces and triangles, that covers each sample.
-    pub owners: Vec<Option<Placed>>,
+    pub owners: Vec<Option<TileTriangle>>,
     /// Whether more than one triangle covers the sample.
     pub overlaps: Vec<bool>,
     /// The texels without an overlap.
@@ -81,11 +81,11 @@ impl Coverage {
 
     /// Adds a triangle. `corners`: in steps from the upper left corner of the block; `sample`: the place of
     /// the samples within their texels.
-    pub fn add(&mut self, placed: Placed, corners: [[i64; 2]; 3], sample: [i64; 2]) {
+    pub fn add(&mut self, triangle: TileTriangle, corners: [[i64; 2]; 3], sample: [i64; 2]) {
         let Self { owners, overlaps, open } = self;
         open.visit_covered(corners, sample, |texel| {
             overlaps[texel] = owners[texel].is_some();
-            owners[texel].get_or_insert(placed);
+            owners[texel].get_or_insert(triangle);
             overlaps[texel]
         });
     }
@@ -135,8 +135,8 @@ mod tests {
         area(corners) != 0 && (sides == [1; 3] || sides == [-1; 3])
     }
 
-    fn placed(triangle: u32) -> Placed {
-        Placed { surface: 0, triangle, tile: [0; 2] }
+    fn tile_triangle(index: u32) -> TileTriangle {
+        TileTriangle { surface: 0, index, tile: [0; 2] }
     }
 
     /// The slow twin: every sample against every triangle.
@@ -153,14 +153,14 @@ mod tests {
             let mut coverage = Coverage::new();
             for (index, &corners) in triangles.iter().enumerate().filter(|(_, corners)| area(**corners) != 0)
             {
-                coverage.add(placed(index as u32), corners, sample);
+                coverage.add(tile_triangle(index as u32), corners, sample);
             }
             for texel in 0..TEXELS {
                 let at = [texel % BLOCK, texel / BLOCK].map(|x| x as i64 * STEPS);
                 let at = [at[0] + sample[0], at[1] + sample[1]];
                 let mut owners = (0..triangles.len()).filter(|&i| contains(triangles[i], at));
                 let expected = owners.next().map(|index| index as u32);
-                assert_eq!(coverage.owners[texel].map(|placed| placed.triangle), expected, "texel {texel}");
+                assert_eq!(coverage.owners[texel].map(|triangle| triangle.index), expected, "texel {texel}");
                 assert_eq!(coverage.overlaps[texel], owners.next().is_some(), "texel {texel}");
             }
         }
@@ -177,7 +177,7 @@ mod tests {
             for i in 0..4 {
                 let triangle = [centre, corners[i], corners[(i + 1) % 4]];
                 if area(triangle) != 0 {
-                    coverage.add(placed(i as u32), triangle, [0, 0]);
+                    coverage.add(tile_triangle(i as u32), triangle, [0, 0]);
                 }
             }
             assert!(coverage.owners.iter().all(Option::is_some));

@@ -4,7 +4,7 @@ use crate::LowSurface;
 use crate::vector::{Vector, add_scaled, cross, dot, sub, unit, wide};
 
 /// For each low surface, the number of triangles whose rays cross between their origins and the triangle: the
-/// triangle of the origins is turned over. Details of the high surface appear mirrored there, or twice.
+/// triangle of the origins is flipped. Details of the high surface appear mirrored there, or twice.
 ///
 /// `outwards`: how far outside rays begin on surfaces without a cage, in units of the positions.
 pub fn crossing_triangles(low: &[LowSurface<'_>], outwards: f32) -> Vec<usize> {

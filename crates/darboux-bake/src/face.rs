@@ -1,6 +1,6 @@
 //! A triangle of a low surface with all that samples on it need, and points on it.
 
-use crate::layout::{Layout, Placed};
+use crate::layout::{Layout, TileTriangle};
 use crate::point::SurfacePoint;
 use crate::vector::{Vector, cross, scale, sub, unit, weighted, wide};
 use crate::{LowSurface, SkewCorrection};
@@ -8,7 +8,7 @@ use crate::{LowSurface, SkewCorrection};
 /// A triangle of a low surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Face<'a> {
-    pub placed: Placed,
+    pub triangle: TileTriangle,
     pub group: usize,
     positions: [[f32; 3]; 3],
     normals: [[f32; 3]; 3],
@@ -27,17 +27,17 @@ pub struct Face<'a> {
 }
 
 impl<'a> Face<'a> {
-    pub fn new(layout: &Layout, surfaces: &[LowSurface<'a>], placed: Placed) -> Self {
-        let low = &surfaces[placed.surface as usize];
-        let corners = [0, 1, 2].map(|corner| 3 * placed.triangle as usize + corner);
+    pub fn new(layout: &Layout, surfaces: &[LowSurface<'a>], triangle: TileTriangle) -> Self {
+        let low = &surfaces[triangle.surface as usize];
+        let corners = [0, 1, 2].map(|corner| 3 * triangle.index as usize + corner);
         let vertices = corners.map(|corner| low.mesh.vertex_of_corner(corner));
         let normals = vertices.map(|vertex| low.mesh.normals().get(vertex));
         let tangents = corners.map(|corner| low.tangents[corner]);
         let positions = vertices.map(|vertex| low.space.position(low.mesh.positions().get(vertex)));
-        let texels = layout.texels(low, &placed);
+        let texels = layout.texels(low, &triangle);
         let [a, b, c] = positions.map(wide);
         Self {
-            placed,
+            triangle,
             group: low.group,
             positions,
             normals,
@@ -108,7 +108,7 @@ impl<'a> Face<'a> {
 
     fn skew_at(&self, at: [f64; 2]) -> f64 {
         let share = || [0, 1].map(|i| at[i] / self.size[i]);
-        self.skew.map_or(0.0, |skew| skew.at(self.placed.triangle as usize, share()))
+        self.skew.map_or(0.0, |skew| skew.at(self.triangle.index as usize, share()))
     }
 
     /// The barycentric coordinates of a place; some are negative outside the triangle.

@@ -33,7 +33,7 @@ pub struct Found<'a> {
 }
 
 impl Found<'_> {
-    /// What a texel counts of the hit. `is_extended`: whether it lies beyond the chart.
+    /// What a texel counts of the hit. `is_extended`: whether the texel lies in the gutter of the chart.
     pub fn sample(&self, is_extended: bool) -> Sample {
         Sample { normal: self.normal, is_inverted: self.high.is_inverted, is_extended }
     }

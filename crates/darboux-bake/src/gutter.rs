@@ -4,7 +4,7 @@
 
 use crate::LowSurface;
 use crate::coverage::TEXELS;
-use crate::layout::{BLOCK, Layout, Placed};
+use crate::layout::{BLOCK, Layout, TileTriangle};
 use crate::vector::Place;
 
 /// The distance in texels between a texel's centre and a triangle up to which the triangle is continued: more
@@ -15,15 +15,15 @@ const REACH: f64 = 1.5;
 /// several.
 #[derive(Debug)]
 pub struct Gutter {
-    nearest: Vec<Option<(f64, Placed)>>,
+    nearest: Vec<Option<(f64, TileTriangle)>>,
 }
 
 impl Gutter {
     /// Finds the triangles. `triangles`: of the block, in order, with their corners in texels from its upper
     /// left corner.
-    pub fn of(triangles: impl Iterator<Item = (Placed, [Place; 3])>) -> Self {
-        let mut nearest: Vec<Option<(f64, Placed)>> = vec![None; TEXELS];
-        for (placed, corners) in triangles {
+    pub fn of(triangles: impl Iterator<Item = (TileTriangle, [Place; 3])>) -> Self {
+        let mut nearest: Vec<Option<(f64, TileTriangle)>> = vec![None; TEXELS];
+        for (triangle, corners) in triangles {
             let range = |i: usize| {
                 let least = corners.iter().map(|corner| corner[i]).fold(f64::INFINITY, f64::min);
                 let greatest = corners.iter().map(|corner| corner[i]).fold(f64::NEG_INFINITY, f64::max);
@@ -38,7 +38,7 @@ impl Gutter {
                     }
                     let square = square_of_distance([x as f64 + 0.5, y as f64 + 0.5], corners);
                     if square < REACH * REACH && texel.is_none_or(|(other, _)| square < other) {
-                        *texel = Some((square, placed));
+                        *texel = Some((square, triangle));
                     }
                 }
             }
@@ -49,15 +49,15 @@ impl Gutter {
     /// The gutter of a block of a layout, given by its column and row.
     pub fn of_block(layout: &Layout, low: &[LowSurface<'_>], [column, row]: [usize; 2]) -> Self {
         let first = [column, row].map(|at| (at * BLOCK) as f64);
-        Self::of(layout.block(column, row).map(|placed| {
-            let corners = layout.texels(&low[placed.surface as usize], placed);
-            (*placed, corners.map(|corner| [corner[0] - first[0], corner[1] - first[1]]))
+        Self::of(layout.block(column, row).map(|triangle| {
+            let corners = layout.texels(&low[triangle.surface as usize], triangle);
+            (*triangle, corners.map(|corner| [corner[0] - first[0], corner[1] - first[1]]))
         }))
     }
 
     /// The triangle nearest to a texel of the block.
-    pub fn nearest(&self, texel: usize) -> Option<Placed> {
-        self.nearest[texel].map(|(_, placed)| placed)
+    pub fn nearest(&self, texel: usize) -> Option<TileTriangle> {
+        self.nearest[texel].map(|(_, triangle)| triangle)
     }
 }
 
@@ -96,11 +96,11 @@ mod tests {
 
     #[test]
     fn the_first_of_equally_near_triangles_counts_and_far_texels_have_none() {
-        let placed = |triangle| Placed { surface: 0, triangle, tile: [0; 2] };
+        let tile_triangle = |index| TileTriangle { surface: 0, index, tile: [0; 2] };
         let left = [[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]];
-        let gutter = Gutter::of([(placed(7), left), (placed(8), left)].into_iter());
-        assert_eq!([0, 9, 31].map(|texel| gutter.nearest(texel)), [Some(placed(7)), None, None]);
+        let gutter = Gutter::of([(tile_triangle(7), left), (tile_triangle(8), left)].into_iter());
+        assert_eq!([0, 9, 31].map(|texel| gutter.nearest(texel)), [Some(tile_triangle(7)), None, None]);
         // The centre of texel (8, 0) is 1.0 / sqrt(2) away from the slanted edge.
-        assert_eq!(gutter.nearest(8), Some(placed(7)));
+        assert_eq!(gutter.nearest(8), Some(tile_triangle(7)));
     }
 }

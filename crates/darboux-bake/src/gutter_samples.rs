@@ -1,4 +1,4 @@
-//! Samples in the gutters of charts: stages 3 to 5 for texels that filters mix with those of a chart.
+//! Samples in the gutters of charts: stages 3 to 5 for texels that filters mix with a chart's texels.
 
 use crate::band::{Bake, LowRay, Scratch};
 use crate::bvh::Sides;
@@ -40,9 +40,9 @@ impl Bake<'_> {
                 continue;
             }
             let gutter = gutter.get_or_insert_with(|| Gutter::of_block(self.layout, self.low, block));
-            let Some(placed) = gutter.nearest(texel) else { continue };
-            if last.as_ref().is_none_or(|face| face.placed != placed) {
-                last = Some(Face::new(self.layout, self.low, placed));
+            let Some(triangle) = gutter.nearest(texel) else { continue };
+            if last.as_ref().is_none_or(|face| face.triangle != triangle) {
+                last = Some(Face::new(self.layout, self.low, triangle));
             }
             let Some(face) = &last else { continue };
             let at = [first[0] + texel % BLOCK, first[1] + texel / BLOCK];

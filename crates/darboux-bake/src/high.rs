@@ -23,7 +23,7 @@ pub struct HighPoint {
     /// The place of the surface in its group.
     pub surface: usize,
     pub triangle: usize,
-    /// The normal that the surface's map shows, or else the interpolated one, or that of the triangle's
+    /// The normal from the surface's map, or else the interpolated normal, or the normal of the triangle's
     /// plane; unit length.
     pub normal: Vector,
     /// The normal of the triangle's plane, towards the ray's origin; not normalised, not zero.

@@ -4,10 +4,10 @@ use crate::budget::Budget;
 use crate::vector::{dot, narrow, scale, sub, unit, wide};
 use crate::{BakeError, BakeOptions, MapKind};
 
-/// The cosine of the largest angle between neighbouring texels that is continued beyond a chart: 11 degrees.
+/// The cosine of the largest angle between neighbouring texels that is continued into the gutter: 11 degrees.
 const SMOOTH: f64 = 0.98;
 
-/// What is in a texel. The numbers are those of arrays of states in Python and JavaScript.
+/// What is in a texel. Arrays of states in Python and JavaScript have the same numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 #[repr(u8)]
@@ -17,7 +17,8 @@ pub enum TexelState {
     Outside = 0,
     /// Baked.
     Baked = 1,
-    /// Within a texel of a chart, where filters read it: baked on the surface, continued beyond the chart.
+    /// In the gutter, within a texel of a chart, where filters read it: baked on the surface, which is
+    /// continued there.
     Extended = 2,
     /// In a chart, but no ray hit: filled from the nearest texel with a hit.
     Missed = 3,

@@ -23,9 +23,9 @@ const MARGIN: f64 = 2.0;
 /// A triangle of a low surface in one tile of the UV plane. Triangles in other tiles than the first are moved
 /// into it, as a repeated texture shows them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Placed {
+pub struct TileTriangle {
     pub surface: u32,
-    pub triangle: u32,
+    pub index: u32,
     /// The tile, whose upper left corner becomes that of the image.
     pub tile: [i32; 2],
 }
@@ -47,12 +47,12 @@ enum LeftOut {
 pub struct Layout {
     pub size: [usize; 2],
     uv_origin: UvOrigin,
-    /// The only tile that is placed; all without one.
+    /// The only tile that is baked; none where all are.
     only: Option<[i32; 2]>,
-    placed: Vec<Placed>,
+    triangles: Vec<TileTriangle>,
     /// Where the list of each block begins in `lists`, and the end of the last one.
     starts: Vec<u64>,
-    /// The places in `placed`, in the order of surfaces and triangles.
+    /// The indices into `triangles`, in the order of surfaces and triangles.
     lists: Vec<u32>,
     pub degenerate: usize,
     pub oversized: usize,
@@ -60,8 +60,8 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Places all triangles, or those of a tile. Triangles without an area, not finite or across too many
-    /// tiles are left out and counted.
+    /// Lays out all triangles, or the triangles of a tile. Triangles without an area, not finite or across
+    /// too many tiles are left out and counted.
     ///
     /// `budget`: the lists of the layout are added to it. Errors: they exceed it.
     pub fn new(
@@ -75,23 +75,23 @@ impl Layout {
             size: [width as usize, height as usize],
             uv_origin: convention.uv_origin,
             only: udim.map(Udim::tile),
-            placed: Vec::new(),
+            triangles: Vec::new(),
             starts: Vec::new(),
             lists: Vec::new(),
             degenerate: 0,
             oversized: 0,
             non_finite: 0,
         };
-        layout.place_all(low, budget)?;
+        layout.add_all(low, budget)?;
         layout.fill_blocks(low, budget)?;
         Ok(layout)
     }
 
     /// Adds every triangle once for each of its tiles, and counts those that are left out.
-    fn place_all(&mut self, low: &[LowSurface<'_>], budget: &mut Budget) -> Result<(), BakeError> {
+    fn add_all(&mut self, low: &[LowSurface<'_>], budget: &mut Budget) -> Result<(), BakeError> {
         let mut count = 0;
-        for placed in triangles(low) {
-            match self.tiles(low, placed) {
+        for triangle in triangles(low) {
+            match self.tiles(low, triangle) {
                 Ok([first, last]) => {
                     count += (0..2).map(|i| (last[i] - first[i] + 1) as u64).product::<u64>()
                 }
@@ -101,24 +101,24 @@ impl Layout {
                 Err(LeftOut::Elsewhere) => {}
             }
         }
-        budget.add(count * size_of::<Placed>() as u64)?;
+        budget.add(count * size_of::<TileTriangle>() as u64)?;
         let mut list = Vec::with_capacity(count as usize);
-        for placed in triangles(low) {
-            let Ok([first, last]) = self.tiles(low, placed) else { continue };
+        for triangle in triangles(low) {
+            let Ok([first, last]) = self.tiles(low, triangle) else { continue };
             let tiles = (first[1]..=last[1]).flat_map(|y| (first[0]..=last[0]).map(move |x| [x, y]));
-            list.extend(tiles.map(|tile| Placed { tile, ..placed }));
+            list.extend(tiles.map(|tile| TileTriangle { tile, ..triangle }));
         }
-        self.placed = list;
+        self.triangles = list;
         Ok(())
     }
 
     /// The first and the last tile, by column and row, that the bounding box of a triangle touches.
-    fn tiles(&self, low: &[LowSurface<'_>], placed: Placed) -> Result<[[i32; 2]; 2], LeftOut> {
-        let low = &low[placed.surface as usize];
-        if !is_finite(low, placed.triangle) {
+    fn tiles(&self, low: &[LowSurface<'_>], triangle: TileTriangle) -> Result<[[i32; 2]; 2], LeftOut> {
+        let low = &low[triangle.surface as usize];
+        if !is_finite(low, triangle.index) {
             return Err(LeftOut::NonFinite);
         }
-        let texels = self.texels(low, &placed);
+        let texels = self.texels(low, &triangle);
         if !texels.as_flattened().iter().all(|x| x.is_finite()) {
             return Err(LeftOut::Degenerate);
         }
@@ -130,7 +130,7 @@ impl Layout {
         if !first.iter().chain(&last).all(is_near) || (0..2).any(|i| last[i] - first[i] >= MAX_TILES as f64) {
             return Err(LeftOut::Oversized);
         }
-        let at_first = Placed { tile: first.map(|x| x as i32), ..placed };
+        let at_first = TileTriangle { tile: first.map(|x| x as i32), ..triangle };
         if area(steps(self.texels(low, &at_first))) == 0 {
             return Err(LeftOut::Degenerate);
         }
@@ -143,27 +143,32 @@ impl Layout {
     }
 
     /// The corners of a triangle in texels from the upper left corner of the image.
-    pub fn texels(&self, low: &LowSurface<'_>, placed: &Placed) -> [[f64; 2]; 3] {
+    pub fn texels(&self, low: &LowSurface<'_>, triangle: &TileTriangle) -> [[f64; 2]; 3] {
         let size = self.size.map(|side| side as f64);
         [0, 1, 2].map(|corner| {
-            let vertex = low.mesh.vertex_of_corner(3 * placed.triangle as usize + corner);
+            let vertex = low.mesh.vertex_of_corner(3 * triangle.index as usize + corner);
             let [u, v] = low.mesh.uvs().get(vertex).map(f64::from);
             let v = if self.uv_origin == UvOrigin::BottomLeft { 1.0 - v } else { v };
-            [0, 1].map(|i| ([u, v][i] - f64::from(placed.tile[i])) * size[i])
+            [0, 1].map(|i| ([u, v][i] - f64::from(triangle.tile[i])) * size[i])
         })
     }
 
     /// The corners of a triangle in steps from the upper left corner of a block, given by its column and row.
-    pub fn steps_in_block(&self, low: &LowSurface<'_>, placed: &Placed, block: [usize; 2]) -> [[i64; 2]; 3] {
+    pub fn steps_in_block(
+        &self,
+        low: &LowSurface<'_>,
+        triangle: &TileTriangle,
+        block: [usize; 2],
+    ) -> [[i64; 2]; 3] {
         let first = block.map(|at| (at * BLOCK) as i64 * STEPS);
-        steps(self.texels(low, placed)).map(|corner| [corner[0] - first[0], corner[1] - first[1]])
+        steps(self.texels(low, triangle)).map(|corner| [corner[0] - first[0], corner[1] - first[1]])
     }
 
     /// Sorts the triangles into blocks: counts, starts, lists.
     fn fill_blocks(&mut self, low: &[LowSurface<'_>], budget: &mut Budget) -> Result<(), BakeError> {
         let mut counts = vec![0u64; self.block_count() + 1];
-        for placed in &self.placed {
-            self.visit_blocks(&low[placed.surface as usize], placed, |block| counts[block] += 1);
+        for triangle in &self.triangles {
+            self.visit_blocks(&low[triangle.surface as usize], triangle, |block| counts[block] += 1);
         }
         let mut sum = 0;
         for count in &mut counts {
@@ -172,8 +177,8 @@ impl Layout {
         budget.add(4 * sum)?;
         let mut lists = vec![0; sum as usize];
         let mut ends = counts.clone();
-        for (index, placed) in self.placed.iter().enumerate() {
-            self.visit_blocks(&low[placed.surface as usize], placed, |block| {
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            self.visit_blocks(&low[triangle.surface as usize], triangle, |block| {
                 lists[ends[block] as usize] = index as u32;
                 ends[block] += 1;
             });
@@ -183,8 +188,8 @@ impl Layout {
     }
 
     /// Visits the blocks that the bounding box of a triangle touches, with a margin for texels near charts.
-    fn visit_blocks(&self, low: &LowSurface<'_>, placed: &Placed, mut visit: impl FnMut(usize)) {
-        let [from, to] = bounds(self.texels(low, placed));
+    fn visit_blocks(&self, low: &LowSurface<'_>, triangle: &TileTriangle, mut visit: impl FnMut(usize)) {
+        let [from, to] = bounds(self.texels(low, triangle));
         let range = |i: usize| {
             let last = self.size[i] - 1;
             let texel = |x: f64| (x.max(0.0) as usize).min(last);
@@ -201,29 +206,31 @@ impl Layout {
     /// triangle that covers it, on average.
     pub fn charted_area(&self, low: &[LowSurface<'_>]) -> f64 {
         let is_first =
-            |pair: &[Placed]| (pair[0].surface, pair[0].triangle) != (pair[1].surface, pair[1].triangle);
-        let firsts = self.placed.first().into_iter();
-        let firsts = firsts.chain(self.placed.windows(2).filter(|pair| is_first(pair)).map(|pair| &pair[1]));
-        let twice_in_steps = firsts.map(|placed| {
-            area(steps(self.texels(&low[placed.surface as usize], placed))).unsigned_abs() as f64
+            |pair: &[TileTriangle]| (pair[0].surface, pair[0].index) != (pair[1].surface, pair[1].index);
+        let firsts = self.triangles.first().into_iter();
+        let firsts =
+            firsts.chain(self.triangles.windows(2).filter(|pair| is_first(pair)).map(|pair| &pair[1]));
+        let twice_in_steps = firsts.map(|triangle| {
+            area(steps(self.texels(&low[triangle.surface as usize], triangle))).unsigned_abs() as f64
         });
         twice_in_steps.sum::<f64>() / (2 * STEPS * STEPS) as f64
     }
 
-    /// The tiles that triangles cover, where all are placed.
+    /// The tiles that triangles cover, where all tiles are baked.
     pub fn covered_tiles(&self, low: &[LowSurface<'_>]) -> BTreeSet<[i32; 2]> {
         let mut tiles = BTreeSet::new();
-        for placed in &self.placed {
-            if !tiles.contains(&placed.tile) && self.covers_image(&low[placed.surface as usize], placed) {
-                tiles.insert(placed.tile);
+        for triangle in &self.triangles {
+            if !tiles.contains(&triangle.tile) && self.covers_image(&low[triangle.surface as usize], triangle)
+            {
+                tiles.insert(triangle.tile);
             }
         }
         tiles
     }
 
     /// Whether a triangle has an area in the image: no line along one of its edges separates both.
-    fn covers_image(&self, low: &LowSurface<'_>, placed: &Placed) -> bool {
-        let corners = self.texels(low, placed);
+    fn covers_image(&self, low: &LowSurface<'_>, triangle: &TileTriangle) -> bool {
+        let corners = self.texels(low, triangle);
         let [from, to] = bounds(corners);
         let [width, height] = self.size.map(|side| side as f64);
         let image = [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]];
@@ -248,19 +255,19 @@ impl Layout {
 
     /// The triangles of a block, in the order of surfaces and triangles. Some may not cover any of its
     /// texels.
-    pub fn block(&self, column: usize, row: usize) -> impl Iterator<Item = &Placed> {
+    pub fn block(&self, column: usize, row: usize) -> impl Iterator<Item = &TileTriangle> {
         let block = row * self.blocks_per_row() + column;
         let range = self.starts[block] as usize..self.starts[block + 1] as usize;
-        self.lists[range].iter().map(|&index| &self.placed[index as usize])
+        self.lists[range].iter().map(|&index| &self.triangles[index as usize])
     }
 }
 
 /// All triangles, each in the first tile.
-fn triangles(low: &[LowSurface<'_>]) -> impl Iterator<Item = Placed> {
+fn triangles(low: &[LowSurface<'_>]) -> impl Iterator<Item = TileTriangle> {
     low.iter().enumerate().flat_map(|(surface, low)| {
-        let placed =
-            move |triangle| Placed { surface: surface as u32, triangle: triangle as u32, tile: [0; 2] };
-        (0..low.triangle_count()).map(placed)
+        let in_first_tile =
+            move |index| TileTriangle { surface: surface as u32, index: index as u32, tile: [0; 2] };
+        (0..low.triangle_count()).map(in_first_tile)
     })
 }
 

@@ -1,7 +1,7 @@
 //! What each kind of map has at a sample, and how samples become texels: one file per kind.
 //!
 //! All maps of a run share the rays of their samples. [`MapKind`] has the list of kinds; [`MapList::find`]
-//! and [`MapList::find_low`] compute the numbers of a sample, [`MapList::resolve`] those of a texel.
+//! and [`MapList::find_low`] compute the numbers of a sample, [`MapList::resolve`] the numbers of a texel.
 
 mod curvature;
 mod hemisphere;
@@ -109,7 +109,7 @@ impl MapList {
             match kind {
                 MapKind::WorldDirection => put(into, world_direction::direction(sample)),
                 MapKind::UvIslands => {
-                    put(into, [f64::from(sample.charts.of_triangle(&sample.face.placed)), 1.0])
+                    put(into, [f64::from(sample.charts.of_triangle(&sample.face.triangle)), 1.0])
                 }
                 MapKind::Wireframe => put(into, [wireframe::line(sample)]),
                 _ => {}
@@ -118,9 +118,8 @@ impl MapList {
         numbers
     }
 
-    /// Adds the numbers of a sample to those of its texel. Labels are counted: the most frequent one remains
-    /// if it has more samples than all others (R. Boyer, J. Moore, "MJRTY", 1991), and else one of the
-    /// frequent ones.
+    /// Adds the numbers of a sample to its texel. Labels are counted: the most frequent one remains if it has
+    /// more samples than all others (R. Boyer, J. Moore, "MJRTY", 1991), and else one of the frequent ones.
     pub fn add(&self, sums: &mut [f64], numbers: &Numbers, is_low: bool) {
         for &(kind, first) in self.maps.iter().filter(|(kind, _)| kind.is_of_low_surface() == is_low) {
             if is_label(kind) {
@@ -133,8 +132,8 @@ impl MapList {
         }
     }
 
-    /// Stores the content of a texel. `share`: 1 over the number of hits; `share_low`: 1 over that of the
-    /// samples on the low surface; either is none where there are none, and the background stays.
+    /// Stores the content of a texel. `share`: 1 over the number of hits; `share_low`: 1 over the number of
+    /// samples on the low surface. Without hits or samples the share is none and the background stays.
     pub fn resolve(
         &self,
         sums: &[f64],

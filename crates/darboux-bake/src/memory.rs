@@ -12,7 +12,7 @@ pub fn of_bake(high: &[HighSurface<'_>], options: &BakeOptions) -> u64 {
 }
 
 /// The bytes of the baked images, of two decoded normal maps, and of the hierarchies over the high surfaces;
-/// without those of the points.
+/// without the points.
 pub fn of_verification(high: &[HighSurface<'_>], options: &BakeOptions) -> u64 {
     texels(options) * (bytes_of_images(options) + BYTES_PER_COMPARED_TEXEL) + of_hierarchies(high)
 }

@@ -4,10 +4,10 @@ mod content;
 mod decoded_bytes;
 mod high;
 mod image_key;
+mod instance;
 mod low;
 mod maps;
 mod parts;
-mod placed;
 mod stored;
 
 pub use content::is_color_texture;

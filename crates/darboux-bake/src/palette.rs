@@ -1,4 +1,4 @@
-//! Colours for labels: those of labels that meet in the image are far from each other.
+//! Colours for labels: labels that meet in the image get colours that are far from each other.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,8 +26,8 @@ const MOST_COMPARED: usize = 4096;
 /// Replaces the labels in the first channel of a map, each plus 1, by colours from 0 to 1. Returns the
 /// colours, in the order of the labels.
 ///
-/// Labels get their colours one after the other: the unused one that is farthest from those of its
-/// neighbours, and from all others.
+/// Labels get their colours one after the other: the unused colour that is farthest from the colours of
+/// neighbouring labels, and then from all others.
 pub fn color_labels(images: &mut Images, kind: MapKind) -> Vec<IdColor> {
     let size = images.size.map(|side| side as usize);
     let is_low = kind.is_of_low_surface();

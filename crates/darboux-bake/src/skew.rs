@@ -53,8 +53,8 @@ impl SkewCorrection<'_> {
     }
 }
 
-/// The unit direction `smooth`, turned towards a triangle's unit normal by an amount. The side of the normal
-/// is that of the direction.
+/// The unit direction `smooth`, turned towards a triangle's unit normal by an amount. The direction decides
+/// the side of the normal.
 pub fn turned(smooth: Vector, face_normal: Vector, amount: f64) -> Vector {
     let side = if dot(smooth, face_normal) < 0.0 { -1.0 } else { 1.0 };
     let straight = scale(side, face_normal);

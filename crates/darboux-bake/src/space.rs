@@ -194,9 +194,9 @@ impl Converter<'_> {
         let mut coverage = Coverage::new();
         for column in 0..self.layout.blocks_per_row() {
             coverage.clear();
-            for placed in self.layout.block(column, row) {
-                let low = &self.low[placed.surface as usize];
-                coverage.add(*placed, self.layout.steps_in_block(low, placed, [column, row]), centre);
+            for triangle in self.layout.block(column, row) {
+                let low = &self.low[triangle.surface as usize];
+                coverage.add(*triangle, self.layout.steps_in_block(low, triangle, [column, row]), centre);
             }
             let is_full = coverage.owners.iter().all(Option::is_some);
             let gutter = (!is_full).then(|| Gutter::of_block(self.layout, self.low, [column, row]));
@@ -205,12 +205,12 @@ impl Converter<'_> {
                 let [x, y] = [column * BLOCK + texel % BLOCK, texel / BLOCK];
                 let owner = coverage.owners[texel];
                 let nearest = || gutter.as_ref().and_then(|gutter| gutter.nearest(texel));
-                let Some(placed) = owner.or_else(nearest).filter(|_| x < width && y * width < out.len())
+                let Some(triangle) = owner.or_else(nearest).filter(|_| x < width && y * width < out.len())
                 else {
                     continue;
                 };
-                if last.as_ref().is_none_or(|face| face.placed != placed) {
-                    last = Some(Face::new(self.layout, self.low, placed));
+                if last.as_ref().is_none_or(|face| face.triangle != triangle) {
+                    last = Some(Face::new(self.layout, self.low, triangle));
                 }
                 let Some(face) = &last else { continue };
                 let place = [x, row * BLOCK + y].map(|at| at as f64 + centre[0] as f64 / STEPS as f64);

@@ -9,7 +9,7 @@ pub struct Sample {
     /// In tangent space; `None` where the frame is degenerate.
     pub normal: Option<Vector>,
     pub is_inverted: bool,
-    /// Whether the sample lies beyond the chart, on the continued surface.
+    /// Whether the sample lies in the gutter, on the continued surface.
     pub is_extended: bool,
 }
 

@@ -3,18 +3,18 @@
 
 use darboux::Recipe;
 
-use crate::check::MIN_SPOILED;
+use crate::check::MIN_DAMAGED;
 use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Fault, MapFault, PAIRS, Pair, TangentFault};
-use crate::hypotheses::{are_nearly_all_flipped, spoiled_under_inverted_map};
+use crate::hypotheses::{are_nearly_all_flipped, damaged_under_inverted_map};
 use crate::severity::Severity;
 
 /// All codes of the pairs.
 const CODES: [Code; 4] =
     [Code::MapGreenFlipped, Code::MapRedFlipped, Code::TangentSignFlipped, Code::TangentNegated];
 
-/// The pair that the defects of a map and those of a surface that uses it make; none where they do not
-/// cancel.
+/// The pair of defects, one of a map and one of a surface that uses the map, that cancel each other; none
+/// where none do.
 pub fn pair_of<'a>(
     on_map: impl IntoIterator<Item = &'a Defect>,
     on_surface: impl IntoIterator<Item = &'a Defect>,
@@ -42,15 +42,16 @@ fn code_in_pair(defect: &Defect) -> Option<Code> {
     }
 }
 
-/// The pair that the defects of a map make with those of each of some surfaces.
+/// The pair of defects of a map and of each surface.
 pub fn pairs_of(on_map: &[Defect], surfaces: &[Vec<&mut Defect>]) -> Vec<Option<&'static Pair>> {
     surfaces.iter().map(|surface| pair_of(on_map, surface.iter().map(|defect| &**defect))).collect()
 }
 
-/// Marks which defects of a map and of the surfaces that use it cancel. The map's are marked where they
-/// cancel on all surfaces, and their codes are returned. What cancels makes no picture wrong: it is a
-/// warning, but where much of a surface has other signs, and one finding says all where the map is marked.
-/// `image`: that of the map. `cancels`: per surface whether all maps that it uses cancel its defects.
+/// Marks the defects of a map and of the surfaces that use the map that cancel each other. The map's defects
+/// are marked where they cancel on all surfaces, and their codes are returned. Cancelling defects make no
+/// picture wrong: they are a warning, unless much of a surface has other signs, and one finding where the map
+/// is marked. `image`: the image of the map. `cancels`: per surface whether all maps that it uses cancel its
+/// defects.
 pub fn mark(
     on_map: &mut [Defect],
     surfaces: &mut [Vec<&mut Defect>],
@@ -66,7 +67,7 @@ pub fn mark(
         let Some(pair) = *pair else { continue };
         for defect in surface.iter_mut().filter(|defect| is_part(pair, defect)) {
             defect.cancelled.get_or_insert(Cancelled::ByMap { pair, image, is_whole: false });
-            if spoiled_under_inverted_map(defect) < MIN_SPOILED {
+            if damaged_under_inverted_map(defect) < MIN_DAMAGED {
                 defect.severity = defect.severity.min(Severity::Warning);
             } else {
                 severity = defect.severity;
@@ -93,8 +94,8 @@ pub fn mark(
     pair.on_map
 }
 
-/// The finding of the pair also tells which known method computed the tangents: that of the program that
-/// flipped the signs. So it is no warning of its own. Returns the first one.
+/// The finding of the pair also names the known method of the tangents, which is that of the program that
+/// flipped the signs. So the method is no warning of its own. Returns the first one.
 fn fold_recipes(surfaces: &mut [Vec<&mut Defect>]) -> Option<Recipe> {
     let mut first = None;
     for defect in surfaces.iter_mut().flatten() {

@@ -14,8 +14,8 @@ pub struct CheckOptions {
     pub maps: bool,
     /// What the normal maps are taken to be where their texels and the faces leave it open. Default: none.
     pub assumed_map: Option<AssumedMap>,
-    /// The most memory that decoding a map may take. The maps of a document have the limit that it was read
-    /// with. Default: that of [`MemoryLimit`].
+    /// The most memory that decoding a map may take. The maps of a document have the document's own limit.
+    /// Default: the default of [`MemoryLimit`].
     pub memory_limit: MemoryLimit,
 }
 

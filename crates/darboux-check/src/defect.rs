@@ -38,9 +38,9 @@ pub struct Defect {
     /// The image of a flat normal map, where such maps are all that the surface has, so that nothing shows
     /// which way its tangents point.
     pub flat_map: Option<usize>,
-    /// In percent of the model's area: what it spoils, weighted by the angle; none where its severity does
+    /// In percent of the model's area: the damage, weighted by the angle; none where its severity does
     /// not depend on that.
-    pub spoiled: Option<f64>,
+    pub damaged_percent: Option<f64>,
 }
 
 /// What is wrong, by what it is about.
@@ -130,7 +130,7 @@ impl Defect {
         let code = fault.code();
         let obstacle = code.left_because().map(|_| Obstacle::NoRepair(code));
         let (place, severity) = (Place::default(), code.severity());
-        Self { place, severity, fault, obstacle, cancelled: None, flat_map: None, spoiled: None }
+        Self { place, severity, fault, obstacle, cancelled: None, flat_map: None, damaged_percent: None }
     }
 
     pub fn code(&self) -> Code {
@@ -198,11 +198,11 @@ impl Defect {
             return self;
         }
         let severity = self.severity.min(Severity::Info);
-        Self { flat_map: Some(image), severity, spoiled: None, ..self }
+        Self { flat_map: Some(image), severity, damaged_percent: None, ..self }
     }
 
-    /// Whether two defects say the same of the same place. Tangents that are not those of the method that
-    /// made the others are one thing, and that method is another.
+    /// Whether two defects say the same of the same place. Outliers among tangents are one thing, and the
+    /// method of the other tangents is another.
     pub fn is_same(&self, other: &Self) -> bool {
         self.sameness() == other.sameness()
     }

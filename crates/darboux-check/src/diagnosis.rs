@@ -12,7 +12,7 @@ use crate::severity::Severity;
 /// What happened to a file, what it looks like and what to do, in one to three sentences: the first thing
 /// that a report says.
 ///
-/// `findings`: those of the file, before or after a repair.
+/// `findings`: of the file, before or after a repair.
 pub fn diagnosis(findings: &[ReportedFinding]) -> String {
     let left = || findings.iter().filter(|finding| finding.repaired != Some(true));
     let repaired = findings.len() - left().count();

@@ -21,10 +21,9 @@ pub struct SurfaceFacts<'a> {
     pub expected: Option<Vec<[f32; 4]>>,
     /// Per vertex whether MikkTSpace's tangents of its corners have both signs; empty without `expected`.
     pub is_on_mirrored_seam: Vec<bool>,
-    /// Per vertex whether its tangent is that of MikkTSpace for a corner without an area, which is no
-    /// evidence.
+    /// Per vertex whether its tangent is MikkTSpace's for a degenerate corner, which is no evidence.
     pub has_own_tangent: Vec<bool>,
-    /// Whether all tangents are those of MikkTSpace, bit for bit.
+    /// Whether all tangents are MikkTSpace's, bit for bit.
     pub is_mikktspace: bool,
     /// What is reversed; none where the faces agree with the normals.
     pub reversal: Option<Reversal>,
@@ -77,8 +76,8 @@ impl<'a> SurfaceFacts<'a> {
         self.surface.ineligible.is_none() && !is_undecided
     }
 
-    /// Whether the tangents of all corners of a triangle are those of MikkTSpace, up to rounding, or those
-    /// with all three signs flipped.
+    /// Whether the tangents of all corners of a triangle are MikkTSpace's, up to rounding, with right signs
+    /// or with all three flipped.
     pub fn has_expected_tangents(&self, triangle: usize) -> bool {
         let (Some(tangents), Some(expected)) = (&self.surface.tangents, &self.expected) else { return false };
         let flips = |corner: usize| {

@@ -10,13 +10,13 @@
 //! the user (`--assume`)                     what the derivatives leave open
 //! ```
 //!
-//! A repair needs one hypothesis with 99 % at least. What is not identified is left, because the repair of
-//! one of two mistakes that cancel makes a right picture wrong, and that of green where red is inverted makes
-//! a wrong one worse.
+//! A repair needs one hypothesis with 99 % at least. A mistake that is not identified is left: repairing one
+//! of two mistakes that cancel makes a right picture wrong, and inverting green where red is inverted makes a
+//! wrong picture worse.
 
 use darboux::BitangentDirection;
 
-use crate::check::MIN_SPOILED;
+use crate::check::MIN_DAMAGED;
 use crate::check_options::{AssumedMap, CheckOptions};
 use crate::code::Code;
 use crate::defect::{Defect, Fault, MapFault, Obstacle, TangentFault};
@@ -85,7 +85,7 @@ impl MapWitness {
             prior[index] * by_faces * by_sibling
         };
         let mut weights: [f64; 4] = std::array::from_fn(likelihood);
-        // The confidence of the derivatives is that of real maps, so that it replaces the prior of an odd
+        // The confidence of the derivatives was measured on real maps, so it replaces the prior of an odd
         // number.
         let odd = self.odd.unwrap_or(0.5);
         for (members, probability) in [([0, 3], 1.0 - odd), ([1, 2], odd)] {
@@ -152,8 +152,7 @@ pub fn are_most_flipped(defect: &Defect) -> bool {
     flipped_percent(defect).is_some_and(|percent| percent > 50.0)
 }
 
-/// Whether signs of a surface are flipped, at least those of a part: a map that is inverted cancels them
-/// there.
+/// Whether signs of a surface are flipped, at least those of a part: a map that is inverted cancels them there.
 pub fn is_about_signs(defect: &Defect) -> bool {
     flipped_percent(defect).is_some()
 }
@@ -169,26 +168,26 @@ pub fn flipped_percent(defect: &Defect) -> Option<f64> {
     }
 }
 
-/// In percent of the model's area: what looks wrong whether a map cancels flipped signs or not, which is the
+/// In percent of the model's area: the part that looks wrong whether a map cancels flipped signs or not: the
 /// smaller one of the part with flipped signs and the rest.
-fn surely_spoiled(defect: &Defect) -> f64 {
-    defect.spoiled.unwrap_or(0.0).min(spoiled_under_inverted_map(defect))
+fn surely_damaged(defect: &Defect) -> f64 {
+    defect.damaged_percent.unwrap_or(0.0).min(damaged_under_inverted_map(defect))
 }
 
-/// In percent of the model's area: the rest beside flipped signs, which looks wrong where a map cancels
-/// those.
-pub fn spoiled_under_inverted_map(defect: &Defect) -> f64 {
-    match (defect.spoiled, flipped_percent(defect)) {
-        (Some(spoiled), Some(percent)) if percent > 0.0 => {
-            spoiled * (ALL_PERCENT - percent).max(0.0) / percent
+/// In percent of the model's area: the part without flipped signs, which looks wrong where a map cancels
+/// flipped signs.
+pub fn damaged_under_inverted_map(defect: &Defect) -> f64 {
+    match (defect.damaged_percent, flipped_percent(defect)) {
+        (Some(damaged), Some(percent)) if percent > 0.0 => {
+            damaged * (ALL_PERCENT - percent).max(0.0) / percent
         }
         _ => 0.0,
     }
 }
 
-/// Leaves what is not identified: inverted channels of a map, and flipped signs that it may cancel.
-/// `surfaces`: the defects of each that uses the map. `sibling`: another image of the model and what the
-/// faces show of it. `image`: that of the map; none for a map without a document.
+/// Leaves what is not identified: inverted channels of a map, and flipped signs that the map may cancel.
+/// `surfaces`: the defects of each surface that uses the map. `sibling`: another image of the model and what
+/// the faces show of that image. `image`: the image of the map; none for a map without a document.
 pub fn leave_unidentified(
     on_map: &mut [Defect],
     witness: &MapWitness,
@@ -217,7 +216,7 @@ pub fn leave_unidentified(
     // Where the map is right after all, flipped signs are a mistake; where it is not, they cancel it.
     for defect in surfaces.iter_mut().flatten().filter(|defect| is_about_signs(defect)) {
         defect.obstacle.get_or_insert(Obstacle::MapMayCancel { image, is_of_sketchfab: false });
-        if surely_spoiled(defect) < MIN_SPOILED {
+        if surely_damaged(defect) < MIN_DAMAGED {
             defect.severity = defect.severity.min(Severity::Warning);
         }
     }
@@ -235,7 +234,7 @@ fn leave_of_other_layout(on_map: &[Defect], surfaces: &mut [Vec<&mut Defect>], i
     }
 }
 
-/// Whether tangents follow other UVs than those of the file.
+/// Whether tangents follow other UVs than the file's.
 fn follows_other_uvs(defect: &Defect) -> bool {
     matches!(defect.fault, Fault::Tangent(TangentFault::Differs(_) | TangentFault::OtherRecipe { .. }))
 }

@@ -26,7 +26,7 @@ impl Indices {
         self.iter().map(|index| numbers[index] as usize).collect::<Vec<_>>().as_slice().into()
     }
 
-    /// The indices of those of ascending numbers that are among these.
+    /// The positions in `numbers`, which ascend, of the numbers that are among these indices.
     pub fn places_in(&self, numbers: &[u32]) -> Self {
         let places = numbers.iter().enumerate().filter(|(_, number)| self.contains(**number as usize));
         places.map(|(place, _)| place).collect::<Vec<_>>().as_slice().into()

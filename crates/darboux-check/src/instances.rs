@@ -30,7 +30,7 @@ fn surface_key(document: &Document, name: &PrimitiveName) -> SurfaceKey {
 pub struct Groups(BTreeMap<SurfaceKey, Vec<PrimitiveName>>);
 
 impl Groups {
-    /// The groups that these places name. The places must be those of the document as it is now.
+    /// The groups that these places name. The places must exist in the document as it is now.
     pub fn of<'a>(document: &Document, mut places: impl Iterator<Item = &'a Place>) -> Self {
         let mut groups: BTreeMap<SurfaceKey, Vec<PrimitiveName>> = BTreeMap::new();
         if places.any(|place| place.same_as > 0) {

@@ -1,4 +1,4 @@
-//! [`ModelArea`]: the area of all surfaces of a model in its scene, which the area that a defect spoils is
+//! [`ModelArea`]: the area of all surfaces of a model in its scene, which the damaged area of a defect is
 //! compared with.
 
 use std::collections::BTreeMap;
@@ -12,7 +12,7 @@ use crate::surface::{cross, length, sub};
 /// The area of the surfaces of a model.
 #[derive(Clone, Debug, Default)]
 pub struct ModelArea {
-    /// That of all surfaces, in the units of the scene.
+    /// The area of all surfaces, in the squared units of the scene.
     total: f64,
     /// By the index of a mesh: how many times its area is in the scene, scaled as its nodes are. 1 for a
     /// mesh that no node has.

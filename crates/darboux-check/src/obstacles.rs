@@ -50,8 +50,7 @@ fn of_other_axes(axes: &OtherAxes, surface: &Surface) -> Option<Obstacle> {
     }
 }
 
-/// New tangents would side with the faces, and then seem to show that the normals are the ones that are
-/// reversed.
+/// New tangents would agree with the faces, and then seem to show that the normals are reversed.
 fn undecided_side(reversal: Reversal) -> Option<Obstacle> {
     match reversal {
         Reversal::Unknown(reason) if reason != Undecided::OnlyAPart => {

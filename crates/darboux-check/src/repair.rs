@@ -49,8 +49,8 @@ pub struct PlannedEdit {
 /// What [`fix_document`] begins with: the first edit of each primitive, and what is done to images. What it
 /// finds after that decides how it goes on.
 ///
-/// `findings`: those of [`check_document`](crate::check_document) with the same options on the same document.
-/// Errors: invalid data of the materials.
+/// `findings`: what [`check_document`](crate::check_document) found with the same options in the same
+/// document. Errors: invalid data of the materials.
 pub fn plan_repair(
     document: &Document,
     findings: &[Finding],
@@ -73,10 +73,10 @@ pub fn plan_repair(
 
 /// Repairs a document.
 ///
-/// `findings`: those of [`check_document`](crate::check_document) with the same options on the same document.
-/// Data that no finding names is kept, byte for byte; a compressed document is written without compression if
-/// anything is repaired. Errors: invalid data; more memory than the limit permits. After an error the
-/// document is unspecified: drop it.
+/// `findings`: what [`check_document`](crate::check_document) found with the same options in the same
+/// document. Data that no finding names is kept, byte for byte; a compressed document is written without
+/// compression if anything is repaired. Errors: invalid data; more memory than the limit permits. After an
+/// error the document is unspecified: drop it.
 pub fn fix_document(
     document: &mut Document,
     findings: Vec<Finding>,

@@ -40,7 +40,7 @@ pub struct Surface {
     pub tangents: Option<Vec<[f32; 4]>>,
     /// Bytes per tangent in the file, without padding; 0 where it has none.
     pub tangent_size: usize,
-    /// The UV sets by the n of `TEXCOORD_n`. Those of one accessor are one list.
+    /// The UV sets by the n of `TEXCOORD_n`. UV sets in one accessor share a list.
     pub uv_sets: BTreeMap<usize, Arc<Vec<[f32; 2]>>>,
     /// Whether its faces say nothing about maps, once that was asked.
     pub has_no_votes: OnceLock<bool>,

@@ -40,7 +40,7 @@ pub fn of_group(mut defects: Vec<Defect>) -> Finding {
     }
 }
 
-/// One finding for all defects of a pair that cancels. The first one is that of the map.
+/// One finding for all defects of a pair that cancels. The first defect is the map's.
 fn of_pair(defects: Vec<Defect>) -> Finding {
     let code = Code::ConventionsCancel;
     let map = &defects[0];
@@ -63,7 +63,8 @@ fn of_pair(defects: Vec<Defect>) -> Finding {
 
 fn single(defect: Defect) -> Finding {
     let (code, fault) = (defect.code(), &defect.fault);
-    let Said { mut text, evidence, cure } = said(fault, defect.severity).with_spoiled(defect.spoiled);
+    let Said { mut text, evidence, cure } =
+        said(fault, defect.severity).with_damaged_percent(defect.damaged_percent);
     if let Some(Obstacle::RedLikelier { image }) = defect.obstacle {
         text += &format!("; the red of images[{image}] is inverted, so that this may be likelier");
     }

@@ -429,13 +429,13 @@ fn clear_coats_and_variants_are_checked() {
     assert_eq!(errors(variant), [(Code::MapRedFlipped, Some(1))]);
 }
 
-/// What a vertex on a mirrored seam spoils is the side whose sign it does not have, whether or not the signs
+/// What a vertex on a mirrored seam damages is the side whose sign it does not have, whether or not the signs
 /// of the whole surface are flipped.
 #[test]
-fn flipped_signs_spoil_no_more_at_mirrored_seams() {
+fn flipped_signs_damage_no_more_at_mirrored_seams() {
     let mistake = MISTAKES.iter().find(|mistake| mistake.code == Code::TangentSharedAcrossMirror);
     let mistake = mistake.expect("a mistake for every code");
-    let spoiled = |model: &Model| {
+    let damaged_percent = |model: &Model| {
         let findings = check_document(&model.document(), &without_maps()).expect("a valid document");
         let found = findings.iter().find(|finding| finding.code == Code::TangentSharedAcrossMirror);
         let evidence = &found.expect("the mistake is named").evidence;
@@ -446,9 +446,9 @@ fn flipped_signs_spoil_no_more_at_mirrored_seams() {
         if !(mistake.make)(&mut model) {
             continue;
         }
-        let unflipped = spoiled(&model).expect("a part of the area");
+        let unflipped = damaged_percent(&model).expect("a part of the area");
         model.negate_signs();
-        let flipped = spoiled(&model).expect("a part of the area");
+        let flipped = damaged_percent(&model).expect("a part of the area");
         assert!((unflipped - flipped).abs() < 1e-9, "{}: {unflipped} and {flipped}", model.name);
         count += 1;
     }

@@ -306,9 +306,9 @@ fn the_method_of_tangents_that_a_map_cancels_is_no_further_warning() {
         let severe: Vec<&Finding> =
             findings.iter().filter(|finding| finding.severity > Severity::Info).collect();
         assert_eq!(severe.len(), 1, "{findings:#?}");
-        let tells =
+        let names_method =
             severe[0].text.contains("by a program that computes tangents by averages weighted by area");
-        assert_eq!(tells, cancels, "{}", severe[0].text);
+        assert_eq!(names_method, cancels, "{}", severe[0].text);
         // All of it is repaired.
         let (mut document, options) = (model.document(), FixOptions::default());
         fix_document(&mut document, findings, &options).expect("a repair");

@@ -63,7 +63,7 @@ pub fn load(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
     in_gltf_convention(input, load_any(input, reading)?)
 }
 
-/// As [`load`], with the warnings, which have the name of the file: that tells several models apart.
+/// As [`load`], with the warnings, which begin with the name of the file, because there are several models.
 #[cfg(feature = "bake")]
 pub fn load_with_warnings(
     path: &Path,
@@ -104,12 +104,12 @@ fn from_stdin(input: &Input, bytes: Vec<u8>, reading: &ReadOptions) -> Result<Do
     document.map_err(|error| error.to_string())
 }
 
-/// Whether the extension is that of a KTX 2 file, and this command was built with its decoder.
+/// Whether a path has the extension of a KTX 2 file, and this command was built with its decoder.
 fn is_ktx2(path: &Path) -> bool {
     cfg!(feature = "ktx2") && has_extension(path, &["ktx2"])
 }
 
-/// Whether the extension is that of an image without a decoder.
+/// Whether a path has the extension of an image without a decoder.
 fn is_other_image(path: &Path) -> bool {
     const OTHERS: [&str; 13] =
         ["avif", "bmp", "dds", "exr", "gif", "hdr", "jxl", "ktx", "ktx2", "psd", "tif", "tiff", "xcf"];

@@ -25,7 +25,7 @@ pub struct HtmlPage<'a> {
     /// Before the main part; may be empty.
     pub contents: String,
     pub main: String,
-    /// Rules beside those of all pages.
+    /// The CSS rules of this page, beside the rules of all pages.
     pub style: &'a str,
     /// What the page runs; empty if it needs no script.
     pub script: &'a str,

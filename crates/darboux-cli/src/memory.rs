@@ -101,7 +101,7 @@ impl JobMemory {
         let mut jobs = self.changed.wait_while(jobs, waits).unwrap_or_else(PoisonError::into_inner);
         jobs.waiting.remove(&number);
         jobs.at_work.insert(number, bytes);
-        // Those that would have been in its way may begin.
+        // Files that would have been in its way may begin.
         self.changed.notify_all();
         Share { of: self, number }
     }

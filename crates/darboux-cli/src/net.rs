@@ -15,7 +15,8 @@ pub fn catch<T>(input: &impl Display, work: impl FnOnce() -> Result<T, String>) 
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(panicked)
 }
 
-/// Runs a command and returns its exit code: that of a failed file after a panic outside of [`catch`].
+/// Runs a command and returns its exit code. After a panic outside of [`catch`] it is the code of a failed
+/// file.
 pub fn run(work: impl FnOnce() -> u8) -> u8 {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|payload| {
         Messages::new(true).error(&sentence("darboux failed", payload));

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use darboux_io::FileKind;
 
-/// Whether the extension is that of a glTF model.
+/// Whether a path has the extension of a glTF model.
 pub fn is_gltf(path: &Path) -> bool {
     FileKind::of(path).is_some_and(FileKind::is_gltf)
 }
 
-/// Whether the extension is that of a model that can be written.
+/// Whether a path has the extension of a model that can be written.
 pub fn is_written_model(path: &Path) -> bool {
     FileKind::of(path).is_some_and(FileKind::is_written_model)
 }
@@ -20,7 +20,7 @@ pub fn is_png(path: &Path) -> bool {
     FileKind::of(path) == Some(FileKind::Png)
 }
 
-/// Whether the extension is that of an image that can be decoded.
+/// Whether a path has the extension of an image that can be decoded.
 pub fn is_image(path: &Path) -> bool {
     FileKind::of(path).is_some_and(FileKind::is_decoded_image)
 }

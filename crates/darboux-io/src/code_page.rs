@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ffi::OsStr;
 
 /// The characters of the bytes 0x80 to 0x9F in Windows-1252. The five bytes that it leaves undefined are
-/// control characters, as WHATWG's standard decodes them. All other bytes are those of Latin-1.
+/// control characters, as WHATWG's standard decodes them. All other bytes are as in Latin-1.
 const WINDOWS_1252: [char; 32] = [
     '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', //
     '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
@@ -19,8 +19,8 @@ pub fn decoded(text: &[u8]) -> Cow<'_, str> {
     str::from_utf8(text).map_or_else(|_| text.iter().map(character).collect(), Cow::Borrowed)
 }
 
-/// The name of a file as text. On Unix it may be in another encoding than UTF-8, as those of an archive that
-/// was packed on Windows.
+/// The name of a file as text. On Unix it may be in another encoding than UTF-8, as in an archive that was
+/// packed on Windows.
 pub fn decoded_name(name: &OsStr) -> Cow<'_, str> {
     #[cfg(unix)]
     return decoded(std::os::unix::ffi::OsStrExt::as_bytes(name));

@@ -186,8 +186,7 @@ pub fn read_regular(path: &Path) -> Result<Vec<u8>, Error> {
     read_resolved(&resolved).map_err(|source| Error::Read { file: path.to_owned(), source })
 }
 
-/// The content of a regular file at a path whose links were resolved before. Errors: those of
-/// [`open_resolved`].
+/// The content of a regular file at a path whose links were resolved before. Errors: as [`open_resolved`].
 pub fn read_resolved(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     open_resolved(path)?.read_to_end(&mut bytes)?;

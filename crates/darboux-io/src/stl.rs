@@ -1,5 +1,5 @@
-//! STL, ASCII and binary: triangles without UVs. The normals of facets are left out: they are those of the
-//! winding, which glTF computes. Where they are not, and where facets have colours, the summary says so.
+//! STL, ASCII and binary: triangles without UVs. The normals of facets are left out: they follow from the
+//! winding, and glTF computes them. Where they do not, and where facets have colours, the summary says so.
 
 use std::collections::HashMap;
 
@@ -42,8 +42,8 @@ struct Losses {
     has_color: bool,
 }
 
-/// The least cosine between a normal and that of the winding: 2.6 degrees, more than the digits of any writer
-/// explain.
+/// The least cosine between a normal and the normal of the winding: 2.6 degrees, more than the digits of any
+/// writer explain.
 const SAME_DIRECTION: f64 = 0.999;
 
 impl Losses {

@@ -56,8 +56,8 @@ fn vector_segments(
     let mut out = Vec::new();
     let roots = if is_drawn.contains(&true) { distinct_vertices(&part.corners) } else { Vec::new() };
     let step = (roots.len() * matrices.len()).div_ceil(MAX_LINE_VERTICES).max(1);
-    let placed = matrices.iter().flat_map(|matrix| roots.iter().map(move |root| (matrix, root)));
-    for (matrix, corner) in placed.step_by(step) {
+    let instances = matrices.iter().flat_map(|matrix| roots.iter().map(move |root| (matrix, root)));
+    for (matrix, corner) in instances.step_by(step) {
         let from = transform.point(matrix, corner.position);
         let vectors = vectors(matrix, corner, if mistakes.w { -1.0 } else { 1.0 });
         for (at, vector) in vectors.into_iter().enumerate().filter(|&(at, _)| is_drawn[at]) {

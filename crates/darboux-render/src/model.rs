@@ -49,8 +49,8 @@ impl<'a> Model<'a> {
     /// Errors: invalid data; too many poses of large meshes.
     pub fn read(document: &'a Document) -> Result<Self, Error> {
         let materials = document.materials()?;
-        let placed = document.mesh_instances()?;
-        let posed = posed_meshes(&placed, document.meshes().len());
+        let instances = document.mesh_instances()?;
+        let posed = posed_meshes(&instances, document.meshes().len());
         let mut parts = Vec::new();
         let mut kept: usize = 0;
         for corners in document.corners()? {
@@ -215,11 +215,11 @@ fn skipped_primitives(document: &Document, posed: &[Vec<PosedMesh<'_>>]) -> usiz
     shown.flat_map(|(mesh, _)| &mesh.primitives).filter(|primitive| primitive.mode < TRIANGLES).count()
 }
 
-/// The poses of every mesh, each with the matrices of all its places.
-fn posed_meshes(placed: &MeshInstances, mesh_count: usize) -> Vec<Vec<PosedMesh<'_>>> {
+/// The poses of every mesh, each with the matrices of all its instances.
+fn posed_meshes(instances: &MeshInstances, mesh_count: usize) -> Vec<Vec<PosedMesh<'_>>> {
     let (mut at, mut ids) = (HashMap::new(), WeightIds::default());
     let mut posed: Vec<Vec<(&MeshInstance, Vec<Matrix>)>> = (0..mesh_count).map(|_| Vec::new()).collect();
-    for mesh in &placed.meshes {
+    for mesh in &instances.meshes {
         let Some(poses) = posed.get_mut(mesh.mesh) else { continue };
         let pose = *at.entry((mesh.mesh, mesh.skin, ids.of(&mesh.weights))).or_insert(poses.len());
         match poses.get_mut(pose) {
@@ -231,7 +231,7 @@ fn posed_meshes(placed: &MeshInstances, mesh_count: usize) -> Vec<Vec<PosedMesh<
     }
     let pose = |(mesh, matrices): (&MeshInstance, Vec<Matrix>)| PosedMesh {
         weights: mesh.weights.clone(),
-        joints: mesh.skin.and_then(|skin| placed.skins.get(skin)).map(Vec::as_slice),
+        joints: mesh.skin.and_then(|skin| instances.skins.get(skin)).map(Vec::as_slice),
         matrices: matrices.into(),
     };
     posed.into_iter().map(|poses| poses.into_iter().map(pose).collect()).collect()

@@ -285,8 +285,8 @@ impl Painter<'_> {
 fn layout_corners(part: &Part) -> Vec<SurfaceVertex> {
     let triangles = part.corners.as_chunks::<3>().0.iter().zip(part.tangent_uvs.as_chunks::<3>().0);
     let is_finite = |uvs: &[[f32; 2]; 3]| uvs.as_flattened().iter().all(|x| x.is_finite());
-    let placed = triangles.filter(|(_, uvs)| is_finite(uvs)).flat_map(|(corners, uvs)| {
+    let corners = triangles.filter(|(_, uvs)| is_finite(uvs)).flat_map(|(corners, uvs)| {
         [0, 1, 2].map(|i| SurfaceVertex { position: layout_position(uvs[i]), ..corners[i] })
     });
-    placed.collect()
+    corners.collect()
 }

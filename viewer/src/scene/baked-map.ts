@@ -5,15 +5,15 @@ import { DataTexture, LinearFilter, LinearMipmapLinearFilter, MeshBasicMaterial,
 import type { ShownBake } from '../bake/baker';
 import type { Part } from './model-parts';
 
-/** The textures of one placement of the map. */
-interface Placed {
+/** The map as textures with one UV set and transform. */
+interface MapTextures {
   normals: Texture;
   misses: Texture;
 }
 
 export class BakedMap {
   /** By the file's own normal map, whose UV set and transform the bake has used; by null where there is none. */
-  private readonly placed = new Map<Texture | null, Placed>();
+  private readonly textures = new Map<Texture | null, MapTextures>();
 
   /** `showsMisses`: whether texels that no ray reached are marked. */
   constructor(
@@ -44,24 +44,24 @@ export class BakedMap {
   }
 
   dispose(): void {
-    for (const { normals, misses } of this.placed.values()) [normals, misses].forEach((texture) => texture.dispose());
+    for (const { normals, misses } of this.textures.values()) [normals, misses].forEach((texture) => texture.dispose());
   }
 
-  private texturesOf({ material }: Part): Placed {
+  private texturesOf({ material }: Part): MapTextures {
     const own = material.normalMap;
-    const found = this.placed.get(own);
+    const found = this.textures.get(own);
     if (found) return found;
     const { width, height, normals, misses } = this.bake;
-    const made = { normals: placedLike(new DataTexture(normals, width, height), own), misses: placedLike(new DataTexture(misses, width, height), own) };
+    const made = { normals: transformedLike(new DataTexture(normals, width, height), own), misses: transformedLike(new DataTexture(misses, width, height), own) };
     Object.assign(made.normals, { magFilter: LinearFilter, minFilter: LinearMipmapLinearFilter, generateMipmaps: true, anisotropy: 8 });
     Object.assign(made.misses, { magFilter: NearestFilter, minFilter: NearestFilter });
-    this.placed.set(own, made);
+    this.textures.set(own, made);
     return made;
   }
 }
 
-/** Places a texture, whose first row is the top, as the file's own one. */
-function placedLike(texture: DataTexture, own: Texture | null): DataTexture {
+/** Gives a texture, whose first row is the top, the UV set and transform of the file's own one. */
+function transformedLike(texture: DataTexture, own: Texture | null): DataTexture {
   texture.wrapS = texture.wrapT = RepeatWrapping;
   if (own) {
     texture.channel = own.channel;

@@ -108,12 +108,12 @@ export class ModelView {
       const map = baked?.covers(part) ? baked : null;
       for (const copy of part.copies) {
         const material = isShaded ? sideMaterial(part, hasTangents, settings.paint === 'bumps', mistakes, map) : frameMaterial(settings.paint, copy.place, false);
-        const mesh = placedMesh(copy, geometry, material);
+        const mesh = meshOf(copy, geometry, material);
         mesh.userData.part = number;
         side.model.add(mesh);
         const misses = isShaded ? map?.missesOf(part) : null;
-        if (misses) side.model.add(placedMesh(copy, geometry, misses));
-        if (settings.wireframe) side.model.add(placedMesh(copy, geometry, new MeshBasicMaterial(WIRES)));
+        if (misses) side.model.add(meshOf(copy, geometry, misses));
+        if (settings.wireframe) side.model.add(meshOf(copy, geometry, new MeshBasicMaterial(WIRES)));
       }
       if (settings.layout) addLayout(side, part, geometry, isShaded ? 'sign' : settings.paint, map);
       this.addLines(side, at, compared, geometry, settings, radius);
@@ -211,7 +211,7 @@ function disposeGeometries(part: ComparedPart): void {
 }
 
 /** A mesh, or an instanced mesh, at the place of a copy. */
-function placedMesh({ place, instances }: Copy, geometry: BufferGeometry, material: Material): Mesh {
+function meshOf({ place, instances }: Copy, geometry: BufferGeometry, material: Material): Mesh {
   const mesh = instances ? new InstancedMesh(geometry, material, 0) : new Mesh(geometry, material);
   if (mesh instanceof InstancedMesh && instances) [mesh.instanceMatrix, mesh.count] = [instances, instances.count];
   mesh.matrixAutoUpdate = false;

@@ -297,7 +297,7 @@ def _compute(mesh: Any, uv_set: Optional[str], time: Any, options: Any) -> Polyg
     if (vertices < 0).any() or (vertices >= len(points)).any():
         raise _Skipped("has faceVertexIndices that are no points; export it again")
     uvs = _per_corner(_uv_primvar(mesh, uv_set), time, sizes, vertices, len(points), 2)
-    # A left-handed mesh winds clockwise around its normals: its faces are turned over, and its tangents put back in order.
+    # A left-handed mesh winds clockwise around its normals: its faces are flipped, and its tangents put back in order.
     order = np.arange(len(vertices))
     if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
         first = np.repeat(np.cumsum(sizes) - sizes, sizes)

@@ -117,8 +117,8 @@ impl Cut {
 }
 
 impl Bvh {
-    /// The cut of a shaft: nodes are replaced by those of their children that the shaft enters, the upper
-    /// ones first, while there is room.
+    /// The cut of a shaft: nodes are replaced by the children that the shaft enters, upper nodes first, while
+    /// there is room.
     pub fn cut(&self, shaft: &Shaft) -> Cut {
         let mut waiting = [([[0f32; 3]; 2], Child::Node(0)); MOST];
         let mut count = usize::from(!self.nodes.is_empty());

@@ -33,7 +33,8 @@ impl Stack {
 }
 
 impl Bvh {
-    /// The nearest hit of a ray. Of hits at the same distance, that of the triangle with the smallest number.
+    /// The nearest hit of a ray. Of hits at the same distance, the one on the triangle with the smallest
+    /// number.
     pub fn nearest(&self, ray: &Ray, sides: Sides, stack: &mut Stack) -> Option<Hit> {
         self.nearest_below(self.root(), &self.prepare(ray), sides, stack)
     }

@@ -16,13 +16,13 @@ use crate::vector::{Vector, add_scaled, cross, dot, length, sub, unit, wide};
 /// footprints would have no end.
 const LEAST_COSINE: f64 = 0.1;
 
-/// Red, green and blue, times those of the vertices.
+/// Red, green and blue, times the vertex colours.
 pub fn base_color(found: &Found<'_>) -> Vector {
     let (shown, vertex) = (mean(found, MaterialProperty::BaseColor), vertex_color::color(found));
     [0, 1, 2].map(|i| shown[i] * vertex[i])
 }
 
-/// Alpha, times that of the vertices.
+/// Alpha, times the vertices' alpha.
 pub fn opacity(found: &Found<'_>) -> f64 {
     mean(found, MaterialProperty::BaseColor)[3] * vertex_color::color(found)[3]
 }

@@ -23,11 +23,11 @@ pub struct PartContent<'a> {
 struct PartProperty<'a> {
     property: MaterialProperty,
     factor: [f32; 4],
-    texture: Option<PlacedTexture<'a>>,
+    texture: Option<TextureWithUvs<'a>>,
 }
 
 /// The index of a texture in [`ColorTextures`], and the UVs at which it is read.
-type PlacedTexture<'a> = (usize, Cow<'a, [[f32; 2]]>);
+type TextureWithUvs<'a> = (usize, Cow<'a, [[f32; 2]]>);
 
 /// The textures of a document that maps need, decoded once each.
 #[derive(Debug, Default)]
@@ -141,7 +141,7 @@ impl<'a> Stored<'a> {
         member: &str,
         textures: &mut ColorTextures,
         decoded: &mut DecodedBytes,
-    ) -> Result<Option<PlacedTexture<'a>>, Error> {
+    ) -> Result<Option<TextureWithUvs<'a>>, Error> {
         let Some(used) = self.document.texture_of_material(self.material, member)? else { return Ok(None) };
         let at = format!("{} of materials[{}]", member, self.material);
         let set = format!("TEXCOORD_{}", used.uv_set);

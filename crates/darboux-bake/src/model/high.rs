@@ -7,8 +7,8 @@ use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 
 use super::content::{ColorTextures, PartContent};
 use super::decoded_bytes::DecodedBytes;
+use super::instance::{PrimitiveInstance, instances_of_meshes};
 use super::maps::{MapOnPart, Textures};
-use super::placed::{PlacedPrimitive, places};
 use crate::{BakeError, HighSurface, IdSource, MapSet, SurfaceLabels};
 
 /// How a high model is read.
@@ -51,7 +51,7 @@ impl HighModelOptions {
     }
 }
 
-/// The triangles of a document's scene at all their places, without animation and in the pose in which
+/// The triangles of a document's scene in all their instances, without animation and in the pose in which
 /// skinned meshes are stored.
 #[derive(Debug)]
 pub struct HighModel<'a> {
@@ -62,14 +62,14 @@ pub struct HighModel<'a> {
     /// The names of the document's materials, with one for primitives without a material.
     material_names: Vec<Arc<str>>,
     mesh_names: Vec<Arc<str>>,
-    /// By the numbers of places.
+    /// By the numbers of instances.
     part_names: Vec<Arc<str>>,
 }
 
 #[derive(Debug)]
 struct HighPart<'a> {
     name: PrimitiveName,
-    primitive: PlacedPrimitive<'a>,
+    primitive: PrimitiveInstance<'a>,
     map: Option<MapOnPart<'a>>,
     content: Arc<PartContent<'a>>,
     labels: SurfaceLabels,
@@ -84,15 +84,17 @@ impl<'a> HighModel<'a> {
         corners: &'a [PrimitiveCorners<'a>],
         options: &HighModelOptions,
     ) -> Result<Self, Error> {
-        let places = places(document)?;
-        let places_of = |corners: &PrimitiveCorners<'_>| places.get(corners.name().mesh).map_or(0, Vec::len);
-        let triangles = corners.iter().map(|corners| (corners.len() / 3).saturating_mul(places_of(corners)));
+        let instances = instances_of_meshes(document)?;
+        let instance_count =
+            |corners: &PrimitiveCorners<'_>| instances.get(corners.name().mesh).map_or(0, Vec::len);
+        let triangles =
+            corners.iter().map(|corners| (corners.len() / 3).saturating_mul(instance_count(corners)));
         document.check_triangle_count(triangles.fold(0, usize::saturating_add))?;
         let (mut textures, mut color_textures) = (Textures::default(), ColorTextures::default());
         let mut decoded = DecodedBytes::default();
         let needed = (options.maps, options.texture.as_deref());
         let material_names = material_names(document);
-        let mut part_names: Vec<Arc<str>> = vec![Arc::default(); places.iter().map(Vec::len).sum()];
+        let mut part_names: Vec<Arc<str>> = vec![Arc::default(); instances.iter().map(Vec::len).sum()];
         let mut parts = Vec::new();
         for corners in corners {
             let content = PartContent::read(document, corners, needed, &mut color_textures, &mut decoded)?;
@@ -101,15 +103,15 @@ impl<'a> HighModel<'a> {
                 true => textures.of_primitive(document, corners, &mut decoded)?,
                 false => None,
             };
-            for place in places.get(corners.name().mesh).into_iter().flatten() {
-                let Some(primitive) = PlacedPrimitive::read(corners, place)? else { continue };
+            for instance in instances.get(corners.name().mesh).into_iter().flatten() {
+                let Some(primitive) = PrimitiveInstance::read(corners, instance)? else { continue };
                 let map = texture.map(|texture| textures.on_part(document, corners, texture, &primitive));
                 let map = map.transpose()?.flatten();
-                part_names[place.number].clone_from(&primitive.part_name);
+                part_names[instance.number].clone_from(&primitive.part_name);
                 let labels = SurfaceLabels {
                     material: corners.material().unwrap_or(material_names.len() - 1) as u32,
                     mesh: corners.name().mesh as u32,
-                    part: place.number as u32,
+                    part: instance.number as u32,
                 };
                 let (name, content) = (corners.name().clone(), content.clone());
                 parts.push(HighPart { name, primitive, map, content, labels });

@@ -8,7 +8,7 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 
 use super::content::colors;
-use super::placed::{PlacedPrimitive, places};
+use super::instance::{PrimitiveInstance, instances_of_meshes};
 use super::stored::StoredPrimitive;
 use crate::LowSurface;
 use crate::text::listed;
@@ -28,13 +28,13 @@ pub struct LowModelOptions {
 }
 
 impl LowModelOptions {
-    /// These options with a UV set, or with that of each normal map.
+    /// These options with a UV set, or with the UV set of each normal map.
     #[must_use]
     pub fn with_uv_set(self, uv_set: Option<usize>) -> Self {
         Self { uv_set, ..self }
     }
 
-    /// These options with tangents that are computed, or with those of the file.
+    /// These options with computed tangents, or with the file's tangents.
     #[must_use]
     pub fn with_tangents(self, tangents: Option<TangentOptions>) -> Self {
         Self { tangents, ..self }
@@ -47,12 +47,12 @@ impl LowModelOptions {
     }
 }
 
-/// The triangles of a document's scene at the first of their places, without animation and in the pose in
+/// The triangles of a document's scene in the first of their instances, without animation and in the pose in
 /// which skinned meshes are stored.
 #[derive(Debug)]
 pub struct LowModel<'a> {
     parts: Vec<LowPart<'a>>,
-    /// Meshes that the scene has at more than one place. The first is baked.
+    /// Meshes with more than one instance in the scene. The first one is baked.
     pub repeated_meshes: usize,
     /// Primitives without UVs. They are not baked.
     pub without_uvs: usize,
@@ -69,8 +69,8 @@ struct LowPart<'a> {
     name: PrimitiveName,
     uv_set: usize,
     file: &'a str,
-    primitive: PlacedPrimitive<'a>,
-    /// At the place of the primitive.
+    primitive: PrimitiveInstance<'a>,
+    /// Of the instance.
     normals: Cow<'a, [[f32; 3]]>,
     uvs: Cow<'a, [[f32; 2]]>,
     tangents: Vec<[f32; 4]>,
@@ -86,7 +86,7 @@ impl<'a> LowModel<'a> {
         corners: &'a [PrimitiveCorners<'a>],
         options: &LowModelOptions,
     ) -> Result<Self, Error> {
-        let (places, materials) = (places(document)?, document.materials()?);
+        let (instances, materials) = (instances_of_meshes(document)?, document.materials()?);
         let mut model = Self {
             parts: Vec::new(),
             repeated_meshes: 0,
@@ -95,7 +95,7 @@ impl<'a> LowModel<'a> {
             with_unused_tangents: 0,
             materials: Vec::new(),
         };
-        model.repeated_meshes = places.iter().filter(|places| places.len() > 1).count();
+        model.repeated_meshes = instances.iter().filter(|instances| instances.len() > 1).count();
         let is_chosen = |corners: &PrimitiveCorners<'_>| {
             options.material.is_none_or(|material| corners.material() == Some(material))
         };
@@ -107,8 +107,10 @@ impl<'a> LowModel<'a> {
         let mut known_materials = HashSet::new();
         for &corners in &chosen {
             let name = corners.name();
-            let Some(place) = places.get(name.mesh).and_then(|places| places.first()) else { continue };
-            let Some(primitive) = PlacedPrimitive::read(corners, place)? else { continue };
+            let Some(instance) = instances.get(name.mesh).and_then(|instances| instances.first()) else {
+                continue;
+            };
+            let Some(primitive) = PrimitiveInstance::read(corners, instance)? else { continue };
             let material = corners.material().and_then(|material| materials.get(material));
             let of_map = material.map_or(0, |material| material.tangent_uv_set);
             let uv_set = options.uv_set.unwrap_or(of_map);

@@ -10,11 +10,11 @@ use darboux_io::image::{PngImage, RgbCodes, RgbaImage, rgb_codes};
 
 use super::decoded_bytes::DecodedBytes;
 use super::image_key::ImageKey;
-use super::placed::PlacedPrimitive;
+use super::instance::PrimitiveInstance;
 use super::stored::StoredPrimitive;
 use crate::NormalTexture;
 
-/// A normal map on a primitive at its place.
+/// A normal map on an instance of a primitive.
 #[derive(Debug)]
 pub struct MapOnPart<'a> {
     /// The index in [`Textures`].
@@ -98,7 +98,7 @@ impl Textures {
         document: &'a Document,
         corners: &'a PrimitiveCorners<'a>,
         material: usize,
-        primitive: &PlacedPrimitive<'a>,
+        primitive: &PrimitiveInstance<'a>,
     ) -> Result<Option<MapOnPart<'a>>, Error> {
         let Some((texture, material)) = &self.of_material[&material] else { return Ok(None) };
         let Some(used) = &material.normal_texture else { return Ok(None) };

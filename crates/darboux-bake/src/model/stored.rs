@@ -4,9 +4,9 @@ use darboux::{Convention, Indices, Mesh, TangentOptions, Transform, generate_tan
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners};
 
-use super::placed::reverse;
+use super::instance::reverse;
 
-/// A primitive as the file has it, before it is placed.
+/// A primitive as the file has it, before the transform of its instance.
 pub struct StoredPrimitive<'a> {
     pub document: &'a Document,
     pub corners: &'a PrimitiveCorners<'a>,
@@ -14,7 +14,7 @@ pub struct StoredPrimitive<'a> {
 }
 
 impl StoredPrimitive<'_> {
-    /// The tangents at a place of the primitive: the file's, or computed ones with options.
+    /// The tangents of an instance of the primitive: the file's, or computed ones with options.
     pub fn tangents(
         &self,
         options: Option<&TangentOptions>,
@@ -50,7 +50,7 @@ impl StoredPrimitive<'_> {
     }
 }
 
-/// Moves tangents to the place of their primitive. `normals`: of its own vertices, as the file has them.
+/// Transforms tangents with the instance of their primitive. `normals`: of its own vertices, as the file has them.
 fn move_tangents(
     tangents: &mut [[f32; 4]],
     corners: &PrimitiveCorners<'_>,

@@ -7,7 +7,7 @@ use crate::face::Face;
 use crate::frame::ShadingFrame;
 use crate::high::HighGroup;
 use crate::images::TexelState;
-use crate::layout::{BLOCK, Layout, Placed};
+use crate::layout::{BLOCK, Layout, TileTriangle};
 use crate::maps::turn_of;
 use crate::normal_texture::filter_texels;
 use crate::point::SurfacePoint;
@@ -20,7 +20,7 @@ use crate::{BakeOptions, Bitangent, LowSurface, NormalTexture};
 const MAX_HEAT_SIDE: usize = 2048;
 
 /// The most points that are expected. Where charts cover the image more often than twice at its largest side,
-/// as those of repeated textures do, one texel in larger cells is compared.
+/// as with repeated textures, one texel in larger cells is compared.
 const MAX_POINTS: f64 = (2 * MAX_HEAT_SIDE * MAX_HEAT_SIDE) as f64;
 
 /// The most triangles that are compared at a texel: the first ones, in the order of surfaces and triangles.
@@ -96,27 +96,31 @@ impl Points<'_> {
             let side = self.cell_side;
             let of_cell = (random(2) * (side * side) as f64) as usize;
             coverage.clear();
-            for placed in self.layout.block(column, row) {
-                let low = &self.low[placed.surface as usize];
-                coverage.add(*placed, self.layout.steps_in_block(low, placed, [column, row]), sample);
+            for triangle in self.layout.block(column, row) {
+                let low = &self.low[triangle.surface as usize];
+                coverage.add(*triangle, self.layout.steps_in_block(low, triangle, [column, row]), sample);
             }
             let (mut open, mut compared) = (Open::ALL, [0; TEXELS]);
-            for placed in self.layout.block(column, row) {
-                let low = &self.low[placed.surface as usize];
+            for triangle in self.layout.block(column, row) {
+                let low = &self.low[triangle.surface as usize];
                 let mut face = None;
-                open.visit_covered(self.layout.steps_in_block(low, placed, [column, row]), sample, |texel| {
-                    let [x, y] = [column * BLOCK + texel % BLOCK, row * BLOCK + texel / BLOCK];
-                    let is_chosen = y % side * side + x % side == of_cell;
-                    if !is_chosen || x >= self.layout.size[0] || y >= self.layout.size[1] {
-                        return true;
-                    }
-                    let face = face.get_or_insert_with(|| Face::new(self.layout, self.low, *placed));
-                    let place = [0, 1].map(|i| [x, y][i] as f64 + sample[i] as f64 / STEPS as f64);
-                    let owner = coverage.owners[texel.min(TEXELS - 1)];
-                    self.compare(face, place, owner, &mut stack, &mut band);
-                    compared[texel] += 1;
-                    compared[texel] == MAX_TRIANGLES_PER_TEXEL
-                });
+                open.visit_covered(
+                    self.layout.steps_in_block(low, triangle, [column, row]),
+                    sample,
+                    |texel| {
+                        let [x, y] = [column * BLOCK + texel % BLOCK, row * BLOCK + texel / BLOCK];
+                        let is_chosen = y % side * side + x % side == of_cell;
+                        if !is_chosen || x >= self.layout.size[0] || y >= self.layout.size[1] {
+                            return true;
+                        }
+                        let face = face.get_or_insert_with(|| Face::new(self.layout, self.low, *triangle));
+                        let place = [0, 1].map(|i| [x, y][i] as f64 + sample[i] as f64 / STEPS as f64);
+                        let owner = coverage.owners[texel.min(TEXELS - 1)];
+                        self.compare(face, place, owner, &mut stack, &mut band);
+                        compared[texel] += 1;
+                        compared[texel] == MAX_TRIANGLES_PER_TEXEL
+                    },
+                );
             }
         }
         band
@@ -126,7 +130,7 @@ impl Points<'_> {
         &self,
         face: &Face<'_>,
         place: Place,
-        owner: Option<Placed>,
+        owner: Option<TileTriangle>,
         stack: &mut Stack,
         band: &mut BandPoints,
     ) {
@@ -146,8 +150,8 @@ impl Points<'_> {
         };
         let error = |shown: Option<Vector>| shown.map_or(180.0, |shown| degrees(shown, truth));
         band.points.push(PointErrors {
-            place: self.kind(place, owner == Some(face.placed)),
-            surface: face.placed.surface,
+            place: self.kind(place, owner == Some(face.triangle)),
+            surface: face.triangle.surface,
             cell: self.cell(place),
             shown: degrees(shown, truth),
             rounding: degrees(shown, unrounded),

@@ -19,7 +19,7 @@ pub struct Verification {
     /// Of each low surface, in their order.
     #[serde(skip)]
     pub surfaces: Vec<ErrorStatistics>,
-    /// What renderers would show whose frames differ from those of the bake.
+    /// The errors that renderers would show whose frames differ from the bake's.
     pub mistakes: Vec<(Mistake, ErrorStatistics)>,
     /// Points whose ray hits nothing, so that there is nothing to compare with.
     pub points_without_hit: u64,

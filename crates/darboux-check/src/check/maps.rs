@@ -105,7 +105,7 @@ impl ModelOfMaps {
         &self.findings
     }
 
-    /// The defects of the map, and those of this model beside it: what is not identified is left, and what
+    /// The defects of the map, and the defects of this model: what is not identified is left, and what
     /// cancels is marked.
     fn with_map(&self, file: &[u8], options: &CheckOptions) -> (MapDefects, Vec<Defect>) {
         let uses: Vec<MapUse<'_>> = self.surfaces.iter().map(|surface| (surface, None)).collect();
@@ -275,8 +275,8 @@ fn is_from_sketchfab(document: &Document) -> bool {
     texts.into_iter().filter_map(|text| text.as_str()).any(|text| text.to_lowercase().contains("sketchfab"))
 }
 
-/// The primitive of a defect that says that no triangle of it has an area in UV space, so that it shows one
-/// texel per triangle and no bumps.
+/// The primitive of a defect that says that all triangles of the primitive are UV-degenerate: they show one
+/// texel each and no bumps.
 fn primitive_without_uv_area(defect: &Defect) -> Option<Key> {
     match &defect.fault {
         Fault::Uv(UvFault::Degenerate { triangles, .. }) if triangles.len() == triangles.of => {
@@ -337,8 +337,8 @@ impl DecodedMaps {
         }
     }
 
-    /// Four times those of the model, and two million: a model has few maps per primitive, but its materials
-    /// may have thousands of variants.
+    /// The largest number of triangles: four times the model's, and two million. A model has few maps per
+    /// primitive, but its materials may have thousands of variants.
     fn most_triangles(users: &MapUsers<'_>) -> usize {
         users.all_triangles().saturating_mul(4).saturating_add(1 << 21)
     }
@@ -371,8 +371,8 @@ impl<'a> BySurface<'a> {
     }
 }
 
-/// The defects of an image of a document as a normal map, and what it tells of its channels. Errors: invalid
-/// data of the primitives that use it.
+/// The defects of an image of a document as a normal map, and the arrangement of its channels. Errors:
+/// invalid data of the primitives that use it.
 fn defects_of_image(
     document: &Document,
     users: &MapUsers<'_>,

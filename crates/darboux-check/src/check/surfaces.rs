@@ -7,6 +7,7 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveInfo, PrimitiveName, inspect};
 
 use crate::code::{Code, Family};
+use crate::damage::damaged_area;
 use crate::defect::{Defect, Fault, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::instances::{Key, distinct, key};
@@ -15,7 +16,6 @@ use crate::model_area::ModelArea;
 use crate::obstacles;
 use crate::rules::SURFACE_RULES;
 use crate::severity::Severity;
-use crate::spoiled::spoiled;
 use crate::surface::Surface;
 
 /// The defects of the primitives with triangles that are wanted.
@@ -55,24 +55,24 @@ pub fn for_each_surface(
     Ok(())
 }
 
-/// In percent of the model's area: what defects of one kind spoil together at least to be errors. Half a
+/// In percent of the model's area: what defects of one kind damage together at least to be errors. Half a
 /// percent of a model that fills a screen of 1920 x 1080 is a square of a hundred pixels.
-pub const MIN_SPOILED: f64 = 0.5;
+pub const MIN_DAMAGED: f64 = 0.5;
 
-/// The least part of what all defects of one kind spoil that is an error: the smallest ones, which are less
+/// The least part of the damage of all defects of one kind that is an error: the smallest ones, which are less
 /// together, are not seen beside the others.
 const MIN_PART: f64 = 0.1;
 
-/// In percent of the model's area: what defects of one kind spoil together at least to be seen at all, 20
+/// In percent of the model's area: what defects of one kind damage together at least to be seen at all, 20
 /// pixels of a screen of 1920 x 1080 that the model fills. Less is worth knowing only.
 const MIN_SEEN: f64 = 0.001;
 
-/// Lowers the severity of defects that spoil too small a part of the model, all of one code together: what is
+/// Lowers the severity of defects that damage too small a part of the model, all of one code together: what is
 /// cut into many primitives looks as it would in one.
 pub fn weigh(defects: &mut [Defect]) {
     let mut of_code: BTreeMap<Code, Vec<(usize, f64)>> = BTreeMap::new();
     for (index, defect) in defects.iter().enumerate() {
-        if let Some(percent) = defect.spoiled {
+        if let Some(percent) = defect.damaged_percent {
             of_code.entry(defect.code()).or_default().push((index, percent));
         }
     }
@@ -84,7 +84,7 @@ pub fn weigh(defects: &mut [Defect]) {
             below += percent;
             let most = if below < MIN_SEEN && is_by_area(&defects[index]) {
                 Severity::Info
-            } else if all < MIN_SPOILED || below < MIN_PART * all {
+            } else if all < MIN_DAMAGED || below < MIN_PART * all {
                 Severity::Warning
             } else {
                 Severity::Error
@@ -94,7 +94,7 @@ pub fn weigh(defects: &mut [Defect]) {
     }
 }
 
-/// Whether what a defect spoils is the area of its faces. That of tangents that lean or are of another method
+/// Whether the damaged area of a defect is the area of its faces. That of tangents that lean or are of another method
 /// counts large angles only, and smaller ones are worth a warning.
 fn is_by_area(defect: &Defect) -> bool {
     !matches!(defect.fault, Fault::Tangent(TangentFault::Leaning { .. } | TangentFault::OtherRecipe { .. }))
@@ -105,13 +105,14 @@ pub fn defects_of_surface(surface: &Surface, area: &ModelArea) -> Vec<Defect> {
     let facts = SurfaceFacts::new(surface);
     let rules = SURFACE_RULES.iter().flat_map(|family| family.iter());
     let placed = |defect: Defect| {
-        let spoiled = spoiled(&defect.fault, &facts).and_then(|own| area.percent(&surface.place, own));
+        let damaged_percent =
+            damaged_area(&defect.fault, &facts).and_then(|own| area.percent(&surface.place, own));
         let obstacle = obstacles::of_surface(&defect, &facts);
         let fault = match &surface.vertices_in_file {
             Some(in_file) => defect.fault.with_vertices(in_file),
             None => defect.fault,
         };
-        Defect { place: surface.place.clone(), spoiled, fault, ..defect }.with_obstacle(obstacle)
+        Defect { place: surface.place.clone(), damaged_percent, fault, ..defect }.with_obstacle(obstacle)
     };
     let defects = rules.flat_map(|rule| rule(&facts)).map(placed).collect();
     if surface.needs_tangents { defects } else { without_unread(defects) }
@@ -139,9 +140,10 @@ mod tests {
 
     /// Faults of two kinds in six primitives.
     #[test]
-    fn what_primitives_spoil_adds_up() {
+    fn the_damage_of_primitives_adds_up() {
         let part = || Part::new(&[1], 100).expect("one triangle");
-        let defect = |fault: TangentFault, percent| Defect { spoiled: Some(percent), ..Defect::new(fault) };
+        let defect =
+            |fault: TangentFault, percent| Defect { damaged_percent: Some(percent), ..Defect::new(fault) };
         let severities = |percent: f64| {
             let mut defects: Vec<Defect> =
                 (0..5).map(|_| defect(TangentFault::SharedAcrossMirror(part()), percent)).collect();
@@ -161,7 +163,7 @@ mod tests {
         let part = || Part::new(&[1], 100).expect("one triangle");
         let defect = |percent| {
             let fault = TangentFault::SharedAcrossMirror(part());
-            Defect { spoiled: Some(percent), ..Defect::new(fault) }
+            Defect { damaged_percent: Some(percent), ..Defect::new(fault) }
         };
         let mut defects = [0.001, 5.0, 0.0, 0.8].map(defect);
         weigh(&mut defects);

@@ -144,8 +144,8 @@ pub enum MapFault {
         commonest: [u8; 2],
         texels: Texels,
     },
-    /// As `Srgb`, by the lengths of the vectors: in percent, those of other lengths as they are and once the
-    /// mistake is undone.
+    /// As `Srgb`, by the lengths of the vectors: the percentage of vectors that are not unit, in the file and
+    /// once the mistake is undone.
     SrgbByLength {
         mistake: SrgbMistake,
         not_unit: Texels,

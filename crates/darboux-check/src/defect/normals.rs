@@ -61,7 +61,7 @@ impl NormalFault {
         }
     }
 
-    /// The indices that are those of vertices.
+    /// The indices of vertices.
     pub fn vertices_mut(&mut self) -> Option<&mut Indices> {
         match self {
             Self::NotFinite(part) | Self::NotUnit { vertices: part, .. } => Some(&mut part.items),

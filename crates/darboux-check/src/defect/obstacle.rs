@@ -67,7 +67,7 @@ pub enum Obstacle {
     MapHasOtherLayout {
         image: Option<usize>,
     },
-    /// A mistake of the model cancels that of the map.
+    /// A mistake of the model cancels the mistake of the map.
     OnTheModelToo,
     /// Why an image cannot be rewritten, as a clause of darboux-io.
     NotRewritable(String),

@@ -29,14 +29,14 @@ pub static PAIRS: [Pair; 3] = [
 /// The mistake that cancels a defect.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cancelled {
-    /// That of the normal map in an image; none for a map without a document.
+    /// The mistake of the normal map in an image; none for a map without a document.
     ByMap {
         pair: &'static Pair,
         image: Option<usize>,
         /// Whether it cancels on all surfaces that use the map.
         is_whole: bool,
     },
-    /// That of a surface, or of several that use the map: the first one.
+    /// The mistake of a surface, or of several that use the map: the first one.
     BySurface {
         pair: &'static Pair,
         first: Option<Place>,

@@ -33,7 +33,7 @@ pub enum TangentFault {
     SignMixed(Part),
     /// Directions or signs differ from MikkTSpace's in a known way.
     Differs(TangentDifference),
-    /// Some tangents are not those of the method that made the others.
+    /// Some tangents are far from the method of the other tangents.
     Outliers {
         recipe: Recipe,
         vertices: Part,
@@ -98,7 +98,7 @@ impl TangentFault {
         }
     }
 
-    /// The indices that are those of vertices.
+    /// The indices of vertices.
     pub fn vertices_mut(&mut self) -> [Option<&mut Indices>; 2] {
         match self {
             Self::NotFinite(part)
@@ -118,7 +118,7 @@ impl TangentFault {
     }
 }
 
-/// Whether the items of a difference are vertices. Those of the others are triangles, or there are none.
+/// Whether the items of a difference are vertices. The other differences have triangles or no items.
 fn counts_vertices(difference: Difference) -> bool {
     matches!(difference, Difference::PartlyNegated | Difference::PartlyRotated)
 }

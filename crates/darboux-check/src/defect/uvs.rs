@@ -33,7 +33,7 @@ pub enum UvFault {
         /// The share of the UV area.
         area_share: f64,
     },
-    /// Faces whose UVs are stretched more than those of the others.
+    /// Faces whose UVs are stretched more than the UVs of the other faces.
     Stretched(Outliers),
     /// Faces with fewer texels than the others.
     Coarse(Outliers),
@@ -71,7 +71,7 @@ impl UvFault {
         Some(Items::Triangles(triangles))
     }
 
-    /// The indices that are those of vertices.
+    /// The indices of vertices.
     pub fn vertices_mut(&mut self) -> Option<&mut Indices> {
         match self {
             Self::NotFinite { vertices, .. } => Some(&mut vertices.items),

@@ -21,7 +21,7 @@ pub fn with_directed_channels(map: &Map) -> Option<&MapJudgement> {
     map.judged().filter(|judgement| matches!(kind(map, judgement), Kind::Normals | Kind::TwoChannel))
 }
 
-/// The arrangement that the derivatives show: that of a map with no (or both) channels inverted, or with one.
+/// The arrangement that the derivatives show: no channel or both are inverted, or one is.
 pub fn arrangement(judgement: &MapJudgement) -> Option<Arrangement> {
     match judgement.verdict {
         MapVerdict::OpenGl => Some(Arrangement::Same),
@@ -77,8 +77,8 @@ pub fn candidates(judgement: &MapJudgement) -> [Arrangement; 2] {
     }
 }
 
-/// The largest log energy ratio of a map whose channels may be exchanged: that of a gradient is not negative,
-/// and exchanging them negates it.
+/// The largest log energy ratio of a map whose channels may be exchanged: the ratio of a gradient is not
+/// negative, and exchanging the channels negates it.
 const MAX_RATIO_OF_EXCHANGED: f32 = 0.02;
 
 /// Whether the texels follow the facets of the mesh with red and green exchanged, and not otherwise, and

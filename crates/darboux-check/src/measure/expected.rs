@@ -13,7 +13,7 @@ pub fn rounding(surface: &Surface) -> f64 {
     if surface.tangent_size == 4 { ROUNDING_OF_8_BITS } else { ROUNDING }
 }
 
-/// Whether the tangents of the file are those of MikkTSpace at all corners, bit for bit.
+/// Whether the tangents of the file are MikkTSpace's at all corners, bit for bit.
 pub fn are_those_of_the_file(surface: &Surface, expected: &[[f32; 4]]) -> bool {
     let Some(tangents) = &surface.tangents else { return false };
     let is_same = |(vertex, expected): (&u32, &[f32; 4])| {
@@ -44,8 +44,8 @@ pub fn vertices_with_own_tangents(surface: &Surface, expected: &[[f32; 4]]) -> V
     is_own
 }
 
-/// Whether a triangle has an area in the UV set. Without one it shows no bumps, and its tangents and their
-/// sign are those of any neighbour; with NaN or infinity they are arbitrary.
+/// Whether a triangle has an area in the UV set. A UV-degenerate triangle shows no bumps, and takes its
+/// tangents and sign from any neighbour; with NaN or infinity they are arbitrary.
 pub fn is_measured(surface: &Surface, uvs: &[[f32; 2]], triangle: [usize; 3]) -> bool {
     let area = uv_area(uvs, triangle);
     let is_placed = |vertex: usize| surface.positions[vertex].iter().all(|x| x.is_finite());

@@ -3,7 +3,7 @@
 //!
 //! A baker writes the difference between the smoothed normals of the mesh and the normals of the detailed
 //! model. Where the detailed model has flat parts, or hard edges with bevels, that difference points to the
-//! normal of the mesh's face. So the x and y of the texels correlate with those of the face normals in
+//! normal of the mesh's face. So the x and y of the texels correlate with the x and y of the face normals in
 //! tangent space, and never with their negation. A map that tiles, or that was made for another mesh, shows
 //! no correlation.
 //!
@@ -11,7 +11,7 @@
 //! over the root of the sum of their squares. That is right for independent votes only. Faces that share
 //! their UVs, texels that repeat, and neighbours vote alike, and bumps that all have one shape agree a little
 //! with convex faces wherever they lie. So a map of any other mesh may get a large score. Therefore a
-//! decision is tested again: from the votes, those of the same triangles on the map at other offsets are
+//! decision is tested again: from each vote, the vote of the same triangle on the map at another offset is
 //! subtracted, and the differences are summed in blocks of the map, which count once each, however many
 //! triangles show them (the standard error of clustered data). That shows that the map belongs to the mesh,
 //! and not that it was baked from it: studs or domes on the faces lean against all of them. So a decision
@@ -77,7 +77,7 @@ impl FacetVotes {
         (z_score.abs() >= DECIDED && is_baked).then_some(z_score > 0.0)
     }
 
-    /// The z score of an arrangement: the smaller one of that of the votes and that of the blocks.
+    /// The z score of an arrangement: the smaller one of the votes' and the blocks' z scores.
     pub fn z_score(&self, arrangement: Arrangement) -> f64 {
         let index = arrangement as usize;
         let independent = self.sums.z_score(index);

@@ -235,9 +235,9 @@ pub fn is_at_most_a_part(reversal: Option<Reversal>) -> bool {
 
 /// Whether the right signs are the opposite of MikkTSpace's.
 ///
-/// MikkTSpace's sign is that of the UV area, which changes with the order of the corners; what is lit depends
-/// on the normal alone. So signs are those of faces that are wound along their normals, unless it is the
-/// normals that are known to be reversed.
+/// MikkTSpace's sign is the sign of the UV area, which changes with the order of the corners; light depends
+/// on the normal alone. So signs are taken from faces that are wound along their normals, unless the normals
+/// are known to be reversed.
 pub fn flips_signs(reversal: Option<Reversal>) -> bool {
     !is_at_most_a_part(reversal) && reversal != Some(Reversal::Normals)
 }

@@ -182,7 +182,7 @@ impl Map {
     }
 }
 
-/// Whether a file begins as those of KTX, Basis Universal, AVIF, JPEG XL or DDS do.
+/// Whether a file begins as a KTX, Basis Universal, AVIF, JPEG XL or DDS file.
 fn is_other_format(file: &[u8]) -> bool {
     let starts: [&[u8]; 6] =
         [b"\xABKTX 11\xBB", b"\xABKTX 20\xBB", b"sB", b"\0\0\0\x0CJXL ", b"\xFF\x0A", b"DDS "];
@@ -190,8 +190,8 @@ fn is_other_format(file: &[u8]) -> bool {
     is_avif || starts.iter().any(|start| file.starts_with(start))
 }
 
-/// The smallest correlation between red and green of a picture. That of slopes in all directions is 0, and
-/// that of brightness is 1.
+/// The smallest correlation between red and green of a picture. Slopes in all directions have 0, and
+/// brightness has 1.
 const MIN_CORRELATION_OF_PICTURES: f64 = 0.8;
 
 /// Whether most texels have other lengths than 1, and red and green are light and dark together.
@@ -222,7 +222,7 @@ const MAX_HEALTHY: f64 = 5.0;
 const MIN_LEAN: f32 = 0.3;
 
 /// The mistake that explains why few vectors have length 1: without it, nearly all do. A map without flat
-/// parts has no commonest texel that tells.
+/// parts has no commonest texel that shows the mistake.
 fn srgb_mistake_by_length(image: &RgbaImage, judgement: &MapJudgement) -> Option<SrgbMistake> {
     let [x, y, _] = judgement.mean;
     let mistake = if x.min(y) >= MIN_LEAN {

@@ -53,8 +53,8 @@ pub fn kind(map: &Map, judgement: &MapJudgement) -> Kind {
     }
 }
 
-/// Whether the commonest texel and the mean are those of a flat map whose values were encoded as sRGB, of
-/// which one was inverted after that.
+/// Whether the commonest texel and the mean belong to a flat map whose values were encoded as sRGB and one of
+/// whose channels was inverted after that.
 fn is_encoded_and_inverted(judgement: &MapJudgement) -> bool {
     let [mean_red, mean_green, mean_blue] = judgement.mean.map(|x| 127.5 * (x + 1.0));
     let is_near = |codes: [u8; 2]| {
@@ -89,8 +89,8 @@ fn is_map(judgement: &MapJudgement) -> bool {
     is_gradient || percent(judgement, judgement.not_unit) <= NO_NORMALS[0]
 }
 
-/// Whether most texels are neither unit nor above the surface, or they are no slopes of a surface, and most
-/// of them cannot be normals or many of them are neither.
+/// Whether most texels are neither unit nor above the surface; or texels are no slopes of a surface, and most
+/// cannot be normals or many are neither unit nor above the surface.
 fn is_no_map(judgement: &MapJudgement) -> bool {
     let are_no_normals = [judgement.not_unit, judgement.negative_z].map(|count| percent(judgement, count));
     if are_no_normals.iter().all(|percent| *percent > NO_NORMALS[0]) {

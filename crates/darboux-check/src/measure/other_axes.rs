@@ -2,7 +2,7 @@
 //! mirrored only the positions.
 //!
 //! Of all ways to exchange and to negate x, y and z, one makes such normals fit the faces. Normals that were
-//! bent on purpose, as on foliage, fit in no way, or are so equal that nothing tells the ways apart.
+//! bent on purpose, as on foliage, fit in no way, or are so equal that all ways fit alike.
 
 use crate::surface::{Surface, cross, length, sub};
 
@@ -21,7 +21,7 @@ pub struct OtherAxes {
 /// The largest mean cosine of normals in other axes.
 const MAX_AS_STORED: f64 = 0.6;
 
-/// The smallest mean cosine as they have to be read: that of the smooth normals of a cube is 0.577.
+/// The smallest mean cosine of normals as they have to be read: the smooth normals of a cube have 0.577.
 const MIN_AS_READ: f64 = 0.5;
 
 /// The smallest mean cosine of a clear way, and by how much it is better than all others. Of five published
@@ -36,7 +36,7 @@ const MIN_GAIN: f64 = 0.25;
 /// The smallest correlation of the deviations from the mean normal with those from the mean face.
 const MIN_CORRELATION: f64 = 0.7;
 
-/// The smallest variance of normals that tell the ways apart: that of normals that lean by 3 degrees.
+/// The smallest variance of normals that distinguish the ways: normals that lean by 3 degrees have it.
 const MIN_VARIANCE: f64 = 0.003;
 
 /// The ways to take the components from others.

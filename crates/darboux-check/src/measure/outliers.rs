@@ -1,8 +1,8 @@
-//! Finds tangents that are far from those of the method that made most of the others, as after a part of them
-//! was overwritten.
+//! Finds outliers: tangents that are far from the method that made most tangents, as after a part of them was
+//! overwritten.
 //!
-//! Such damage leaves two kinds of tangents: those of the method, and others that have nothing to do with it.
-//! Where many lie between the two, the tangents are those of a method that is not known.
+//! Such damage leaves two kinds of tangents: tangents of the method, and tangents that have nothing to do
+//! with it. Where many lie between the two, the method is not known.
 
 use darboux::internal::recipe_tangents;
 use darboux::{Context, Convention, CornerDifference, Recipe, RecipeMatch};
@@ -28,14 +28,14 @@ const MAX_BETWEEN: f64 = 0.1;
 /// screen. Fewer may be differences between versions of a method.
 const MIN_FAR: f64 = 0.01;
 
-/// The tangents that are far from those of the method that made the others.
+/// The tangents that are far from the method that made the others.
 pub struct Outliers {
     /// The method of the others.
     pub recipe: Recipe,
     /// The vertices, ascending.
     pub vertices: Vec<usize>,
-    /// The tangents of corners without other mistakes, in the convention in which they are computed, with
-    /// those of the method at these vertices.
+    /// The tangents of corners without other mistakes, in the convention in which they are computed, with the
+    /// method's tangents at these vertices.
     pub replaced: Vec<[f32; 4]>,
 }
 
@@ -109,9 +109,9 @@ fn angles(facts: &SurfaceFacts<'_>, of_corners: &[[f32; 4]], made: &[[f32; 4]]) 
     Some(angles)
 }
 
-/// The tangents of corners as methods compute them, without what other rules name: signs that are none, and
-/// all where some are flipped, become those of MikkTSpace, negated directions are turned back, and single
-/// rotated ones become those of MikkTSpace. None where there are no tangents or none can be computed.
+/// The tangents of corners as methods compute them, without the mistakes that other rules name. Invalid
+/// signs, and all signs where some are flipped, become MikkTSpace's; negated directions are negated again;
+/// single rotated tangents become MikkTSpace's. None where there are no tangents or none can be computed.
 pub fn tangents_without_other_mistakes(facts: &SurfaceFacts<'_>) -> Option<Vec<[f32; 4]>> {
     let surface = facts.surface;
     let of_vertex = surface.tangents.as_ref()?;

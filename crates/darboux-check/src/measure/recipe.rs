@@ -31,14 +31,14 @@ pub struct Far {
     /// In percent of all corners.
     pub percent: f64,
     /// Their area by the angle, in the units of the positions: a right angle counts whole.
-    pub spoiled: f64,
+    pub damaged_area: f64,
 }
 
 /// The recipes of a surface.
 pub struct Recipes {
     /// The recipe of all tangents, or of those that are not outliers.
     pub of_all: Option<Recognised>,
-    /// The tangents that are not those of the method that made the others.
+    /// The tangents that are far from the method that made the others.
     pub outliers: Option<Outliers>,
 }
 
@@ -94,7 +94,7 @@ impl Recipes {
             dot(cross(normals[vertex], expected), tangent).atan2(dot(expected, tangent)).to_degrees().abs()
         };
         let is_counted = |vertex: usize| has_length(tangents[vertex]) && !is_other[vertex];
-        let (mut corners, mut far, mut spoiled) = (0usize, 0usize, 0.0);
+        let (mut corners, mut far, mut damaged_area) = (0usize, 0usize, 0.0);
         for (triangle, expected) in surface.triangles().zip(expected.as_chunks::<3>().0) {
             if !is_measured(surface, uvs, triangle) {
                 continue;
@@ -107,11 +107,11 @@ impl Recipes {
                 if angle > FAR {
                     far += 1;
                     let area = area_of(triangle.map(|vertex| surface.positions[vertex]));
-                    spoiled += area / 3.0 * (angle / 90.0).min(1.0);
+                    damaged_area += area / 3.0 * (angle / 90.0).min(1.0);
                 }
             }
         }
-        Far { percent: 100.0 * far as f64 / corners.max(1) as f64, spoiled }
+        Far { percent: 100.0 * far as f64 / corners.max(1) as f64, damaged_area }
     }
 }
 
@@ -155,7 +155,7 @@ fn recognise_on(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Option<Recognised> {
     let unusable = tangents.iter().filter(|tangent| !has_length(**tangent)).count();
     let judged = |mut found: RecipeMatch| {
         found.corners -= if found.corners == all_corners { unusable } else { 0 };
-        // A direction that is too short to be used may still be that of the recipe.
+        // A direction that is too short to be used may still be the recipe's.
         found.close = found.close.min(found.corners);
         found
     };

@@ -23,8 +23,8 @@ pub struct Reordered {
 const MIN_MEAN: f32 = 0.6;
 
 impl Reordered {
-    /// None where the vectors point along z, or where most of them do not have length 1. `judgement`: that on
-    /// red, green and blue.
+    /// None where the vectors point along z, or where most of them do not have length 1. `judgement`: on red,
+    /// green and blue.
     pub fn of(image: &RgbaImage, judgement: &MapJudgement) -> Option<Self> {
         let points_along = |channel: usize| {
             let mean = judgement.mean[channel];
@@ -49,7 +49,7 @@ impl Reordered {
     }
 }
 
-/// Whether the derivatives of x and y in such channels are those of a surface.
+/// Whether the derivatives of x and y in such channels belong to a surface.
 fn shows_slopes(image: &RgbaImage, [x, y, _]: [usize; 3]) -> bool {
     let size = [image.width, image.height].map(|side| side as usize);
     let judgement =

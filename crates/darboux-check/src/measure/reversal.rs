@@ -57,11 +57,11 @@ pub enum Reversal {
     Normals,
     /// The normals: the surface is open, and its tangents contradict them.
     NormalsByTangents,
-    /// Nothing tells, and why.
+    /// Undecided, and why.
     Unknown(Undecided),
 }
 
-/// Why nothing tells whether faces or normals are reversed.
+/// Why it is undecided whether faces or normals are reversed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Undecided {
     /// Only a part of the surface is reversed.

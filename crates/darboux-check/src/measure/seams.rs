@@ -3,10 +3,10 @@
 //! At a seam the surface goes on, and the map does not: its two sides lie in different charts, turned in
 //! different ways. In a map that was baked for this layout, the lean of the normals in space is nearly the
 //! same on both sides, or, where the seam lies on an edge that the mesh rounds and the map makes sharp,
-//! nearly the opposite. In another map it has nothing to do with it. The correlation of the two sides, over
-//! all seams of smooth normals, is compared with that of the same map moved by other offsets, which has the
-//! same details, the same repetitions and the same shared UVs: a null from the data. Points that read the
-//! same two texels count once.
+//! nearly the opposite. In another map the two leans have nothing to do with each other. The correlation of
+//! the two sides, over all seams of smooth normals, is compared with the correlation in the same map moved by
+//! other offsets, which has the same details, the same repetitions and the same shared UVs: a null from the
+//! data. Points that read the same two texels count once.
 //!
 //! The map is also read as if its layout were mirrored or turned by 180 degrees. If it fits so, and not as it
 //! is, the UVs or the image were turned.
@@ -50,7 +50,7 @@ const LAYOUTS: [Layout; 9] = [
 pub struct SeamFit {
     /// The correlation of both sides, from -1 to 1.
     pub correlation: f64,
-    /// By how many standard deviations it differs from that of the map at other offsets.
+    /// By how many standard deviations the correlation differs from the map's at other offsets.
     pub z_score: f64,
 }
 
@@ -153,8 +153,8 @@ impl SeamFit {
         let count = moved.len() as f64;
         let mean = moved.iter().sum::<f64>() / count;
         let variance = moved.iter().map(|other| (other - mean).powi(2)).sum::<f64>() / (count - 1.0);
-        // A map whose copies all agree alike has no null; the root of the number of points is that of
-        // independent ones.
+        // A map whose copies all agree alike has no null; then the standard deviation is that of independent
+        // points.
         let deviation = variance.sqrt().max(1.0 / (points.len() as f64).sqrt());
         (moved.len() > OFFSETS / 2).then(|| Self { correlation, z_score: (correlation - mean) / deviation })
     }
@@ -198,7 +198,7 @@ fn lean(side: &Side, image: &RgbaImage, layout: Layout, offset: [usize; 2]) -> O
     let (x, y) = match layout {
         Layout::Same | Layout::TurnedImage(_) => (x, y),
         Layout::TurnedUvs([u, v]) => (sign(u) * x, sign(v) * y),
-        // The directions of red and green of the bake, in those of the file.
+        // The bake's directions of red and green, in the file's directions.
         Layout::QuarterTurnedUvs { was_back } => (sign(was_back) * y, sign(!was_back) * x),
     };
     Some([0, 1, 2].map(|i| x * side.tangent[i] + y * side.bitangent[i]))

@@ -53,8 +53,8 @@ const JPEG_SIDE: usize = 8;
 const TEXTURE_BLOCK_SIDE: usize = 4;
 
 impl Storage {
-    /// `file`: the bytes that the image was decoded from. KTX 2 files have blocks of 4 x 4 texels, other
-    /// files those of JPEG, if any.
+    /// `file`: the bytes that the image was decoded from. KTX 2 files have blocks of 4 x 4 texels; other
+    /// files have JPEG's blocks or none.
     pub fn of(image: &RgbaImage, file: &[u8]) -> Self {
         let is_ktx = file.starts_with(b"\xABKTX 20\xBB");
         let side = if is_ktx { TEXTURE_BLOCK_SIDE } else { JPEG_SIDE };
@@ -85,8 +85,8 @@ fn squared_step(a: &[u8; 4], b: &[u8; 4]) -> u64 {
 const MIN_CHANGES: usize = 8;
 
 impl Enlargement {
-    /// The greatest common divisor of all columns that differ from the one before is the factor of the width,
-    /// and that of rows the factor of the height.
+    /// The greatest common divisor of all columns that differ from the column before is the factor of the
+    /// width, and the greatest common divisor of such rows is the factor of the height.
     fn of(image: &RgbaImage) -> Option<Self> {
         let width = image.width as usize;
         let mut differs = vec![false; width];

@@ -1,10 +1,10 @@
-//! Finds single vertices whose tangents point against u or along v, where those of the other vertices are
+//! Finds single vertices whose tangents point against u or along v, where the tangents of other vertices are
 //! right.
 //!
 //! All methods sum the u directions of the triangles around a vertex with positive weights. So a tangent that
 //! points against all of them is wrong, whatever the method. Where these directions spread over more than a
-//! right angle, only the method tells: if the other tangents are MikkTSpace's, one that points against
-//! MikkTSpace's is wrong, too, and so is one that is turned by a right angle.
+//! right angle, only the method decides: if the other tangents are MikkTSpace's, a tangent that points
+//! against MikkTSpace's is wrong, too, and so is a tangent that is rotated by a right angle.
 //!
 //! Rounding the UVs, as compression does, can flip the u direction of a triangle that is thin in UV space.
 //! With such triangles around it, a vertex is judged only where the other triangles outweigh them in
@@ -17,9 +17,9 @@ use crate::surface::{Surface, cross, dot, indices_where, length, sub, uv_area, x
 /// The vertices whose tangents are turned, ascending.
 #[derive(Default)]
 pub struct Turned {
-    /// Those against u.
+    /// The vertices whose tangents point against u.
     pub negated: Vec<usize>,
-    /// Those along v.
+    /// The vertices whose tangents point along v.
     pub rotated: Vec<usize>,
 }
 

@@ -8,9 +8,9 @@
 //! where e1 and e2 are the edges from the first corner, A is the area, and k1 and k2 are the steps of v along
 //! these edges.
 //!
-//! UVs can lie on a grid by design, as those of a sphere of 32 rings do, and then nothing was rounded. Two
-//! triangles at an edge tell: laid flat, the v of one triangle predicts that of the fourth corner. By design
-//! the prediction is right, up to what the surface bends and the layout stretches. Errors of rounding, each
+//! UVs can lie on a grid by design, as on a sphere of 32 rings, and then nothing was rounded. Two triangles
+//! at an edge decide: laid flat, the v of one triangle predicts the v of the fourth corner. By design the
+//! prediction is right, up to what the surface bends and the layout stretches. Errors of rounding, each
 //! uniform in half a step to both sides, have a mean square of (1 + a^2 + b^2 + c^2) / 12 steps, where a, b
 //! and c are the weights of the three corners in the prediction. Where the errors are of another size,
 //! rounding is not what turns the tangents.
@@ -35,7 +35,7 @@ pub struct UvRounding {
     /// What half a step turns the tangents by, in degrees: the value that [`MIN_SHARE`] of the surface's
     /// area reaches.
     pub degrees: f64,
-    /// The root mean square error of v against what the neighbours predict, over that of rounding.
+    /// The root mean square error of v against the neighbours' prediction, divided by the error of rounding.
     pub error: f64,
 }
 
@@ -43,7 +43,7 @@ pub struct UvRounding {
 /// degrees that are smaller than two texels of a map of 1024 x 1024 texels.
 const MAX_STEPS: usize = 4096;
 
-/// The most values of v that are looked at: those of a grid, each with a few neighbours that arithmetic made.
+/// The most values of v that are looked at: a grid's values, each with a few neighbours that arithmetic made.
 const MAX_VALUES: usize = 4 * MAX_STEPS;
 
 /// The fewest values of v that show a grid, and the fewest pairs of triangles that show rounding.
@@ -57,11 +57,11 @@ const MIN_SHARE: f64 = 0.1;
 /// all or nearly all do.
 const MAX_EQUAL: f64 = 0.97;
 
-/// The errors, over those of rounding, that are taken for rounding.
+/// The errors, divided by the error of rounding, that are taken for rounding.
 const ERRORS: std::ops::RangeInclusive<f64> = 0.6..=1.4;
 
-/// The largest square of an error, over the mean one of rounding, that counts whole: a larger one is that of
-/// a crease or of a layout that stretches.
+/// The largest square of an error, divided by the mean square of rounding, that counts whole: larger squares
+/// come from a crease or from a stretched layout.
 const MAX_SQUARE: f64 = 4.0;
 
 impl UvRounding {
@@ -168,8 +168,8 @@ struct Pair {
     facing: [usize; 2],
 }
 
-/// The root mean square error of v against what the neighbours predict, over that of rounding; none where too
-/// few triangles have neighbours, or their edges have the regular steps of a design.
+/// The root mean square error of v against the neighbours' prediction, divided by the error of rounding; none
+/// where too few triangles have neighbours, or their edges have the regular steps of a design.
 fn error(surface: &Surface, uvs: &[[f32; 2]], grid: &Grid) -> Option<f64> {
     let pairs = pairs(surface, uvs);
     let mut count_of_steps: BTreeMap<u32, usize> = BTreeMap::new();

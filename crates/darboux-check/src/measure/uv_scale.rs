@@ -11,7 +11,7 @@ use crate::indices::Indices;
 use crate::model_area::area_of;
 use crate::surface::{Surface, dot, sub, uv_area};
 
-/// Faces whose UVs differ from those of the rest.
+/// Faces whose UVs differ from the UVs of the other faces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outliers {
     /// The numbers of the triangles, ascending.
@@ -92,8 +92,8 @@ impl Face {
         let (uu, uv, vv) = (product(along_u, along_u), product(along_u, along_v), product(along_v, along_v));
         let (sum, difference) = (uu + vv, (uu - vv).hypot(2.0 * uv));
         let (large, small) = ((sum + difference) / 2.0, (sum - difference) / 2.0);
-        // The product of the squared singular values is that of the areas, which loses fewer digits than the
-        // difference above.
+        // The product of the squared singular values follows from the areas, which loses fewer digits than
+        // the difference above.
         let exact = (2.0 * area * twice_uv_area.abs()).powi(2) / large;
         let small = if small > 1e-6 * large { small } else { exact };
         let (stretch, length) = ((large / small).sqrt(), (2.0 * area / twice_uv_area.abs()).sqrt());

@@ -48,8 +48,8 @@ pub fn fix_map(
     fix_checked(name, file, check(file), &check, loading, options)
 }
 
-/// As [`fix_map`], for the normal map of a model, which is not changed. Its findings are not among those of
-/// the result.
+/// As [`fix_map`], for the normal map of a model, which is not changed. The result has no findings of the
+/// model.
 pub fn fix_map_on_model(
     name: &str,
     file: &[u8],
@@ -243,7 +243,7 @@ fn is_new_error(left: &Defect, known: &[Defect]) -> bool {
     left.severity == Severity::Error && !known.iter().any(|known| known.is_same(left))
 }
 
-/// The texels of a file; those of a JPEG and a TGA with 8 bits.
+/// The texels of a file. A JPEG and a TGA have 8 bits.
 fn open(name: &str, file: &[u8], loading: &LoadOptions) -> Result<PngImage, Error> {
     if PngImage::is_png(file) {
         return PngImage::from_bytes(name, file.to_vec(), loading);

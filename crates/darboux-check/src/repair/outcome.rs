@@ -99,7 +99,7 @@ impl FixedFinding {
         Self { finding: words::of_group(defects), repaired: true, change, was_fixable }
     }
 
-    /// A defect that is still there; `reason` is that of one that could have been repaired.
+    /// A defect that is still there. `reason`: why a defect that could have been repaired is left.
     pub(super) fn left(defect: Defect, reason: Obstacle) -> Self {
         let was_fixable = defect.is_fixable();
         let finding = words::finding(defect.with_obstacle(Some(reason)));
@@ -148,7 +148,7 @@ pub fn of_both(
     followed.chain(new).collect()
 }
 
-/// The outcomes, of which those of defects that are one finding become one: repaired where all are.
+/// The outcomes. Defects that are one finding have one outcome: repaired where all are repaired.
 pub fn joined(outcomes: Vec<FixedFinding>) -> Vec<FixedFinding> {
     let joint = |fixed: &FixedFinding| fixed.finding.defects.first().and_then(Defect::joint);
     words::grouped(outcomes, joint).into_iter().map(one).collect()

@@ -143,7 +143,7 @@ fn grouped<G: Ord>(defects: &[Defect], group: impl Fn(&Defect) -> Option<G>) -> 
     groups
 }
 
-/// The images of the normal maps of a primitive, those of its variants included.
+/// The images of the normal maps of a primitive and its variants.
 fn normal_maps_of(document: &Document, all: &[Material], (mesh, primitive): Key) -> BTreeSet<usize> {
     let materials = document.meshes()[mesh].primitives[primitive].materials();
     let used = materials.iter().filter_map(|&material| all.get(material));

@@ -66,7 +66,7 @@ pub enum Flip {
 pub struct WrongTangents {
     /// The codes that are repaired.
     pub codes: BTreeSet<Code>,
-    /// The vertices whose tangents lean, are not those of the method that made the others, or are rotated.
+    /// The vertices whose tangents lean, are outliers, or are rotated.
     pub leaning: Indices,
     pub outliers: Indices,
     pub rotated: Indices,
@@ -75,7 +75,7 @@ pub struct WrongTangents {
     /// The triangles with both signs, and those whose signs are all flipped.
     pub mixed: Indices,
     pub flipped: Indices,
-    /// Whether all signs of the surface are flipped, or those of most triangles.
+    /// Whether the signs of all or of most triangles of the surface are flipped.
     pub are_most_flipped: bool,
     pub reversal: Option<Reversal>,
 }

@@ -187,8 +187,8 @@ impl Work<'_> {
     }
 
     /// Whether fewer defects are to be repaired than before, or as many on fewer vertices or triangles. With
-    /// another method than MikkTSpace, tangents of another recipe may also become those of the method
-    /// that was asked for.
+    /// another method than MikkTSpace, tangents of another recipe may also become tangents of the chosen
+    /// method.
     fn have_shrunk(&self, before: &[&Defect], after: &[&Defect]) -> bool {
         let size = |defects: &[&Defect]| {
             let wanted: Vec<&&Defect> =
@@ -209,9 +209,10 @@ impl Work<'_> {
         }
         let is_same = |known: &&&Defect| known.code() == left.code();
         // Beside larger ones it was no error, and these are gone.
-        let spoils_no_more =
-            |known: &&Defect| left.spoiled.zip(known.spoiled).is_some_and(|(left, known)| left <= known);
-        if before.iter().filter(is_same).any(spoils_no_more) {
+        let damages_no_more = |known: &&Defect| {
+            left.damaged_percent.zip(known.damaged_percent).is_some_and(|(left, known)| left <= known)
+        };
+        if before.iter().filter(is_same).any(damages_no_more) {
             return false;
         }
         let known = before.iter().filter(is_same).map(|known| known.severity).max();
@@ -247,7 +248,7 @@ impl Work<'_> {
     }
 }
 
-/// The defects by their primitives; those of others have none.
+/// The defects by their primitives; other defects have none.
 fn by_place(defects: &[Defect]) -> BTreeMap<Option<Key>, Vec<&Defect>> {
     let mut places: BTreeMap<Option<Key>, Vec<&Defect>> = BTreeMap::new();
     for defect in defects {

@@ -299,7 +299,7 @@ fn negative_z(map: &Map) -> Option<Defect> {
     (found.percent > MAX_PERCENT_BELOW).then(|| Defect::new(MapFault::NegativeZ(found)))
 }
 
-/// Whether a code is about that of a texel that does not lean.
+/// Whether a code is near the code of a texel that does not lean.
 fn is_near_zero(code: &u8) -> bool {
     (120..=136).contains(code)
 }

@@ -1,13 +1,13 @@
 //! Rules about normals.
 
 use super::rule::SurfaceRule;
+use crate::damage::NO_LENGTH;
 use crate::defect::{Defect, NormalFault};
 use crate::facts::SurfaceFacts;
 use crate::indices::Part;
 use crate::measure::reversed::Reversed;
 use crate::measure::values::{is_finite, is_unit};
 use crate::severity::Severity;
-use crate::spoiled::NO_LENGTH;
 use crate::surface::length;
 
 pub const RULES: &[SurfaceRule] = &[missing, not_finite, not_unit, other_axes, against_winding];

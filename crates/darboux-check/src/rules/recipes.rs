@@ -15,7 +15,7 @@ use crate::surface::Surface;
 pub const RULES: &[SurfaceRule] = &[other_recipe];
 
 /// The share of corners far from MikkTSpace, in percent, above which tangents of no known method are an
-/// error where they spoil enough of the model.
+/// error where they damage enough of the model.
 const MAX_PERCENT_FAR: f64 = 1.0;
 
 /// The largest angle to MikkTSpace in degrees that cannot be seen.

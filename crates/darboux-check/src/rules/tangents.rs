@@ -1,6 +1,7 @@
 //! Rules about tangents: values, signs and directions.
 
 use super::rule::SurfaceRule;
+use crate::damage::SEEN;
 use crate::defect::{Defect, TangentDifference, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::indices::Part;
@@ -9,7 +10,6 @@ use crate::measure::leaning::leaning;
 use crate::measure::reversal::Reversal;
 use crate::measure::values::{has_length, is_finite, is_sign, is_unit};
 use crate::severity::Severity;
-use crate::spoiled::SEEN;
 use crate::surface::{Surface, indices_where, xyz};
 
 pub const RULES: &[SurfaceRule] = &[
@@ -100,8 +100,7 @@ fn sign_mixed(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     part.map(TangentFault::SignMixed).map(Defect::new).into_iter().collect()
 }
 
-/// The rules that one measurement decides: at most one about all directions, or a part of them, and one about
-/// signs is true.
+/// The rules that one measurement decides: at most one rule about directions and one about signs applies.
 fn direction_or_sign(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     facts.fits.iter().filter_map(|fit| different(facts, fit)).collect()
 }

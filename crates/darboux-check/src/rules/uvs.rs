@@ -67,8 +67,8 @@ fn degenerate(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
 /// three degrees or more to the side.
 const WARNED_TURN: f64 = 15.0;
 
-/// Faces whose UVs are unlike those of the others. The poles of every sphere with rings are so: it is worth
-/// knowing, and often meant.
+/// Faces whose UVs are unlike the UVs of the other faces. The poles of every sphere with rings are so: it is
+/// worth knowing, and often meant.
 fn scale(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let Some(uvs) = needed_uvs(facts.surface) else { return Vec::new() };
     let UvScale { stretched, coarse } = UvScale::of(facts.surface, uvs);
@@ -76,8 +76,8 @@ fn scale(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     faults.map(Defect::new).collect()
 }
 
-/// UVs on a grid that turns tangents. Those of the file that are not MikkTSpace's for these UVs were made
-/// before the rounding, or in another way.
+/// UVs on a grid that turns tangents. Tangents of the file that are not MikkTSpace's for these UVs were
+/// computed before the rounding, or in another way.
 fn rounded(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
     let Some(uvs) = needed_uvs(facts.surface) else { return Vec::new() };
     let Some(found) = UvRounding::of(facts.surface, uvs) else { return Vec::new() };

@@ -43,7 +43,7 @@ fn not_finite(part: &Part, [one, many]: [&str; 2]) -> Said {
     Said::of_vertices(counted(part.len(), one, many), part)
 }
 
-/// What is reversed and why, as a clause; none where nothing tells.
+/// What is reversed and why, as a clause; none where it is undecided.
 fn explanation(reversal: Reversal) -> Option<&'static str> {
     match reversal {
         Reversal::Faces => Some("its faces are reversed, because they enclose a negative volume"),

@@ -9,7 +9,7 @@ use crate::indices::Part;
 pub struct Said {
     pub text: String,
     pub evidence: Vec<Evidence>,
-    /// Another cure than that of the code.
+    /// Another cure than the code's.
     pub cure: Option<Cow<'static, str>>,
 }
 
@@ -24,7 +24,7 @@ impl Said {
     }
 
     /// `percent`: of the area of the model.
-    pub fn with_spoiled(self, percent: Option<f64>) -> Self {
+    pub fn with_damaged_percent(self, percent: Option<f64>) -> Self {
         match percent {
             Some(percent) => {
                 self.with("part of the model's area that looks wrong, by the angle", percent, "%")

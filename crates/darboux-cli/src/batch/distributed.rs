@@ -126,8 +126,8 @@ impl DistributedBatch {
     }
 }
 
-/// Processes the file of a task, or bakes the entry of a job. The result of one that fails holds the reason.
-/// Errors: the task was not made by [`DistributedBatch::open`] or by that of a job.
+/// Processes the file of a task, or bakes the entry of a job. The result of a failed task holds the reason.
+/// Errors: the task was made neither by [`DistributedBatch::open`] nor by a job.
 pub fn run_task(task: &str) -> Result<String, String> {
     match parse_task(task)? {
         AnyTask::Tangents(task) => run_tangents_task(task),
@@ -137,7 +137,7 @@ pub fn run_task(task: &str) -> Result<String, String> {
 }
 
 /// The result of a task that could not be run, for example because its worker was lost at every attempt.
-/// Errors: those of [`run_task`].
+/// Errors: as [`run_task`].
 pub fn failed_task(task: &str, reason: &str) -> Result<String, String> {
     match parse_task(task)? {
         AnyTask::Tangents(task) => failed_tangents_task(&task, reason),

@@ -1,10 +1,10 @@
 //! The journal of `--resume`: a file in the output folder with one line of JSON per run and one per finished
 //! output.
 //!
-//! An output is up to date if its input's content, the options and the version are those of its record, and
-//! every file that was written with it still has the recorded hash. A broken line, as a killed process may
-//! leave it, is ignored: its file is processed again. Temporary files carry the identifier of their run, so
-//! that those of killed runs are recognised and removed; no other file is removed. All paths are relative to
+//! An output is up to date if its input's content, the options and the version equal its record, and every
+//! file that was written with it still has the recorded hash. A broken line, as a killed process may leave
+//! it, is ignored: its file is processed again. Temporary files carry the identifier of their run, so that
+//! the files of killed runs are recognised and removed; no other file is removed. All paths are relative to
 //! the folder, so that the folder can be moved. An output outside the folder (behind a link) is not recorded
 //! and is processed again each time.
 //!

@@ -138,7 +138,7 @@ fn nothing_to_compare(documents: [&Document; 2]) -> String {
     }
 }
 
-/// Replaces all tangents by those of a method.
+/// Replaces all tangents by the tangents of a method.
 fn give_tangents(
     document: &mut Document,
     method: darboux::Method,

@@ -151,7 +151,7 @@ impl FileCommand for TangentsArguments {
 pub struct TangentsCounts {
     /// Of files that were written.
     written: usize,
-    /// Those whose tangents would have been the same, of files that were not changed.
+    /// The primitives of unchanged files whose tangents would have been the same.
     unchanged: usize,
     kept: usize,
     skipped: usize,

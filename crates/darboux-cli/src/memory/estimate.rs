@@ -63,13 +63,13 @@ pub fn of_stream() -> u64 {
     limit_of(0)
 }
 
-/// What the head of a file tells.
+/// What the head of a file shows.
 #[derive(Default)]
 struct Head {
     /// The bytes of its JSON.
     json: u64,
     buffers: BufferSizes,
-    /// What it needs beyond its bytes and those of its buffers; none if the head does not tell.
+    /// The memory besides the bytes of the file and of its buffers; none if the head does not show it.
     beside: Option<u64>,
 }
 

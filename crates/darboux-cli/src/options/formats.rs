@@ -3,7 +3,7 @@
 use darboux_io::FileKind;
 
 /// A help text in which `{models}` stands for the endings of models that this build reads, and `{written}`
-/// for those of models that it writes.
+/// for the endings of models that it writes.
 pub fn with_endings(text: &str) -> String {
     text.replace("{models}", &FileKind::model_endings()).replace("{written}", &FileKind::written_endings())
 }

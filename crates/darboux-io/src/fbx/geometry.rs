@@ -36,7 +36,7 @@ pub struct Losses {
 pub fn fill(mesh: &Mesh, to: &mut SourceMesh) -> Losses {
     let faces = || mesh.faces.iter().enumerate().filter(|(_, face)| face.num_indices >= 3);
     let sizes: Vec<u32> = faces().map(|(_, face)| face.num_indices).collect();
-    // The places of the corners in ufbx's lists, without those of lines and points.
+    // The positions of the faces' corners in ufbx's lists, without lines and points.
     let places: Vec<usize> = faces()
         .flat_map(|(_, face)| (0..face.num_indices as usize).map(move |i| face.index_begin as usize + i))
         .collect();

@@ -77,8 +77,9 @@ fn ends_early(bytes: &[u8]) -> bool {
     }
 }
 
-/// Whether a top-level node of a binary file ends beyond the file. After the header of 27 bytes, whose last
-/// four are the version, each node begins with the offset of its end; a node of zeros ends the list.
+/// Whether a top-level node of a binary file ends after the end of the file. After the header of 27 bytes,
+/// whose last four are the version, each node begins with the offset of its end; a node of zeros ends the
+/// list.
 fn binary_ends_early(bytes: &[u8]) -> bool {
     const HEADER: usize = 27;
     let number = |place: usize, size: usize| {

@@ -218,8 +218,8 @@ impl<'a> MaterialReader<'a> {
         place
     }
 
-    /// The bytes within the FBX, or those of the file that it names: relative to the model, then as the
-    /// exporter's machine had it.
+    /// The bytes within the FBX, or of the file that it names: relative to the model, then as the exporter's
+    /// machine had it.
     fn read_image(&mut self, file: &TextureFile) -> Option<SourceImage> {
         let paths = [&*file.relative_filename, &*file.absolute_filename, &*file.filename];
         let mut references = paths.into_iter().filter(|path| !path.is_empty());
@@ -250,8 +250,8 @@ impl<'a> MaterialReader<'a> {
     }
 }
 
-/// The place of the UV set that each texture of a material names among these, which are those of a mesh; that
-/// of the first where there is none.
+/// The index, among the UV sets of a mesh, of the set that each texture of a material names; 0 where the mesh
+/// has none of this name.
 pub fn places_of_uv_sets(material: &ufbx::Material, names: &[String]) -> Vec<usize> {
     let place = |texture: &Texture| place_of_uv_set(texture, names).unwrap_or(0);
     material.textures.iter().map(|found| place(&found.texture)).collect()

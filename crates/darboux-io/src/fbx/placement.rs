@@ -71,7 +71,7 @@ fn is_finite((offset, rotation, scale): &Transform) -> bool {
     [*rotation].iter().chain(offset).chain(scale).all(|x| x.is_finite())
 }
 
-/// The properties of a texture that place it. Those about the third axis mean nothing.
+/// The properties of a texture that place it. Properties of the third axis mean nothing.
 #[derive(Clone, Copy, Debug)]
 struct Values {
     translation: [f64; 2],

@@ -89,7 +89,7 @@ fn axes(scene: &Scene) -> Option<Axes> {
         Some(if is_opposite { against } else { along })
     };
     let found = &scene.settings.axes;
-    // ufbx's right is that of a viewer in front of the model, ours that of the model.
+    // ufbx's right is the right of a viewer in front of the model; ours is the model's right.
     Axes::new(axis(found.right, true)?, axis(found.up, false)?, axis(found.front, false)?)
 }
 

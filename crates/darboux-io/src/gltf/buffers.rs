@@ -1,4 +1,4 @@
-//! The bytes of buffers and images: the binary chunk of a GLB, files, `data:` URIs, and those of edits.
+//! The bytes of buffers and images: the binary chunk of a GLB, files, `data:` URIs, and new bytes of edits.
 
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -36,7 +36,7 @@ pub struct Unpaired {
 pub struct PairedCorners<'a> {
     /// The vertex of each corner in the first document. It is a vertex of all arrays of that document.
     pub vertices: Vec<u32>,
-    /// The vertex of each corner in the second document. `None` if all are those of the first.
+    /// The vertex of each corner in the second document. `None` if all are as in the first document.
     pub other_vertices: Option<Vec<u32>>,
     /// The positions of the first document's vertices; empty if it has none.
     pub positions: Cow<'a, [[f32; 3]]>,

@@ -180,8 +180,8 @@ impl Document {
         range.ok_or_else(|| outside_buffer(offset, length, bytes.len(), &at()))
     }
 
-    /// The bytes of a buffer of the input; none for that of new bytes. `at` is the JSON path that refers to
-    /// it.
+    /// The bytes of a buffer of the input; none for the buffer of new bytes. `at` is the JSON path that
+    /// refers to it.
     pub(super) fn buffer(&self, index: usize, at: impl Fn() -> String) -> Result<&[u8], ContentError> {
         let (Some(buffer), Some(source)) = (self.root.buffers.get(index), self.buffers.get(index)) else {
             let problem = format!("buffer {index} does not exist: there are {}", self.root.buffers.len());

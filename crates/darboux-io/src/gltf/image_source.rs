@@ -1,4 +1,4 @@
-//! [`ImageSource`]: tells images with the same bytes.
+//! [`ImageSource`]: recognises images with the same bytes.
 
 use std::path::PathBuf;
 

@@ -11,8 +11,8 @@ use super::materials::Texture;
 const NORMAL_MAPS: [&str; 2] = ["normalTexture", "clearcoatNormalTexture"];
 
 impl Document {
-    /// The images whose texels cannot be changed as those of a normal map, each with the reason, as a clause
-    /// whose subject is the image.
+    /// The images whose texels cannot be changed as a normal map, each with the reason, as a clause whose
+    /// subject is the image.
     ///
     /// They cannot where a material also uses the image as another texture, and where its texture refers to
     /// the same picture in several formats.

@@ -63,7 +63,7 @@ enum BufferContent {
     Kept,
     /// The binary output with this index.
     Binary(usize),
-    /// A `data:` URI of the bytes of a buffer, which begin with those of the source.
+    /// A `data:` URI of the bytes of a buffer, which begin with the bytes of the source.
     DataUri { of: usize },
     /// One byte, which keeps the JSON of a buffer whose bytes are in another one over the same file.
     Placeholder,

@@ -243,9 +243,9 @@ impl Document {
         let library_name = portable(&library).to_string_lossy().into_owned();
         let mut content = exchange::content(self, &surfaces, format, &library_name, &textures)?;
         if let Some(text) = &content.library {
-            let placed = names.place_content(&library, staging, &[Segment::Borrowed(text.as_bytes())])?;
-            if placed != portable(&library) {
-                content = exchange::content(self, &surfaces, format, &placed.to_string_lossy(), &textures)?;
+            let path = names.place_content(&library, staging, &[Segment::Borrowed(text.as_bytes())])?;
+            if path != portable(&library) {
+                content = exchange::content(self, &surfaces, format, &path.to_string_lossy(), &textures)?;
             }
         }
         Ok(content.segments)
@@ -259,24 +259,24 @@ impl Document {
         staging: &mut Staging,
     ) -> Result<Vec<Option<String>>, Error> {
         let mut textures = vec![None; self.root.images.len()];
-        let mut place_of_source: HashMap<ImageSource, PathBuf> = HashMap::new();
+        let mut path_of_source: HashMap<ImageSource, PathBuf> = HashMap::new();
         for image in exchange::images_of_library(self)? {
             let source = self.image_source(image);
-            let placed = match source.as_ref().and_then(|source| place_of_source.get(source)) {
-                Some(placed) => placed.clone(),
+            let path = match source.as_ref().and_then(|source| path_of_source.get(source)) {
+                Some(path) => path.clone(),
                 None => {
                     let Ok(bytes) = self.image_bytes(image) else { continue };
                     let segments = [Segment::Borrowed(&bytes)];
                     names.place_content(&self.image_file_name(image), staging, &segments)?
                 }
             };
-            textures[image] = Some(path_in_library(&placed));
-            place_of_source.extend(source.map(|source| (source, placed)));
+            textures[image] = Some(path_in_library(&path));
+            path_of_source.extend(source.map(|source| (source, path)));
         }
         Ok(textures)
     }
 
-    /// A file name for an image: that of its file, or its name with the ending of its media type.
+    /// A file name for an image: the name of its file, or the image's name with the ending of its media type.
     fn image_file_name(&self, index: usize) -> PathBuf {
         let image = &self.root.images[index];
         let file = image.uri.as_deref().and_then(|uri| match self.resources.resolve(uri) {
@@ -377,7 +377,7 @@ enum Container {
 }
 
 impl Container {
-    /// The container of an output. Errors: its extension is not that of a model.
+    /// The container of an output. Errors: the path does not have the extension of a model.
     fn of(path: &Path) -> Result<Self, Error> {
         Ok(match FileKind::of(path) {
             Some(FileKind::Glb) => Self::Glb,

@@ -137,13 +137,13 @@ impl Document {
     /// outside the scene, missing matrices, nodes with several parents, more than 2^20 instances.
     pub fn mesh_instances(&self) -> Result<MeshInstances, Error> {
         let scenes: Scenes = self.read().map_err(|error| error.in_file(self.name()))?;
-        let nodes = placed_nodes(&scenes).map_err(|error| error.in_file(self.name()))?;
-        let mut placed = MeshInstances { meshes: Vec::new(), skins: vec![Vec::new(); scenes.skins.len()] };
+        let nodes = nodes_of_scene(&scenes).map_err(|error| error.in_file(self.name()))?;
+        let mut instances = MeshInstances { meshes: Vec::new(), skins: vec![Vec::new(); scenes.skins.len()] };
         let weights: Vec<Arc<[f64]>> =
             scenes.meshes.iter().map(|mesh| shared_weights(&mesh.weights)).collect();
         if scenes.nodes.is_empty() {
             let all = weights.iter().cloned().enumerate();
-            placed.meshes.extend(all.map(|(mesh, weights)| MeshInstance {
+            instances.meshes.extend(all.map(|(mesh, weights)| MeshInstance {
                 mesh,
                 node_name: None,
                 matrices: vec![IDENTITY],
@@ -151,19 +151,18 @@ impl Document {
                 skin: None,
             }));
         }
-        let mut places: usize = 0;
+        let mut instance_count: usize = 0;
         for &(index, matrix) in &nodes {
-            let Some(mesh) = self.place_node(&scenes, &weights, index, matrix)? else { continue };
-            places = places.saturating_add(mesh.matrices.len());
-            placed.meshes.push(mesh);
-            if places > MAX_MESH_INSTANCES {
-                let problem =
-                    format!("has meshes at more than {MAX_MESH_INSTANCES} places; remove instances");
+            let Some(mesh) = self.mesh_of_node(&scenes, &weights, index, matrix)? else { continue };
+            instance_count = instance_count.saturating_add(mesh.matrices.len());
+            instances.meshes.push(mesh);
+            if instance_count > MAX_MESH_INSTANCES {
+                let problem = format!("has more than {MAX_MESH_INSTANCES} instances of meshes; remove some");
                 return Err(self.invalid("scene", problem));
             }
         }
         let nodes: HashMap<usize, Matrix> = nodes.into_iter().collect();
-        let used: BTreeSet<usize> = placed.meshes.iter().filter_map(|mesh| mesh.skin).collect();
+        let used: BTreeSet<usize> = instances.meshes.iter().filter_map(|mesh| mesh.skin).collect();
         // Skins with the same matrices follow each other, so that these are read once.
         let mut used: Vec<usize> = used.into_iter().collect();
         used.sort_by_key(|&index| scenes.skins[index].inverse_bind_matrices);
@@ -181,13 +180,13 @@ impl Document {
             }
             let inverses = inverses.as_ref().filter(|_| skin.inverse_bind_matrices.is_some());
             let inverses = inverses.map(|(_, inverses)| &**inverses);
-            placed.skins[index] = self.joints(skin, inverses, &format!("skins[{index}]"), &nodes)?;
+            instances.skins[index] = self.joints(skin, inverses, &format!("skins[{index}]"), &nodes)?;
         }
-        Ok(placed)
+        Ok(instances)
     }
 
     /// The mesh of a node, if it has one, with the node's transform, weights and skin.
-    fn place_node(
+    fn mesh_of_node(
         &self,
         scenes: &Scenes,
         weights: &[Arc<[f64]>],
@@ -267,7 +266,9 @@ impl Document {
 }
 
 /// The nodes of the default scene with their transforms, parents before children.
-fn placed_nodes(Scenes { scene, scenes, nodes, .. }: &Scenes) -> Result<Vec<(usize, Matrix)>, ContentError> {
+fn nodes_of_scene(
+    Scenes { scene, scenes, nodes, .. }: &Scenes,
+) -> Result<Vec<(usize, Matrix)>, ContentError> {
     if nodes.is_empty() {
         return Ok(Vec::new());
     }
@@ -279,22 +280,22 @@ fn placed_nodes(Scenes { scene, scenes, nodes, .. }: &Scenes) -> Result<Vec<(usi
             return Err(ContentError::invalid("scene", format!("{problem}; export the file again")));
         }
     };
-    let mut placed = Vec::new();
-    let mut is_placed = vec![false; nodes.len()];
+    let mut found = Vec::new();
+    let mut is_found = vec![false; nodes.len()];
     let mut left: Vec<(usize, Matrix)> = roots.into_iter().rev().map(|root| (root, IDENTITY)).collect();
     while let Some((index, parent)) = left.pop() {
         let at = || format!("nodes[{index}]");
-        let (Some(node), Some(is_placed)) = (nodes.get(index), is_placed.get_mut(index)) else {
+        let (Some(node), Some(is_found)) = (nodes.get(index), is_found.get_mut(index)) else {
             return Err(ContentError::invalid(at(), "does not exist; export the file again"));
         };
-        if std::mem::replace(is_placed, true) {
+        if std::mem::replace(is_found, true) {
             return Err(ContentError::invalid(at(), "is in the scene twice; export the file again"));
         }
         let matrix = product(parent, node.matrix());
-        placed.push((index, matrix));
+        found.push((index, matrix));
         left.extend(node.children.iter().rev().map(|&child| (child, matrix)));
     }
-    Ok(placed)
+    Ok(found)
 }
 
 /// Weights, or none if all are zero.

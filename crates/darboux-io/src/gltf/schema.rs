@@ -84,7 +84,7 @@ pub struct Primitive {
 }
 
 impl Primitive {
-    /// The materials that it is drawn with: its own first, then those of its variants
+    /// The materials that the primitive is drawn with: its own first, then its variants'
     /// (`KHR_materials_variants`), each once.
     pub fn materials(&self) -> Vec<usize> {
         let variants = self.extensions.variants.iter().flat_map(|variants| &variants.mappings);

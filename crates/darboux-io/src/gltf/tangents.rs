@@ -66,7 +66,7 @@ pub fn add_tangents(
 /// As [`add_tangents`], with a context, and with tangents that `generate` computes, for example on a GPU.
 /// Tangents of morph targets are computed on the CPU.
 ///
-/// Further errors: those of `generate`; the context's token was cancelled.
+/// Further errors: the errors of `generate`; the context's token was cancelled.
 pub fn add_tangents_with(
     document: &mut Document,
     options: &AddTangentsOptions,

@@ -6,8 +6,8 @@ use png::{ColorType, Info};
 /// The bytes of the largest palette.
 const MOST: usize = 3 * 256;
 
-/// Checks the palette of an indexed image (PNG 3, 11.2.2 and 11.3.1.1). Errors: its length is not that of 1
-/// to 256 colours; more of them have an alpha than there are.
+/// Checks the palette of an indexed image (PNG 3, 11.2.2 and 11.3.1.1). Errors: its length is not the length
+/// of 1 to 256 colours; more colours have an alpha than there are.
 pub fn check_palette(info: &Info<'_>) -> Result<(), String> {
     if info.color_type != ColorType::Indexed {
         return Ok(());

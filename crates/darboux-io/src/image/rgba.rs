@@ -56,7 +56,7 @@ impl RgbaImage {
         }
     }
 
-    /// Whether the first bytes of a file are those of a format that is decoded.
+    /// Whether a file begins as a format that is decoded.
     pub fn is_format_known(file: &[u8]) -> bool {
         let is_webp = file.starts_with(b"RIFF") && file.get(8..12) == Some(b"WEBP");
         file.starts_with(&PNG)

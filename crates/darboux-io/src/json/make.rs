@@ -29,7 +29,7 @@ impl From<f64> for Value {
     }
 }
 
-/// As that of `f64`; the shortest text that reads as the same number of 32 bits.
+/// As the conversion of `f64`; the shortest text that reads as the same number of 32 bits.
 impl From<f32> for Value {
     fn from(number: f32) -> Self {
         float(number.is_finite(), number.abs().into(), &number)

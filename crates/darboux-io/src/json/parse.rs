@@ -7,12 +7,12 @@ use crate::memory_limit::Budget;
 /// The deepest nesting of arrays and objects. Deeper JSON could exhaust the stack of a program that walks it.
 const MAX_DEPTH: usize = 100;
 
-/// The memory of a value without its text, and of a member of an object with its value: beside that of the
-/// finished list, that of the one that grew, and for a member that of the index of its key.
+/// The memory of a value without its text, and of a member of an object with its value: in the finished list,
+/// in the list that grew, and for a member in the index of its key.
 const BYTES_PER_VALUE: usize = 96;
 const BYTES_PER_MEMBER: usize = 224;
 
-/// The most steps of a path in a message; those of glTF have fewer.
+/// The most steps of a path in a message; paths of glTF have fewer.
 const LONGEST_PATH: usize = 12;
 
 /// Parses the JSON of a document.

@@ -38,7 +38,7 @@ fn value_at<'a>(value: &'a Value, path: &serde_path_to_error::Path) -> &'a Value
     })
 }
 
-/// What is wrong with a value, as a clause whose subject is its place. `message`: that of serde.
+/// What is wrong with a value, as a clause whose subject is its place. `message`: serde's.
 fn mismatch(found: &Value, message: &str) -> String {
     if let Some(name) = message.strip_prefix("missing field ") {
         return format!("has no {}", name.trim_matches('`'));

@@ -171,7 +171,7 @@ impl<'a> Materials<'a> {
         lost.into_iter().for_each(|what| *self.lost.entry(what.to_owned()).or_default() += 1);
     }
 
-    /// The map of `norm`, or of the bump statements, unless its texels are grey, as those of height maps are.
+    /// The map of `norm`, or of the bump statements, unless its texels are grey, as in height maps.
     fn normal_map(&mut self, library: &str, material: &MtlMaterial) -> Option<NormalMap> {
         if let Some(map) = &material.normal_map {
             let texture = self.texture(library, Some(map))?;

@@ -17,7 +17,8 @@ pub enum VertexProperty {
 /// The properties of a vertex.
 #[derive(Debug)]
 pub struct VertexLayout {
-    /// What each property is. Those that lack a companion, such as `nx` without `ny`, are others.
+    /// What each property is. Properties without their companions, such as `nx` without `ny`, count as
+    /// others.
     pub kinds: Vec<VertexProperty>,
     /// The name of each UV set; empty where the file has one.
     pub uv_sets: Vec<String>,
@@ -82,7 +83,7 @@ pub fn layout(element: &Element) -> Option<VertexLayout> {
     tangents.iter().for_each(|places| set(places, &VertexProperty::Tangent));
     let mut uv_sets = Vec::new();
     for names in &UVS {
-        // With a third component, `tx` and `ty` are those of a vector.
+        // With a third component, `tx` and `ty` belong to a vector.
         let is_vector = names[0] == "tx" && place("tz").is_some();
         if let Some(places) = places(names, place).filter(|_| !is_vector) {
             let uv_set = uv_sets.len();

@@ -1,4 +1,4 @@
-//! The numbers after a header, one after the other; in ASCII, those of a record on one line.
+//! The numbers after a header, one after the other; in ASCII, the numbers of a record are on one line.
 
 use memchr::memchr2;
 
@@ -18,7 +18,7 @@ pub struct Values<'a> {
     pub surplus: Surplus,
 }
 
-/// Values after those of a record, on its line.
+/// Surplus values on the line of a record.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Surplus {
     pub values: usize,

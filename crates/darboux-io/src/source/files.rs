@@ -1,5 +1,5 @@
-//! The files that a model refers to: textures, material libraries. The rules are those of glTF: nothing
-//! outside the model's folder, unless the caller allows it.
+//! The files that a model refers to: textures, material libraries. The rules are glTF's: nothing outside the
+//! model's folder, unless the caller allows it.
 //!
 //! Other formats often hold absolute paths of another machine, or paths of Windows. Such a file is looked up
 //! by the ends of its path and in the usual subfolders. Names may differ from the file's in the case of

@@ -5,8 +5,8 @@ use std::path::Path;
 use super::format::{HEAD, first_word};
 use crate::{FileKind, git_lfs};
 
-/// What is wrong with a file whose content is that of no format that is read: a clause whose subject is the
-/// file, with what to do. `name` is the file's name; its ending says what was meant.
+/// What is wrong with a file whose content has none of the formats that are read: a clause whose subject is
+/// the file, with what to do. `name` is the file's name; its ending says what was meant.
 pub fn problem(bytes: &[u8], name: &str) -> String {
     let kind = FileKind::of(Path::new(name));
     let clause = if bytes.iter().all(u8::is_ascii_whitespace) {
@@ -99,7 +99,7 @@ const STARTS: [(&[u8], &str); 41] = [
     (git_lfs::START, "is a pointer of Git LFS, not the model; run: git lfs pull"),
 ];
 
-/// Containers that several programs use: the name's ending tells them apart.
+/// Containers that several programs use: the name's ending distinguishes them.
 fn by_ending(bytes: &[u8], name: &str) -> Option<&'static str> {
     let ends = |ending: &str| name.to_ascii_lowercase().ends_with(ending);
     if bytes.starts_with(b"PK\x03\x04") {
@@ -129,7 +129,7 @@ fn by_start(bytes: &[u8]) -> Option<&'static str> {
     })
 }
 
-/// The length that the first chunk of a 3DS file states, which is that of the file.
+/// The length that the first chunk of a 3DS file states, which is the length of the file.
 fn length_of_3ds(bytes: &[u8]) -> Option<usize> {
     let length = bytes.get(2..6)?.first_chunk()?;
     usize::try_from(u32::from_le_bytes(*length)).ok()

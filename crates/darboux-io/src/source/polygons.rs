@@ -20,8 +20,8 @@ pub use triangle::Triangle;
 /// visits. A face of ordinary shape takes about a hundred per corner. What is left to cut when they are used
 /// up has [steps of its own](queued_steps), in an order that takes few ([`queued`]).
 ///
-/// They grow with the corners, so that time does, and are those of one face, so that no face changes the
-/// triangles of another. Faces of up to 128 corners do not use them up, whatever their shape is: to find
+/// They grow with the corners, so that time grows as slowly, and count for one face, so that no face changes
+/// the triangles of another. Faces of up to 128 corners do not use them up, whatever their shape is: to find
 /// an ear, each corner is tried at most once, which takes at most 63 steps, and passed over at most once.
 fn rule_steps(corners: usize) -> u64 {
     512 * corners as u64 + (1 << 20)
@@ -98,8 +98,8 @@ impl Cutter {
             };
         };
         let (mut triangles, is_kept) = match self.rule {
-            // Where Blender's triangles fold, as those of many faces that are not flat, its exporters write
-            // them all the same.
+            // Blender's triangles fold on many faces that are not flat, and its exporters write them all the
+            // same.
             PolygonRule::Blender => match alternating::cut(positions, steps) {
                 Some(triangles) => (triangles, true),
                 None => (fan, false),

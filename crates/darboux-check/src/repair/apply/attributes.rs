@@ -21,8 +21,8 @@ pub fn users_of(
     users
 }
 
-/// Checks elements of `N` floats that are to take the place of all those of accessors, each as often as it is
-/// named. Errors: they are more than the memory limit permits.
+/// Checks the size of new elements of `N` floats for accessors, each as often as it is named. Errors: the
+/// elements take more than the memory limit permits.
 pub fn check_rewritten<const N: usize>(
     document: &Document,
     accessors: impl Iterator<Item = usize>,

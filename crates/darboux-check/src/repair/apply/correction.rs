@@ -1,9 +1,9 @@
 //! Corrects the tangents of a surface that findings name one by one, and keeps the bits of all others.
 //!
-//! A tangent without a direction gets that of the recipe that explains the others, or of the method that is
-//! asked for where none does. One of another length, or one that leans, keeps its direction: it gets the bits
-//! of the recipe where that points the same way, and else it is laid into the plane of its normal and made
-//! unit. Signs become those of the UVs.
+//! A tangent without a direction gets the direction of the recipe that explains the other tangents, or, where
+//! no recipe does, of the method that is asked for. A tangent that is not unit or leans keeps its direction:
+//! it gets the recipe's bits where the recipe points the same way; otherwise it is projected into the plane
+//! of its normal and normalised. Signs follow the UVs.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -101,8 +101,7 @@ struct Corrector<'a> {
     tangents: &'a [[f32; 4]],
     wrong: &'a WrongTangents,
     options: &'a FixOptions,
-    /// Per vertex whether its tangent is that of MikkTSpace for a corner without an area, which is no
-    /// evidence.
+    /// Per vertex whether its tangent is MikkTSpace's for a degenerate corner, which is no evidence.
     has_own_tangent: Vec<bool>,
     /// MikkTSpace's tangents of the corners, with the signs that are right here.
     expected: Vec<[f32; 4]>,
@@ -110,7 +109,7 @@ struct Corrector<'a> {
     flips: bool,
     /// Per vertex whether the sign of its first corner should be -1.
     is_first_negative: Vec<bool>,
-    /// Per triangle whether it has an area in UV space, and a side that is not in doubt.
+    /// Per triangle whether it is not UV-degenerate and its side is not in doubt.
     has_reliable_sign: Vec<bool>,
     signs: Vec<VertexSign>,
     /// Per vertex whether a defect that is to be repaired is about its sign.
@@ -265,8 +264,8 @@ impl<'a> Corrector<'a> {
         (rest > 0.1 * length(direction)).then(|| laid.map(|x| (x / rest) as f32))
     }
 
-    /// Gives faces without an area in UV space whose corners have both signs MikkTSpace's tangents, which are
-    /// those of neighbours.
+    /// Gives UV-degenerate faces whose corners have both signs MikkTSpace's tangents, which come from
+    /// neighbours.
     fn unmixed(&self, mut tangent_of_corner: Vec<[f32; 4]>) -> Vec<[f32; 4]> {
         let is_own = |vertex: &usize| self.has_own_tangent[*vertex];
         for (number, triangle) in self.surface.triangles().enumerate() {
@@ -316,7 +315,7 @@ impl<'a> Corrector<'a> {
     fn reference(&self, of_vertex: &[[f32; 4]], directions: &[Direction]) -> Option<Reference> {
         let mesh = self.surface.mesh(self.surface.uv_set)?;
         let (own, generated) = (Convention::GLTF, Convention::GLTF.generated());
-        // The directions decide: all signs are those of MikkTSpace.
+        // The directions decide: all signs are MikkTSpace's.
         let of_corner = |(&vertex, expected): (&u32, &[f32; 4])| {
             let ([x, y, z, _], w) = (of_vertex[vertex as usize], expected[3]);
             own.to(generated).tangent([x, y, z, if self.flips { -w } else { w }])
@@ -324,8 +323,8 @@ impl<'a> Corrector<'a> {
         let tangents: Vec<[f32; 4]> =
             self.surface.vertex_of_corner.iter().zip(&self.expected).map(of_corner).collect();
         let matches = recognise_recipe(&mesh, &tangents).ok()?;
-        // Only tangents that are known can be those of the recipe. Of a large mesh, some recipes are compared
-        // on a sample.
+        // Only tangents that are known can be the recipe's. Of a large mesh, some recipes are compared on a
+        // sample.
         let vertices = self.surface.vertex_of_corner.iter().map(|&vertex| vertex as usize);
         let judged = vertices.filter(|&vertex| self.is_judged(vertex, directions[vertex])).count();
         let scale = tangents.len() as f64 / judged.max(1) as f64;
@@ -389,8 +388,8 @@ impl<'a> Corrector<'a> {
         first
     }
 
-    /// The tangent of a corner by the recipe. A corner without evidence takes that of another one of its
-    /// vertex.
+    /// The tangent of a corner by the recipe. A corner without evidence takes the tangent of another corner
+    /// of its vertex.
     fn made(&self, reference: &Reference, first: &[[Option<usize>; 2]], corner: usize) -> [f32; 4] {
         let [positive, negative] = first[self.surface.vertex_of_corner[corner] as usize];
         let is_negative = self.expected[corner][3] < 0.0;

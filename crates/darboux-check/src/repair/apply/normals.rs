@@ -92,9 +92,9 @@ fn make_unit(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Err
     Ok(())
 }
 
-/// A smooth normal of every vertex of primitives that share their vertices; that of the vertex's own faces
-/// where other faces at the same place turn the smooth one to their back. Vertices without faces get (0, 0,
-/// 1).
+/// A smooth normal of every vertex of primitives that share their vertices; the normal of the vertex's own
+/// faces where other faces at the same position turn the smooth normal to their back. Vertices without faces
+/// get (0, 0, 1).
 fn smooth_normals(
     document: &Document,
     users: &[PrimitiveName],

@@ -21,8 +21,9 @@ use crate::repair::plan::{Kept, WrongTangents};
 const TANGENT: &str = "TANGENT";
 
 /// Corrects tangents that are wrong, and keeps the bits of the others. Vertices are split where their corners
-/// need different tangents; on primitives with morph targets, all tangents are made again then, with those of
-/// the targets. `wrong` and `kept`: per primitive. Returns what was done to the primitives.
+/// need different tangents; on primitives with morph targets, all tangents and all tangent offsets of the
+/// targets are then computed again. `wrong` and `kept`: per primitive. Returns what was done to the
+/// primitives.
 pub fn correct(
     document: &mut Document,
     wrong: &BTreeMap<Key, &WrongTangents>,

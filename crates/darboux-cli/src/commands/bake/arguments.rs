@@ -367,7 +367,7 @@ pub enum MatchChoice {
 pub struct SamplesPerAxis(pub u32);
 
 impl BakeArguments {
-    /// The maps that are baked: those of `--map`, and those that are packed.
+    /// The maps that are baked: the maps of `--map` and the packed ones.
     pub fn baked_maps(&self) -> MapSet {
         let packed = self.pack.iter().flat_map(|pack| &pack.maps);
         MapSet::of(&self.map.iter().chain(packed).copied().collect::<Vec<_>>())

@@ -96,8 +96,8 @@ fn rounded(distance: f32) -> f64 {
 pub struct Cages(pub Vec<Vec<[f32; 3]>>);
 
 impl Cages {
-    /// Makes or reads the cages; fills in what an automatic cage has found. `file`: that of `--cage`; `low`:
-    /// those of `prepared`, without cages. Errors are one sentence each.
+    /// Makes or reads the cages; fills in what an automatic cage has found. `file`: of `--cage`; `low`: the
+    /// low surfaces of `prepared`, without cages. Errors are one sentence each.
     pub fn read(
         arguments: &BakeArguments,
         file: Option<&Document>,

@@ -29,8 +29,8 @@ pub struct OutputFile {
     is_occasional: bool,
 }
 
-/// The files that the arguments name for reading. Those that models refer to are known when the models are
-/// open: [`files_of`].
+/// The files that the arguments name for reading. [`files_of`] has the files that models refer to, once the
+/// models are open.
 pub fn all_inputs(arguments: &BakeArguments) -> Vec<InputFile> {
     let BakeArguments { low, high, cage, skew, .. } = arguments;
     let input = |path: &PathBuf, role: &str| InputFile { path: path.clone(), role: role.to_owned() };

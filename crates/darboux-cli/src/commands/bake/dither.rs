@@ -60,7 +60,7 @@ fn void_and_cluster() -> Vec<usize> {
             break;
         }
     }
-    // The first texels are those of this pattern, the tightest cluster last.
+    // The first texels come from this pattern, the tightest cluster last.
     let mut order = Vec::new();
     let mut first = field.clone();
     while first.set.contains(&true) {
@@ -132,7 +132,7 @@ mod tests {
         sorted.sort_by(f32::total_cmp);
         let count = (SIDE * SIDE) as f32;
         assert!(sorted.iter().enumerate().all(|(i, &x)| (x - (i as f32 + 0.5) / count).abs() < 1e-6));
-        // The mean of any 4 x 4 texels is near one half: it deviates by less than half as much as that of
+        // The mean of any 4 x 4 texels is near one half: it deviates by less than half as much as the mean of
         // white noise, 0.072.
         let mean = |x: usize, y: usize| {
             (0..16).map(|i| noise.threshold([x + i % 4, y + i / 4], 0)).sum::<f32>() / 16.0

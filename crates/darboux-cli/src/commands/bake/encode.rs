@@ -42,7 +42,7 @@ impl FileKind {
     }
 }
 
-/// How the numbers of a map become those of a file.
+/// How the numbers of a map are encoded in a file.
 pub struct Encoding {
     content: MapContent,
     /// The channels that files have.

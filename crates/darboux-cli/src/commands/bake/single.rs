@@ -225,7 +225,7 @@ impl Run<'_> {
     }
 }
 
-/// The progress of a bake; those of tiles are as many as its name says.
+/// The progress units of a bake, or of each of its tiles.
 pub fn progress_units(arguments: &BakeArguments) -> u64 {
     PROGRESS_UNITS * (1 + u64::from(arguments.verify))
 }

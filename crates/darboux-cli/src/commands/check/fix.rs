@@ -119,11 +119,11 @@ impl FileCommand for Repair<'_> {
         }
         let is_this_run = file.summary.this_run().is_some();
         for finding in Outcome::all_of(&file.summary) {
-            let is_beyond = finding.remains() && !finding.fixable;
+            let is_unrepairable = finding.remains() && !finding.fixable;
             let is_info = !finding.repaired && !finding.is_left() && !finding.remains();
             counts.repaired += usize::from(finding.repaired && is_this_run);
             counts.left += usize::from(finding.is_left());
-            counts.beyond += usize::from(is_beyond);
+            counts.unrepairable += usize::from(is_unrepairable);
             counts.infos += usize::from(is_info);
         }
     }
@@ -137,8 +137,8 @@ impl FileCommand for Repair<'_> {
             0 => String::new(),
             left => format!("{left} left although --fix repairs such ones, "),
         };
-        let FixCounts { beyond, infos, .. } = counts;
-        format!("{repaired}, {left}{beyond} that --fix cannot repair, {infos} only worth knowing")
+        let FixCounts { unrepairable, infos, .. } = counts;
+        format!("{repaired}, {left}{unrepairable} that --fix cannot repair, {infos} only worth knowing")
     }
 }
 
@@ -150,7 +150,7 @@ pub struct FixCounts {
     /// In this run.
     repaired: usize,
     left: usize,
-    beyond: usize,
+    unrepairable: usize,
     infos: usize,
 }
 

@@ -100,7 +100,7 @@ fn images(folder: &Path) -> Vec<PathBuf> {
     files.filter(|path| is_image(path)).collect()
 }
 
-/// Whether a file name looks like that of a normal map.
+/// Whether a file name looks like the name of a normal map.
 fn is_named_like_normals(path: &Path) -> bool {
     let name = path.file_stem().unwrap_or_default().to_string_lossy().to_lowercase();
     ["normal", "nrm", "_nor", "_n"]

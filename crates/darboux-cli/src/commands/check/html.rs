@@ -32,7 +32,7 @@ use shared::worst;
 /// The number of files that have pictures, unless another one is chosen.
 pub const DEFAULT_PICTURES: usize = 20;
 
-/// Rules beside those of all pages.
+/// The CSS rules of this page.
 const STYLE: &str = include_str!("html/report.css");
 const SCRIPT: &str = include_str!("html/report.js");
 
@@ -93,7 +93,7 @@ impl Page<'_> {
             .filter(|number| files[*number].map.is_none() && worst(&files[*number]) > Some(Severity::Info))
             .collect();
         drawn.sort_by_key(|number| std::cmp::Reverse(worst(&files[*number])));
-        let beyond = drawn.split_off(drawn.len().min(self.pictures));
+        let without_pictures = drawn.split_off(drawn.len().min(self.pictures));
         let mut pictures = BTreeMap::new();
         if !drawn.is_empty() {
             let painter = Painter::open(self.checks);
@@ -103,7 +103,9 @@ impl Page<'_> {
             }
         }
         let reason = format!("Only the worst {} have pictures.", counted(self.pictures, "file", "files"));
-        pictures.extend(beyond.into_iter().map(|number| (number, Pictures::None(Some(reason.clone())))));
+        pictures.extend(
+            without_pictures.into_iter().map(|number| (number, Pictures::None(Some(reason.clone())))),
+        );
         pictures
     }
 }

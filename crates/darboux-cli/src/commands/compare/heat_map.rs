@@ -19,8 +19,7 @@ const BACKGROUND: [u8; 3] = [16, 16, 16];
 const STRIPE: [u8; 3] = [255, 255, 255];
 /// After visiting this many texels, which takes about a second, only the corners of triangles are drawn.
 const MAX_TEXELS: u64 = 1 << 26;
-/// Texels per side of a tile, which is passed over once all of its values are greater than those of a
-/// triangle.
+/// Texels per side of a tile, which is skipped once all of its values are greater than a triangle's values.
 const TILE: usize = 32;
 /// Tiles per side of the UV square.
 const TILES: usize = SIZE / TILE;
@@ -28,8 +27,8 @@ const TILES: usize = SIZE / TILE;
 /// The UV square [0, 1] with v down, as in glTF images. Triangles outside it are moved into it by whole
 /// numbers.
 ///
-/// The triangles with the greatest values are drawn first, and equal ones once, so that triangles over each
-/// other by the thousand, as those of trim sheets and tiled parts, find their tiles filled.
+/// The triangles with the greatest values are drawn first, and equal ones once, so that triangles that lie
+/// over each other by the thousand, as in trim sheets and tiled parts, find their tiles filled.
 pub struct HeatMap {
     triangles: Vec<Triangle>,
     /// The largest value per texel: an angle in degrees, or infinity for an opposite sign. `None` for an

@@ -33,7 +33,7 @@ pub struct Statistics {
     pub histogram: Vec<Bin>,
 }
 
-/// The number of corners whose angle is at most `up_to` and above that of the previous bin.
+/// The number of corners whose angle is at most `up_to` and above the limit of the previous bin.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Bin {
     pub up_to: f64,

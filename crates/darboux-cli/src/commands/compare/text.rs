@@ -55,7 +55,7 @@ fn may_be_of_quads(method: &str, totals: &Statistics) -> bool {
     method == Method::default().name() && 2 * totals.different < totals.corners
 }
 
-/// The result in one sentence, and the command that replaces the tangents by those of the method.
+/// The result in one sentence, and the command that writes the method's tangents.
 fn verdict(report: &CompareReport) -> String {
     let CompareReport { totals, first, method, .. } = report;
     let other =

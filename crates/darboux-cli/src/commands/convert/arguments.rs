@@ -99,7 +99,7 @@ pub struct ConvertArguments {
 }
 
 impl ConvertArguments {
-    /// The two conventions; those of glTF where only the format changes.
+    /// The two conventions; both are glTF's where only the format changes.
     pub fn conventions(&self) -> [NamedConvention; 2] {
         [&self.from, &self.to].map(|convention| convention.clone().unwrap_or_else(NamedConvention::gltf))
     }

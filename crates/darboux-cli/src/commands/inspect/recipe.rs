@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::text::counted;
 
-/// The way of making tangents that comes nearest to those of a primitive. json.txt documents its fields.
+/// The way of making tangents that comes nearest to a primitive's tangents. json.txt documents its fields.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MadeBy {
     pub method: &'static str,
@@ -25,7 +25,7 @@ pub struct MadeBy {
     pub details: Vec<&'static str>,
 }
 
-/// The share of close corners from which on tangents are called those of a method, as `darboux check` has it.
+/// The share of close corners from which on tangents are attributed to a method, as in `darboux check`.
 const IS_KNOWN: f64 = 0.9;
 
 /// The recipe of each primitive with tangents, in the order of `infos`. None: it has no tangents, or lacks

@@ -40,7 +40,7 @@ struct Key {
     meaning: &'static str,
 }
 
-/// What tells a colour from others without its hue.
+/// What distinguishes a colour from others without its hue.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Sign {
     Square,

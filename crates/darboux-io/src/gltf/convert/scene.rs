@@ -138,7 +138,7 @@ impl<'a> SceneConverter<'a> {
         Ok(())
     }
 
-    /// Replaces a reference to an accessor by that of the converted accessor.
+    /// Replaces the index of an accessor by the index of the converted accessor.
     fn reference(
         &mut self,
         document: &mut Document,

@@ -50,7 +50,7 @@ impl Document {
                 let file = ImageFile { relative, bytes, media_type: media_type.to_owned() };
                 self.image_files.insert(index, file);
                 self.is_changed = true;
-                // The URI is that of the file's final name, which writing decides.
+                // The URI has the file's final name, which writing decides.
                 return self.set_media_type(index, says_type, media_type);
             }
         };

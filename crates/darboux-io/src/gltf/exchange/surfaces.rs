@@ -51,9 +51,9 @@ pub fn of(document: &Document) -> Result<Vec<Surface>, Error> {
             let set = set.map_or(0, |material| material.tangent_uv_set);
             let Some(surface) = surface(document, &name, primitive, set)? else { continue };
             for matrix in &instance.matrices {
-                let mut placed = Surface { name: own_name.clone(), ..surface.clone() };
-                placed.transform(matrix);
-                found.push(placed);
+                let mut instance_surface = Surface { name: own_name.clone(), ..surface.clone() };
+                instance_surface.transform(matrix);
+                found.push(instance_surface);
             }
         }
     }
@@ -68,7 +68,7 @@ struct DrawnPrimitives {
     triangles: usize,
 }
 
-/// Those of every mesh that has a place.
+/// The drawn primitives of every mesh with an instance.
 fn drawn_primitives(document: &Document, instances: &[MeshInstance]) -> HashMap<usize, DrawnPrimitives> {
     let mut meshes = HashMap::new();
     for instance in instances {

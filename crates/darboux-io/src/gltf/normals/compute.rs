@@ -49,7 +49,7 @@ pub struct MovedNormals {
 /// The morph targets of a document may take this many times the work of the mesh at rest.
 const MOVED_LIMIT: usize = 4;
 
-/// Computes the normals of every chosen primitive, those of one mesh jointly.
+/// Computes the normals of every chosen primitive; primitives of one mesh jointly.
 ///
 /// Errors: indices out of range, accessors that cannot be read.
 pub fn shade(

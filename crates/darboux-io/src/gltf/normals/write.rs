@@ -79,7 +79,7 @@ struct NormalWriter<'a> {
     /// Whether an old and a new accessor have the same elements.
     same: HashMap<[usize; 2], bool>,
     appended: Appended<'a>,
-    /// The accessors of normal offsets, by that of position offsets.
+    /// The accessor of normal offsets, by the accessor of position offsets.
     offsets: HashMap<usize, usize>,
     /// The number of corners, by candidate, whose offset differs from that of their vertex.
     conflicting: HashMap<usize, usize>,

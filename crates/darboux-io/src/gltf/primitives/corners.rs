@@ -87,9 +87,9 @@ impl<'a> PrimitiveCorners<'a> {
     /// The values of an attribute as floats, in the order of the file; none if the primitive does not have
     /// it. [`PrimitiveCorners::used_indices`] has the place of every corner's value.
     ///
-    /// They are those of all vertices of the accessor; where it has more vertices than the primitive has
-    /// corners, as one that primitives share, those of the vertices that the corners use. The lists of all
-    /// attributes have the same vertices. Errors: as [`PrimitiveCorners::vectors`].
+    /// The vectors of all vertices of the accessor; where the accessor has more vertices than the primitive
+    /// has corners, as an accessor that primitives share, only of the vertices that the corners use. The
+    /// lists of all attributes have the same vertices. Errors: as [`PrimitiveCorners::vectors`].
     pub fn used_vectors<const N: usize>(&self, semantic: &str) -> Result<Option<Cow<'a, [[f32; N]]>>, Error> {
         self.checked(&self.primitive.attributes, semantic)
     }
@@ -156,8 +156,8 @@ impl Document {
         Ok(found)
     }
 
-    /// Checks a number of triangles that are to be kept, as those of meshes at all their places. Errors: more
-    /// than the memory limit permits.
+    /// Checks a number of triangles that are to be kept, as of all instances of meshes. Errors: more than the
+    /// memory limit permits.
     pub fn check_triangle_count(&self, triangles: usize) -> Result<(), Error> {
         limits::check_triangles(self, std::iter::once(triangles))
     }
@@ -167,8 +167,8 @@ impl Document {
         limits::check_uvs(self, uvs)
     }
 
-    /// Checks bytes that edits are to add. Errors: with those of earlier edits, more than the memory limit
-    /// permits.
+    /// Checks bytes that edits are to add. Errors: together with the bytes of earlier edits, more than the
+    /// memory limit permits.
     pub fn check_new_bytes(&self, bytes: usize) -> Result<(), Error> {
         limits::check_more_output(self, bytes)
     }

@@ -25,7 +25,8 @@ pub fn check_matrices(document: &Document, accessors: impl Iterator<Item = usize
     check(document, matrices.saturating_mul(size_of::<[f32; 16]>()), "have so many matrices that they need")
 }
 
-/// Checks UVs that are to be kept, those of all sets together. Errors: they take more than the memory limit.
+/// Checks the number of UVs that are to be kept, all sets together. Errors: they take more than the memory
+/// limit.
 pub fn check_uvs(document: &Document, uvs: usize) -> Result<(), Error> {
     check(document, uvs.saturating_mul(size_of::<[f32; 2]>()), "have so many UVs that they need")
 }

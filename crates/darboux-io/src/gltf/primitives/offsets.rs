@@ -8,7 +8,7 @@ use crate::gltf::{ComponentType, Document, ElementType};
 #[derive(Debug)]
 pub enum VertexOffsets {
     All(Vec<[f32; 3]>),
-    /// The offsets of few of `count` vertices, ascending. Those of the others are zero.
+    /// The offsets of few of `count` vertices, ascending. The other vertices have zero offsets.
     Few {
         count: usize,
         offsets: Vec<(u32, [f32; 3])>,
@@ -16,7 +16,7 @@ pub enum VertexOffsets {
 }
 
 impl VertexOffsets {
-    /// The offsets of some of `count` vertices, ascending. Those of the others are zero.
+    /// The offsets of some of `count` vertices, ascending. The other vertices have zero offsets.
     pub fn new(count: usize, offsets: Vec<(u32, [f32; 3])>) -> Self {
         match offsets.len() < count / 2 {
             true => Self::Few { count, offsets },

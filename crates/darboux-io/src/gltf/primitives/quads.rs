@@ -63,7 +63,7 @@ impl QuadFaces {
         self.sizes.push(vertices.len() as u32);
     }
 
-    /// The values of the corners of triangles, from those of the corners of faces.
+    /// The values of the corners of triangles, from the values of the corners of faces.
     pub fn of_triangles<T: Copy>(&self, of_faces: &[T]) -> Vec<T> {
         self.corners.iter().map(|&corner| of_faces[corner as usize]).collect()
     }

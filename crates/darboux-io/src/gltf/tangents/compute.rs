@@ -184,8 +184,7 @@ impl Generate<'_> {
     }
 }
 
-/// Computes a job. `name` is that of its first primitive. With `morphs`, the result has a plan for morph
-/// targets.
+/// Computes a job. `name`: of its first primitive. With `morphs`, the result has a plan for morph targets.
 ///
 /// Errors: indices out of range, attributes of different lengths; with [`AddTangentsOptions::strict`],
 /// unusable data.
@@ -206,7 +205,7 @@ pub fn compute_job<'a>(
     };
     let corners = vertices.numbered(corners);
     let at = &*name.path();
-    // Given tangents are those of triangles.
+    // Given tangents belong to triangles.
     let quads = if job.given.is_none() { QuadFaces::of(document, name, &corners) } else { None };
     let mesh = vertices.mesh(document, at, job, &corners, quads.as_ref())?;
     let (mut tangents, report, plan) = if morphs {

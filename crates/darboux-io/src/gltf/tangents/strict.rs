@@ -1,5 +1,5 @@
-//! What [`AddTangentsOptions::strict`](super::AddTangentsOptions::strict) refuses of primitives that get no
-//! tangents. That of the others is found while theirs are computed.
+//! What [`AddTangentsOptions::strict`](super::AddTangentsOptions::strict) refuses in primitives that get no
+//! tangents. In the other primitives it is found while their tangents are computed.
 
 use std::collections::HashSet;
 

@@ -299,7 +299,7 @@ impl Part {
         }
     }
 
-    /// The values that all corners have, and the UVs that some have. `index`: that of the mesh. `incomplete`
+    /// The values that all corners have, and the UVs that some have. `index`: of the mesh. `incomplete`
     /// counts what corners lack.
     fn used(&self, index: usize, mesh: &SourceMesh, incomplete: &mut Incomplete) -> Used {
         let mut used = Used::default();
@@ -507,7 +507,7 @@ impl<'a> PrimitiveBuilder<'a> {
         self.data.vectors(&of_vertex)
     }
 
-    /// The values of all vertices, from those of positions.
+    /// The values of all vertices, from the values of positions.
     fn of_positions<T: Copy + Default>(
         &self,
         values: &'a [T],

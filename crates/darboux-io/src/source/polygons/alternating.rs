@@ -72,7 +72,7 @@ struct Outline<'a> {
     next: Vec<usize>,
     previous: Vec<usize>,
     turns: Vec<Turn>,
-    /// The corners that were not convex at first. Those that were removed or became convex are skipped.
+    /// The corners that were not convex at first. Corners that were removed or became convex are skipped.
     obstacles: Vec<usize>,
     /// The obstacles, if there are many.
     tree: Option<CornerTree<'a>>,

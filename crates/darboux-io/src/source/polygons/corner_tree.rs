@@ -16,7 +16,7 @@ pub fn area([a, b, c]: [[f64; 2]; 3]) -> f64 {
 /// The corners that were not removed.
 pub struct CornerTree<'a> {
     corners: &'a [[f64; 2]],
-    /// The corners, those of each node side by side.
+    /// The corners; the corners of a node lie side by side.
     order: Vec<u32>,
     /// The nodes as a complete binary tree: the children of node n are 2 n + 1 and 2 n + 2.
     nodes: Vec<Node>,

@@ -50,7 +50,7 @@ struct Face<'a> {
     is_cut_off: Vec<bool>,
     /// The corners that are not convex, which alone can lie in ears.
     obstacles: CornerTree<'a>,
-    /// Corners to try, each with its turn. Those with an earlier turn are passed over.
+    /// Corners to try, each with its turn. Corners with an earlier turn are skipped.
     queue: VecDeque<(usize, u32)>,
     turns: Vec<u32>,
     /// By the obstacle, the corners in whose triangles it lies, each with the turn of that triangle.
@@ -136,7 +136,7 @@ mod tests {
     use super::*;
 
     /// Cuts a face into as many triangles as it has, none of which may be clockwise. The areas of ears add up
-    /// to that of the face, so they then cover it once. The steps that it took.
+    /// to the face's area, so the ears then cover the face once. Returns the number of steps.
     fn covering(corners: &[[f64; 2]]) -> u64 {
         let mut steps = 1 << 30;
         let triangles = cut(corners, &mut steps).expect("the face has ears");

@@ -87,7 +87,7 @@ fn read_text(path: &Path) -> io::Result<String> {
     Ok(text)
 }
 
-/// The values of `[defaults]`, and those of each `[[bake]]` with its place.
+/// The values of `[defaults]`, and the values of each `[[bake]]` with its place.
 fn tables<'a>(job: &'a DeTable<'a>) -> Result<(Values<'a>, Vec<(usize, Values<'a>)>), Problem> {
     let (mut defaults, mut bakes) = (Values::new(), Vec::new());
     for (key, value) in job {

@@ -43,7 +43,7 @@ impl Keys {
         (distance <= 2 && distance < key.len()).then_some(name)
     }
 
-    /// Those of the options given beside a job file that its bakes have themselves.
+    /// The options given beside a job file that belong into its bakes.
     pub fn misplaced(&self, arguments: &BakeArguments) -> Vec<String> {
         let mut names = arguments.given.names(&self.command);
         names.retain(|name| !OF_RUNS.contains(&name.as_str()) && !LIMITS.contains(&name.as_str()));

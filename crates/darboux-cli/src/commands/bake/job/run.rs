@@ -145,7 +145,7 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// Bakes all entries, several at once: their threads share one pool, and one reads or writes files while
-    /// another follows rays. Those at which an earlier run was killed come last, one by one. `tell` is
+    /// another follows rays. Entries at which an earlier run was killed come last, one by one. `tell` is
     /// called in the order of the entries.
     fn bake_all(&self, entries: &[Entry], tell: &mut dyn FnMut(Done)) {
         let next = AtomicUsize::new(0);
@@ -413,8 +413,8 @@ mod tests {
         assert_eq!(journal.earlier(&entries[0].arguments.output), Earlier::Harmless);
     }
 
-    /// The images of the low model are not decoded, and those of the high one are not where no map needs
-    /// them.
+    /// The images of the low model are not decoded; the images of the high model are decoded only where a map
+    /// needs them.
     #[test]
     fn models_and_maps_are_counted_once() {
         let folder = tempfile::tempdir().unwrap();

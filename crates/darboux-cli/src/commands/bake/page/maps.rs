@@ -7,7 +7,7 @@ use crate::html_page::escaped;
 use crate::html_page::raster::Raster;
 use crate::text::counted;
 
-/// The colours of a legend that are listed: those of the most texels.
+/// The number of colours that a legend lists: the colours of the most texels.
 const COLORS: usize = 24;
 
 /// One figure per map.

@@ -88,8 +88,8 @@ pub fn has_many_misses(report: &BakeReport) -> bool {
     report.missed_texels as f64 > NOTABLE * report.charted_texels as f64
 }
 
-/// The reason why maps of this bake would show nothing of the high models; none where they do.
-/// `elongation`: that of the low model.
+/// The reason why maps of this bake would show nothing of the high models; none where they do. `elongation`:
+/// of the low model.
 pub fn failure(report: &BakeReport, arguments: &BakeArguments, elongation: f64) -> Option<String> {
     let is_all = |count: u64, of: u64| count > 0 && count == of;
     if is_all(report.non_finite_low_triangles, report.low_triangles) {
@@ -144,8 +144,7 @@ fn cause_of_misses(report: &BakeReport, arguments: &BakeArguments, elongation: f
     }
 }
 
-/// Warnings about the result.
-/// `elongation`: that of the low model.
+/// Warnings about the result. `elongation`: of the low model.
 pub fn of_report(
     report: &BakeReport,
     arguments: &BakeArguments,

@@ -76,12 +76,12 @@ fn quaternion([x, y, z, last]: [u16; 4]) -> [u16; 4] {
 /// A float of a mantissa of 24 bits and an exponent of 8 bits, as bits.
 fn exponential(code: i32) -> u32 {
     let (exponent, mantissa) = (code >> 24, code << 8 >> 8);
-    // Exponents from -100 to 100 are valid; the bits of others are those of meshoptimizer.
+    // Exponents from -100 to 100 are valid; others have meshoptimizer's bits.
     let power = f32::from_bits(((exponent + 127) as u32) << 23);
     (power * mantissa as f32).to_bits()
 }
 
-/// Red, green, blue and alpha of YCoCg. The highest bit of `alpha` is that of the scale.
+/// Red, green, blue and alpha of YCoCg. The highest bit of `alpha` is the scale's highest bit.
 fn color(y: i32, [co, cg]: [i32; 2], alpha: i32, max: f32) -> [u16; 4] {
     let one = (2 << alpha.max(1).ilog2()) - 1;
     let alpha = (alpha << 1 & one) | (alpha & 1);

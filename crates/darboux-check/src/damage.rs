@@ -1,5 +1,5 @@
-//! How much of a picture of the surface a defect spoils: the area of the faces that show it, each weighted by
-//! how far it turns the light.
+//! The damaged area of a defect: the area of the faces that show it, each weighted by the angle by which it
+//! turns the light.
 //!
 //! A face whose tangent frame is turned by a right angle or more, or mirrored, counts whole; one that is
 //! turned less counts by its angle over 90 degrees, and one that is turned by less than [`SEEN`] does not
@@ -20,9 +20,9 @@ pub const SEEN: f64 = 15.0;
 /// The length below which a normal has no direction.
 pub const NO_LENGTH: f64 = 0.1;
 
-/// The area that a defect spoils, in the units of the positions; none where its severity does not depend on
-/// that.
-pub fn spoiled(fault: &Fault, facts: &SurfaceFacts<'_>) -> Option<f64> {
+/// The area that a defect damages, in the squared units of the positions; none where the severity of the
+/// defect does not depend on its area.
+pub fn damaged_area(fault: &Fault, facts: &SurfaceFacts<'_>) -> Option<f64> {
     let surface = facts.surface;
     match fault {
         Fault::Normal(NormalFault::NotUnit { vertices, smallest }) if *smallest < NO_LENGTH => {
@@ -60,7 +60,7 @@ fn of_tangents(fault: &TangentFault, facts: &SurfaceFacts<'_>) -> Option<f64> {
             Some(area_at(surface, &vertices.as_slice().into(), weight))
         }
         TangentFault::Differs(found) => Some(of_difference(facts, found)),
-        TangentFault::OtherRecipe { far, .. } if far.percent > 0.0 => Some(far.spoiled),
+        TangentFault::OtherRecipe { far, .. } if far.percent > 0.0 => Some(far.damaged_area),
         _ => None,
     }
 }

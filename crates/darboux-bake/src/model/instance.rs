@@ -1,4 +1,4 @@
-//! Primitives of a document where the scene has them.
+//! Instances of a document's primitives in the scene.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -10,55 +10,55 @@ use darboux_io::gltf::{Document, PrimitiveCorners};
 /// A matrix for column vectors, in columns.
 pub type Matrix = [[f64; 4]; 4];
 
-/// A place of a mesh in the scene.
+/// An instance of a mesh in the scene.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct Instance {
     pub matrix: Matrix,
     /// The name of the node.
     pub node_name: Option<Arc<str>>,
-    /// The number of the place in the scene.
+    /// The number of the instance in the scene.
     pub number: usize,
 }
 
-/// The places of every mesh, by the index of the mesh. A skinned mesh has the pose in which it is stored.
-pub fn places(document: &Document) -> Result<Vec<Vec<Place>>, Error> {
-    let mut places = vec![Vec::new(); document.meshes().len()];
+/// The instances of every mesh, by the index of the mesh. A skinned mesh has the pose in which it is stored.
+pub fn instances_of_meshes(document: &Document) -> Result<Vec<Vec<Instance>>, Error> {
+    let mut instances = vec![Vec::new(); document.meshes().len()];
     let mut number = 0;
     for mesh in document.mesh_instances()?.meshes {
         let node_name: Option<Arc<str>> = mesh.node_name.map(Arc::from);
         for matrix in mesh.matrices {
-            if let Some(places) = places.get_mut(mesh.mesh) {
-                places.push(Place { matrix, node_name: node_name.clone(), number });
+            if let Some(instances) = instances.get_mut(mesh.mesh) {
+                instances.push(Instance { matrix, node_name: node_name.clone(), number });
                 number += 1;
             }
         }
     }
-    Ok(places)
+    Ok(instances)
 }
 
-/// Positions and normals of a primitive at a place, and the vertices of its triangles.
+/// Positions and normals of an instance of a primitive, and the vertices of its triangles.
 #[derive(Clone, Debug)]
-pub struct PlacedPrimitive<'a> {
+pub struct PrimitiveInstance<'a> {
     /// The name of the node, or else of the mesh; empty if neither has one.
     pub part_name: Arc<str>,
     pub positions: Cow<'a, [[f32; 3]]>,
     pub normals: Option<Cow<'a, [[f32; 3]]>>,
     pub indices: Cow<'a, [u32]>,
-    /// None at a place without a matrix.
+    /// None for an instance without a matrix.
     pub transform: Option<Transform>,
 }
 
-impl<'a> PlacedPrimitive<'a> {
+impl<'a> PrimitiveInstance<'a> {
     /// Reads a primitive; none where it has no positions. A mirroring matrix reverses the triangles. Errors:
     /// invalid data.
-    pub fn read(corners: &'a PrimitiveCorners<'a>, place: &Place) -> Result<Option<Self>, Error> {
+    pub fn read(corners: &'a PrimitiveCorners<'a>, instance: &Instance) -> Result<Option<Self>, Error> {
         let Some(positions) = corners.used_vectors("POSITION")? else { return Ok(None) };
         let normals = corners.used_vectors("NORMAL")?;
         let indices = Cow::Borrowed(corners.used_indices());
-        let part_name = place.node_name.as_ref().or(corners.name().mesh_name.as_ref());
+        let part_name = instance.node_name.as_ref().or(corners.name().mesh_name.as_ref());
         let part_name = part_name.cloned().unwrap_or_default();
         let primitive = Self { part_name, positions, normals, indices, transform: None };
-        Ok(Some(if is_identity(&place.matrix) { primitive } else { primitive.moved(&place.matrix) }))
+        Ok(Some(if is_identity(&instance.matrix) { primitive } else { primitive.moved(&instance.matrix) }))
     }
 
     fn moved(mut self, matrix: &Matrix) -> Self {
