@@ -48,7 +48,6 @@ impl Document {
         if let Some(backed) = self.backed_count.get_mut() {
             *backed = (*backed).max(stored.count);
         }
-        self.root.accessors.push(stored);
         self.push_element("accessors", Value::Object(element))
     }
 
@@ -107,7 +106,6 @@ impl Document {
             sparse,
         };
         let element = stored.to_json(None);
-        self.root.accessors.push(stored);
         self.push_element("accessors", Value::Object(element))
     }
 
@@ -138,25 +136,16 @@ impl Document {
         let bytes = if stride == size { bytes } else { spread(&bytes, size, stride) };
         let byte_length = bytes.len();
         let (buffer, byte_offset) = self.push_bytes(bytes);
-        let byte_stride = (stride != size).then_some(stride);
         let mut element = Map::default();
         element.insert("buffer", buffer.into());
         element.insert("byteOffset", byte_offset.into());
         element.insert("byteLength", byte_length.into());
-        if let Some(stride) = byte_stride {
+        if stride != size {
             element.insert("byteStride", stride.into());
         }
         if let Some(code) = target.and_then(Target::code) {
             element.insert("target", code.into());
         }
-        let extensions = schema::BufferViewExtensions::default();
-        self.root.buffer_views.push(schema::BufferView {
-            buffer,
-            byte_offset,
-            byte_length,
-            byte_stride,
-            extensions,
-        });
         self.push_element("bufferViews", Value::Object(element))
     }
 
@@ -165,7 +154,6 @@ impl Document {
     fn push_bytes(&mut self, bytes: Vec<u8>) -> (usize, usize) {
         if !matches!(self.buffers.last(), Some(BufferSource::New(_))) {
             self.buffers.push(BufferSource::New(NewBytes::default()));
-            self.root.buffers.push(schema::Buffer { uri: None, byte_length: 0 });
             self.push_element("buffers", object! { "byteLength": 0usize });
         }
         let buffer = self.buffers.len() - 1;
@@ -195,16 +183,18 @@ impl Document {
         }
     }
 
-    /// Appends an element to an array of the root object. Returns its index. The caller appends the typed
-    /// element, if there is one.
-    fn push_element(&mut self, array: &str, element: Value) -> usize {
+    /// Appends an element to an array of the root object. Returns its index.
+    fn push_element(&mut self, array: &'static str, element: Value) -> usize {
         self.is_changed = true;
-        if let Some(Value::Array(elements)) = self.json.get_mut(array) {
-            elements.push(element);
-            return elements.len() - 1;
+        if self.json[array].as_array().is_none() {
+            self.json[array] = Value::Array(Vec::new());
         }
-        self.json[array] = Value::Array(vec![element]);
-        0
+        let Value::Array(elements) = &mut self.json[array] else { unreachable!("is an array") };
+        let index = elements.len();
+        let read = self.root.renew(array, index, &element);
+        read.unwrap_or_else(|error| unreachable!("an edit wrote what cannot be read: {error:?}"));
+        elements.push(element);
+        index
     }
 
     /// Edits an element of an array of the root object. Returns whether it changed.
@@ -280,21 +270,26 @@ impl Document {
 }
 
 impl Root {
-    /// Reads an element again whose JSON has changed, if it is one of the typed parts. Errors: it cannot be
-    /// read.
+    /// Reads an element whose JSON is new or has changed, if it is one of the typed parts. Errors: it cannot
+    /// be read.
     fn renew(&mut self, array: &'static str, index: usize, element: &Value) -> Result<(), ContentError> {
         let at = format!("{array}[{index}]");
         match array {
-            "meshes" => self.meshes[index] = json::read(element, &at)?,
-            "accessors" => self.accessors[index] = json::read(element, &at)?,
-            "bufferViews" => self.buffer_views[index] = json::read(element, &at)?,
-            "buffers" => self.buffers[index] = json::read(element, &at)?,
-            "images" => self.images[index] = json::read(element, &at)?,
-            "materials" => self.materials[index] = json::read(element, &at)?,
+            "meshes" => put(&mut self.meshes, index, json::read(element, &at)?),
+            "accessors" => put(&mut self.accessors, index, json::read(element, &at)?),
+            "bufferViews" => put(&mut self.buffer_views, index, json::read(element, &at)?),
+            "buffers" => put(&mut self.buffers, index, json::read(element, &at)?),
+            "images" => put(&mut self.images, index, json::read(element, &at)?),
+            "materials" => put(&mut self.materials, index, json::read(element, &at)?),
             _ => {}
         }
         Ok(())
     }
+}
+
+/// Replaces an element, or appends it.
+fn put<T>(elements: &mut Vec<T>, index: usize, element: T) {
+    if index == elements.len() { elements.push(element) } else { elements[index] = element }
 }
 
 /// Elements of `size` bytes, moved `stride` bytes apart.

@@ -6,7 +6,7 @@ use crate::json::{Value, object};
 
 use crate::Error;
 use crate::error::ContentError;
-use crate::gltf::schema::{Image, Material, Primitive};
+use crate::gltf::schema::{Material, Primitive};
 use crate::gltf::{Document, PrimitiveName};
 
 /// A primitive that gets a map, and the UV set n of `TEXCOORD_n` that the map uses.
@@ -126,11 +126,6 @@ impl Document {
     /// Appends an image and a texture with it. Returns the index of the texture.
     fn push_texture(&mut self, png: Vec<u8>, name: &str) -> usize {
         let (media_type, view) = ("image/png", self.push_view(png, 1, 1, None));
-        self.root.images.push(Image {
-            uri: None,
-            buffer_view: Some(view),
-            mime_type: Some(media_type.to_owned()),
-        });
         let image =
             self.push_element("images", object! { "name": name, "mimeType": media_type, "bufferView": view });
         self.push_element("textures", object! { "source": image })
@@ -138,9 +133,7 @@ impl Document {
 
     /// Appends a copy of a material, or one without members. Returns its index.
     fn push_material(&mut self, original: Option<usize>) -> usize {
-        let typed = original.and_then(|original| self.root.materials.get(original)).cloned();
         let json = original.map(|original| self.element("materials", original).clone());
-        self.root.materials.push(typed.unwrap_or_default());
         self.push_element("materials", json.unwrap_or(object! {}))
     }
 

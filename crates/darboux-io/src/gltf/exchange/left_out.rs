@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 use super::format::ExchangeFormat;
 use super::obj;
 use crate::Error;
-use crate::gltf::{Alpha, Document, ElementType, Wrap, schema};
+use crate::gltf::{Alpha, Document, ElementType, schema};
 use crate::json::Value;
 use crate::words::counted_if_any as counted;
 
@@ -67,8 +67,8 @@ impl LeftOut {
     pub fn of(document: &Document, format: ExchangeFormat) -> Result<Self, Error> {
         let json = document.json();
         let length = |array: &str| json[array].as_array().map_or(0, Vec::len);
-        let placed = document.mesh_instances()?.meshes;
-        let used: BTreeSet<usize> = placed.iter().map(|instance| instance.mesh).collect();
+        let meshes = document.mesh_instances()?.meshes;
+        let used: BTreeSet<usize> = meshes.iter().map(|instance| instance.mesh).collect();
         let primitives: Vec<_> = used.iter().flat_map(|&mesh| &document.meshes()[mesh].primitives).collect();
         let surfaces: Vec<_> = primitives.iter().filter(|primitive| primitive.mode >= TRIANGLES).collect();
         let having = |semantic: &str| {
@@ -217,8 +217,7 @@ fn material_losses(document: &Document) -> Result<MaterialLosses, Error> {
         found.on_other_uvs += all - obj::textures(&material).filter(once).count();
         found.masks += usize::from(matches!(material.alpha, Alpha::Mask(_)));
         for (_, texture) in obj::textures(&material).filter(once) {
-            let can_be_written = texture.wrap == [Wrap::Repeat; 2] || texture.wrap == [Wrap::Clamp; 2];
-            found.mirrored += usize::from(!can_be_written);
+            found.mirrored += usize::from(obj::is_clamped(texture).is_none());
             found.rotated += usize::from(texture.offset_and_scale().is_none());
             found.nearest += usize::from(texture.is_nearest);
             let has_content = |image| *is_there.entry(image).or_insert_with(|| document.has_image(image));

@@ -240,9 +240,16 @@ fn write_placement(texture: &TextureUse, out: &mut String) {
             _ = write!(out, "-s {scale_u} {scale_v} 1 ");
         }
     }
-    if texture.wrap == [Wrap::Clamp; 2] {
+    if is_clamped(texture) == Some(true) {
         out.push_str("-clamp on ");
     }
+}
+
+/// Whether a texture is clamped, as `-clamp` says it; none where it is mirrored, or clamped along one axis,
+/// which MTL cannot say.
+pub(super) fn is_clamped(texture: &TextureUse) -> Option<bool> {
+    let [along_u, along_v] = texture.wrap;
+    (along_u == along_v && along_u != Wrap::Mirror).then_some(along_u == Wrap::Clamp)
 }
 
 /// A name for each material, without white space, each once: `usemtl` names one.
