@@ -1,4 +1,4 @@
-//! `darboux check` on many files: what is printed, and the progress bar.
+//! Many files: what is printed, and the progress bar.
 
 #[cfg(target_os = "linux")]
 use std::ffi::OsStr;
@@ -10,9 +10,7 @@ use std::path::Path;
 #[cfg(target_os = "linux")]
 use std::process::Command;
 
-mod common;
-
-use common::{asset, darboux, folder_with, glb, glb_json, text};
+use crate::common::{asset, darboux, folder_with, glb, glb_json, text};
 use darboux_io::image::PngImage;
 
 fn flat(side: usize) -> Vec<u8> {
