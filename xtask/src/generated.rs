@@ -17,6 +17,7 @@ const GENERATED_PATHS: &[&str] = &[
     "bindings/c/include/darboux.h",
     "bindings/js/lib/core/choices.ts",
     "bindings/python/python/darboux/_choices.py",
+    "viewer/src/surface/methods.ts",
     "shaders/glsl",
     "shaders/hlsl",
     shaders::RENDER_COPIES,

@@ -31,8 +31,7 @@ use crate::threads::cancellable;
 ///     Corners per face. By default indices of shape (F, 4) are quads and all others triangles. Faces with
 ///     more corners get tangents from their normals only, and are counted.
 /// method : str
-///     'mikktspace', which bakers use, 'angle-area', 'angle-edge', 'lengyel', 'lengyel-per-vertex',
-///     'average', 'area', 'face' or 'from-normal'.
+///     'mikktspace', which bakers use, or another method that `darboux methods` lists.
 /// mode : str
 ///     For 'mikktspace'. 'reference': the bits of mikktspace.c, its defects included; 'repaired': the same,
 ///     with unusable tangents replaced; 'corrected': repaired, and the known defects corrected.

@@ -1,5 +1,6 @@
 //! Generates the lists of choices of the bindings, below the folder of its argument: the names for
-//! TypeScript, whose positions are the codes that WebAssembly takes, and the literals for Python.
+//! TypeScript, whose positions are the codes that WebAssembly takes, and the literals for Python. The viewer's
+//! page has the list of methods alone: importing the npm package's list would load its module first.
 //!
 //! `cargo xtask gen` runs it with the repository's root.
 
@@ -60,12 +61,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         Ok(write(path, text)?)
     };
     write_below("bindings/js/lib/core/choices.ts", typescript(&lists))?;
+    write_below("viewer/src/surface/methods.ts", format!("// Generated from Rust.\n\n{}", line(&lists[0])))?;
     write_below("bindings/python/python/darboux/_choices.py", python(&lists))
 }
 
+/// The names of a list, for TypeScript.
+fn line(list: &List) -> String {
+    format!("export const {} = [{}] as const;\n", list.plural, list.quoted('\''))
+}
+
 fn typescript(lists: &[List]) -> String {
-    let list = |list: &List| format!("export const {} = [{}] as const;\n", list.plural, list.quoted('\''));
-    let lines: String = lists.iter().map(list).collect();
+    let lines: String = lists.iter().map(line).collect();
     let channels: Vec<String> = MapKind::ALL.iter().map(|kind| kind.channels().to_string()).collect();
     format!(
         "// Generated from Rust. The position of a name in its list is the code that WebAssembly \

@@ -3,26 +3,21 @@
 import { generateTangents, type Method, type Mode } from 'darboux';
 
 import { derivativeTangents } from './derivative-tangents';
+import { METHODS } from './methods';
 import { gathered, type Surface } from './surface';
 
+/** A source of tangents: the file's own, a method's, or those that a shader derives. */
+export type Source = 'file' | Method | 'mikktspace-reference' | 'mikktspace-corrected' | 'derivatives';
+
 /** The sources that a side can show. */
-export const SOURCES = [
+export const SOURCES: readonly Source[] = [
   'file',
   'mikktspace',
   'mikktspace-reference',
   'mikktspace-corrected',
-  'angle-area',
-  'angle-edge',
-  'lengyel',
-  'lengyel-per-vertex',
-  'average',
-  'area',
-  'face',
-  'from-normal',
+  ...METHODS.filter((method) => method !== 'mikktspace'),
   'derivatives',
-] as const;
-
-export type Source = (typeof SOURCES)[number];
+];
 
 /** What a side shows: a source of tangents on the open model, that model with the baked map, or the repaired or the high model as it is. */
 export type Shown = Source | OtherModel | 'baked';
@@ -35,12 +30,9 @@ export function isOtherModel(shown: Shown): shown is OtherModel {
   return shown === 'repaired' || shown === 'high';
 }
 
-/** The names on the page. */
-export const SOURCE_NAMES: Record<Shown, string> = {
-  file: 'In the file',
+/** The names of methods on the page, where they say more than the method's own name. */
+const METHOD_NAMES: Partial<Record<Method, string>> = {
   mikktspace: 'MikkTSpace',
-  'mikktspace-reference': 'MikkTSpace, reference mode',
-  'mikktspace-corrected': 'MikkTSpace, corrected mode',
   'angle-area': 'Angle and area',
   'angle-edge': 'Angle and edges (meshoptimizer)',
   lengyel: 'Lengyel',
@@ -49,11 +41,19 @@ export const SOURCE_NAMES: Record<Shown, string> = {
   area: 'Area',
   face: 'Per face',
   'from-normal': 'From the normal',
+};
+
+/** The names on the page. */
+export const SOURCE_NAMES = {
+  ...Object.fromEntries(METHODS.map((method) => [method, METHOD_NAMES[method] ?? method])),
+  file: 'In the file',
+  'mikktspace-reference': 'MikkTSpace, reference mode',
+  'mikktspace-corrected': 'MikkTSpace, corrected mode',
   derivatives: 'Shader derivatives',
   repaired: 'Repaired file',
   high: 'High model',
   baked: 'Baked map',
-};
+} as Record<Shown, string>;
 
 /** The tangent of every corner, 4 floats each, with the sign convention of the file's format. Null where the file has no tangents. */
 export function tangentsFrom(surface: Surface, source: Source): Float32Array | null {
