@@ -1,6 +1,6 @@
 //! Generates the lists of choices of the bindings, below the folder of its argument: the names for
-//! TypeScript, whose positions are the codes that WebAssembly takes, and the literals for Python. The viewer's
-//! page has the list of methods alone: importing the npm package's list would load its module first.
+//! TypeScript, whose positions are the codes that WebAssembly takes, and the literals for Python. The
+//! viewer's page has the list of methods alone: importing the npm package's list would load its module first.
 //!
 //! `cargo xtask gen` runs it with the repository's root.
 

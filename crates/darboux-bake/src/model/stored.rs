@@ -50,7 +50,8 @@ impl StoredPrimitive<'_> {
     }
 }
 
-/// Transforms tangents with the instance of their primitive. `normals`: of its own vertices, as the file has them.
+/// Transforms tangents with the instance of their primitive. `normals`: of its own vertices, as the file has
+/// them.
 fn move_tangents(
     tangents: &mut [[f32; 4]],
     corners: &PrimitiveCorners<'_>,

@@ -94,8 +94,8 @@ pub fn weigh(defects: &mut [Defect]) {
     }
 }
 
-/// Whether the damaged area of a defect is the area of its faces. That of tangents that lean or are of another method
-/// counts large angles only, and smaller ones are worth a warning.
+/// Whether the damaged area of a defect is the area of its faces. The damaged area of tangents that lean or
+/// are of another method counts large angles only, and smaller angles are worth a warning.
 fn is_by_area(defect: &Defect) -> bool {
     !matches!(defect.fault, Fault::Tangent(TangentFault::Leaning { .. } | TangentFault::OtherRecipe { .. }))
 }

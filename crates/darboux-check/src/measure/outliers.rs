@@ -34,8 +34,8 @@ pub struct Outliers {
     pub recipe: Recipe,
     /// The vertices, ascending.
     pub vertices: Vec<usize>,
-    /// The tangents of corners without other mistakes, in the convention in which they are computed, with the
-    /// method's tangents at these vertices.
+    /// The tangents of corners without other mistakes, in the convention in which they are computed, with
+    /// the method's tangents at these vertices.
     pub replaced: Vec<[f32; 4]>,
 }
 

@@ -12,8 +12,8 @@ use crate::gltf::PrimitiveName;
 pub struct GivenTangents<'a> {
     /// Primitives with the same triangles.
     pub primitives: &'a [PrimitiveName],
-    /// One tangent per corner of the complete triangles, where strips and fans are written as lists: unit xyz
-    /// and the sign w, in glTF's convention.
+    /// One tangent per corner of the complete triangles, where strips and fans are written as lists: unit
+    /// xyz and the sign w, in glTF's convention.
     pub tangents: &'a [[f32; 4]],
 }
 
