@@ -152,7 +152,8 @@ pub fn are_most_flipped(defect: &Defect) -> bool {
     flipped_percent(defect).is_some_and(|percent| percent > 50.0)
 }
 
-/// Whether signs of a surface are flipped, at least those of a part: a map that is inverted cancels them there.
+/// Whether signs of a surface are flipped, at least those of a part: a map that is inverted cancels them
+/// there.
 pub fn is_about_signs(defect: &Defect) -> bool {
     flipped_percent(defect).is_some()
 }

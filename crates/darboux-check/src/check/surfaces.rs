@@ -59,16 +59,16 @@ pub fn for_each_surface(
 /// percent of a model that fills a screen of 1920 x 1080 is a square of a hundred pixels.
 pub const MIN_DAMAGED: f64 = 0.5;
 
-/// The least part of the damage of all defects of one kind that is an error: the smallest ones, which are less
-/// together, are not seen beside the others.
+/// The least part of the damage of all defects of one kind that is an error: the smallest ones, which are
+/// less together, are not seen beside the others.
 const MIN_PART: f64 = 0.1;
 
 /// In percent of the model's area: what defects of one kind damage together at least to be seen at all, 20
 /// pixels of a screen of 1920 x 1080 that the model fills. Less is worth knowing only.
 const MIN_SEEN: f64 = 0.001;
 
-/// Lowers the severity of defects that damage too small a part of the model, all of one code together: what is
-/// cut into many primitives looks as it would in one.
+/// Lowers the severity of defects that damage too small a part of the model, all of one code together: what
+/// is cut into many primitives looks as it would in one.
 pub fn weigh(defects: &mut [Defect]) {
     let mut of_code: BTreeMap<Code, Vec<(usize, f64)>> = BTreeMap::new();
     for (index, defect) in defects.iter().enumerate() {
