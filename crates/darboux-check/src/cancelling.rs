@@ -3,8 +3,8 @@
 
 use darboux::Recipe;
 
-use crate::check::MIN_DAMAGED;
 use crate::code::Code;
+use crate::damage::MIN_DAMAGED;
 use crate::defect::{Cancelled, Defect, Fault, MapFault, PAIRS, Pair, TangentFault};
 use crate::hypotheses::{are_nearly_all_flipped, damaged_under_inverted_map};
 use crate::severity::Severity;

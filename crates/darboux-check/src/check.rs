@@ -16,7 +16,7 @@ pub use maps::{
     CheckedMap, MapDefects, ModelOfMaps, check_map, check_map_on_model, check_model_of_maps,
     identified_defects, map_defects, map_defects_on_model,
 };
-pub use surfaces::{MIN_DAMAGED, defects_of_surfaces, for_each_surface};
+pub use surfaces::{defects_of_surfaces, for_each_surface};
 
 /// Checks a document: every primitive with triangles, every material, and every image that is a normal map.
 ///

@@ -16,9 +16,9 @@
 
 use darboux::BitangentDirection;
 
-use crate::check::MIN_DAMAGED;
 use crate::check_options::{AssumedMap, CheckOptions};
 use crate::code::Code;
+use crate::damage::MIN_DAMAGED;
 use crate::defect::{Defect, Fault, MapFault, Obstacle, TangentFault};
 use crate::measure::fit::Difference;
 use crate::severity::Severity;

@@ -7,7 +7,7 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveInfo, PrimitiveName, inspect};
 
 use crate::code::{Code, Family};
-use crate::damage::damaged_area;
+use crate::damage::{MIN_DAMAGED, damaged_area};
 use crate::defect::{Defect, Fault, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::instances::{Key, distinct, key};
@@ -54,10 +54,6 @@ pub fn for_each_surface(
     }
     Ok(())
 }
-
-/// In percent of the model's area: what defects of one kind damage together at least to be errors. Half a
-/// percent of a model that fills a screen of 1920 x 1080 is a square of a hundred pixels.
-pub const MIN_DAMAGED: f64 = 0.5;
 
 /// The least part of the damage of all defects of one kind that is an error: the smallest ones, which are
 /// less together, are not seen beside the others.

@@ -214,7 +214,7 @@ fn is_picture(image: &RgbaImage, judgement: &MapJudgement) -> bool {
 
 /// The shares of vectors of other lengths than 1, in percent, of texels as they should not be, and as they
 /// were before.
-const MIN_DAMAGED: f64 = 40.0;
+const MIN_NOT_UNIT: f64 = 40.0;
 const MAX_HEALTHY: f64 = 5.0;
 
 /// How far maps lean at least, in red and green, whose values went through the transfer function: flat texels
@@ -232,7 +232,7 @@ fn srgb_mistake_by_length(image: &RgbaImage, judgement: &MapJudgement) -> Option
     } else {
         return None;
     };
-    if judgement.verdict == MapVerdict::Flat || percent(judgement, judgement.not_unit) < MIN_DAMAGED {
+    if judgement.verdict == MapVerdict::Flat || percent(judgement, judgement.not_unit) < MIN_NOT_UNIT {
         return None;
     }
     let before = judge_without(mistake, image)?;
