@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-use darboux_io::words::Count;
+use darboux_io::words::{Count, listed};
 
 use crate::code::Code;
 use crate::report::ReportedFinding;
@@ -43,10 +43,7 @@ fn main_code(findings: &[&ReportedFinding]) -> Code {
 /// The sentence about what happened.
 fn happened(main: Code, of_main: &[&ReportedFinding], others: usize, worst: Severity) -> String {
     let first = of_main[0];
-    let place = match of_main.len() {
-        1 => first.place.clone(),
-        count => format!("{} and {} more", first.place, count - 1),
-    };
+    let place = listed(&of_main.iter().map(|finding| &*finding.place).collect::<Vec<&str>>());
     let kind = if worst == Severity::Error { "error" } else { "warning" };
     let others = match others {
         0 => String::new(),

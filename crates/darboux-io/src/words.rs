@@ -42,6 +42,17 @@ pub fn counted(count: usize, one: &str, several: &str) -> String {
     format!("{} {}", Count(count), if count == 1 { one } else { several })
 }
 
+/// The first three of some names, and the number of the others: `A, B, C and 2 more`.
+pub fn listed(names: &[&str]) -> String {
+    const MOST: usize = 3;
+    let (shown, others) = names.split_at(names.len().min(MOST));
+    match (shown, others.len()) {
+        ([all @ .., last], 0) if !all.is_empty() => format!("{} and {last}", all.join(", ")),
+        (_, 0) => shown.concat(),
+        (_, others) => format!("{} and {} more", shown.join(", "), Count(others)),
+    }
+}
+
 /// As [`counted`]; none for none.
 pub(crate) fn counted_if_any(count: usize, one: &str, several: &str) -> Option<String> {
     (count > 0).then(|| counted(count, one, several))
@@ -56,6 +67,12 @@ mod tests {
         let said =
             [0.0, 0.5, 0.98, f64::from(0.9_f32), 0.99902, 0.99999, 1.0].map(|sure| Sure(sure).to_string());
         assert_eq!(said, ["0.0 %", "50.0 %", "98.0 %", "90.0 %", "99.9 %", "99.9 %", "99.9 %"]);
+    }
+
+    #[test]
+    fn names_are_listed_to_a_limit() {
+        let said = (0..6).map(|count| listed(&["A", "B", "C", "D", "E"][..count.min(5)])).collect::<Vec<_>>();
+        assert_eq!(said, ["", "A", "A and B", "A, B and C", "A, B, C and 1 more", "A, B, C and 2 more"]);
     }
 
     #[test]

@@ -55,9 +55,9 @@ fn texels_of_15_bits_are_read() {
 fn alpha_counts_where_the_file_says_so() {
     let whole = bytes("rgba-rle.tga");
     let image = whole.strip_suffix(b"TRUEVISION-XFILE.\0").map_or(&*whole, |rest| &rest[..rest.len() - 8]);
-    let has_alpha = |kind: u8| {
+    let has_alpha_with = |length: u16, kind: u8| {
         let mut area = vec![0; 495];
-        area[0..2].copy_from_slice(&495_u16.to_le_bytes());
+        area[0..2].copy_from_slice(&length.to_le_bytes());
         area[494] = kind;
         let offsets = [image.len() as u32, 0].map(u32::to_le_bytes).concat();
         let file = [image, &area, &offsets, b"TRUEVISION-XFILE.\0"].concat();
@@ -68,6 +68,8 @@ fn alpha_counts_where_the_file_says_so() {
         assert_eq!(colors(&decoded), colors(&original));
         decoded == original
     };
+    assert!(has_alpha_with(494, 0), "not the area of version 2.0");
+    let has_alpha = |kind: u8| has_alpha_with(495, kind);
     assert_eq!([0, 1, 2, 3, 4].map(has_alpha), [false, false, false, true, true]);
 }
 

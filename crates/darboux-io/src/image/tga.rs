@@ -12,6 +12,8 @@ const OFFSETS: usize = 8;
 const HEADER_LENGTH: usize = 18;
 /// The bytes of the header with the bits of an entry of the colour map, and of a texel.
 const DEPTHS: [usize; 2] = [7, 16];
+/// The first bytes of an extension area: its length, 495.
+const AREA_LENGTH: [u8; 2] = 495_u16.to_le_bytes();
 /// The byte of the extension area that says what alpha holds (field 24).
 const ATTRIBUTES_TYPE: usize = 494;
 
@@ -83,7 +85,8 @@ fn without_footer(mut file: &[u8]) -> &[u8] {
 fn may_have_alpha(file: &[u8]) -> bool {
     let offset = file.strip_suffix(FOOTER_SIGNATURE).and_then(|rest| rest.last_chunk::<OFFSETS>());
     let offset = offset.map_or(0, |&[a, b, c, d, ..]| u32::from_le_bytes([a, b, c, d]) as usize);
-    let kind = file.get(offset..).filter(|_| offset > 0).and_then(|area| area.get(ATTRIBUTES_TYPE));
+    let area = file.get(offset..).filter(|area| offset > 0 && area.starts_with(&AREA_LENGTH));
+    let kind = area.and_then(|area| area.get(ATTRIBUTES_TYPE));
     kind.is_none_or(|kind| matches!(kind, 3 | 4))
 }
 

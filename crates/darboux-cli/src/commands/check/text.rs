@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 
 use darboux_check::{Code, Evidence, ReportedFinding, Severity};
-use darboux_io::words::{Count, Sure};
+use darboux_io::words::{Count, Sure, listed};
 
 use super::arguments::FailOn;
 use super::groups::{by_kind, by_severity};
@@ -27,18 +27,15 @@ pub fn describe(file: &CheckedFile) -> String {
     text + &counts(file)
 }
 
-/// The findings in a file by severity and code, with the first place of each, and what is worth knowing in
+/// The findings in a file by severity and code, with the first places of each, and what is worth knowing in
 /// one line.
 pub fn describe_folded(file: &CheckedFile) -> String {
     let (known, severe): (Vec<_>, Vec<_>) =
         by_kind(&file.findings).into_iter().partition(|group| group[0].severity <= Severity::Info);
     let mut text = head(file);
     for group in severe {
-        let further = match group.len() {
-            1 => String::new(),
-            count => format!(" and {} more", count - 1),
-        };
-        text += &format!("  {}{further}\n{}", printable(&group[0].place), lines(group[0]));
+        let places: Vec<&str> = group.iter().map(|finding| &*finding.place).collect();
+        text += &format!("  {}\n{}", printable(&listed(&places)), lines(group[0]));
     }
     let (unchecked, known): (Vec<_>, Vec<_>) =
         known.into_iter().partition(|group| group[0].severity == Severity::NotChecked);
