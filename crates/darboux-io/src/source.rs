@@ -21,7 +21,7 @@ mod format;
 mod other_case;
 mod others;
 mod polygons;
-#[cfg(any(feature = "obj", feature = "stl"))]
+#[cfg(any(feature = "obj", feature = "ply", feature = "stl"))]
 mod program;
 mod provenance;
 pub(crate) mod scene;
@@ -36,7 +36,7 @@ pub(crate) use build::{Built, build};
 pub(crate) use files::{FileSource, FoundFile, LONGEST_PATH, ModelFiles};
 pub(crate) use format::{detect, without_byte_order_mark};
 pub(crate) use others::problem as problem_of_other;
-#[cfg(any(feature = "obj", feature = "stl"))]
+#[cfg(any(feature = "obj", feature = "ply", feature = "stl"))]
 pub(crate) use program::program_of_comment;
 #[cfg(any(feature = "fbx", feature = "obj"))]
 pub(crate) use scene::NormalMap;
