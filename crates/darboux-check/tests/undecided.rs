@@ -203,6 +203,37 @@ fn mistakes_that_cancel_are_one_warning() {
     assert!(left.iter().all(|finding| finding.severity <= Severity::Info), "{left:#?}");
 }
 
+/// DDS files, and formats that nobody knows here, hide the convention of a map like an image that is not read.
+#[test]
+fn flipped_signs_under_a_map_without_a_known_image_are_left() {
+    let mut model = healthy_models().remove(9);
+    model.negate_signs();
+    for (texture, code) in [
+        (json!({"extensions": {"MSFT_texture_dds": {"source": 0}}}), "images[0]"),
+        (json!({"extensions": {"XYZ_texture": {"source": 0}}}), "materials[0]"),
+    ] {
+        model.map.file = b"DDS and more".to_vec();
+        let glb = with_json(&model.glb(), |json| json["textures"][0] = texture.clone());
+        let read = || Document::from_bytes("m.glb", glb.clone(), None, &LoadOptions::default());
+        let mut document = read().expect("a model");
+        let findings = check_document(&document, &CheckOptions::default()).expect("a valid document");
+        let unread = findings.iter().find(|finding| finding.code == Code::MapUnreadable).expect("a finding");
+        assert_eq!(unread.severity, Severity::NotChecked);
+        assert!(unread.place.to_string().contains(code), "{unread:#?}");
+        let flipped = findings.iter().find(|finding| finding.code == Code::TangentSignFlipped);
+        let flipped = flipped.expect("the finding");
+        assert!(!flipped.is_fixable() && flipped.severity == Severity::Warning, "{flipped:#?}");
+        let fixed = fix_document(&mut document, findings, &FixOptions::default()).expect("a repair");
+        assert!(!fixed.is_changed);
+        // Who knows that the map is right says so.
+        let right = CheckOptions::default().with_assumed_map(Some(AssumedMap::OpenGl));
+        let mut document = read().expect("a model");
+        let findings = check_document(&document, &right).expect("a valid document");
+        let options = FixOptions::default().with_check(right);
+        assert!(fix_document(&mut document, findings, &options).expect("a repair").is_changed);
+    }
+}
+
 /// A model whose signs are flipped on all triangles but the first part of them.
 fn flipped_but_one_in(parts: usize) -> Model {
     let mut model = healthy_models().remove(9);

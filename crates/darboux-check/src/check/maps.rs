@@ -170,12 +170,20 @@ pub fn defects_of_materials(
         let place = Place { material: Some(index), ..Place::default() };
         let found = MATERIAL_RULES.iter().filter_map(|rule| rule(material));
         defects.extend(found.map(|defect| Defect { place: place.clone(), ..defect }));
-        let unread = unread_maps(document, index).filter(|_| options.maps);
-        defects.extend(unread.map(|defect| Defect { place: place.clone(), ..defect }));
+        if options.maps {
+            let unread = unread_maps(document, index, material);
+            defects.extend(unread.map(|defect| Defect { place: place.clone(), ..defect }));
+        }
         for image in material.normal_maps().filter_map(|texture| texture.image).filter(|_| options.maps) {
             images.entry(image).or_insert(index);
         }
     }
+    let unread: HashSet<usize> = defects
+        .iter()
+        .filter(|defect| is_unread(defect))
+        .filter_map(|defect| defect.place.material)
+        .collect();
+    leave_under_unread_maps(document, &unread, options, on_surfaces);
     if images.is_empty() {
         return Ok(defects);
     }
@@ -245,14 +253,42 @@ pub fn defects_of_materials(
     Ok(defects)
 }
 
-/// The normal maps of a material that the reader of another format than glTF left out.
-fn unread_maps(document: &Document, material: usize) -> impl Iterator<Item = Defect> {
+/// The normal maps of a material that have no image here: the reader of another format than glTF left them out,
+/// or no format of their textures is known.
+fn unread_maps(document: &Document, index: usize, material: &Material) -> impl Iterator<Item = Defect> {
     let unread = document.provenance().into_iter().flat_map(|provenance| &provenance.unread_maps);
-    unread.filter(move |map| map.material == material).map(|map| {
-        let why = Unread::NotCarried(map.problem.clone());
-        let fault = MapFault::Unreadable { name: map.file.clone(), why, bytes: 0 };
-        Defect::new(fault).with_severity(Severity::NotChecked)
+    let unread = unread.filter(move |map| map.material == index);
+    let unread = unread.map(|map| (map.file.clone(), map.problem.clone()));
+    let without_image = material.normal_maps().filter(|texture| texture.image.is_none());
+    let without_image = without_image
+        .map(|_| (String::new(), "has no image in a format that glTF has a name for".to_owned()));
+    unread.chain(without_image).map(|(name, problem)| {
+        let why = Unread::NotCarried(problem);
+        Defect::new(MapFault::Unreadable { name, why, bytes: 0 }).with_severity(Severity::NotChecked)
     })
+}
+
+/// Whether a defect of a material says that a normal map has no image.
+fn is_unread(defect: &Defect) -> bool {
+    matches!(&defect.fault, Fault::Map(MapFault::Unreadable { why: Unread::NotCarried(_), .. }))
+}
+
+/// Leaves flipped signs that a normal map without an image may cancel. `materials`: those with such maps.
+fn leave_under_unread_maps(
+    document: &Document,
+    materials: &HashSet<usize>,
+    options: &CheckOptions,
+    on_surfaces: &mut [Defect],
+) {
+    let is_under = |defect: &Defect| {
+        let name = defect.place.primitive.as_ref();
+        let primitive =
+            name.and_then(|name| document.meshes().get(name.mesh)?.primitives.get(name.primitive));
+        primitive.is_some_and(|primitive| primitive.materials().iter().any(|used| materials.contains(used)))
+    };
+    let under: Vec<&mut Defect> = on_surfaces.iter_mut().filter(|defect| is_under(defect)).collect();
+    let witness = MapWitness::of_unread(options);
+    hypotheses::leave_unidentified(&mut [], &witness, &mut [under], None, None);
 }
 
 /// The most characters of a name that are shown.

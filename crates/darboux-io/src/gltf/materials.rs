@@ -238,6 +238,8 @@ struct TextureExtensions {
     avif: Option<ImageSource>,
     #[serde(rename = "KHR_texture_basisu")]
     ktx2: Option<ImageSource>,
+    #[serde(rename = "MSFT_texture_dds")]
+    dds: Option<ImageSource>,
 }
 
 #[derive(Deserialize)]
@@ -259,8 +261,8 @@ impl Texture {
 
     /// The images of extensions.
     fn others(&self) -> impl Iterator<Item = usize> {
-        let TextureExtensions { webp, avif, ktx2 } = &self.extensions;
-        [webp, avif, ktx2].into_iter().flatten().filter_map(|other| other.source)
+        let TextureExtensions { webp, avif, ktx2, dds } = &self.extensions;
+        [webp, avif, ktx2, dds].into_iter().flatten().filter_map(|other| other.source)
     }
 }
 
