@@ -136,7 +136,7 @@ function evidence({ code, count, first, firstAre, evidence: numbers, leftBecause
   add('Code', code);
   add('Count', count.toLocaleString('en'));
   if (first.length) add(`First ${firstAre}`, first.join(', '));
-  for (const { what, value, unit } of numbers) add(what, `${Number(value.toPrecision(4)).toLocaleString('en')} ${unit}`.trim());
+  for (const { what, value, unit } of numbers) add(what, `${value.toLocaleString('en', { maximumSignificantDigits: 4 })} ${unit}`.trim());
   if (leftBecause !== null && repaired === undefined) add('Not repaired here, because', leftBecause);
   details.append(text('summary', 'Evidence'), list);
   return details;
