@@ -46,7 +46,7 @@ impl MeshVotes {
     }
 
     fn is_of_other_layout(&self) -> bool {
-        self.seams.is_some_and(|seams| seams.other_layout().is_some())
+        self.seams.is_some_and(|seams| seams.other_layout.is_some())
     }
 
     /// Votes with this z score of one arrangement, and none of the others.

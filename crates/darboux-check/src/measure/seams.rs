@@ -32,9 +32,8 @@ pub enum Layout {
     TurnedImage([bool; 2]),
 }
 
-/// All layouts that are compared.
-const LAYOUTS: [Layout; 9] = [
-    Layout::Same,
+/// The layouts that a map is compared with that does not fit as it is.
+const OTHER_LAYOUTS: [Layout; 8] = [
     Layout::TurnedUvs([false, true]),
     Layout::TurnedUvs([true, false]),
     Layout::TurnedUvs([true, true]),
@@ -59,8 +58,10 @@ pub struct SeamFit {
 pub struct SeamFits {
     /// The number of points that were compared.
     pub points: usize,
-    /// In the order of the layouts.
-    fits: [SeamFit; LAYOUTS.len()],
+    /// As the map lies now.
+    pub as_it_is: SeamFit,
+    /// The other layout that the map fits, where it does not fit as it is.
+    pub other_layout: Option<(Layout, SeamFit)>,
 }
 
 /// From these on, a map was made for a layout; up to these, it was not.
@@ -111,37 +112,31 @@ impl SeamFits {
         if points.len() < MIN_POINTS {
             return None;
         }
-        let mut fits = [SeamFit { correlation: 0.0, z_score: 0.0 }; LAYOUTS.len()];
-        for (fit, layout) in fits.iter_mut().zip(LAYOUTS) {
-            *fit = SeamFit::of(&points, image, layout)?;
-        }
-        Some(Self { points: points.len(), fits })
-    }
-
-    /// As the map lies now.
-    pub fn as_it_is(&self) -> SeamFit {
-        self.fits[0]
-    }
-
-    /// The other layout that the map fits, where it does not fit as it is.
-    pub fn other_layout(&self) -> Option<(Layout, SeamFit)> {
-        let others = LAYOUTS.into_iter().zip(self.fits).skip(1).filter(|(_, fit)| fit.is_at_least(&FITS));
-        let best = others.max_by(|(_, a), (_, b)| a.z_score.abs().total_cmp(&b.z_score.abs()));
-        let own = self.as_it_is();
-        let fits_not = own.correlation.abs() < FITS_NOT.correlation && own.z_score.abs() < FITS_NOT.z_score;
-        best.filter(|_| fits_not)
+        let as_it_is = SeamFit::of(&points, image, Layout::Same, 0.0)?;
+        let others = || {
+            let fits = OTHER_LAYOUTS
+                .into_iter()
+                .filter_map(|layout| Some((layout, SeamFit::of(&points, image, layout, FITS.correlation)?)));
+            let fits = fits.filter(|(_, fit)| fit.z_score.abs() >= FITS.z_score);
+            fits.max_by(|(_, a), (_, b)| a.z_score.abs().total_cmp(&b.z_score.abs()))
+        };
+        let other_layout = if as_it_is.is_below(&FITS_NOT) { others() } else { None };
+        Some(Self { points: points.len(), as_it_is, other_layout })
     }
 }
 
 impl SeamFit {
-    fn is_at_least(&self, other: &Self) -> bool {
-        self.correlation.abs() >= other.correlation && self.z_score.abs() >= other.z_score
+    fn is_below(&self, other: &Self) -> bool {
+        self.correlation.abs() < other.correlation && self.z_score.abs() < other.z_score
     }
 
-    /// None where the map hardly leans.
-    fn of(points: &[[Side; 2]], image: &RgbaImage, layout: Layout) -> Option<Self> {
+    /// None where the map hardly leans, or correlates by less than `at_least`.
+    fn of(points: &[[Side; 2]], image: &RgbaImage, layout: Layout, at_least: f64) -> Option<Self> {
         let size = [image.width, image.height].map(|side| side as usize);
         let correlation = correlation(points, image, layout, [0; 2])?;
+        if correlation.abs() < at_least {
+            return None;
+        }
         // The additive sequence of the plastic number spreads points evenly over a square (Roberts 2018).
         let offset = |number: usize| {
             let place = [0.754_877_666_246_693, 0.569_840_290_998_053_3].map(|step| step * number as f64);

@@ -230,8 +230,8 @@ fn may_be_dents(map: &Map) -> Option<Defect> {
 fn other_layout(map: &Map) -> Option<Defect> {
     with_directed_channels(map)?;
     let seams = map.facets.as_ref()?.seams?;
-    let (layout, fit) = seams.other_layout()?;
-    let fits = [fit, seams.as_it_is()];
+    let (layout, fit) = seams.other_layout?;
+    let fits = [fit, seams.as_it_is];
     Some(Defect::new(MapFault::OtherLayout { layout, fits, points: seams.points }))
 }
 
