@@ -1,6 +1,7 @@
 //! [`Recipe`]: a way of making tangents; and how well one explains those of a file.
 
 use crate::choice;
+use crate::choice::Choice;
 use crate::tangents::{Method, MikkTSpaceOptions, Mode};
 
 /// A way of making the tangents of a file.
@@ -96,23 +97,23 @@ impl Recipe {
         Self { method, flips_v: false, from_quads: false, writing, rounding }
     }
 
-    /// The recipes in the order of preference among equals.
-    pub(crate) fn all(rounding: RecipeRounding) -> [Self; 11] {
+    /// The recipes in the order of preference among equals: MikkTSpace's, the one of meshoptimizer, and the
+    /// other methods that follow UVs.
+    pub(crate) fn all(rounding: RecipeRounding) -> Vec<Self> {
         let of = |method| Self::new(method, rounding);
         let mode = |mode| of(MikkTSpaceOptions::new().with_mode(mode).into());
-        [
-            mode(Mode::Repaired),
+        let repaired = mode(Mode::Repaired);
+        let first = [
+            repaired,
             mode(Mode::Reference),
             mode(Mode::Corrected),
-            Self { flips_v: true, ..mode(Mode::Repaired) },
+            Self { flips_v: true, ..repaired },
             of(Method::AngleEdge),
-            of(Method::AngleArea),
-            of(Method::Lengyel),
-            of(Method::LengyelPerVertex),
-            of(Method::Average),
-            of(Method::Area),
-            of(Method::Face),
-        ]
+        ];
+        let is_other = |method: &Method| {
+            !matches!(method, Method::MikkTSpace(_) | Method::AngleEdge | Method::FromNormal)
+        };
+        first.into_iter().chain(Method::ALL.iter().copied().filter(is_other).map(of)).collect()
     }
 
     /// Whether this is MikkTSpace with its default mode on the mesh as it is.
