@@ -203,7 +203,8 @@ fn mistakes_that_cancel_are_one_warning() {
     assert!(left.iter().all(|finding| finding.severity <= Severity::Info), "{left:#?}");
 }
 
-/// DDS files, and formats that nobody knows here, hide the convention of a map like an image that is not read.
+/// DDS files, and formats that nobody knows here, hide the convention of a map like an image that is not
+/// read.
 #[test]
 fn flipped_signs_under_a_map_without_a_known_image_are_left() {
     let mut model = healthy_models().remove(9);

@@ -253,8 +253,8 @@ pub fn defects_of_materials(
     Ok(defects)
 }
 
-/// The normal maps of a material that have no image here: the reader of another format than glTF left them out,
-/// or no format of their textures is known.
+/// The normal maps of a material that have no image here: the reader of another format than glTF left them
+/// out, or no format of their textures is known.
 fn unread_maps(document: &Document, index: usize, material: &Material) -> impl Iterator<Item = Defect> {
     let unread = document.provenance().into_iter().flat_map(|provenance| &provenance.unread_maps);
     let unread = unread.filter(move |map| map.material == index);
