@@ -59,10 +59,14 @@ fn maps_are_judged_alone() {
     darboux(&[&["check", text(&down), "--fix", "--in-place"], &model[..]].concat()).exits(0);
     assert_eq!(fs::read(&down).expect("a file"), fs::read(&fixed).expect("a file"));
 
-    // The plane's signs w are flipped, so that a map with green down looks right on it.
+    // The plane's signs w are flipped, so that a map with green down looks right on it. That green of the other
+    // map is up is 98.8 % sure, too little to repair the signs alone.
     let plane = asset("TwoSidedPlane/TwoSidedPlane.gltf");
     let arguments = ["check", text(&up), "--model", text(&plane), "--json"];
-    let on_model = darboux(&arguments).exits(1).json();
+    let on_model = darboux(&arguments).exits(0).json();
+    assert_eq!(codes(&on_model, |finding| finding["severity"] == "warning"), ["tangent-sign-flipped"]);
+    let assumed = [&arguments[..], &["--assume", "map=opengl"]].concat();
+    let on_model = darboux(&assumed).exits(1).json();
     assert_eq!(codes(&on_model, |finding| finding["severity"] == "error"), ["tangent-sign-flipped"]);
     let down_again = map("down.png", -1.0);
     let arguments = ["check", text(&down_again), "--model", text(&plane)];
