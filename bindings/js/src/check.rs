@@ -71,7 +71,7 @@ pub extern "C" fn check_file(
         arrays.repaired.clear();
         let checked = if !repairs && RgbaImage::is_format_known(&arrays.bytes) {
             let findings = check_map(&arrays.bytes, &options).findings;
-            Ok(Checked::Findings(ReportedFindings::new(findings, None)))
+            Ok(Checked::Findings(ReportedFindings::new(findings, None, &options)))
         } else {
             check_model(&arrays.bytes, options, repairs, &mut arrays.repaired)
         };
@@ -89,13 +89,13 @@ fn check_model(
     let mut document = Document::from_bytes("the model", file.to_vec(), None, &load_options())?;
     let findings = check_document(&document, &options)?;
     if !repairs {
-        return Ok(Checked::Findings(ReportedFindings::new(findings, Some(&document))));
+        return Ok(Checked::Findings(ReportedFindings::new(findings, Some(&document), &options)));
     }
     let fixed = fix_document(&mut document, findings, &FixOptions::default().with_check(options))?;
     if fixed.is_changed {
         *repaired = document.to_glb()?;
     }
-    Ok(Checked::Findings(ReportedFindings::new(fixed.findings, Some(&document))))
+    Ok(Checked::Findings(ReportedFindings::new(fixed.findings, Some(&document), &options)))
 }
 
 /// Judges the texels in the bytes: `channels` channels of 8 bits or, with `is_wide`, of 16. Returns the

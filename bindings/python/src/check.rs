@@ -98,7 +98,7 @@ fn check_path(
 ) -> Result<ReportedFindings, darboux_io::Error> {
     if FileKind::of(path).is_some_and(FileKind::is_decoded_image) {
         let checked = check_map(&read_regular(path)?, &options.with_memory_limit(loading.memory_limit));
-        Ok(ReportedFindings::new(checked.findings, None))
+        Ok(ReportedFindings::new(checked.findings, None, options))
     } else {
         check_model(&gltf::Document::open(path, loading)?, options)
     }
@@ -108,7 +108,7 @@ fn check_model(
     document: &gltf::Document,
     options: &CheckOptions,
 ) -> Result<ReportedFindings, darboux_io::Error> {
-    Ok(ReportedFindings::new(check_document(document, options)?, Some(document)))
+    Ok(ReportedFindings::new(check_document(document, options)?, Some(document), options))
 }
 
 fn check_options(convention: &str, maps: bool, assume: Option<&str>) -> PyResult<CheckOptions> {
@@ -166,7 +166,7 @@ pub fn fix<'py>(
     let fixed = document.change(py, |document| {
         let findings = check_document(document, &options.check)?;
         let fixed = fix_document(document, findings, &options)?;
-        Ok(ReportedFindings::new(fixed.findings, Some(document)))
+        Ok(ReportedFindings::new(fixed.findings, Some(document), &options.check))
     })?;
     result_of(py, "findings_of", &fixed)
 }

@@ -4,10 +4,9 @@
 use darboux::Recipe;
 
 use crate::code::Code;
-use crate::damage::MIN_DAMAGED;
 use crate::defect::{Cancelled, Defect, Fault, MapFault, PAIRS, Pair, TangentFault};
 use crate::hypotheses::{are_nearly_all_flipped, damaged_under_inverted_map};
-use crate::severity::Severity;
+use crate::severity::{MIN_DAMAGED, Severity};
 
 /// All codes of the pairs.
 const CODES: [Code; 4] =

@@ -431,7 +431,7 @@ codes! {
     MapTwoChannel "map-two-channel" Error {
         "The normal map stores x and y only, and the format wants three channels."
         "Where blue is 0 or 128, bumps are far too strong or the surface is black, as z is wrong; where it \
-         is 255, they are a little too weak."
+         is 255, they are too weak: by 1 degree where they lean by 20, and by 10 where they lean by 45."
         "The map was packed for an engine that reconstructs z (BC5, DXT5nm)."
         "`darboux convert --from opengl --to opengl --layout rg --to-layout rgb` on the map, with `--layout \
          ag` where x is in alpha (DXT5nm)."

@@ -12,14 +12,8 @@ use crate::measure::fit::{Difference, flips_signs};
 use crate::measure::leaning::leaning;
 use crate::measure::reversed::front;
 use crate::model_area::area_of;
+use crate::severity::SEEN;
 use crate::surface::{Surface, dot, length};
-
-/// In percent of the model's area: what defects of one kind damage together at least to be errors. Half a
-/// percent of a model that fills a screen of 1920 x 1080 is a square of a hundred pixels.
-pub const MIN_DAMAGED: f64 = 0.5;
-
-/// The degrees from which on turned tangents are seen.
-pub const SEEN: f64 = 15.0;
 
 /// The length below which a normal has no direction.
 pub const NO_LENGTH: f64 = 0.1;

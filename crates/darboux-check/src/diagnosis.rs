@@ -3,8 +3,10 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
+use darboux::BitangentDirection;
 use darboux_io::words::{Count, listed};
 
+use crate::check_options::{AssumedMap, CheckOptions};
 use crate::code::Code;
 use crate::report::ReportedFinding;
 use crate::severity::Severity;
@@ -12,8 +14,14 @@ use crate::severity::Severity;
 /// What happened to a file, what it looks like and what to do, in one to three sentences: the first thing
 /// that a report says.
 ///
-/// `findings`: of the file, before or after a repair.
-pub fn diagnosis(findings: &[ReportedFinding]) -> String {
+/// `findings`: those of the file, before or after a repair. `options`: those of the check; a further sentence
+/// tells what they say of normal maps, where that is not what glTF says.
+pub fn diagnosis(findings: &[ReportedFinding], options: &CheckOptions) -> String {
+    of_findings(findings, options) + &expected(options)
+}
+
+/// The sentences about findings.
+fn of_findings(findings: &[ReportedFinding], options: &CheckOptions) -> String {
     let left = || findings.iter().filter(|finding| finding.repaired != Some(true));
     let repaired = findings.len() - left().count();
     let Some(worst) = left().map(|finding| finding.severity).max().filter(|worst| *worst > Severity::Info)
@@ -25,9 +33,9 @@ pub fn diagnosis(findings: &[ReportedFinding]) -> String {
     let of_main: Vec<&ReportedFinding> =
         of_severity.iter().copied().filter(|finding| finding.code == main).collect();
     let others = of_severity.len() - of_main.len();
-    let happened = happened(main, &of_main, others, worst);
+    let happened = happened(main, &of_main, others, worst, options.green);
     let first = of_main[0];
-    format!("{happened} {} {}", first.looks_like, to_do(&of_severity))
+    format!("{happened} {} {}", first.looks_like, to_do(&of_severity, options.green))
 }
 
 /// The code that most findings have; of several, the first one, as causes come before what follows from them.
@@ -40,8 +48,36 @@ fn main_code(findings: &[&ReportedFinding]) -> Code {
     most.map_or(findings[0].code, |(code, _)| code)
 }
 
+/// The sentence about the convention that normal maps should have, and the one about what they were taken to
+/// be; empty by default, and where maps are not judged.
+fn expected(options: &CheckOptions) -> String {
+    if !options.maps {
+        return String::new();
+    }
+    let wanted = match options.green {
+        BitangentDirection::Up => "",
+        BitangentDirection::Down => " Green of normal maps was expected to point down (DirectX).",
+    };
+    let assumed = options.assumed_map.map(|assumed| match assumed {
+        AssumedMap::OpenGl => "that of OpenGL (green up)",
+        AssumedMap::DirectX => "that of DirectX (green down)",
+        AssumedMap::RedInverted => "that of OpenGL with inverted red",
+        AssumedMap::BothInverted => "that of OpenGL with inverted red and green",
+    });
+    let assumed = assumed.map_or_else(String::new, |convention| {
+        format!(" Where nothing shows the convention of a map, it was taken to be {convention}.")
+    });
+    wanted.to_owned() + &assumed
+}
+
 /// The sentence about what happened.
-fn happened(main: Code, of_main: &[&ReportedFinding], others: usize, worst: Severity) -> String {
+fn happened(
+    main: Code,
+    of_main: &[&ReportedFinding],
+    others: usize,
+    worst: Severity,
+    wanted: BitangentDirection,
+) -> String {
     let first = of_main[0];
     let place = listed(&of_main.iter().map(|finding| &*finding.place).collect::<Vec<&str>>());
     let kind = if worst == Severity::Error { "error" } else { "warning" };
@@ -50,12 +86,15 @@ fn happened(main: Code, of_main: &[&ReportedFinding], others: usize, worst: Seve
         1 => format!(" 1 other {kind} is listed below."),
         count => format!(" {} other {kind}s are listed below.", Count(count)),
     };
-    format!("{place}: {}.{others}{}", first.text.trim_end_matches('.'), usual_cause(main))
+    format!("{place}: {}.{others}{}", first.text.trim_end_matches('.'), usual_cause(main, wanted))
 }
 
 /// The sentence about how findings of a kind come about; empty where the text of each finding says it.
-fn usual_cause(code: Code) -> String {
+fn usual_cause(code: Code, wanted: BitangentDirection) -> String {
     match code {
+        Code::MapGreenFlipped if wanted == BitangentDirection::Down => {
+            " A usual cause: an OpenGL map was put into a project that wants DirectX's.".to_owned()
+        }
         Code::TangentOtherRecipe | Code::ConventionsCancel => String::new(),
         _ => format!(" A usual cause: {}", lower_case(&without_references(code.cause()))),
     }
@@ -86,22 +125,26 @@ fn lower_case(sentence: &str) -> String {
 }
 
 /// What to do about findings.
-fn to_do(findings: &[&ReportedFinding]) -> String {
+fn to_do(findings: &[&ReportedFinding], wanted: BitangentDirection) -> String {
+    let (option, inverted) = match wanted {
+        BitangentDirection::Up => ("", ["directx", "opengl"]),
+        BitangentDirection::Down => (" --convention directx", ["opengl", "directx"]),
+    };
     let fixable = findings.iter().filter(|finding| finding.is_repairable()).count();
     if fixable == findings.len() {
-        return "Type `darboux check FILE --fix` to repair it.".to_owned();
+        return format!("Type `darboux check FILE{option} --fix` to repair it.");
     }
     if fixable > 0 {
         let all = findings.len();
         return format!(
-            "`darboux check FILE --fix` repairs {fixable} of these {all}; the others say why not."
+            "`darboux check FILE{option} --fix` repairs {fixable} of these {all}; the others say why not."
         );
     }
     let reason = findings.iter().find_map(|finding| finding.left_because.as_deref()).unwrap_or_default();
-    match ["directx", "opengl"].iter().find(|name| reason.contains(&format!("--assume map={name}"))) {
+    match inverted.iter().find(|name| reason.contains(&format!("--assume map={name}"))) {
         Some(name) => format!(
             "Nothing in the file decides which of two repairs is right: look, and if it is so, type `darboux \
-             check FILE --fix --assume map={name}`."
+             check FILE{option} --fix --assume map={name}`."
         ),
         None => findings[0].cure.clone(),
     }
@@ -136,6 +179,19 @@ mod tests {
 
     #[test]
     fn nothing_is_wrong_without_findings() {
-        assert_eq!(diagnosis(&[]), "Nothing is wrong.");
+        assert_eq!(diagnosis(&[], &CheckOptions::default()), "Nothing is wrong.");
+    }
+
+    /// A healthy DirectX map is one only where that is expected.
+    #[test]
+    fn what_is_expected_is_told() {
+        let options = CheckOptions::default().with_green(BitangentDirection::Down);
+        let expected = "Nothing is wrong. Green of normal maps was expected to point down (DirectX).";
+        assert_eq!(diagnosis(&[], &options), expected);
+        let assumed = CheckOptions::default().with_assumed_map(Some(AssumedMap::DirectX));
+        let expected = "Nothing is wrong. Where nothing shows the convention of a map, it was taken to be that \
+             of DirectX (green down).";
+        assert_eq!(diagnosis(&[], &assumed), expected);
+        assert_eq!(diagnosis(&[], &assumed.with_maps(false)), "Nothing is wrong.");
     }
 }

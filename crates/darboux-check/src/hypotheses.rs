@@ -18,10 +18,9 @@ use darboux::BitangentDirection;
 
 use crate::check_options::{AssumedMap, CheckOptions};
 use crate::code::Code;
-use crate::damage::MIN_DAMAGED;
 use crate::defect::{Defect, Fault, MapFault, Obstacle, TangentFault};
 use crate::measure::fit::Difference;
-use crate::severity::Severity;
+use crate::severity::{MIN_DAMAGED, Severity};
 
 /// The channels of a map that are inverted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -186,16 +185,35 @@ pub fn damaged_under_inverted_map(defect: &Defect) -> f64 {
     }
 }
 
+/// What is known about a map besides its texels and faces.
+#[derive(Clone, Copy, Debug)]
+pub struct MapContext {
+    /// Where green should point.
+    pub wanted: BitangentDirection,
+    /// The image of the map; none for a map without a document.
+    pub image: Option<usize>,
+    /// Another image of the model and what the faces show of that image.
+    pub sibling: Option<(usize, Inverted)>,
+    /// Whether the model is from Sketchfab.
+    pub is_from_sketchfab: bool,
+}
+
+impl MapContext {
+    /// A map without a document.
+    pub fn alone(options: &CheckOptions) -> Self {
+        Self { wanted: options.green, image: None, sibling: None, is_from_sketchfab: false }
+    }
+}
+
 /// Leaves what is not identified: inverted channels of a map, and flipped signs that the map may cancel.
-/// `surfaces`: the defects of each surface that uses the map. `sibling`: another image of the model and what
-/// the faces show of that image. `image`: the image of the map; none for a map without a document.
+/// `surfaces`: the defects of each surface that uses the map.
 pub fn leave_unidentified(
     on_map: &mut [Defect],
     witness: &MapWitness,
     surfaces: &mut [Vec<&mut Defect>],
-    sibling: Option<(usize, Inverted)>,
-    image: Option<usize>,
+    context: &MapContext,
 ) {
+    let MapContext { wanted, image, sibling, is_from_sketchfab } = *context;
     leave_of_other_layout(on_map, surfaces, image);
     let is_flipped = |surface: &Vec<&mut Defect>| surface.iter().any(|defect| are_nearly_all_flipped(defect));
     let are_flipped = !surfaces.is_empty() && surfaces.iter().all(is_flipped);
@@ -208,7 +226,7 @@ pub fn leave_unidentified(
     if found != Inverted::None {
         let obstacle = match sibling {
             Some((image, Inverted::Red)) if found == Inverted::Green => Obstacle::RedLikelier { image },
-            _ => Obstacle::NotIdentified { probability },
+            _ => Obstacle::NotIdentified { probability, wanted },
         };
         for defect in on_map.iter_mut().filter(|defect| is_about_channels(defect)) {
             defect.obstacle.get_or_insert(obstacle.clone());
@@ -216,7 +234,7 @@ pub fn leave_unidentified(
     }
     // Where the map is right after all, flipped signs are a mistake; where it is not, they cancel it.
     for defect in surfaces.iter_mut().flatten().filter(|defect| is_about_signs(defect)) {
-        defect.obstacle.get_or_insert(Obstacle::MapMayCancel { image, is_of_sketchfab: false });
+        defect.obstacle.get_or_insert(Obstacle::MapMayCancel { image, is_from_sketchfab, wanted });
         if surely_damaged(defect) < MIN_DAMAGED {
             defect.severity = defect.severity.min(Severity::Warning);
         }

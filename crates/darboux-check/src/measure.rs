@@ -14,6 +14,7 @@ pub mod leaning;
 pub mod map;
 pub mod map_kind;
 pub mod mesh_votes;
+pub mod misreading;
 pub mod other_axes;
 pub mod outliers;
 pub mod overlap;

@@ -4,12 +4,15 @@
 mod support;
 
 use darboux::BitangentDirection;
-use darboux_check::{CheckOptions, Code, Finding, FixOptions, Severity, check_document, check_map, fix_map};
+use darboux_check::{
+    CheckOptions, Code, Finding, FixOptions, ReportedFinding, Severity, check_document, check_map, diagnosis,
+    fix_map,
+};
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
 use support::baked::baked_models;
 use support::container::with_json;
-use support::maps::{Map, healthy_map, png};
+use support::maps::{MAP_MISTAKES, Map, healthy_map, png};
 use support::models::{Model, healthy_models};
 
 /// A change of a texel.
@@ -277,4 +280,108 @@ fn maps_of_the_extension_for_webp_are_judged() {
     assert_eq!(named(&model, true), [(Code::MapGreenFlipped, Severity::Error)]);
     model.map = model.map.through(|[r, ..]| [r; 3]);
     assert_eq!(named(&model, false), [(Code::MapHeight, Severity::Error)]);
+}
+
+/// A map of steep diagonal grooves, resized without normalising: each vector is the mean of four, most are
+/// shorter than 0.9, and red and green are light and dark together, as in pictures. All can be normals.
+#[test]
+fn shortened_vectors_are_no_picture() {
+    let side = 256;
+    let vector = |x: usize, y: usize| {
+        let (along, across) = (x as f32 - y as f32, (x + y) as f32);
+        let lean = 1.5 * ((1.5 * along).sin() + (0.43 * along).sin());
+        let across = 0.35 * (0.9 * across).sin();
+        let vector = [lean + across, lean - across, 1.0];
+        let length = vector.iter().map(|x| x * x).sum::<f32>().sqrt();
+        vector.map(|x| x / length)
+    };
+    let texel = |i: usize| {
+        let (x, y) = (i % side * 2, i / side * 2);
+        let four = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)].map(|(x, y)| vector(x, y));
+        [0, 1, 2].map(|c| (127.5 + 127.5 * four.iter().map(|v| v[c]).sum::<f32>() / 4.0).round() as u8)
+    };
+    let texels: Vec<[u8; 3]> = (0..side * side).map(texel).collect();
+    let [red, green] = [0, 1].map(|c| texels.iter().map(|texel| f64::from(texel[c])).collect::<Vec<_>>());
+    assert!(correlation(&red, &green) > 0.8);
+    let found = found(&png(&texels));
+    assert!(found.iter().any(|finding| finding.code == Code::MapNotUnit), "{found:#?}");
+    assert!(!found.iter().any(|finding| finding.code == Code::MapNotNormal), "{found:#?}");
+    // With half the brightness of blue, as a photograph of the grooves has, they are none.
+    let picture: Vec<[u8; 3]> = texels.iter().map(|[r, g, b]| [*r, *g, b / 3]).collect();
+    let found = self::found(&png(&picture));
+    assert!(found.iter().any(|finding| finding.code == Code::MapNotNormal), "{found:#?}");
+}
+
+fn correlation(a: &[f64], b: &[f64]) -> f64 {
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    let product =
+        |a: &[f64], b: &[f64], [x, y]: [f64; 2]| a.iter().zip(b).map(|(a, b)| (a - x) * (b - y)).sum::<f64>();
+    let squares = product(a, a, [mean_a; 2]) * product(b, b, [mean_b; 2]);
+    product(a, b, [mean_a, mean_b]) / squares.sqrt()
+}
+
+/// Without z, a map whose blue is 255 is read as gentler slopes: hardly gentler, visibly, or much. One whose
+/// blue is 0 or 128 is wrong everywhere.
+#[test]
+fn maps_without_z_are_as_severe_as_their_error() {
+    let map = |slope: f32, blue: u8| {
+        let mut healthy = healthy_map(0);
+        healthy.case.slope = slope;
+        let texels: Vec<[u8; 3]> =
+            healthy.case.texels(false).iter().map(|[r, g, _]| [*r, *g, blue]).collect();
+        let findings = check_map(&png(&texels), &CheckOptions::default()).findings;
+        let found = findings.into_iter().find(|finding| finding.code == Code::MapTwoChannel);
+        let found = found.unwrap_or_else(|| panic!("slope {slope}, blue {blue}"));
+        let degrees = found.evidence.iter().find(|number| number.unit == "degrees").expect("an angle").value;
+        (found.severity, degrees)
+    };
+    let (gentle, degrees) = map(0.15, 255);
+    assert!(gentle == Severity::Info && degrees < 1.5, "{gentle} {degrees}");
+    let (visible, degrees) = map(0.4, 255);
+    assert!(visible == Severity::Warning && (1.5..8.0).contains(&degrees), "{visible} {degrees}");
+    let (steep, degrees) = map(2.0, 255);
+    assert!(steep == Severity::Error && degrees > 8.0, "{steep} {degrees}");
+    for blue in [0, 128] {
+        let (severity, degrees) = map(0.15, blue);
+        assert!(severity == Severity::Error && degrees > 30.0, "{severity} {degrees}");
+    }
+}
+
+/// A strong compression moves flat texels, too: it comes first in the diagnosis.
+#[test]
+fn compression_leads_the_diagnosis() {
+    let mistake = MAP_MISTAKES.iter().find(|mistake| mistake.code == Code::MapBlocks).expect("blocks");
+    let map = (mistake.make)(&healthy_map(0));
+    let mut texels = map.texels.clone();
+    let length = texels.len();
+    texels[..length / 4].fill([123, 124, 255]);
+    let findings = check_map(&png(&texels), &CheckOptions::default()).findings;
+    let has = |code: Code, severity: Severity| {
+        findings.iter().any(|finding| (finding.code, finding.severity) == (code, severity))
+    };
+    let warning = Severity::Warning;
+    assert!(has(Code::MapBlocks, warning) && has(Code::MapFlatOff, warning), "{findings:#?}");
+    let reported: Vec<ReportedFinding> = findings.into_iter().map(Into::into).collect();
+    let sentence = diagnosis(&reported, &CheckOptions::default());
+    assert!(sentence.starts_with("the image: a compression in blocks of 8 x 8 texels"), "{sentence}");
+}
+
+/// Where DirectX's convention is expected, an OpenGL map is the other one, in every sentence.
+#[test]
+fn the_diagnosis_is_about_the_wanted_convention() {
+    let options = CheckOptions::default().with_green(BitangentDirection::Down);
+    let findings = check_map(&healthy_map(0).file, &options).findings;
+    let reasons: Vec<&str> = findings.iter().filter_map(|finding| finding.left_because.as_deref()).collect();
+    assert!(reasons.iter().any(|reason| reason.contains("`--assume map=both-inverted`")), "{reasons:?}");
+    let reported: Vec<ReportedFinding> = findings.into_iter().map(Into::into).collect();
+    let sentence = diagnosis(&reported, &options);
+    for part in [
+        "it is in the convention of OpenGL",
+        "an OpenGL map was put into a project that wants DirectX's",
+        "`darboux check FILE --convention directx --fix --assume map=opengl`",
+        "Green of normal maps was expected to point down (DirectX).",
+    ] {
+        assert!(sentence.contains(part), "{part}: {sentence}");
+    }
 }

@@ -13,7 +13,7 @@ use crate::cancelling;
 use crate::check_options::CheckOptions;
 use crate::defect::{Defect, Fault, MapFault, Obstacle, Unread, UvFault};
 use crate::finding::Finding;
-use crate::hypotheses::{self, Inverted, MapWitness, inverted, is_about_channels};
+use crate::hypotheses::{self, Inverted, MapContext, MapWitness, inverted, is_about_channels};
 use crate::instances::{Key, key};
 use crate::map_users::{MapSurfaces, MapUsers};
 use crate::measure::directions::{directions_by_mesh, witness};
@@ -86,7 +86,12 @@ pub fn map_defects_on_surfaces(file: &[u8], surfaces: &MapSurfaces, options: &Ch
 /// of which repairs revealed more.
 pub fn identified_defects(file: &[u8], surfaces: &MapSurfaces, options: &CheckOptions) -> MapDefects {
     let mut checked = map_defects_on_surfaces(file, surfaces, options);
-    hypotheses::leave_unidentified(&mut checked.defects, &checked.witness, &mut [], None, None);
+    hypotheses::leave_unidentified(
+        &mut checked.defects,
+        &checked.witness,
+        &mut [],
+        &MapContext::alone(options),
+    );
     checked
 }
 
@@ -97,6 +102,7 @@ pub struct ModelOfMaps {
     surfaces: Vec<Surface>,
     defects: Vec<Defect>,
     findings: Vec<Finding>,
+    is_from_sketchfab: bool,
 }
 
 impl ModelOfMaps {
@@ -116,7 +122,9 @@ impl ModelOfMaps {
             self.surfaces.iter().filter_map(|surface| surface.place.primitive.as_ref().map(key)).collect();
         let found = &mut on_map.defects;
         let cancelled = BySurface::new(&mut on_model).visit(&keys, |surfaces| {
-            hypotheses::leave_unidentified(found, &on_map.witness, surfaces, None, None);
+            let is_from_sketchfab = self.is_from_sketchfab;
+            let context = MapContext { is_from_sketchfab, ..MapContext::alone(options) };
+            hypotheses::leave_unidentified(found, &on_map.witness, surfaces, &context);
             cancelling::mark(found, surfaces, |_| true, None)
         });
         for defect in found.iter_mut().filter(|defect| cancelled.contains(&defect.code())) {
@@ -137,7 +145,8 @@ pub fn check_model_of_maps(document: &Document) -> Result<ModelOfMaps, Error> {
         surfaces.push(surface);
     })?;
     weigh(&mut defects);
-    Ok(ModelOfMaps { surfaces, findings: words::findings(defects.clone()), defects })
+    let is_from_sketchfab = is_from_sketchfab(document);
+    Ok(ModelOfMaps { surfaces, findings: words::findings(defects.clone()), defects, is_from_sketchfab })
 }
 
 /// Checks the file of an image as the normal map of a model, whose faces tell inverted red from inverted
@@ -227,11 +236,14 @@ pub fn defects_of_materials(
         let others = keys.iter().zip(cancels).filter(|(_, pair)| pair.is_none());
         not_cancelled.extend(others.map(|(key, _)| *key));
     }
+    let is_from_sketchfab = is_from_sketchfab(document);
     for (image, found, witness) in &mut judged {
         let sibling = shown.iter().find(|(other, _)| *other != *image).copied();
         let keys = keys_of(*image);
         by_surface.visit(&keys, |surfaces| {
-            hypotheses::leave_unidentified(found, witness, surfaces, sibling, Some(*image));
+            let context =
+                MapContext { image: Some(*image), sibling, is_from_sketchfab, wanted: options.green };
+            hypotheses::leave_unidentified(found, witness, surfaces, &context);
             cancelling::mark(found, surfaces, |index| !not_cancelled.contains(&keys[index]), Some(*image));
         });
     }
@@ -239,11 +251,7 @@ pub fn defects_of_materials(
         |found: &[Defect]| found.iter().any(|defect| matches!(defect.fault, Fault::Map(MapFault::Flat(_))));
     let flat = judged.iter().filter(|(_, found, _)| is_flat(found)).map(|(image, ..)| *image).collect();
     let under_flat_maps = users.read_only_by(&flat);
-    let is_from_sketchfab = is_from_sketchfab(document);
     for defect in on_surfaces {
-        if let Some(Obstacle::MapMayCancel { is_of_sketchfab, .. }) = &mut defect.obstacle {
-            *is_of_sketchfab = is_from_sketchfab;
-        }
         let image = defect.place.primitive.as_ref().and_then(|name| under_flat_maps.get(&key(name)));
         if let Some(&image) = image {
             *defect = defect.clone().under_flat_map(image);
@@ -288,7 +296,9 @@ fn leave_under_unread_maps(
     };
     let under: Vec<&mut Defect> = on_surfaces.iter_mut().filter(|defect| is_under(defect)).collect();
     let witness = MapWitness::of_unread(options);
-    hypotheses::leave_unidentified(&mut [], &witness, &mut [under], None, None);
+    let is_from_sketchfab = is_from_sketchfab(document);
+    let context = MapContext { is_from_sketchfab, ..MapContext::alone(options) };
+    hypotheses::leave_unidentified(&mut [], &witness, &mut [under], &context);
 }
 
 /// The most characters of a name that are shown.

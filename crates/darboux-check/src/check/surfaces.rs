@@ -7,7 +7,7 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveInfo, PrimitiveName, inspect};
 
 use crate::code::{Code, Family};
-use crate::damage::{MIN_DAMAGED, damaged_area};
+use crate::damage::damaged_area;
 use crate::defect::{Defect, Fault, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::instances::{Key, distinct, key};
@@ -15,7 +15,7 @@ use crate::measure::texture_axes::followed;
 use crate::model_area::ModelArea;
 use crate::obstacles;
 use crate::rules::SURFACE_RULES;
-use crate::severity::Severity;
+use crate::severity::{MIN_DAMAGED, Severity};
 use crate::surface::Surface;
 
 /// The defects of the primitives with triangles that are wanted.

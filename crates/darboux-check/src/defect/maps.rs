@@ -4,6 +4,7 @@ use darboux::{BitangentDirection, MapJudgement, SrgbMistake};
 
 use crate::code::Code;
 use crate::measure::contradiction::Contradiction;
+use crate::measure::misreading::Misreading;
 use crate::measure::padding::Padding;
 use crate::measure::reordered::Reordered;
 use crate::measure::seams::{Layout, SeamFit};
@@ -159,6 +160,7 @@ pub enum MapFault {
         /// Whether x is in alpha ("DXT5nm").
         is_x_in_alpha: bool,
         certainty: Certainty,
+        misreading: Misreading,
     },
     /// Parts of the map are in other conventions than others.
     Contradiction {

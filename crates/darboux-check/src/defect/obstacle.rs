@@ -1,10 +1,13 @@
 //! [`Obstacle`]: why a repair leaves a defect.
 
+use darboux::BitangentDirection;
+
 use super::pair::Pair;
 use crate::code::Code;
 use crate::measure::reversal::Undecided;
 
-/// Why a repair leaves a defect.
+/// Why a repair leaves a defect. Directions are those where green should point: what a map may be is named as
+/// seen from there.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Obstacle {
     /// There is no repair for its code.
@@ -41,12 +44,13 @@ pub enum Obstacle {
     OnlyAPartOfMap,
     /// The fine detail of the map is in the other convention.
     DetailIsOpposed,
-    FacesLeanToRed,
+    FacesLeanToRed(BitangentDirection),
     /// Inverted green and inverted red look alike; the one that is named is so likely.
     NotIdentified {
         probability: f64,
+        wanted: BitangentDirection,
     },
-    OnlyTheModelTells,
+    OnlyTheModelTells(BitangentDirection),
     ExchangedAndInverted,
     VectorsLean,
     MayBeNoMap,
@@ -61,7 +65,8 @@ pub enum Obstacle {
     MapMayCancel {
         image: Option<usize>,
         /// Whether the file is from Sketchfab, most of whose maps do.
-        is_of_sketchfab: bool,
+        is_from_sketchfab: bool,
+        wanted: BitangentDirection,
     },
     /// The map was made for another UV layout, which the tangents may fit.
     MapHasOtherLayout {
@@ -97,8 +102,8 @@ impl Obstacle {
                 | Self::OtherMethodWanted
                 | Self::NotIdentified { .. }
                 | Self::RedLikelier { .. }
-                | Self::OnlyTheModelTells
-                | Self::FacesLeanToRed
+                | Self::OnlyTheModelTells(_)
+                | Self::FacesLeanToRed(_)
                 | Self::ExchangedAndInverted
         )
     }

@@ -12,6 +12,7 @@ use crate::defect::Unread;
 use crate::measure::arrangement::Arrangement;
 use crate::measure::contradiction::Contradiction;
 use crate::measure::mesh_votes::MeshVotes;
+use crate::measure::misreading::Misreading;
 use crate::measure::reordered::Reordered;
 use crate::measure::storage::Storage;
 
@@ -32,12 +33,14 @@ pub struct Map {
     pub scaled: Option<MapJudgement>,
     /// What the two channels hold that would be x and y of a map without z; none where three channels vary.
     pub two_channels: Option<TwoChannels>,
+    /// What a renderer that reads three channels makes of these two.
+    pub misreading: Option<Misreading>,
     /// Where parts of the map are in other conventions than others: which ones.
     pub contradiction: Option<Contradiction>,
     /// Where the vectors point along another axis than z: which one.
     pub reordered: Option<Reordered>,
-    /// Whether most texels have other lengths than 1, and red and green are light and dark together, as in
-    /// pictures.
+    /// Whether most texels have other lengths than 1, red and green are light and dark together, as in
+    /// pictures, and filtered normals are not like that.
     pub is_picture: bool,
     /// What storage did to the texels.
     pub storage: Storage,
@@ -69,6 +72,14 @@ pub enum TwoChannels {
 }
 
 impl TwoChannels {
+    /// The channels of x and y.
+    fn x_and_y(self) -> [usize; 2] {
+        match self {
+            Self::RedGreen(_) => [0, 1],
+            Self::AlphaGreen(_) => [3, 1],
+        }
+    }
+
     /// `judgement`: that on red, green and blue.
     fn of(image: &RgbaImage, judgement: &MapJudgement) -> Option<Self> {
         let size = [image.width, image.height].map(|side| side as usize);
@@ -110,6 +121,7 @@ impl Map {
                 let scaled = judgement.as_ref().ok().and_then(|judgement| judge_scaled(&image, judgement));
                 let two_channels =
                     judgement.as_ref().ok().and_then(|judgement| TwoChannels::of(&image, judgement));
+                let misreading = two_channels.map(|channels| Misreading::of(&image, channels.x_and_y()));
                 let before_srgb = srgb_mistake.and_then(|mistake| judge_without(mistake, &image));
                 let facets = vote.map(|vote| vote(&image));
                 let reordered =
@@ -124,6 +136,7 @@ impl Map {
                     before_srgb,
                     scaled,
                     two_channels,
+                    misreading,
                     contradiction,
                     reordered,
                     is_picture,
@@ -171,6 +184,7 @@ impl Map {
             before_srgb: None,
             scaled: None,
             two_channels: None,
+            misreading: None,
             contradiction: None,
             reordered: None,
             is_picture: false,
@@ -194,10 +208,29 @@ fn is_other_format(file: &[u8]) -> bool {
 /// brightness has 1.
 const MIN_CORRELATION_OF_PICTURES: f64 = 0.8;
 
+/// The least confidence in the convention of a map that was filtered or compressed until most vectors are
+/// shorter than 1, its least mean z, the largest mean lean of its x and y, and its share of texels, in
+/// percent, that no filter makes of normals. Pictures are within one or the other (docs/notes/check.md).
+const MIN_CONFIDENCE: f32 = 0.99;
+const MIN_MEAN_Z: f32 = 0.5;
+const MAX_MEAN_LEAN: f32 = 0.25;
+const MAX_IMPOSSIBLE: f64 = 5.0;
+
+/// Whether a map holds normals that were filtered or compressed: nearly all texels are what that can make of
+/// normals, they point out of the surface on average, and they are the slopes of one for certain.
+fn are_filtered_normals(judgement: &MapJudgement) -> bool {
+    let [x, y, z] = judgement.mean;
+    let is_direction = matches!(judgement.verdict, MapVerdict::OpenGl | MapVerdict::DirectX);
+    let are_slopes = is_direction && judgement.confidence >= MIN_CONFIDENCE;
+    let is_upright = z >= MIN_MEAN_Z && x.abs().max(y.abs()) <= MAX_MEAN_LEAN;
+    are_slopes && is_upright && percent(judgement, judgement.not_normal) <= MAX_IMPOSSIBLE
+}
+
 /// Whether most texels have other lengths than 1, and red and green are light and dark together.
 fn is_picture(image: &RgbaImage, judgement: &MapJudgement) -> bool {
     if 2 * judgement.not_unit <= judgement.texels - judgement.background
         || judgement.verdict == MapVerdict::Flat
+        || are_filtered_normals(judgement)
     {
         return false;
     }

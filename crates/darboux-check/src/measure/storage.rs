@@ -58,10 +58,19 @@ impl Storage {
     pub fn of(image: &RgbaImage, file: &[u8]) -> Self {
         let is_ktx = file.starts_with(b"\xABKTX 20\xBB");
         let side = if is_ktx { TEXTURE_BLOCK_SIDE } else { JPEG_SIDE };
+        let enlargement = Enlargement::of(image);
+        // The lowest qualities of JPEG keep nothing of a block but its mean.
+        let is_of_means = |found: &Enlargement| {
+            file.starts_with(b"\xFF\xD8\xFF") && found.factors.iter().all(|factor| factor % JPEG_SIDE == 0)
+        };
+        let of_means = enlargement.filter(is_of_means);
         Self {
-            enlargement: Enlargement::of(image),
+            enlargement: enlargement.filter(|_| of_means.is_none()),
             few_levels: FewLevels::of(image),
-            block_steps: BlockSteps::of(image, side),
+            block_steps: match of_means {
+                Some(Enlargement { step, .. }) => Some(BlockSteps { side, degrees: step, share: 1.0 }),
+                None => BlockSteps::of(image, side),
+            },
         }
     }
 }
@@ -255,4 +264,26 @@ struct Borders {
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Blocks of 8 x 8 equal texels are an enlargement in a PNG, and all that a JPEG of the lowest quality
+    /// keeps.
+    #[test]
+    fn blocks_of_means_in_a_jpeg_are_no_enlargement() {
+        let texel = |i: usize| {
+            let (x, y) = (i % 128 / 8, i / 128 / 8);
+            [120 + (5 * x + 3 * y) as u8 % 17, 120 + (3 * x + 7 * y) as u8 % 19, 250, 255]
+        };
+        let image = RgbaImage { width: 128, height: 128, texels: (0..128 * 128).map(texel).collect() };
+        let png = Storage::of(&image, b"\x89PNG\r\n\x1A\n");
+        assert_eq!(png.enlargement.map(|found| found.factors), Some([8, 8]));
+        let jpeg = Storage::of(&image, b"\xFF\xD8\xFF\xE0");
+        assert_eq!(jpeg.enlargement, None);
+        let blocks = jpeg.block_steps.expect("blocks");
+        assert!(blocks.side == 8 && blocks.degrees > 1.0, "{blocks:?}");
+    }
 }

@@ -16,8 +16,10 @@ use crate::measure::directions::{
 use crate::measure::map::{Map, TwoChannels, percent};
 use crate::measure::map_kind::{Kind, kind};
 use crate::measure::mesh_votes::MeshVotes;
-use crate::severity::Severity;
+use crate::severity::{MIN_DAMAGED, Severity};
 
+/// In the order of their findings: causes come before what follows from them. A strong compression changes
+/// lengths, flat texels and what the derivatives show.
 pub const RULES: &[MapRule] = &[
     unreadable,
     height,
@@ -26,6 +28,9 @@ pub const RULES: &[MapRule] = &[
     srgb,
     not_normal,
     two_channel,
+    enlarged,
+    banding,
+    blocks,
     contradiction,
     red_flipped,
     green_flipped,
@@ -38,9 +43,6 @@ pub const RULES: &[MapRule] = &[
     flat_off,
     flat,
     padding,
-    enlarged,
-    banding,
-    blocks,
 ];
 
 /// The share of texels, in percent, above which vectors are worth a warning.
@@ -121,16 +123,25 @@ fn colour(judgement: &MapJudgement) -> [f64; 3] {
     [red.into(), green.into(), blue.into()]
 }
 
+/// Where blue is 255, bumps are a little too weak, and steep ones much; elsewhere normals point anywhere.
 fn two_channel(map: &Map) -> Option<Defect> {
     of_kind(map, Kind::TwoChannel)?;
-    let channels = map.two_channels?;
+    let (channels, misreading) = (map.two_channels?, map.misreading?);
     let (TwoChannels::RedGreen(judgement) | TwoChannels::AlphaGreen(judgement)) = channels;
     let is_x_in_alpha = matches!(channels, TwoChannels::AlphaGreen(_));
     let is_unclear = judgement.verdict == MapVerdict::CannotTell && map.facets.is_none();
     let obstacle = if is_x_in_alpha { Some(Obstacle::XInAlpha) } else { None };
     let obstacle = obstacle.or(is_unclear.then_some(Obstacle::UnclearChannels));
     let certainty = certainty(&judgement, map);
-    Some(Defect::new(MapFault::TwoChannel { is_x_in_alpha, certainty }).with_obstacle(obstacle))
+    let severity = if misreading.damaged >= MIN_DAMAGED {
+        Severity::Error
+    } else if misreading.typical >= MIN_STEP {
+        Severity::Warning
+    } else {
+        Severity::Info
+    };
+    let found = Defect::new(MapFault::TwoChannel { is_x_in_alpha, certainty, misreading });
+    Some(found.with_obstacle(obstacle).with_severity(severity))
 }
 
 fn certainty(judgement: &MapJudgement, map: &Map) -> Certainty {
@@ -192,8 +203,8 @@ fn green_flipped(map: &Map) -> Option<Defect> {
     };
     let obstacle = match doubt {
         RedDoubt::None | RedDoubt::FacesUndecided => None,
-        RedDoubt::FacesLeanToRed => Some(Obstacle::FacesLeanToRed),
-        RedDoubt::NoModel => Some(Obstacle::OnlyTheModelTells),
+        RedDoubt::FacesLeanToRed => Some(Obstacle::FacesLeanToRed(map.wanted)),
+        RedDoubt::NoModel => Some(Obstacle::OnlyTheModelTells(map.wanted)),
     };
     let obstacle = obstacle.or(judgement.has_opposed_detail.then_some(Obstacle::DetailIsOpposed));
     let evidence = direction_evidence(judgement, map);

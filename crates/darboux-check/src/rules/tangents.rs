@@ -1,7 +1,6 @@
 //! Rules about tangents: values, signs and directions.
 
 use super::rule::SurfaceRule;
-use crate::damage::SEEN;
 use crate::defect::{Defect, TangentDifference, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::indices::Part;
@@ -9,6 +8,7 @@ use crate::measure::fit::{Difference, Fit};
 use crate::measure::leaning::leaning;
 use crate::measure::reversal::Reversal;
 use crate::measure::values::{has_length, is_finite, is_sign, is_unit};
+use crate::severity::SEEN;
 use crate::severity::Severity;
 use crate::surface::{Surface, indices_where, xyz};
 

@@ -41,13 +41,20 @@ pub fn said(fault: &MapFault) -> Said {
         MapFault::NotNormal { kind, texels } => {
             Said::new(no_normals(kind)).with("texels that are no normals", texels.percent, "%")
         }
-        MapFault::TwoChannel { is_x_in_alpha, certainty } => {
+        MapFault::TwoChannel { is_x_in_alpha, certainty, misreading } => {
             let text = if *is_x_in_alpha {
                 "its x is in alpha (DXT5nm): its red channel has one value only"
             } else {
                 "its blue channel has one value only"
             };
-            with_certainty(Said::new(text), certainty)
+            let said = Said::new(text)
+                .with(
+                    "typical angle between its normals and those of all three channels",
+                    misreading.typical,
+                    "degrees",
+                )
+                .with("part of the map that looks wrong by that, by the angle", misreading.damaged, "%");
+            with_certainty(said, certainty)
         }
         MapFault::Contradiction { contradiction, .. } => contradictory(contradiction),
         MapFault::GreenFlipped { wanted, doubt, evidence } => green_flipped(*wanted, *doubt, evidence),

@@ -1,5 +1,7 @@
 //! The words of obstacles, as clauses.
 
+use darboux::BitangentDirection;
+
 use super::counts::Sure;
 use crate::code::Code;
 use crate::defect::Obstacle;
@@ -11,27 +13,44 @@ pub fn reason(obstacle: &Obstacle) -> String {
     let clause = match obstacle {
         Obstacle::NoTangents(reason) => return format!("tangents cannot be computed: {reason}"),
         Obstacle::Unsure(probability) => return format!("this is only {} sure", Sure(*probability)),
-        Obstacle::NotIdentified { probability } => {
+        Obstacle::NotIdentified { probability, wanted } => {
+            let [green, red, _] = assumptions(*wanted);
             let sure = Sure(*probability);
             return format!(
                 "which channel is inverted is only {sure} sure, because inverted red and inverted green look alike and no \
                  faces of the model tell them apart, so that inverting the wrong one would make it worse; \
                  look at one bump with a light beside it: if that is right, green is inverted, and `--assume \
-                 map=directx` says so (`--assume map=red-inverted`: red is)"
+                 map={green}` says so (`--assume map={red}`: red is)"
+            );
+        }
+        Obstacle::FacesLeanToRed(wanted) => {
+            let [green, red, _] = assumptions(*wanted);
+            return format!(
+                "the faces of the model lean towards inverted red without deciding it; look at one bump with \
+                 a light beside it and one above it, and say which channel is inverted with `--assume \
+                 map={red}` or `--assume map={green}`"
+            );
+        }
+        Obstacle::OnlyTheModelTells(wanted) => {
+            let [green, red, _] = assumptions(*wanted);
+            return format!(
+                "only the faces of the model tell inverted green from inverted red; name the model with \
+                 --model, or say which it is with `--assume map={green}` or `--assume map={red}`"
             );
         }
         Obstacle::RedLikelier { image } => {
             return format!("red may be inverted instead of green, as in images[{image}]");
         }
-        Obstacle::MapMayCancel { image, is_of_sketchfab } => {
-            let prior = if *is_of_sketchfab {
+        Obstacle::MapMayCancel { image, is_from_sketchfab, wanted } => {
+            let [green, _, right] = assumptions(*wanted);
+            let prior = if *is_from_sketchfab {
                 ", as in 20 of 24 maps of other models from Sketchfab, where this one is from"
             } else {
                 ""
             };
             return format!(
                 "the convention of {} is not known, and inverted green there would cancel the flipped \
-                 signs{prior}; `--assume map=opengl` says that the map is right, `--assume map=directx` that \
+                 signs{prior}; `--assume map={right}` says that the map is right, `--assume map={green}` that \
                  its green is inverted",
                 map_in(*image)
             );
@@ -99,15 +118,6 @@ pub fn reason(obstacle: &Obstacle) -> String {
             "its fine detail is in the other convention, and would be inverted with the rest"
         }
         Obstacle::OnlyAPartOfMap => "nothing says where one part ends and the other one begins",
-        Obstacle::FacesLeanToRed => {
-            "the faces of the model lean towards inverted red without deciding it; look at one bump with a \
-             light beside it and one above it, and say which channel is inverted with `--assume \
-             map=red-inverted` or `--assume map=directx`"
-        }
-        Obstacle::OnlyTheModelTells => {
-            "only the faces of the model tell inverted green from inverted red; name the model with --model, \
-             or say which it is with `--assume map=directx` or `--assume map=red-inverted`"
-        }
         Obstacle::ExchangedAndInverted => {
             "one channel is inverted, too, and no faces of a model show which: `--assume map=directx` says \
              that green is, once red and green are exchanged back, and `--assume map=red-inverted` that red \
@@ -172,6 +182,15 @@ fn undecided(reason: Undecided) -> &'static str {
             "it is open and its tangents contradict each other, so that nothing says whether its faces or \
              its normals are reversed"
         }
+    }
+}
+
+/// What `--assume` calls a map with inverted green, one with inverted red and one that is right, where green
+/// should point in a direction.
+fn assumptions(wanted: BitangentDirection) -> [&'static str; 3] {
+    match wanted {
+        BitangentDirection::Up => ["directx", "red-inverted", "opengl"],
+        BitangentDirection::Down => ["opengl", "both-inverted", "directx"],
     }
 }
 

@@ -78,7 +78,7 @@ impl Checks<'_> {
         let reported = |findings: Vec<Finding>, map: Option<ReportedMap>, document: Option<&Document>| {
             let wanted = findings.into_iter().filter(|finding| self.findings.reports(finding.code));
             let ReportedFindings { findings, diagnosis, importer_note, warnings, .. } =
-                ReportedFindings::new(wanted, document);
+                ReportedFindings::new(wanted, document, &options);
             let input = name.clone();
             CheckedFile { input, error: None, map, importer_note, diagnosis, findings, warnings }
         };

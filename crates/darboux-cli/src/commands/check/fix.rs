@@ -281,7 +281,7 @@ impl Repair<'_> {
         let reported = findings.into_iter().filter(|finding| self.arguments.findings.reports(finding.code));
         let findings: Vec<ReportedFinding> = reported.map(Into::into).collect();
         let summary = FixSummary {
-            diagnosis: diagnosis(&findings),
+            diagnosis: diagnosis(&findings, &options.check),
             findings,
             planned: Some(planned),
             warnings: document.warnings().to_vec(),
@@ -372,6 +372,7 @@ impl Repair<'_> {
     fn summary(&self, fixed: Vec<FixedFinding>, warnings: Vec<String>) -> FixSummary {
         let reported = fixed.into_iter().filter(|fixed| self.arguments.findings.reports(fixed.finding.code));
         let findings: Vec<ReportedFinding> = reported.map(Into::into).collect();
-        FixSummary { diagnosis: diagnosis(&findings), findings, warnings, ..FixSummary::default() }
+        let diagnosis = diagnosis(&findings, &self.arguments.findings.check_options());
+        FixSummary { diagnosis, findings, warnings, ..FixSummary::default() }
     }
 }
