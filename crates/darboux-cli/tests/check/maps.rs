@@ -59,8 +59,8 @@ fn maps_are_judged_alone() {
     darboux(&[&["check", text(&down), "--fix", "--in-place"], &model[..]].concat()).exits(0);
     assert_eq!(fs::read(&down).expect("a file"), fs::read(&fixed).expect("a file"));
 
-    // The plane's signs w are flipped, so that a map with green down looks right on it. That green of the other
-    // map is up is 98.8 % sure, too little to repair the signs alone.
+    // The plane's signs w are flipped, so that a map with green down looks right on it. That green of the
+    // other map is up is 98.8 % sure, too little to repair the signs alone.
     let plane = asset("TwoSidedPlane/TwoSidedPlane.gltf");
     let arguments = ["check", text(&up), "--model", text(&plane), "--json"];
     let on_model = darboux(&arguments).exits(0).json();
