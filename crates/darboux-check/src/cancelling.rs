@@ -5,8 +5,8 @@ use darboux::Recipe;
 
 use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Fault, MapFault, PAIRS, Pair, TangentFault};
-use crate::hypotheses::{are_nearly_all_flipped, damaged_under_inverted_map};
-use crate::severity::{MIN_DAMAGED, Severity};
+use crate::hypotheses::{are_nearly_all_flipped, severity_under_inverted_map};
+use crate::severity::Severity;
 
 /// All codes of the pairs.
 const CODES: [Code; 4] =
@@ -66,11 +66,8 @@ pub fn mark(
         let Some(pair) = *pair else { continue };
         for defect in surface.iter_mut().filter(|defect| is_part(pair, defect)) {
             defect.cancelled.get_or_insert(Cancelled::ByMap { pair, image, is_whole: false });
-            if damaged_under_inverted_map(defect) < MIN_DAMAGED {
-                defect.severity = defect.severity.min(Severity::Warning);
-            } else {
-                severity = defect.severity;
-            }
+            defect.severity = severity_under_inverted_map(defect);
+            severity = severity.max(defect.severity);
         }
     }
     let first_pair = pairs.first().copied().flatten();

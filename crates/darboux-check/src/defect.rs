@@ -35,12 +35,22 @@ pub struct Defect {
     pub obstacle: Option<Obstacle>,
     /// The mistake elsewhere that cancels it, so that bumps look right now.
     pub cancelled: Option<Cancelled>,
-    /// The image of a flat normal map, where such maps are all that the surface has, so that nothing shows
-    /// which way its tangents point.
-    pub flat_map: Option<usize>,
+    /// Why nothing shows it.
+    pub unseen: Option<Unseen>,
     /// In percent of the model's area: the damage, weighted by the angle; none where its severity does
     /// not depend on that.
     pub damaged_percent: Option<f64>,
+}
+
+/// Why nothing shows a defect of a normal map, or of the tangents that it needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unseen {
+    /// All normal maps of the surface are flat; the image of one.
+    FlatMap { image: usize },
+    /// Every material with the map is unlit or scales it by 0.
+    NoMaterial,
+    /// No mesh of a node has the map.
+    NotInScene,
 }
 
 /// What is wrong, by what it is about.
@@ -130,7 +140,7 @@ impl Defect {
         let code = fault.code();
         let obstacle = code.left_because().map(|_| Obstacle::NoRepair(code));
         let (place, severity) = (Place::default(), code.severity());
-        Self { place, severity, fault, obstacle, cancelled: None, flat_map: None, damaged_percent: None }
+        Self { place, severity, fault, obstacle, cancelled: None, unseen: None, damaged_percent: None }
     }
 
     pub fn code(&self) -> Code {
@@ -189,16 +199,16 @@ impl Defect {
         Self { severity, ..self }
     }
 
-    /// The same for a surface whose normal maps are all flat: information, unless the tangents have no
-    /// direction, which breaks the normals of renderers, too.
+    /// The same for a map or a surface that nothing shows: information, unless tangents have no direction,
+    /// which breaks the normals of renderers, too.
     #[must_use]
-    pub fn under_flat_map(self, image: usize) -> Self {
+    pub fn that_is_unseen(self, why: Unseen) -> Self {
         let has_none = matches!(self.code(), Code::TangentNotFinite | Code::TangentZero);
-        if self.family() != Family::Tangents || has_none {
+        let is_read = matches!(self.family(), Family::Tangents | Family::Maps);
+        if !is_read || has_none || self.severity == Severity::NotChecked {
             return self;
         }
-        let severity = self.severity.min(Severity::Info);
-        Self { flat_map: Some(image), severity, damaged_percent: None, ..self }
+        Self { unseen: Some(why), severity: self.severity.min(Severity::Info), damaged_percent: None, ..self }
     }
 
     /// Whether two defects say the same of the same place. Outliers among tangents are one thing, and the

@@ -33,7 +33,7 @@ pub enum Inverted {
 
 const ALL: [Inverted; 4] = [Inverted::None, Inverted::Green, Inverted::Red, Inverted::Both];
 
-/// How often each is so on a model whose signs w are right, and on one where all are flipped. None of 264
+/// How often each is so on a model whose signs w are right, and on one where nearly all are flipped. None of 264
 /// published maps had its red inverted: one in a thousand is assumed. Of seven published models with flipped
 /// signs, four had inverted green.
 const PRIORS: [[f64; 4]; 2] = [[0.953, 0.045, 0.001, 0.001], [0.428, 0.57, 0.001, 0.001]];
@@ -129,6 +129,32 @@ pub fn inverted(on_map: &[Defect]) -> Inverted {
     }
 }
 
+/// Whether a defect says that green of the whole map is inverted.
+pub fn is_about_green(defect: &Defect) -> bool {
+    matches!(defect.fault, Fault::Map(MapFault::GreenFlipped { .. }))
+}
+
+/// Whether the repair of a defect computes all tangents again, with the right signs.
+pub fn needs_new_tangents(defect: &Defect) -> bool {
+    matches!(&defect.fault, Fault::Tangent(fault) if !fault.is_about_single_tangents())
+}
+
+/// The severity of flipped signs, or of a map that they cancel, where the map may be inverted: what looks wrong
+/// either way counts.
+pub fn severity_under_unknown_map(defect: &Defect) -> Severity {
+    at_most_a_warning(defect, surely_damaged(defect))
+}
+
+/// The same where the map is inverted.
+pub fn severity_under_inverted_map(defect: &Defect) -> Severity {
+    at_most_a_warning(defect, damaged_under_inverted_map(defect))
+}
+
+/// `damaged`: in percent of the area.
+fn at_most_a_warning(defect: &Defect, damaged: f64) -> Severity {
+    if damaged < MIN_DAMAGED { defect.severity.min(Severity::Warning) } else { defect.severity }
+}
+
 /// Whether a defect says that a channel of the whole map is inverted.
 pub fn is_about_channels(defect: &Defect) -> bool {
     matches!(defect.fault, Fault::Map(MapFault::GreenFlipped { .. } | MapFault::RedFlipped(_)))
@@ -176,7 +202,7 @@ fn surely_damaged(defect: &Defect) -> f64 {
 
 /// In percent of the model's area: the part without flipped signs, which looks wrong where a map cancels
 /// flipped signs.
-pub fn damaged_under_inverted_map(defect: &Defect) -> f64 {
+fn damaged_under_inverted_map(defect: &Defect) -> f64 {
     match (defect.damaged_percent, flipped_percent(defect)) {
         (Some(damaged), Some(percent)) if percent > 0.0 => {
             damaged * (ALL_PERCENT - percent).max(0.0) / percent
@@ -235,8 +261,15 @@ pub fn leave_unidentified(
     // Where the map is right after all, flipped signs are a mistake; where it is not, they cancel it.
     for defect in surfaces.iter_mut().flatten().filter(|defect| is_about_signs(defect)) {
         defect.obstacle.get_or_insert(Obstacle::MapMayCancel { image, is_from_sketchfab, wanted });
-        if surely_damaged(defect) < MIN_DAMAGED {
-            defect.severity = defect.severity.min(Severity::Warning);
+        defect.severity = severity_under_unknown_map(defect);
+    }
+    for surface in surfaces {
+        let are_some =
+            |defect: &&mut Defect| flipped_percent(defect).is_some_and(|percent| percent < ALL_PERCENT);
+        if surface.iter().any(|defect| are_some(defect)) {
+            for defect in surface.iter_mut().filter(|defect| needs_new_tangents(defect)) {
+                defect.obstacle.get_or_insert(Obstacle::SignsAreLeft);
+            }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Primitives with the same data, which are checked once.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 
@@ -75,4 +75,13 @@ pub fn distinct<'a>(
         }
     }
     found
+}
+
+/// The meshes that no node has; none where no node has a mesh, as in a file of meshes alone.
+pub fn meshes_without_node(document: &Document) -> BTreeSet<usize> {
+    let nodes = document.json()["nodes"].as_array().into_iter().flatten();
+    let used: BTreeSet<usize> =
+        nodes.filter_map(|node| usize::try_from(node["mesh"].as_u64()?).ok()).collect();
+    let all = if used.is_empty() { 0..0 } else { 0..document.meshes().len() };
+    all.filter(|mesh| !used.contains(mesh)).collect()
 }

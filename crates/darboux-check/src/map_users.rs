@@ -6,10 +6,11 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use darboux_io::Error;
-use darboux_io::gltf::{Document, Material, PrimitiveCorners, PrimitiveName, TextureUse};
+use darboux_io::gltf::{Document, Material, PrimitiveCorners, PrimitiveName, TextureUse, schema};
 use darboux_io::image::RgbaImage;
 
-use crate::instances::{Key, distinct, key};
+use crate::defect::Unseen;
+use crate::instances::{Key, distinct, key, meshes_without_node};
 use crate::measure::mesh_votes::MeshVotes;
 use crate::surface::Surface;
 
@@ -21,6 +22,11 @@ pub struct MapUsers<'a> {
     users: BTreeMap<usize, BTreeMap<usize, Vec<TextureUse>>>,
     /// The number of images that each primitive uses.
     images_of_primitive: Vec<usize>,
+    /// The images that materials of each primitive show: those that are lit, and scale the map by more than 0.
+    shown_on_primitive: Vec<BTreeSet<usize>>,
+    /// The images that a mesh of a node has, and those of them that its materials show.
+    in_scene: BTreeSet<usize>,
+    shown: BTreeSet<usize>,
     /// The primitives on which tangents decide more than images of normal maps: highlights, or a texture
     /// without an image.
     read_otherwise: BTreeSet<usize>,
@@ -38,6 +44,32 @@ struct ReadSurfaces {
 
 /// Surfaces with more corners are read again for each image.
 const MOST_KEPT_CORNERS: usize = 1 << 20;
+
+/// The images of the normal maps of a primitive's materials. `are_shown`: only of materials that are lit, and
+/// not those that a material scales by 0.
+fn images_of<'m>(
+    primitive: &schema::Primitive,
+    materials: &'m [Material],
+    are_shown: bool,
+) -> impl Iterator<Item = usize> + use<'m> {
+    let used: Vec<&Material> =
+        primitive.materials().iter().filter_map(|&material| materials.get(material)).collect();
+    let of_material = move |material: &'m Material| {
+        let is_scaled = !are_shown || material.normal_scale != 0.0;
+        let own = material.normal_texture.as_ref().filter(|_| is_scaled);
+        own.into_iter().chain(&material.clearcoat_normal_texture).filter_map(|texture| texture.image)
+    };
+    used.into_iter().filter(move |material| !are_shown || !material.is_unlit).flat_map(of_material)
+}
+
+/// The images of the normal maps of all meshes that nodes have. `are_shown`: as of [`images_of`].
+fn images_in_scene(document: &Document, materials: &[Material], are_shown: bool) -> BTreeSet<usize> {
+    let unused = meshes_without_node(document);
+    let meshes = document.meshes().iter().enumerate();
+    let meshes = meshes.filter(|(index, _)| !unused.contains(index));
+    let primitives = meshes.flat_map(|(_, mesh)| &mesh.primitives);
+    primitives.flat_map(|primitive| images_of(primitive, materials, are_shown)).collect()
+}
 
 impl<'a> MapUsers<'a> {
     /// Finds the users of all images; primitives with the same data once. `materials`: of the document.
@@ -66,9 +98,38 @@ impl<'a> MapUsers<'a> {
         }
         let mut images_of_primitive = vec![0; primitives.len()];
         users.values().flat_map(BTreeMap::keys).for_each(|&primitive| images_of_primitive[primitive] += 1);
+        let shown = |corners: &PrimitiveCorners<'_>| {
+            let name = corners.name();
+            images_of(&document.meshes()[name.mesh].primitives[name.primitive], materials, true).collect()
+        };
+        let shown_on_primitive = primitives.iter().map(shown).collect();
+        let [in_scene, shown] =
+            [false, true].map(|are_shown| images_in_scene(document, materials, are_shown));
         let obstacles = document.normal_map_obstacles();
         let read = RefCell::default();
-        Ok(Self { document, primitives, users, images_of_primitive, read_otherwise, obstacles, read })
+        Ok(Self {
+            document,
+            primitives,
+            users,
+            images_of_primitive,
+            shown_on_primitive,
+            in_scene,
+            shown,
+            read_otherwise,
+            obstacles,
+            read,
+        })
+    }
+
+    /// Why nothing shows an image as a normal map; none where something does.
+    pub fn why_unseen(&self, image: usize) -> Option<Unseen> {
+        if self.shown.contains(&image) {
+            None
+        } else if self.in_scene.contains(&image) {
+            Some(Unseen::NoMaterial)
+        } else {
+            Some(Unseen::NotInScene)
+        }
     }
 
     /// Why the texels of an image cannot be changed, as a clause; none if they can.
@@ -82,20 +143,22 @@ impl<'a> MapUsers<'a> {
         users.map(|&primitive| self.primitives[primitive].name())
     }
 
-    /// The primitives whose tangents only some images read, each with one of these.
-    pub fn read_only_by(&self, images: &BTreeSet<usize>) -> BTreeMap<Key, usize> {
-        let mut count = vec![0; self.primitives.len()];
-        let mut only = BTreeMap::new();
-        for &image in images {
-            for &primitive in self.users.get(&image).into_iter().flat_map(BTreeMap::keys) {
-                count[primitive] += 1;
-                let is_all = count[primitive] == self.images_of_primitive[primitive];
-                if is_all && !self.read_otherwise.contains(&primitive) {
-                    only.insert(key(self.primitives[primitive].name()), image);
-                }
+    /// The primitives with normal maps whose tangents nothing shows: all their maps are flat, or no material
+    /// shows one. `flat`: the images that are flat.
+    pub fn unseen_surfaces(&self, flat: &BTreeSet<usize>) -> BTreeMap<Key, Unseen> {
+        let with_maps: BTreeSet<usize> = self.users.values().flat_map(BTreeMap::keys).copied().collect();
+        let why = |primitive: usize| {
+            let shown = self.shown_on_primitive.get(primitive)?;
+            match shown.first() {
+                None => Some(Unseen::NoMaterial),
+                Some(&image) if shown.is_subset(flat) => Some(Unseen::FlatMap { image }),
+                Some(_) => None,
             }
-        }
-        only
+        };
+        let unread = with_maps.difference(&self.read_otherwise);
+        unread
+            .filter_map(|&primitive| Some((key(self.primitives[primitive].name()), why(primitive)?)))
+            .collect()
     }
 
     /// Whether two images are used on the same surfaces in the same way.

@@ -1,11 +1,13 @@
 //! [`ModelArea`]: the area of all surfaces of a model in its scene, which the damaged area of a defect is
 //! compared with.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use darboux_io::Error;
-use darboux_io::gltf::{Document, MeshInstances};
+use darboux_io::gltf::{Document, Material, MeshInstances};
 
+use crate::code::Family;
+use crate::instances::{Key, key, meshes_without_node};
 use crate::place::Place;
 use crate::surface::{cross, length, sub};
 
@@ -14,8 +16,10 @@ use crate::surface::{cross, length, sub};
 pub struct ModelArea {
     /// The area of all surfaces, in the squared units of the scene.
     total: f64,
-    /// By the index of a mesh: how many times its area is in the scene, scaled as its nodes are. 1 for a
-    /// mesh that no node has.
+    /// The area of those whose tangents something shows.
+    with_maps: f64,
+    /// By the index of a mesh: how many times its area is in the scene, scaled as its nodes are; 0 where
+    /// other meshes have nodes and it has none. 1 for a mesh of another scene.
     scale_of_mesh: BTreeMap<usize, f64>,
 }
 
@@ -24,29 +28,59 @@ impl ModelArea {
     pub fn of(document: &Document) -> Result<Self, Error> {
         // Where the nodes are broken, every mesh counts once.
         let instances = document.mesh_instances().unwrap_or_default();
-        let mut area = Self { total: 0.0, scale_of_mesh: scales(&instances) };
+        let mut area = Self { scale_of_mesh: scales(&instances), ..Self::default() };
+        area.scale_of_mesh.extend(meshes_without_node(document).into_iter().map(|mesh| (mesh, 0.0)));
+        let needing: HashSet<Key> = tangents_needed_by(document)?;
         for corners in document.corners()? {
             let Some(positions) = corners.used_vectors::<3>("POSITION")? else { continue };
             let at = |vertex: u32| positions[vertex as usize];
             let triangles = corners.used_indices().as_chunks::<3>().0.iter();
             let own: f64 =
                 triangles.map(|triangle| area_of(triangle.map(at))).filter(|area| area.is_finite()).sum();
-            area.total += own * area.scale(corners.name().mesh);
+            let own = own * area.scale(corners.name().mesh);
+            area.total += own;
+            area.with_maps += if needing.contains(&key(corners.name())) { own } else { 0.0 };
         }
         Ok(area)
     }
 
-    /// The area of a part of the primitive at a place in percent of the model's; none for a model without an
-    /// area. `own`: in the units of its positions.
-    pub fn percent(&self, place: &Place, own: f64) -> Option<f64> {
+    /// The same for maps on all surfaces.
+    #[must_use]
+    pub fn with_maps_on_all(self) -> Self {
+        Self { with_maps: self.total, ..self }
+    }
+
+    /// The area of a part of the primitive at a place in percent of the model's, for tangents of what shows
+    /// them; none for a model without an area. `own`: in the units of its positions.
+    pub fn percent(&self, place: &Place, own: f64, family: Family) -> Option<f64> {
         let mesh = place.primitive.as_ref()?.mesh;
-        let share = own * self.scale(mesh) * (1 + place.same_as) as f64 / self.total;
+        let all = if family == Family::Tangents { self.with_maps } else { self.total };
+        let shown = own * self.scale(mesh) * (1 + place.same_as) as f64;
+        let share = if shown == 0.0 { 0.0 } else { shown / all };
         (self.total > 0.0 && share.is_finite()).then_some(100.0 * share.min(1.0))
     }
 
     fn scale(&self, mesh: usize) -> f64 {
         self.scale_of_mesh.get(&mesh).copied().unwrap_or(1.0)
     }
+}
+
+/// The primitives whose tangents something shows.
+fn tangents_needed_by(document: &Document) -> Result<HashSet<Key>, Error> {
+    let materials = document.materials()?;
+    let shows = |&material: &usize| materials.get(material).is_some_and(shows_tangents);
+    let meshes = document.meshes().iter().enumerate();
+    let primitives = meshes.flat_map(|(mesh, of_mesh)| {
+        of_mesh.primitives.iter().enumerate().map(move |(number, primitive)| ((mesh, number), primitive))
+    });
+    Ok(primitives
+        .filter(|(_, primitive)| primitive.materials().iter().any(shows))
+        .map(|(key, _)| key)
+        .collect())
+}
+
+fn shows_tangents(material: &Material) -> bool {
+    material.is_anisotropic || material.normal_maps().next().is_some()
 }
 
 /// By mesh, the sum of the area scales of its places in the scene.

@@ -16,7 +16,7 @@ use std::collections::HashMap;
 use std::hash::Hash;
 
 use crate::code::Code;
-use crate::defect::{Cancelled, Defect, Fault, Obstacle};
+use crate::defect::{Cancelled, Defect, Fault, Obstacle, Unseen};
 use crate::finding::Finding;
 use crate::severity::Severity;
 use said::Said;
@@ -61,18 +61,27 @@ fn of_pair(defects: Vec<Defect>) -> Finding {
     }
 }
 
+/// Why nothing shows a defect, as a clause.
+fn unseen(why: Unseen) -> String {
+    match why {
+        Unseen::FlatMap { image } => format!("images[{image}], its normal map, is flat"),
+        Unseen::NoMaterial => "its materials are unlit or scale the map by 0".to_owned(),
+        Unseen::NotInScene => "no mesh of a node has it".to_owned(),
+    }
+}
+
 fn single(defect: Defect) -> Finding {
     let (code, fault) = (defect.code(), &defect.fault);
     let Said { mut text, evidence, cure } =
-        said(fault, defect.severity).with_damaged_percent(defect.damaged_percent);
+        said(fault, defect.severity).with_damaged_percent(defect.damaged_percent, defect.family());
     if let Some(Obstacle::RedLikelier { image }) = defect.obstacle {
         text += &format!("; the red of images[{image}] is inverted, so that this may be likelier");
     }
     if let (Some(Obstacle::MapMayCancel { .. }), None) = (&defect.obstacle, &defect.cancelled) {
         text += ", unless inverted green of the normal map cancels that";
     }
-    if let Some(image) = defect.flat_map {
-        text += &format!("; images[{image}], its normal map, is flat, so that nothing shows it");
+    if let Some(why) = defect.unseen {
+        text += &format!("; {}, so that nothing shows it", unseen(why));
     }
     if let Some(cancelled) = &defect.cancelled {
         text += &format!("; {}, so that bumps look right now: repair both or none", cancels(cancelled));

@@ -3,7 +3,10 @@
 
 mod support;
 
-use darboux_check::{AssumedMap, CheckOptions, Code, FixOptions, check_document, fix_document};
+use darboux_check::{
+    AssumedMap, CheckOptions, Code, FixOptions, check_document, check_map_on_model, check_model_of_maps,
+    fix_document,
+};
 use darboux_io::gltf::Document;
 use support::maps::Map;
 use support::models::{Model, healthy_models};
@@ -149,6 +152,25 @@ fn what_looks_right_still_does_after_a_repair() {
         }
     }
     assert!(repaired_signs > 20, "{repaired_signs}: a check that leaves everything proves nothing");
+}
+
+/// A map that is checked for a model is not repaired alone where signs of the model cancel it, on a part, too.
+#[test]
+fn a_map_is_not_repaired_without_the_signs_of_its_model() {
+    let assumed = CheckOptions::default().with_assumed_map(Some(AssumedMap::DirectX));
+    for healthy in unindexed_models() {
+        let map = with_map(&healthy.map, OfMap::GreenInverted);
+        for (signs, is_repaired) in
+            [(Signs::Flipped(0), true), (Signs::Flipped(43), false), (Signs::Flipped(100), false)]
+        {
+            let model =
+                check_model_of_maps(&with_signs(&healthy, signs).document()).expect("a valid document");
+            let checked = check_map_on_model(&map.file, &model, &assumed);
+            let green = checked.findings.iter().find(|finding| finding.code == Code::MapGreenFlipped);
+            let is_fixable = green.is_some_and(|green| green.is_fixable());
+            assert_eq!(is_fixable, is_repaired, "{}, {signs:?}: {:#?}", healthy.name, checked.findings);
+        }
+    }
 }
 
 /// Whether a repair of a map inverted its green.

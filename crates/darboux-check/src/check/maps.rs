@@ -127,7 +127,12 @@ impl ModelOfMaps {
             hypotheses::leave_unidentified(found, &on_map.witness, surfaces, &context);
             cancelling::mark(found, surfaces, |_| true, None)
         });
-        for defect in found.iter_mut().filter(|defect| cancelled.contains(&defect.code())) {
+        // Signs of a part, or of some surfaces, cancel green there.
+        let are_flipped = on_model.iter().any(hypotheses::is_about_signs);
+        let cancels = |defect: &Defect| {
+            cancelled.contains(&defect.code()) || are_flipped && hypotheses::is_about_green(defect)
+        };
+        for defect in found.iter_mut().filter(|defect| cancels(defect)) {
             defect.obstacle.get_or_insert(Obstacle::OnTheModelToo);
         }
         (on_map, on_model)
@@ -138,7 +143,7 @@ impl ModelOfMaps {
 /// itself. Errors: invalid data of the document.
 pub fn check_model_of_maps(document: &Document) -> Result<ModelOfMaps, Error> {
     let (mut surfaces, mut defects) = (Vec::new(), Vec::new());
-    let area = ModelArea::of(document)?;
+    let area = ModelArea::of(document)?.with_maps_on_all();
     for_each_surface(document, &|_| true, |mut surface| {
         surface.needs_tangents = true;
         defects.extend(defects_of_surface(&surface, &area));
@@ -250,14 +255,20 @@ pub fn defects_of_materials(
     let is_flat =
         |found: &[Defect]| found.iter().any(|defect| matches!(defect.fault, Fault::Map(MapFault::Flat(_))));
     let flat = judged.iter().filter(|(_, found, _)| is_flat(found)).map(|(image, ..)| *image).collect();
-    let under_flat_maps = users.read_only_by(&flat);
+    let unseen = users.unseen_surfaces(&flat);
     for defect in on_surfaces {
-        let image = defect.place.primitive.as_ref().and_then(|name| under_flat_maps.get(&key(name)));
-        if let Some(&image) = image {
-            *defect = defect.clone().under_flat_map(image);
+        let why = defect.place.primitive.as_ref().and_then(|name| unseen.get(&key(name)));
+        if let Some(&why) = why {
+            *defect = defect.clone().that_is_unseen(why);
         }
     }
-    defects.extend(judged.into_iter().flat_map(|(_, found, _)| found));
+    for (image, found, _) in judged {
+        let why = users.why_unseen(image);
+        defects.extend(found.into_iter().map(|defect| match why {
+            Some(why) => defect.that_is_unseen(why),
+            None => defect,
+        }));
+    }
     Ok(defects)
 }
 
@@ -269,7 +280,7 @@ fn unread_maps(document: &Document, index: usize, material: &Material) -> impl I
     let unread = unread.map(|map| (map.file.clone(), map.problem.clone()));
     let without_image = material.normal_maps().filter(|texture| texture.image.is_none());
     let without_image = without_image
-        .map(|_| (String::new(), "has no image in a format that glTF has a name for".to_owned()));
+        .map(|_| (String::new(), "has no image, only extensions that are not known here".to_owned()));
     unread.chain(without_image).map(|(name, problem)| {
         let why = Unread::NotCarried(problem);
         Defect::new(MapFault::Unreadable { name, why, bytes: 0 }).with_severity(Severity::NotChecked)

@@ -101,8 +101,8 @@ pub fn defects_of_surface(surface: &Surface, area: &ModelArea) -> Vec<Defect> {
     let facts = SurfaceFacts::new(surface);
     let rules = SURFACE_RULES.iter().flat_map(|family| family.iter());
     let placed = |defect: Defect| {
-        let damaged_percent =
-            damaged_area(&defect.fault, &facts).and_then(|own| area.percent(&surface.place, own));
+        let damaged_percent = damaged_area(&defect.fault, &facts)
+            .and_then(|own| area.percent(&surface.place, own, defect.family()));
         let obstacle = obstacles::of_surface(&defect, &facts);
         let fault = match &surface.vertices_in_file {
             Some(in_file) => defect.fault.with_vertices(in_file),

@@ -79,6 +79,24 @@ impl TangentFault {
         }
     }
 
+    /// Whether it is about single tangents, which can be corrected without changing others.
+    pub fn is_about_single_tangents(&self) -> bool {
+        match self {
+            Self::NotFinite(_)
+            | Self::Zero(_)
+            | Self::NotUnit(_)
+            | Self::Leaning { .. }
+            | Self::SignNotOne(_)
+            | Self::SignMixed(_)
+            | Self::SharedAcrossMirror(_)
+            | Self::Outliers { .. } => true,
+            Self::Differs(found) => {
+                !matches!(found.difference, Difference::Rotated | Difference::OtherUvSet(_))
+            }
+            Self::Missing(_) | Self::Unused { .. } | Self::OtherRecipe { .. } => false,
+        }
+    }
+
     pub fn items(&self) -> Option<Items<'_>> {
         match self {
             Self::NotFinite(part)

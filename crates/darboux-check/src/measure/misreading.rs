@@ -22,7 +22,14 @@ impl Misreading {
     /// `x_and_y`: the channels that mean x and y.
     pub fn of(image: &RgbaImage, x_and_y: [usize; 2]) -> Self {
         let (mut squares, mut damaged, mut count) = (0.0, 0.0, 0.0f64);
-        for texel in image.texels.iter().step_by((image.texels.len() / Self::TEXELS).max(1)) {
+        // An odd step visits all columns of an image whose width is a power of two.
+        for texel in image.texels.iter().step_by((image.texels.len() / Self::TEXELS) | 1) {
+            if x_and_y
+                .iter()
+                .all(|&channel| texel[channel] == texel[x_and_y[0]] && is_extreme(texel[channel]))
+            {
+                continue;
+            }
             let coordinate = |channel: usize| f64::from(texel[channel]) / 127.5 - 1.0;
             let [x, y] = x_and_y.map(coordinate);
             let z = (1.0 - x * x - y * y).max(0.0).sqrt();
@@ -34,6 +41,11 @@ impl Misreading {
         let count = count.max(1.0);
         Self { typical: (squares / count).sqrt(), damaged: 100.0 * damaged / count }
     }
+}
+
+/// Whether a code is the lowest or the highest one: both channels of background are.
+fn is_extreme(code: u8) -> bool {
+    code == 0 || code == 255
 }
 
 /// The angle between two vectors, in degrees.

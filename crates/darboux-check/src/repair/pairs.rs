@@ -3,17 +3,19 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use darboux::internal::DisjointSets;
 use darboux_io::Error;
 use darboux_io::gltf::{Document, Material};
 
 use super::options::FixOptions;
-use super::plan::is_about_single_tangents;
 use crate::cancelling::{is_part, pair_of};
-use crate::code::{Code, Family};
-use crate::defect::{Cancelled, Defect, Obstacle, PAIRS, Pair};
-use crate::hypotheses::{ALL_PERCENT, flipped_percent, is_about_channels, is_about_signs};
+use crate::code::Code;
+use crate::defect::{Cancelled, Defect, Obstacle, PAIRS, Pair, Unseen};
+use crate::hypotheses::{
+    ALL_PERCENT, flipped_percent, is_about_green, is_about_signs, needs_new_tangents,
+    severity_under_inverted_map, severity_under_unknown_map,
+};
 use crate::instances::{Key, key};
-use crate::severity::Severity;
 
 /// The primitives and images that are left because a part of such a pair is left, each with the pair, or may
 /// be one.
@@ -27,8 +29,8 @@ pub struct LeftPairs {
     partly_on: BTreeSet<usize>,
     /// The primitives whose flipped signs a map may cancel, each with that reason to leave them.
     may_cancel: BTreeMap<Key, Obstacle>,
-    /// The primitives whose tangents nothing shows, each with its flat normal map.
-    flat_maps: BTreeMap<Key, usize>,
+    /// The primitives whose tangents nothing shows, each with the reason.
+    unseen: BTreeMap<Key, Unseen>,
     /// What cancels the defects of a code of a primitive.
     cancelled: BTreeMap<(Key, Code), Cancelled>,
 }
@@ -53,25 +55,30 @@ impl LeftPairs {
             Some(((key(defect.place.primitive.as_ref()?), defect.code()), defect.cancelled.clone()?))
         };
         let cancelled = on_surfaces.iter().filter_map(cancelled).collect();
-        let flat_map = |defect: &Defect| Some((key(defect.place.primitive.as_ref()?), defect.flat_map?));
-        let flat_maps = on_surfaces.iter().filter_map(flat_map).collect();
-        let mut left = Self { may_cancel, cancelled, flat_maps, ..Self::default() };
+        let unseen = |defect: &Defect| Some((key(defect.place.primitive.as_ref()?), defect.unseen?));
+        let unseen = on_surfaces.iter().filter_map(unseen).collect();
+        let mut left = Self { may_cancel, cancelled, unseen, ..Self::default() };
         let of_images = grouped(on_images, |defect| defect.place.image);
         if of_images.is_empty() {
             return Ok(left);
         }
         let materials = document.materials()?;
-        for (primitive, on_surface) in grouped(on_surfaces, |defect| defect.place.primitive.as_ref().map(key))
-        {
+        let mut links = Vec::new();
+        for (primitive, on_surface) in grouped(on_surfaces, primitive_of) {
             for image in normal_maps_of(document, &materials, primitive) {
                 let on_map = of_images.get(&image).map_or(&[][..], |defects| defects);
-                let pair = pair_of(on_map.iter().copied(), on_surface.iter().copied());
-                if let Some(pair) = pair.filter(|pair| is_left(pair, on_map, &on_surface, options)) {
-                    left.primitives.insert(primitive, pair);
-                    left.images.insert(image, pair);
-                } else if pair.is_none() && is_partly_left(on_map, &on_surface, options) {
-                    left.partly.insert(primitive);
-                    left.partly_on.insert(image);
+                links.extend(Link::of((image, on_map), (primitive, &on_surface), options));
+            }
+        }
+        for link in left_links(links) {
+            match link.pair {
+                Some(pair) => {
+                    left.primitives.insert(link.primitive, pair);
+                    left.images.insert(link.image, pair);
+                }
+                None => {
+                    left.partly.insert(link.primitive);
+                    left.partly_on.insert(link.image);
                 }
             }
         }
@@ -87,7 +94,7 @@ impl LeftPairs {
         let kept: BTreeSet<Key> = defects.iter().filter(is_left).filter_map(primitive_of).collect();
         let mark = |defect: Defect| {
             let is_kept = primitive_of(&defect).is_some_and(|key| kept.contains(&key));
-            let is_remade = defect.family() == Family::Tangents && !is_about_single_tangents(&defect);
+            let is_remade = needs_new_tangents(&defect);
             defect.with_obstacle((is_kept && is_remade).then_some(Obstacle::SignsAreLeft))
         };
         defects.into_iter().map(mark).collect()
@@ -113,19 +120,21 @@ impl LeftPairs {
         let pair = pair.or_else(|| self.is_partly_left(&defect).then_some(&PAIRS[0]));
         let pair = pair.map(Obstacle::PairIsLeft);
         let map = may_cancel(&defect);
-        if map.is_some() || defect.cancelled.is_some() {
-            defect.severity = defect.severity.min(Severity::Warning);
+        if defect.cancelled.is_some() {
+            defect.severity = severity_under_inverted_map(&defect);
+        } else if map.is_some() {
+            defect.severity = severity_under_unknown_map(&defect);
         }
-        let flat_map = defect.place.primitive.as_ref().and_then(|name| self.flat_maps.get(&key(name)));
-        if let Some(&image) = flat_map {
-            defect = defect.under_flat_map(image);
+        let unseen = defect.place.primitive.as_ref().and_then(|name| self.unseen.get(&key(name)));
+        if let Some(&why) = unseen {
+            defect = defect.that_is_unseen(why);
         }
         defect.with_obstacle(pair.or(map))
     }
 
     /// Whether signs or channels cancel on a part, and one of them is left.
     fn is_partly_left(&self, defect: &Defect) -> bool {
-        let image = defect.place.image.filter(|_| is_about_channels(defect));
+        let image = defect.place.image.filter(|_| is_about_green(defect));
         let primitive = primitive_of(defect).filter(|_| is_about_signs(defect));
         image.is_some_and(|image| self.partly_on.contains(&image))
             || primitive.is_some_and(|key| self.partly.contains(&key))
@@ -154,17 +163,78 @@ fn primitive_of(defect: &Defect) -> Option<Key> {
     defect.place.primitive.as_ref().map(key)
 }
 
-/// Whether signs of a surface and channels of its map are wrong, in other ways than as a pair, and one of
-/// both is left: where signs are flipped, inverted channels look right.
-fn is_partly_left(on_map: &[&Defect], on_surface: &[&Defect], options: &FixOptions) -> bool {
-    let channels = || on_map.iter().filter(|defect| is_about_channels(defect));
+/// Mistakes of a map and of a surface that uses it, which are repaired together or not.
+struct Link {
+    image: usize,
+    primitive: Key,
+    /// None where they cancel on a part of the surface only.
+    pair: Option<&'static Pair>,
+    /// Whether one of the mistakes is not repaired.
+    is_left: bool,
+}
+
+impl Link {
+    /// None where nothing of both cancels.
+    fn of(
+        (image, on_map): (usize, &[&Defect]),
+        (primitive, on_surface): (Key, &[&Defect]),
+        options: &FixOptions,
+    ) -> Option<Self> {
+        let pair = pair_of(on_map.iter().copied(), on_surface.iter().copied());
+        let is_left = match pair {
+            Some(pair) => is_left(pair, on_map, on_surface, options),
+            None => is_partly_left(on_map, on_surface, options)?,
+        };
+        Some(Self { image, primitive, pair, is_left })
+    }
+}
+
+/// The links of which a mistake is left, or that share a map or a surface with such links.
+fn left_links(links: Vec<Link>) -> Vec<Link> {
+    let primitives: BTreeMap<Key, usize> = links.iter().map(|link| (link.primitive, 0)).collect();
+    let primitives: BTreeMap<Key, usize> = primitives.into_keys().zip(0..).collect();
+    let images: BTreeMap<usize, usize> = links.iter().map(|link| (link.image, 0)).collect();
+    let images: BTreeMap<usize, usize> = images.into_keys().zip(primitives.len()..).collect();
+    let mut groups = DisjointSets::new(primitives.len() + images.len());
+    links.iter().for_each(|link| groups.join(primitives[&link.primitive], images[&link.image]));
+    let mut group = |link: &Link| groups.name(primitives[&link.primitive]);
+    let left: BTreeSet<usize> = links.iter().filter(|link| link.is_left).map(&mut group).collect();
+    links.into_iter().filter(|link| left.contains(&group(link))).collect()
+}
+
+/// Whether green of a map, or signs of a part of a surface that uses it, are left: where signs are flipped,
+/// inverted green looks right. None where not both are wrong.
+fn is_partly_left(on_map: &[&Defect], on_surface: &[&Defect], options: &FixOptions) -> Option<bool> {
+    let green = || on_map.iter().filter(|defect| is_about_green(defect));
     let signs = || on_surface.iter().filter(|defect| is_about_signs(defect));
-    let are_both = channels().next().is_some() && signs().next().is_some();
-    are_both && channels().chain(signs()).any(|defect| !options.repairs(defect))
+    let are_both = green().next().is_some() && signs().next().is_some();
+    are_both.then(|| green().chain(signs()).any(|defect| !options.repairs(defect)))
 }
 
 /// Whether a mistake of a pair is left, so that none is repaired.
 fn is_left(pair: &Pair, on_map: &[&Defect], on_surface: &[&Defect], options: &FixOptions) -> bool {
     let mut of_pair = on_map.iter().chain(on_surface).filter(|defect| is_part(pair, defect));
     of_pair.any(|defect| !options.repairs(defect))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A map on two surfaces, one of which has a further map; and two that have nothing to do with them.
+    #[test]
+    fn what_shares_a_map_or_a_surface_with_something_left_is_left() {
+        let link = |image: usize, primitive: usize, is_left: bool| Link {
+            image,
+            primitive: (0, primitive),
+            pair: Some(&PAIRS[0]),
+            is_left,
+        };
+        let links = || vec![link(0, 0, true), link(0, 1, false), link(1, 1, false), link(2, 2, false)];
+        let left: Vec<(usize, Key)> =
+            left_links(links()).into_iter().map(|link| (link.image, link.primitive)).collect();
+        assert_eq!(left, [(0, (0, 0)), (0, (0, 1)), (1, (0, 1))]);
+        let none = links().into_iter().map(|link| Link { is_left: false, ..link }).collect();
+        assert!(left_links(none).is_empty());
+    }
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::options::FixOptions;
 use crate::code::{Code, Family};
 use crate::defect::{Defect, Fault, NormalFault, TangentFault};
-use crate::hypotheses::{ALL_PERCENT, are_most_flipped, flipped_percent};
+use crate::hypotheses::{ALL_PERCENT, are_most_flipped, flipped_percent, needs_new_tangents};
 use crate::indices::Indices;
 use crate::instances::{Key, key};
 use crate::measure::fit::Difference;
@@ -176,7 +176,7 @@ fn next_action(defects: &[&Defect], options: &FixOptions, stage: Stage) -> Optio
     if stage < Stage::Signs && of_tangents.iter().all(|defect| is_about_all_signs(defect)) {
         return Some(Action::NegateSigns);
     }
-    let are_single = of_tangents.iter().all(|defect| is_about_single_tangents(defect));
+    let are_single = of_tangents.iter().all(|defect| !needs_new_tangents(defect));
     if stage < Stage::Corrected && are_single {
         return Some(Action::CorrectTangents(Box::new(wrong_tangents(defects, &of_tangents))));
     }
@@ -217,25 +217,6 @@ fn is_about_all_signs(defect: &Defect) -> bool {
             found.difference == Difference::SignFlipped && found.is_on_all_corners()
         }
         _ => false,
-    }
-}
-
-/// Whether a defect is about single tangents, which can be corrected without changing others.
-pub fn is_about_single_tangents(defect: &Defect) -> bool {
-    let Fault::Tangent(fault) = &defect.fault else { return false };
-    match fault {
-        TangentFault::NotFinite(_)
-        | TangentFault::Zero(_)
-        | TangentFault::NotUnit(_)
-        | TangentFault::Leaning { .. }
-        | TangentFault::SignNotOne(_)
-        | TangentFault::SignMixed(_)
-        | TangentFault::SharedAcrossMirror(_)
-        | TangentFault::Outliers { .. } => true,
-        TangentFault::Differs(found) => {
-            !matches!(found.difference, Difference::Rotated | Difference::OtherUvSet(_))
-        }
-        TangentFault::Missing(_) | TangentFault::Unused { .. } | TangentFault::OtherRecipe { .. } => false,
     }
 }
 

@@ -146,7 +146,8 @@ fn unread(name: &str, why: &Unread, bytes: f64) -> Said {
         Unread::LeftOut(problem) => Said::new(format!("{it} was not checked, because it {problem}"))
             .with_cure("None needed. To check the map, check its file alone."),
         Unread::NotCarried(problem) => {
-            Said::new(format!("its normal map {name} was not checked, because it {problem}"))
+            let name = if name.is_empty() { String::new() } else { format!(" {name}") };
+            Said::new(format!("its normal map{name} was not checked, because it {problem}"))
                 .with_cure("To check the map, let the material name an image that is read, and check again.")
         }
     }

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use crate::code::Family;
 use crate::finding::Evidence;
 use crate::indices::Part;
 
@@ -23,12 +24,14 @@ impl Said {
         self
     }
 
-    /// `percent`: of the area of the model.
-    pub fn with_damaged_percent(self, percent: Option<f64>) -> Self {
+    /// `percent`: of the area of the model, or for tangents of what shows them.
+    pub fn with_damaged_percent(self, percent: Option<f64>, family: Family) -> Self {
+        let what = match family {
+            Family::Tangents => "part of the area with normal maps that looks wrong, by the angle",
+            _ => "part of the model's area that looks wrong, by the angle",
+        };
         match percent {
-            Some(percent) => {
-                self.with("part of the model's area that looks wrong, by the angle", percent, "%")
-            }
+            Some(percent) => self.with(what, percent, "%"),
             None => self,
         }
     }

@@ -155,6 +155,10 @@ fn images_of_tiles_count_before_models_are_open() {
     image(&pair.path("paint.1001.png"));
     let run = bake([skew, "output = \"paint.%UDIM%.png\""]).exits(2);
     assert!(run.stderr.contains("would replace the image of --skew"), "{}", run.stderr);
+    // The number may stand elsewhere in the path, too.
+    fs::create_dir(pair.path("1001")).expect("a folder");
+    let run = bake(["output = \"1001/a.%UDIM%.png\"", "output = \"1001/a.1001.png\""]).exits(2);
+    assert!(run.stderr.contains("is written by two bakes of the job"), "{}", run.stderr);
     for other in ["a.1000.png", "b.1001.png", "a.9991.png", "a.1001.exr"] {
         bake(["output = \"a.%UDIM%.png\"", &format!("output = \"{other}\"")]).exits(0);
     }

@@ -135,7 +135,14 @@ fn smooth_normals(
 
 /// Turns the normals of primitives to the axes of their positions, each list with the same data.
 fn turn(document: &mut Document, turned: &[(OtherAxes, Vec<PrimitiveName>)]) -> Result<(), Error> {
+    let mut of_axes: Vec<(OtherAxes, Vec<PrimitiveName>)> = Vec::new();
     for (axes, names) in turned {
+        match of_axes.iter_mut().find(|(known, _)| known == axes) {
+            Some((_, all)) => all.extend(names.iter().cloned()),
+            None => of_axes.push((*axes, names.clone())),
+        }
+    }
+    for (axes, names) in &of_axes {
         let users = users_of(document, NORMAL, names);
         check_rewritten::<3>(document, users.keys().copied())?;
         for (accessor, users) in users {

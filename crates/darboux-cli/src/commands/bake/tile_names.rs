@@ -17,7 +17,7 @@ pub fn has_place(path: &Path) -> bool {
 
 /// A name with one spelling of the place.
 pub fn canonical(path: &Path) -> PathBuf {
-    with_place(path, PLACES[0])
+    if has_place(path) { with_place(path, PLACES[0]) } else { path.to_owned() }
 }
 
 /// The names with a place that may stand for a file: each with the place where the file's name has the number
@@ -25,12 +25,14 @@ pub fn canonical(path: &Path) -> PathBuf {
 pub fn templates_of(path: &Path) -> impl Iterator<Item = PathBuf> {
     let text = path.to_string_lossy().into_owned();
     let starts = 0..text.len().saturating_sub(Udim::DIGITS - 1);
-    starts.filter_map(move |start| {
+    let templates = starts.filter_map(move |start| {
         let digits = text.get(start..start + Udim::DIGITS)?;
         let is_number = digits.bytes().all(|byte| byte.is_ascii_digit());
         Udim::from_number(digits.parse().ok().filter(|_| is_number)?)?;
-        Some(text.replace(digits, PLACES[0]).into())
-    })
+        let at_start = [&text[..start], PLACES[0], &text[start + Udim::DIGITS..]].concat();
+        Some([text.replace(digits, PLACES[0]), at_start])
+    });
+    templates.flatten().map(PathBuf::from)
 }
 
 /// Refuses names of images that do not go together, and results that tiles do not have. The error is one
