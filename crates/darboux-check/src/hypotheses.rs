@@ -33,9 +33,9 @@ pub enum Inverted {
 
 const ALL: [Inverted; 4] = [Inverted::None, Inverted::Green, Inverted::Red, Inverted::Both];
 
-/// How often each is so on a model whose signs w are right, and on one where nearly all are flipped. None of 264
-/// published maps had its red inverted: one in a thousand is assumed. Of seven published models with flipped
-/// signs, four had inverted green.
+/// How often each is so on a model whose signs w are right, and on one where nearly all are flipped. None of
+/// 264 published maps had its red inverted: one in a thousand is assumed. Of seven published models with
+/// flipped signs, four had inverted green.
 const PRIORS: [[f64; 4]; 2] = [[0.953, 0.045, 0.001, 0.001], [0.428, 0.57, 0.001, 0.001]];
 
 /// How much likelier a map has the inversion that the faces show for another map of its model.
@@ -139,8 +139,8 @@ pub fn needs_new_tangents(defect: &Defect) -> bool {
     matches!(&defect.fault, Fault::Tangent(fault) if !fault.is_about_single_tangents())
 }
 
-/// The severity of flipped signs, or of a map that they cancel, where the map may be inverted: what looks wrong
-/// either way counts.
+/// The severity of flipped signs, or of a map that they cancel, where the map may be inverted: what looks
+/// wrong either way counts.
 pub fn severity_under_unknown_map(defect: &Defect) -> Severity {
     at_most_a_warning(defect, surely_damaged(defect))
 }
@@ -264,9 +264,8 @@ pub fn leave_unidentified(
         defect.severity = severity_under_unknown_map(defect);
     }
     for surface in surfaces {
-        let are_some =
-            |defect: &&mut Defect| flipped_percent(defect).is_some_and(|percent| percent < ALL_PERCENT);
-        if surface.iter().any(|defect| are_some(defect)) {
+        let mut percents = surface.iter().filter_map(|defect| flipped_percent(defect));
+        if percents.any(|percent| percent < ALL_PERCENT) {
             for defect in surface.iter_mut().filter(|defect| needs_new_tangents(defect)) {
                 defect.obstacle.get_or_insert(Obstacle::SignsAreLeft);
             }

@@ -22,7 +22,8 @@ pub struct MapUsers<'a> {
     users: BTreeMap<usize, BTreeMap<usize, Vec<TextureUse>>>,
     /// The number of images that each primitive uses.
     images_of_primitive: Vec<usize>,
-    /// The images that materials of each primitive show: those that are lit, and scale the map by more than 0.
+    /// The images that materials of each primitive show: those that are lit, and scale the map by more than
+    /// 0.
     shown_on_primitive: Vec<BTreeSet<usize>>,
     /// The images that a mesh of a node has, and those of them that its materials show.
     in_scene: BTreeSet<usize>,

@@ -154,7 +154,8 @@ fn what_looks_right_still_does_after_a_repair() {
     assert!(repaired_signs > 20, "{repaired_signs}: a check that leaves everything proves nothing");
 }
 
-/// A map that is checked for a model is not repaired alone where signs of the model cancel it, on a part, too.
+/// A map that is checked for a model is not repaired alone where signs of the model cancel it, on a part,
+/// too.
 #[test]
 fn a_map_is_not_repaired_without_the_signs_of_its_model() {
     let assumed = CheckOptions::default().with_assumed_map(Some(AssumedMap::DirectX));

@@ -14,7 +14,7 @@ export interface StoredMap {
 }
 
 /** Extensions whose images take the place of a texture's own. */
-const REPLACING = ['EXT_texture_webp', 'EXT_texture_avif', 'KHR_texture_basisu'];
+const REPLACING = ['EXT_texture_webp', 'EXT_texture_avif', 'KHR_texture_basisu', 'MSFT_texture_dds'];
 
 /** The normal maps, in the order of the materials that use them. `file`: a valid GLB. */
 export async function normalMapsOf(file: Uint8Array<ArrayBuffer>): Promise<StoredMap[]> {

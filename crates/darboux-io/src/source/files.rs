@@ -20,8 +20,9 @@ use crate::{Files, LoadOptions, files, paths};
 /// the operating system.
 const MAX_LOOKUPS: usize = 100_000;
 
-/// The most paths of these for one reference, so that a line of many words leaves the others theirs.
-const MAX_LOOKUPS_OF_ONE: usize = 1000;
+/// The most paths of these for one reference: more than the ends of the longest line, and a small part of
+/// all, so that lines of many words leave the others theirs.
+const MAX_LOOKUPS_OF_ONE: usize = 3000;
 
 /// No path has more bytes. Longer references are not looked up: one may begin at every word of a line.
 pub const LONGEST_PATH: usize = 4096;
