@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-use darboux::BitangentDirection;
+use darboux::{BitangentDirection, Choice};
 use darboux_io::words::{Count, listed};
 
 use crate::check_options::{AssumedMap, CheckOptions};
@@ -35,7 +35,7 @@ fn of_findings(findings: &[ReportedFinding], options: &CheckOptions) -> String {
     let others = of_severity.len() - of_main.len();
     let happened = happened(main, &of_main, others, worst, options.green);
     let first = of_main[0];
-    format!("{happened} {} {}", first.looks_like, to_do(&of_severity, options.green))
+    format!("{happened} {} {}", first.looks_like, to_do(&of_severity, options))
 }
 
 /// The code that most findings have; of several, the first one, as causes come before what follows from them.
@@ -125,19 +125,21 @@ fn lower_case(sentence: &str) -> String {
 }
 
 /// What to do about findings.
-fn to_do(findings: &[&ReportedFinding], wanted: BitangentDirection) -> String {
-    let (option, inverted) = match wanted {
+fn to_do(findings: &[&ReportedFinding], options: &CheckOptions) -> String {
+    let (option, inverted) = match options.green {
         BitangentDirection::Up => ("", ["directx", "opengl"]),
         BitangentDirection::Down => (" --convention directx", ["opengl", "directx"]),
     };
+    let assumed = options.assumed_map.map(|assumed| format!(" --assume map={}", assumed.name()));
+    let assumed = assumed.unwrap_or_default();
     let fixable = findings.iter().filter(|finding| finding.is_repairable()).count();
     if fixable == findings.len() {
-        return format!("Type `darboux check FILE{option} --fix` to repair it.");
+        return format!("Type `darboux check FILE{option}{assumed} --fix` to repair it.");
     }
     if fixable > 0 {
         let all = findings.len();
         return format!(
-            "`darboux check FILE{option} --fix` repairs {fixable} of these {all}; the others say why not."
+            "`darboux check FILE{option}{assumed} --fix` repairs {fixable} of these {all}; the others say why not."
         );
     }
     let reason = findings.iter().find_map(|finding| finding.left_because.as_deref()).unwrap_or_default();

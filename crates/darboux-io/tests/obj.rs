@@ -242,10 +242,10 @@ fn references_that_are_not_looked_up_say_so() {
     let line = |i: usize| format!("newmtl {i}\nmap_Kd {i} {}a.png\n", "- ".repeat(1500));
     let library: String = (0..150).map(line).collect();
     let warnings = warnings("v 0 0 0\nf 1 1 1\n", &library);
-    let left = "was looked up at its own path only, because more than 100000 paths were tried for the files";
-    let counts = ["is not at the first 1000 paths that it may mean", left]
+    let left = "was looked up at its own path only, because more than 100,000 paths were tried for the files";
+    let counts = ["is not at the first 3,000 paths that it may mean", left]
         .map(|problem| warnings.iter().filter(|warning| warning.contains(problem)).count());
-    assert_eq!(counts, [99, 51]);
+    assert_eq!(counts, [33, 117]);
     assert!(warnings.iter().all(|warning| warning.len() < 400));
 }
 

@@ -14,6 +14,7 @@ use super::other_case::OtherCase;
 #[cfg(any(feature = "fbx", feature = "obj"))]
 use crate::MemoryLimit;
 use crate::error::quoted;
+use crate::words::Count;
 use crate::{Files, LoadOptions, files, paths};
 
 /// The most paths that are looked up for one model beside those that its references state. Each lookup asks
@@ -229,12 +230,13 @@ impl ModelFiles {
         match &self.source {
             _ if self.lookups_left.get() == 0 => {
                 format!(
-                    "{shown} was looked up at its own path only, because more than {MAX_LOOKUPS} paths were \
-                     tried for the files that the model names"
+                    "{shown} was looked up at its own path only, because more than {} paths were tried for the \
+                     files that the model names",
+                    Count(MAX_LOOKUPS)
                 )
             }
             _ if self.left_of_reference.get() == 0 => {
-                format!("{shown} is not at the first {MAX_LOOKUPS_OF_ONE} paths that it may mean")
+                format!("{shown} is not at the first {} paths that it may mean", Count(MAX_LOOKUPS_OF_ONE))
             }
             FileSource::None => {
                 format!("{shown} was not looked up, because the model came without a folder")
