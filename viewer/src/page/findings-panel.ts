@@ -153,9 +153,16 @@ function inWords(sentence: string): (HTMLElement | string)[] {
   return sentence.split('`').map((part, at) => (at % 2 ? text('code', part) : part));
 }
 
+/** What the page assumes of every map, and tells where a repair depends on it. */
+const ASSUMPTION = / Where nothing shows the convention of a map, it was taken to be [^.]*\./;
+
 /** The diagnosis with the page's button in place of the command that does the same. */
 function forPage(diagnosis: string, isDone: boolean): string {
-  return diagnosis.replace('Type `darboux check FILE --fix` to repair it.', isDone ? '' : 'Press Repair.').trim().replace('`darboux check FILE --fix` repairs', 'Repair mends');
+  return diagnosis
+    .replace(ASSUMPTION, '')
+    .replace(/Type `darboux check FILE[^`]* --fix` to repair it\./, isDone ? '' : 'Press Repair.')
+    .replace(/`darboux check FILE[^`]* --fix` repairs/, 'Repair mends')
+    .trim();
 }
 
 function text(tag: string, content: string, className = ''): HTMLElement {
