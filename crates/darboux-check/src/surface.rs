@@ -224,6 +224,12 @@ pub fn length(a: [f32; 3]) -> f64 {
     dot(a, a).sqrt()
 }
 
+/// Whether a vector is finite and long enough to be made a unit vector.
+pub fn has_direction(vector: [f32; 3]) -> bool {
+    let length = length(vector);
+    length.is_finite() && length > 1e-9
+}
+
 pub fn xyz([x, y, z, _]: [f32; 4]) -> [f32; 3] {
     [x, y, z]
 }

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 use darboux::internal::vectors::double;
 
-use crate::surface::{Surface, cross, dot, sub, uv_area, xyz};
+use crate::surface::{Surface, cross, dot, has_direction, sub, uv_area, xyz};
 
 /// The triangles by the side to which the normals of all their corners point.
 #[derive(Debug)]
@@ -20,19 +20,22 @@ pub struct Sides {
     pub against: Vec<usize>,
     /// The number of triangles whose normals all point to their front.
     along: usize,
-    /// The number of all triangles.
-    all: usize,
+    /// The number of triangles with three normals that have a direction: the others show no side, and none
+    /// of them may hide which side is that of most.
+    with_directions: usize,
 }
 
 impl Sides {
     /// Without normals, no triangle has a side.
     pub fn of(surface: &Surface) -> Self {
-        let mut sides = Self { against: Vec::new(), along: 0, all: surface.vertex_of_corner.len() / 3 };
+        let mut sides = Self { against: Vec::new(), along: 0, with_directions: 0 };
         let Some(normals) = &surface.normals else { return sides };
         for (number, triangle) in surface.triangles().enumerate() {
             let [a, b, c] = triangle.map(|vertex| surface.positions[vertex]);
             let front = cross(sub(b, a), sub(c, a));
             let cosines = triangle.map(|vertex| dot(front, normals[vertex]));
+            sides.with_directions +=
+                usize::from(triangle.iter().all(|&vertex| has_direction(normals[vertex])));
             if cosines.iter().all(|cosine| *cosine < 0.0) {
                 sides.against.push(number);
             } else if cosines.iter().all(|cosine| *cosine > 0.0) {
@@ -42,9 +45,9 @@ impl Sides {
         sides
     }
 
-    /// Whether most triangles are wound against their normals.
+    /// Whether most triangles whose normals have a direction are wound against them.
     pub fn are_mostly_against(&self) -> bool {
-        2 * self.against.len() > self.all
+        2 * self.against.len() > self.with_directions
     }
 }
 

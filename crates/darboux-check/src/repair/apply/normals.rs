@@ -14,7 +14,7 @@ use crate::measure::reversed::front;
 use crate::measure::values::is_unit;
 use crate::repair::options::FixOptions;
 use crate::repair::plan::{Action, Edit, Flip};
-use crate::surface::{dot, length};
+use crate::surface::{dot, has_direction, length};
 
 /// The attribute.
 const NORMAL: &str = "NORMAL";
@@ -72,7 +72,6 @@ fn make_unit(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Err
     check_rewritten::<3>(document, users.keys().copied())?;
     for (accessor, users) in users {
         let mut normals = document.vectors::<3>(accessor)?.into_owned();
-        let has_direction = |normal: [f32; 3]| length(normal).is_finite() && length(normal) > 1e-9;
         for normal in normals.iter_mut().filter(|normal| has_direction(**normal)) {
             if !is_unit(*normal) {
                 let length = length(*normal);
