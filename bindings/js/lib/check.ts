@@ -157,7 +157,8 @@ export function check(file: Uint8Array, options?: CheckOptions | null): Findings
 }
 
 /**
- * Repairs a model: tangents, normals, and the texels of embedded PNG and JPEG normal maps.
+ * Repairs a model: tangents, normals, and the texels of embedded PNG and JPEG normal maps. Tangents of a known method other than MikkTSpace are left,
+ * because the map may have been baked with it.
  *
  * @param file As for {@link check}, but no image.
  * @returns The repaired GLB, null where nothing was repaired, and all findings with what became of each.

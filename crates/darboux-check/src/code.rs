@@ -213,8 +213,9 @@ codes! {
          importer (glTF-Blender-IO 2226)."
         "Keep them if the map was baked for them, as is likely for those of MikkTSpace on quads (`--allow \
          tangent-other-recipe`); otherwise `darboux tangents --overwrite`."
-        Repair "the tangents are computed again by MikkTSpace, or by the method that `--method` names; those \
-             of MikkTSpace on quads are kept"
+        Repair "tangents of no known method are computed again by MikkTSpace, or by the method that \
+             `--method` names, and single ones as the others were; those of a known method only where `--only \
+             tangent-other-recipe` asks for it, and those of MikkTSpace on quads are kept"
     }
     TangentMissing "tangent-missing" Info {
         "The material has a normal map and the primitive has no tangents."

@@ -176,10 +176,19 @@ impl Defect {
         self.fault.items().is_some()
     }
 
-    /// The same with a reason, if there is one, why a repair leaves it. The first reason stays.
+    /// The same with a reason, if there is one, why a repair leaves it.
     #[must_use]
-    pub fn with_obstacle(self, obstacle: Option<Obstacle>) -> Self {
-        Self { obstacle: self.obstacle.or(obstacle), ..self }
+    pub fn with_obstacle(mut self, obstacle: Option<Obstacle>) -> Self {
+        obstacle.into_iter().for_each(|obstacle| self.leave(obstacle));
+        self
+    }
+
+    /// Gives a reason why a repair leaves it. The first reason stays, unless the user's choice of codes
+    /// overcomes that one.
+    pub fn leave(&mut self, obstacle: Obstacle) {
+        if self.obstacle.as_ref().is_none_or(|known| *known == Obstacle::BakedWithMethod) {
+            self.obstacle = Some(obstacle);
+        }
     }
 
     /// The same in an image; `obstacle`: why it cannot be rewritten. No option overcomes that, so it takes

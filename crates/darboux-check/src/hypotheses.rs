@@ -255,19 +255,19 @@ pub fn leave_unidentified(
             _ => Obstacle::NotIdentified { probability, wanted },
         };
         for defect in on_map.iter_mut().filter(|defect| is_about_channels(defect)) {
-            defect.obstacle.get_or_insert(obstacle.clone());
+            defect.leave(obstacle.clone());
         }
     }
     // Where the map is right after all, flipped signs are a mistake; where it is not, they cancel it.
     for defect in surfaces.iter_mut().flatten().filter(|defect| is_about_signs(defect)) {
-        defect.obstacle.get_or_insert(Obstacle::MapMayCancel { image, is_from_sketchfab, wanted });
+        defect.leave(Obstacle::MapMayCancel { image, is_from_sketchfab, wanted });
         defect.severity = severity_under_unknown_map(defect);
     }
     for surface in surfaces {
         let mut percents = surface.iter().filter_map(|defect| flipped_percent(defect));
         if percents.any(|percent| percent < ALL_PERCENT) {
             for defect in surface.iter_mut().filter(|defect| needs_new_tangents(defect)) {
-                defect.obstacle.get_or_insert(Obstacle::SignsAreLeft);
+                defect.leave(Obstacle::SignsAreLeft);
             }
         }
     }
@@ -280,7 +280,7 @@ fn leave_of_other_layout(on_map: &[Defect], surfaces: &mut [Vec<&mut Defect>], i
         return;
     }
     for defect in surfaces.iter_mut().flatten().filter(|defect| follows_other_uvs(defect)) {
-        defect.obstacle.get_or_insert(Obstacle::MapHasOtherLayout { image });
+        defect.leave(Obstacle::MapHasOtherLayout { image });
         defect.severity = defect.severity.min(Severity::Warning);
     }
 }

@@ -2,9 +2,12 @@
 
 mod support;
 
-use darboux::Method;
-use darboux_check::{CheckOptions, Code, FixOptions, FixedFinding, check_document, fix_document};
+use darboux::{Choice, Method};
+use darboux_check::{
+    CheckOptions, Code, Finding, FixOptions, FixedFinding, Severity, check_document, fix_document,
+};
 use darboux_io::gltf::Document;
+use support::mistakes::{MISTAKES, Mistake};
 use support::models::{Model, healthy_models};
 use support::table::without_maps;
 
@@ -75,6 +78,87 @@ fn only_the_wrong_tangents_of_another_recipe_change() {
             }
         }
     }
+}
+
+/// The mistakes whose repair tells how the other tangents were made.
+fn is_corrected(mistake: &Mistake) -> bool {
+    let others = [
+        Code::TangentOtherRecipe,
+        Code::TangentOtherUvSet,
+        Code::TangentRotated,
+        Code::TangentMissing,
+        Code::TangentUnused,
+        // It brings MikkTSpace's tangents with it.
+        Code::TangentSharedAcrossMirror,
+    ];
+    mistake.code.is_about_tangents() && !others.contains(&mistake.code)
+}
+
+/// The map may have been baked with the known method of tangents: the repair of every other mistake keeps it,
+/// and nothing that is called fixable is left.
+#[test]
+fn the_repair_of_other_mistakes_keeps_a_known_method() {
+    let (mut count, options) = (0, FixOptions::default().with_check(without_maps()));
+    for method in [Method::Area, Method::AngleEdge, Method::Lengyel, Method::LengyelPerVertex] {
+        for healthy in healthy_models() {
+            let of_method =
+                Model { tangents: Some(healthy.computed(method, healthy.uv_set)), ..healthy.clone() };
+            let findings = check_document(&of_method.document(), &options.check).expect("a valid document");
+            let severe: Vec<Code> = findings
+                .iter()
+                .filter(|finding| finding.severity > Severity::Info)
+                .map(|finding| finding.code)
+                .collect();
+            if severe != [Code::TangentOtherRecipe] {
+                continue;
+            }
+            let before = tangents(&of_method.document());
+            for mistake in MISTAKES.iter().filter(|mistake| is_corrected(mistake)) {
+                let mut model = of_method.clone();
+                if !(mistake.make)(&mut model) {
+                    continue;
+                }
+                count += 1;
+                let what = format!("{} on {} of {}", mistake.how, model.name, method.name());
+                let mut document = model.document();
+                let findings = check_document(&document, &options.check).expect("a valid document");
+                fix_document(&mut document, findings, &options).expect("a repair");
+                let left = check_document(&document, &options.check).expect("a valid document");
+                let fixable: Vec<_> = left.iter().filter(|finding| finding.is_fixable()).collect();
+                assert!(fixable.is_empty(), "{what}: {fixable:#?}");
+                let is_left = |finding: &&Finding| finding.code == Code::TangentOtherRecipe;
+                let reason = left.iter().find(is_left).and_then(|finding| finding.left_because.as_deref());
+                assert!(reason.is_some_and(|reason| reason.contains("--only")), "{what}: {left:#?}");
+                // At a pole, the method's own tangent may point against MikkTSpace's; a tenth of a degree is
+                // the tolerance of recipes.
+                let after = tangents(&document);
+                let far = before.iter().zip(&after).filter(|(old, new)| distance(**old, **new) > 0.002);
+                assert!(200 * far.count() <= before.len(), "{what}");
+            }
+        }
+    }
+    assert!(count > 300, "{count} mistakes");
+}
+
+/// Tangents of a method that were written through an index list are those of the method again.
+#[test]
+fn a_known_method_is_kept_where_vertices_are_split() {
+    let healthy = named("mirrored sheared wavy grid");
+    let of_method = healthy.computed(Method::Area, healthy.uv_set);
+    let expected = tangents(&Model { tangents: Some(of_method), ..healthy.clone() }.document());
+    let mut model = healthy;
+    let (positions, normals, uvs, _, indices) = model.unsplit.clone().expect("an unsplit mesh");
+    (model.positions, model.normals, model.uvs) = (positions, Some(normals), uvs);
+    (model.indices, model.tangents) = (indices, None);
+    model.tangents = Some(model.computed(Method::Area, model.uv_set));
+    let mut document = model.document();
+    let options = FixOptions::default().with_check(without_maps());
+    let findings = check_document(&document, &options.check).expect("a valid document");
+    let fixed = fix_document(&mut document, findings, &options).expect("a repair");
+    let shared = fixed.findings.iter().find(|fixed| fixed.finding.code == Code::TangentSharedAcrossMirror);
+    assert!(shared.is_some_and(|shared| shared.repaired), "{fixed:#?}");
+    let after = tangents(&document);
+    assert!(expected.iter().zip(&after).all(|(old, new)| distance(*old, *new) < 1e-5));
 }
 
 /// A part of the signs, on tangents that no recipe explains.

@@ -9,7 +9,7 @@ use darboux_check::{
 };
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
-use support::damaged::{corpus, damaged, sources};
+use support::damaged::{Sources, corpus, damaged, sources, sources_of_other_methods};
 
 /// The findings on a model, what a repair said of them, and the model after it; none where the model cannot
 /// be read.
@@ -67,12 +67,11 @@ fn options(seed: u64) -> FixOptions {
 }
 
 /// Repairs damaged models twice.
-fn verify(seeds: impl Iterator<Item = u64>) {
-    let sources = sources();
+fn verify(sources: &Sources, seeds: impl Iterator<Item = u64>) {
     let (mut all, mut read, mut changed, mut bad) = (0, 0, 0, Vec::new());
     for seed in seeds {
         all += 1;
-        let model = damaged(&sources, seed);
+        let model = damaged(sources, seed);
         let Some((is_changed, found)) = problems(&model.glb(), &options(seed)) else { continue };
         read += 1;
         changed += usize::from(is_changed);
@@ -90,13 +89,25 @@ fn verify(seeds: impl Iterator<Item = u64>) {
 
 #[test]
 fn repairs_of_damaged_models_are_final() {
-    verify(0..300);
+    verify(&sources(), 0..300);
 }
 
 #[test]
 #[ignore = "repairs 10,000 models: cargo xtask ci --full runs it"]
 fn repairs_of_many_damaged_models_are_final() {
-    verify(300..10_300);
+    verify(&sources(), 300..10_300);
+}
+
+/// Tangents of a known method stay, and what is wrong beside it is repaired.
+#[test]
+fn repairs_of_models_of_other_methods_are_final() {
+    verify(&sources_of_other_methods(), 0..300);
+}
+
+#[test]
+#[ignore = "repairs 5,000 models: cargo xtask ci --full runs it"]
+fn repairs_of_many_models_of_other_methods_are_final() {
+    verify(&sources_of_other_methods(), 300..5_300);
 }
 
 #[test]

@@ -7,7 +7,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use darboux_check::{CheckOptions, Code, Finding, Severity, check_document, check_map};
+use darboux_check::{
+    CheckOptions, Code, Finding, FixOptions, Severity, check_document, check_map, fix_document,
+};
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
 use support::baked::{self, BAKED_MISTAKES, baked_models};
@@ -16,7 +18,7 @@ use support::maps::MAP_MISTAKES;
 use support::mistakes::MISTAKES;
 use support::models::{Model, healthy_models};
 use support::page::{PAIRS, page};
-use support::table::{Row, codes, table, without_maps};
+use support::table::{Row, codes, repaired_model, table, without_maps};
 
 fn check(model: &Model) -> Vec<Finding> {
     check_document(&model.document(), &CheckOptions::default()).expect("a valid document")
@@ -60,6 +62,40 @@ fn every_mistake_is_named_alone_and_repaired() {
     } else {
         assert!(mistakes == page, "{PAGE} is not what is found now; write it again with WRITE_PAGES=1");
     }
+}
+
+/// Nothing says whether the map was baked with the method that made the tangents: only the user who names the
+/// code has them made again.
+#[test]
+fn tangents_of_a_known_method_are_left_unless_their_code_is_named() {
+    let code = Code::TangentOtherRecipe;
+    let mistake = MISTAKES.iter().find(|mistake| mistake.code == code).expect("the mistake");
+    let mut count = 0;
+    for healthy in healthy_models() {
+        let mut model = healthy.clone();
+        if !(mistake.make)(&mut model) {
+            continue;
+        }
+        count += 1;
+        let findings = check_document(&model.document(), &without_maps()).expect("a valid document");
+        let left = findings.iter().find(|finding| finding.code == code).expect("the finding");
+        let reason = left.left_because.as_deref().unwrap_or_default();
+        assert!(reason.contains("--only tangent-other-recipe"), "{}: {reason}", model.name);
+        assert!(left.cure.contains("--fix --only tangent-other-recipe"), "{}: {}", model.name, left.cure);
+        let options = FixOptions::default().with_check(without_maps());
+        for left in [options.clone(), options.clone().without_codes([Code::MapFlat])] {
+            let mut document = model.document();
+            let fixed = fix_document(&mut document, findings.clone(), &left).expect("a repair");
+            assert!(!fixed.is_changed && !document.is_changed(), "{}: {fixed:#?}", model.name);
+            assert!(findings.iter().all(|finding| !finding.is_fixable()), "{}: {findings:#?}", model.name);
+        }
+        let named = options.with_codes([code]);
+        let fixed = fix_document(&mut model.document(), findings.clone(), &named).expect("a repair");
+        let repaired = fixed.findings.iter().find(|fixed| fixed.finding.code == code).expect("the finding");
+        assert!(repaired.repaired && repaired.finding.left_because.is_none(), "{repaired:#?}");
+        assert_eq!(repaired_model(&model, findings, &healthy, &named), Ok(()), "{}", model.name);
+    }
+    assert_eq!(count, 17);
 }
 
 /// The page of the table.

@@ -133,7 +133,7 @@ impl ModelOfMaps {
             cancelled.contains(&defect.code()) || are_flipped && hypotheses::is_about_green(defect)
         };
         for defect in found.iter_mut().filter(|defect| cancels(defect)) {
-            defect.obstacle.get_or_insert(Obstacle::OnTheModelToo);
+            defect.leave(Obstacle::OnTheModelToo);
         }
         (on_map, on_model)
     }
@@ -219,10 +219,10 @@ pub fn defects_of_materials(
                 continue;
             }
             if inverted_images.contains(&image) {
-                defect.obstacle.get_or_insert(Obstacle::NegativeScale);
+                defect.leave(Obstacle::NegativeScale);
             }
             if turned_images.contains(&image) {
-                defect.obstacle.get_or_insert(Obstacle::TransformTurns);
+                defect.leave(Obstacle::TransformTurns);
                 defect.severity = defect.severity.min(Severity::Warning);
             }
         }

@@ -28,6 +28,8 @@ pub enum Obstacle {
     NoTangents(String),
     DifferenceIsInvisible,
     BakedOnQuads,
+    /// The tangents are those of a known method, and right where the map was baked with it.
+    BakedWithMethod,
     /// The tangents may be older than the rounding of the UVs, and right.
     UvsWereRounded {
         steps: usize,
@@ -100,6 +102,7 @@ impl Obstacle {
             self,
             Self::NotChosen
                 | Self::OtherMethodWanted
+                | Self::BakedWithMethod
                 | Self::NotIdentified { .. }
                 | Self::RedLikelier { .. }
                 | Self::OnlyTheModelTells(_)

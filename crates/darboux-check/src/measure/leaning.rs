@@ -36,6 +36,14 @@ pub fn leaning(facts: &SurfaceFacts<'_>) -> Vec<(usize, f64)> {
     found.into_iter().map(|vertex| (vertex, angle(vertex))).collect()
 }
 
+/// A direction laid into the plane of a normal, with length 1; none where little of it lies there.
+pub fn in_plane(direction: [f32; 3], normal: [f32; 3]) -> Option<[f32; 3]> {
+    let along = dot(direction, normal) / dot(normal, normal);
+    let laid = [0, 1, 2].map(|i| f64::from(direction[i]) - along * f64::from(normal[i]));
+    let rest = laid.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (rest > 0.1 * length(direction)).then(|| laid.map(|x| (x / rest) as f32))
+}
+
 /// Drops vertices whose own normal is reported, unless most normals are, as after all were scaled or negated:
 /// then their axes are right.
 fn without_damaged_normals(

@@ -4,15 +4,17 @@
 //! Such damage leaves two kinds of tangents: tangents of the method, and tangents that have nothing to do
 //! with it. Where many lie between the two, the method is not known.
 
+use std::borrow::Cow;
+
 use darboux::internal::recipe_tangents;
 use darboux::{Context, Convention, CornerDifference, Recipe, RecipeMatch};
 
 use crate::facts::SurfaceFacts;
 use crate::measure::expected::{is_measured, rounding};
 use crate::measure::fit::{Difference, Fit};
-use crate::measure::leaning::leaning;
+use crate::measure::leaning::{in_plane, leaning};
 use crate::measure::values::{has_length, is_sign};
-use crate::surface::{Surface, length};
+use crate::surface::{Surface, length, xyz};
 
 /// Degrees to the method's tangent beyond which one is far: bumps lean by a third of their slope (the sine).
 pub const FAR: f64 = 20.0;
@@ -111,10 +113,17 @@ fn angles(facts: &SurfaceFacts<'_>, of_corners: &[[f32; 4]], made: &[[f32; 4]]) 
 
 /// The tangents of corners as methods compute them, without the mistakes that other rules name. Invalid
 /// signs, and all signs where some are flipped, become MikkTSpace's; negated directions are negated again;
-/// single rotated tangents become MikkTSpace's. None where there are no tangents or none can be computed.
+/// leaning ones are laid into the plane of the normal; single rotated tangents become MikkTSpace's. None
+/// where there are no tangents or none can be computed.
 pub fn tangents_without_other_mistakes(facts: &SurfaceFacts<'_>) -> Option<Vec<[f32; 4]>> {
     let surface = facts.surface;
-    let of_vertex = surface.tangents.as_ref()?;
+    let mut of_vertex = Cow::Borrowed(surface.tangents.as_deref()?);
+    for (vertex, _) in leaning(facts) {
+        let normal = surface.normals.as_ref()?[vertex];
+        if let Some([x, y, z]) = in_plane(xyz(of_vertex[vertex]), normal) {
+            of_vertex.to_mut()[vertex] = [x, y, z, of_vertex[vertex][3]];
+        }
+    }
     let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
     let of_corner = |&vertex: &u32| to_generated.tangent(of_vertex[vertex as usize]);
     let mut tangents: Vec<[f32; 4]> = surface.vertex_of_corner.iter().map(of_corner).collect();

@@ -6,7 +6,7 @@ use darboux::{Method, NormalOptions, TangentOptions};
 
 use crate::check_options::CheckOptions;
 use crate::code::Code;
-use crate::defect::{Defect, Fault, TangentFault};
+use crate::defect::{Defect, Fault, Obstacle, TangentFault};
 use crate::measure::recipe::Recognised;
 
 /// What is repaired, and how.
@@ -19,8 +19,10 @@ pub struct FixOptions {
     pub tangents: TangentOptions,
     /// How missing normals are made. Default: smooth.
     pub normals: NormalOptions,
-    /// The codes that are repaired; none: all.
+    /// The codes that are repaired; none: all, but tangents of known methods other than MikkTSpace stay.
     pub codes: Option<BTreeSet<Code>>,
+    /// The codes that are left, of those.
+    pub left: BTreeSet<Code>,
 }
 
 impl FixOptions {
@@ -48,19 +50,38 @@ impl FixOptions {
         Self { codes: Some(codes.into_iter().collect()), ..self }
     }
 
-    /// Whether a defect is to be repaired, and can be. Tangents that the wanted method made are not made
-    /// again.
+    /// These options without some codes, which are left.
+    #[must_use]
+    pub fn without_codes(self, codes: impl IntoIterator<Item = Code>) -> Self {
+        Self { left: codes.into_iter().collect(), ..self }
+    }
+
+    /// Whether a defect is to be repaired, and can be.
     pub(super) fn repairs(&self, defect: &Defect) -> bool {
+        self.left_because(defect).is_none()
+    }
+
+    /// Why a defect is left; none where it is repaired. Tangents that the wanted method made are not made
+    /// again, and those of another known method where their code is named.
+    pub(super) fn left_because<'a>(&self, defect: &'a Defect) -> Option<&'a Obstacle> {
         let is_wanted_method = || match &defect.fault {
             Fault::Tangent(TangentFault::OtherRecipe { recognised, .. }) => self.is_other_method(recognised),
             _ => false,
         };
-        self.chooses(defect.reported_code()) && defect.is_fixable() && !is_wanted_method()
+        if !self.chooses(defect.reported_code()) {
+            return Some(&Obstacle::NotChosen);
+        }
+        if is_wanted_method() {
+            return Some(&Obstacle::OtherMethodWanted);
+        }
+        let is_overcome =
+            |obstacle: &Obstacle| *obstacle == Obstacle::BakedWithMethod && self.codes.is_some();
+        defect.obstacle.as_ref().filter(|obstacle| !is_overcome(obstacle))
     }
 
     /// Whether a code is among those to repair.
     pub(super) fn chooses(&self, code: Code) -> bool {
-        self.codes.as_ref().is_none_or(|codes| codes.contains(&code))
+        self.codes.as_ref().is_none_or(|codes| codes.contains(&code)) && !self.left.contains(&code)
     }
 
     /// Whether the tangents were made by the wanted method, which is not MikkTSpace.

@@ -71,7 +71,9 @@ impl FixedFinding {
 
     /// A defect that is no longer there.
     pub(super) fn gone(defect: Defect, change: Option<Change>) -> Self {
-        Self { was_fixable: defect.is_fixable(), repaired: true, change, finding: words::finding(defect) }
+        let was_fixable = defect.is_fixable();
+        let finding = words::finding(Defect { obstacle: None, ..defect });
+        Self { was_fixable, repaired: true, change, finding }
     }
 
     /// The same at a place.
@@ -116,10 +118,10 @@ pub fn outcome<'a>(
     let Some(same) = remaining.find(|left| left.is_same(&defect)) else {
         return FixedFinding::gone(defect, None);
     };
-    let is_other_method = defect.code() == Code::TangentOtherRecipe && options.asks_for_other_method();
-    let reason = match &same.obstacle {
-        _ if !options.chooses(defect.reported_code()) => Obstacle::NotChosen,
-        _ if is_other_method => Obstacle::OtherMethodWanted,
+    let is_recipe = defect.code() == Code::TangentOtherRecipe;
+    let is_by_wanted_method = is_recipe && options.asks_for_other_method() && options.repairs(&defect);
+    let reason = match options.left_because(same) {
+        _ if is_by_wanted_method => Obstacle::OtherMethodWanted,
         Some(obstacle) => obstacle.clone(),
         None => Obstacle::NotRemoved,
     };

@@ -2,9 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use darboux::Method;
+
 use super::options::FixOptions;
 use crate::code::{Code, Family};
-use crate::defect::{Defect, Fault, NormalFault, TangentFault};
+use crate::defect::{Defect, Fault, NormalFault, Obstacle, TangentFault};
 use crate::hypotheses::{ALL_PERCENT, are_most_flipped, flipped_percent, needs_new_tangents};
 use crate::indices::Indices;
 use crate::instances::{Key, key};
@@ -21,14 +23,16 @@ pub struct Edit {
     pub kept: Kept,
 }
 
-/// What is wrong with all tangents of a primitive and stays so when they are computed again, because a
-/// mistake in the map that is left may cancel it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// What is true of all tangents of a primitive and stays so when they are computed again, because the map may
+/// have been made for it or cancels it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Kept {
     /// The signs w stay flipped.
     pub flipped: bool,
     /// The tangents stay negated.
     pub negated: bool,
+    /// The known method that made them makes them again.
+    pub method: Option<Method>,
 }
 
 impl Kept {
@@ -36,8 +40,19 @@ impl Kept {
         let left = || defects.iter().filter(|defect| !options.repairs(defect));
         let is_negated = |defect: &&&Defect| defect.code() == Code::TangentNegated && !defect.lists_items();
         let is_about_all = |defect: &&Defect| flipped_percent(defect) == Some(ALL_PERCENT);
-        Self { flipped: left().any(is_about_all), negated: left().any(|defect| is_negated(&defect)) }
+        Self {
+            flipped: left().any(is_about_all),
+            negated: left().any(|defect| is_negated(&defect)),
+            method: left().find_map(|defect| kept_method(defect)),
+        }
     }
+}
+
+/// The known method of tangents that are left. One whose difference to MikkTSpace cannot be seen may change.
+fn kept_method(defect: &Defect) -> Option<Method> {
+    let Fault::Tangent(TangentFault::OtherRecipe { recognised, .. }) = &defect.fault else { return None };
+    let recipe = recognised.other_method().filter(|recipe| !recipe.from_quads)?;
+    (defect.obstacle != Some(Obstacle::DifferenceIsInvisible)).then_some(recipe.method)
 }
 
 /// What is changed.

@@ -57,6 +57,8 @@ struct Repair {
     refused: BTreeMap<Key, Option<Obstacle>>,
     /// The primitives whose tangents were corrected, and are not all made again to repair the rest.
     kept: BTreeSet<Key>,
+    /// The primitives whose repair failed while the known method of their tangents was kept.
+    without_method: BTreeSet<Key>,
 }
 
 /// What one attempt at a round came to.
@@ -99,12 +101,12 @@ impl Work<'_> {
     /// anything was changed.
     fn round(&self, document: &mut Document, repair: &mut Repair) -> Result<bool, Error> {
         let mut refused = BTreeMap::new();
-        // Every turn refuses the repair of one more primitive at least.
+        // Every turn gives up the method of one more primitive at least, or refuses its repair.
         loop {
             let checkpoint = document.checkpoint();
-            let attempt = self.attempt(document, &repair.after, &refused)?;
-            let more = self.refused_after(&repair.after, &attempt);
-            if more.is_empty() {
+            let attempt = self.attempt(document, repair, &refused)?;
+            let failed = self.refused_after(&repair.after, &attempt);
+            if failed.is_empty() {
                 repair.refused = refused;
                 repair.is_changed |= !attempt.edited.is_empty();
                 repair.kept = attempt.corrected;
@@ -115,7 +117,7 @@ impl Work<'_> {
                 repair.after = attempt.after;
                 return Ok(!attempt.edited.is_empty());
             }
-            refused.extend(more);
+            refused.extend(failed.into_iter().filter(|(at, _)| !repair.without_method.insert(*at)));
             document.roll_back(checkpoint);
         }
     }
@@ -124,12 +126,19 @@ impl Work<'_> {
     fn attempt(
         &self,
         document: &mut Document,
-        before: &[Defect],
+        repair: &Repair,
         refused: &BTreeMap<Key, Option<Obstacle>>,
     ) -> Result<Attempt, Error> {
         let mut stages: BTreeMap<Key, Stage> = refused.keys().map(|at| (*at, Stage::Refused)).collect();
-        let mut attempt = Attempt { after: before.to_vec(), ..Attempt::default() };
+        let mut attempt = Attempt { after: repair.after.clone(), ..Attempt::default() };
+        let gives_up_method = |at: Key| repair.without_method.contains(&at) && !refused.contains_key(&at);
         loop {
+            for defect in &mut attempt.after {
+                let is_kept = defect.obstacle == Some(Obstacle::BakedWithMethod);
+                if is_kept && place_of(defect).is_some_and(gives_up_method) {
+                    defect.obstacle = None;
+                }
+            }
             let edits = plan(&attempt.after, self.options, &stages);
             if edits.is_empty() {
                 let corrected = stages.iter().filter(|(_, stage)| **stage == Stage::Corrected);

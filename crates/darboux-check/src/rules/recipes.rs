@@ -1,13 +1,13 @@
 //! The rule about how tangents were computed.
 
-use darboux::RecipeMatch;
+use darboux::Recipe;
 
 use super::rule::SurfaceRule;
 use crate::defect::Obstacle;
 use crate::defect::{Defect, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::indices::Part;
-use crate::measure::recipe::{Far, IS_KNOWN, Recipes, close};
+use crate::measure::recipe::{Far, Recipes, Recognised};
 use crate::measure::uv_rounding::UvRounding;
 use crate::severity::Severity;
 use crate::surface::Surface;
@@ -34,7 +34,6 @@ fn other_recipe(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
 /// The defect of tangents that another method than MikkTSpace made.
 fn of_all(facts: &SurfaceFacts<'_>, recipes: &Recipes) -> Option<Defect> {
     let recognised = recipes.of_all.filter(|recognised| !recognised.is_of_mikktspace())?;
-    let best = &recognised.best;
     let far = if recognised.other_method().is_some() { Far::default() } else { recipes.far(facts) };
     let severity = if far.percent > MAX_PERCENT_FAR {
         Severity::Error
@@ -47,7 +46,7 @@ fn of_all(facts: &SurfaceFacts<'_>, recipes: &Recipes) -> Option<Defect> {
     let severity = if rounding.is_some() { severity.min(Severity::Warning) } else { severity };
     let defect = Defect::new(TangentFault::OtherRecipe { recognised, far }).with_severity(severity);
     let rounding = rounding.map(|rounding| Obstacle::UvsWereRounded { steps: rounding.steps });
-    Some(defect.with_obstacle(rounding.or_else(|| obstacle(best, severity))))
+    Some(defect.with_obstacle(rounding.or_else(|| obstacle(&recognised, severity))))
 }
 
 /// Tangents of no known method may be older than the rounding of UVs, and right.
@@ -55,12 +54,13 @@ fn rounding_of_uvs(surface: &Surface) -> Option<UvRounding> {
     UvRounding::of(surface, surface.uv_sets.get(&surface.uv_set)?)
 }
 
-fn obstacle(best: &RecipeMatch, severity: Severity) -> Option<Obstacle> {
+fn obstacle(recognised: &Recognised, severity: Severity) -> Option<Obstacle> {
     if severity == Severity::Info {
-        Some(Obstacle::DifferenceIsInvisible)
-    } else if best.recipe.from_quads && close(best) >= IS_KNOWN {
-        Some(Obstacle::BakedOnQuads)
-    } else {
-        None
+        return Some(Obstacle::DifferenceIsInvisible);
     }
+    let of_known = |recipe: Recipe| match recipe.from_quads {
+        true => Obstacle::BakedOnQuads,
+        false => Obstacle::BakedWithMethod,
+    };
+    recognised.other_method().map(of_known)
 }

@@ -103,6 +103,10 @@ pub fn reason(obstacle: &Obstacle) -> String {
         }
         Obstacle::DifferenceIsInvisible => "the difference cannot be seen",
         Obstacle::BakedOnQuads => "the map was probably baked on the quads, for these tangents",
+        Obstacle::BakedWithMethod => {
+            "they are right if the map was baked with this method; if it was not, `--only \
+             tangent-other-recipe` computes them again"
+        }
         Obstacle::EncodedAndInverted => {
             "invert the channel near 67 of the map again first: `darboux convert --from directx --to opengl` \
              inverts green"

@@ -126,6 +126,12 @@ fn other_recipe(recognised: &Recognised, far: Far, severity: Severity) -> Said {
         Said::new(text + ", and bumps are lit from wrong directions where they differ most")
             .with_cure("Compute the tangents again: `darboux tangents --overwrite`.")
             .with("corners more than 20 degrees from MikkTSpace", far.percent, "%")
+    } else if severity > Severity::Info && recognised.other_method().is_some_and(|recipe| !recipe.from_quads)
+    {
+        Said::new(text).with_cure(
+            "Keep them if the map was baked with this method; otherwise `darboux check --fix --only \
+             tangent-other-recipe`.",
+        )
     } else {
         Said::new(text)
     };

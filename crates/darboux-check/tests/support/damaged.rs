@@ -4,6 +4,7 @@
 use std::fs;
 use std::path::Path;
 
+use darboux::{Choice, Method};
 use darboux_dice::Dice;
 use serde_json::{Value, json};
 
@@ -54,6 +55,21 @@ pub fn sources() -> Sources {
     let healthy: Vec<Model> = healthy_models().into_iter().filter(small).collect();
     let made = healthy.iter().map(|model| Parts::of_glb(&model.name, &model.glb()));
     Sources { files: files.iter().map(read).chain(made).collect(), healthy }
+}
+
+/// Small healthy models with tangents of other methods than MikkTSpace.
+pub fn sources_of_other_methods() -> Sources {
+    let methods = [Method::Area, Method::AngleEdge, Method::Lengyel, Method::LengyelPerVertex];
+    let models = sources().healthy;
+    let of_method = |model: &Model, method: Method| Model {
+        name: format!("{}, tangents by {}", model.name, method.name()),
+        tangents: Some(model.computed(method, model.uv_set)),
+        ..model.clone()
+    };
+    let healthy: Vec<Model> =
+        models.iter().flat_map(|model| methods.map(|method| of_method(model, method))).collect();
+    let files = healthy.iter().map(|model| Parts::of_glb(&model.name, &model.glb())).collect();
+    Sources { files, healthy }
 }
 
 /// Corpus files of damaged models, each with its name.

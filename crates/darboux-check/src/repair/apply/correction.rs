@@ -15,11 +15,12 @@ use darboux::{
 use crate::code::Code;
 use crate::measure::expected::{is_measured, rounding, vertices_with_own_tangents};
 use crate::measure::fit::{flips_signs, is_at_most_a_part};
+use crate::measure::leaning::in_plane;
 use crate::measure::reversal::Sides;
 use crate::measure::values::{MIN_SIGN, UNIT, has_length, is_finite, is_sign};
 use crate::repair::options::FixOptions;
 use crate::repair::plan::WrongTangents;
-use crate::surface::{Surface, dot, length, xyz};
+use crate::surface::{Surface, length, xyz};
 
 /// The share of close corners from which on a recipe explains tangents.
 const EXPLAINED: f64 = 0.9;
@@ -228,7 +229,9 @@ impl<'a> Corrector<'a> {
         let kept = if self.is_negated(vertex) { old.map(|x| -x) } else { old };
         let is_other_length = (length(kept) - 1.0).abs() > UNIT;
         if self.repairs(Code::TangentNotPerpendicular) && self.wrong.leaning.contains(vertex) {
-            return self.in_plane(vertex, kept).map_or(Direction::Unknown, Direction::Near);
+            let normal = self.surface.normals.as_ref().map(|normals| normals[vertex]);
+            let laid = normal.and_then(|normal| in_plane(kept, normal));
+            return laid.map_or(Direction::Unknown, Direction::Near);
         }
         match is_other_length && self.repairs(Code::TangentNotUnit) {
             true => Direction::Near(kept.map(|x| (f64::from(x) / length(kept)) as f32)),
@@ -253,15 +256,6 @@ impl<'a> Corrector<'a> {
                 has_length(self.tangents[vertex]) && !is_wrong
             }
         }
-    }
-
-    /// A direction laid into the plane of the normal, with length 1; none where little of it lies there.
-    fn in_plane(&self, vertex: usize, direction: [f32; 3]) -> Option<[f32; 3]> {
-        let normal = self.surface.normals.as_ref()?[vertex];
-        let along = dot(direction, normal) / dot(normal, normal);
-        let laid = [0, 1, 2].map(|i| f64::from(direction[i]) - along * f64::from(normal[i]));
-        let rest = laid.iter().map(|x| x * x).sum::<f64>().sqrt();
-        (rest > 0.1 * length(direction)).then(|| laid.map(|x| (x / rest) as f32))
     }
 
     /// Gives UV-degenerate faces whose corners have both signs MikkTSpace's tangents, which come from

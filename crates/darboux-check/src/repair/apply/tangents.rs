@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use darboux::Context;
+use darboux::{Context, TangentOptions};
 use darboux_io::Error;
 use darboux_io::gltf::{
     AddTangentsOptions, Document, Generate, GivenTangents, PrimitiveName, add_tangents_to,
@@ -167,7 +167,7 @@ pub fn change(
 }
 
 /// Makes the tangents of primitives again. Vertices whose corners need different tangents are split. `kept`:
-/// what stays wrong, per primitive.
+/// what stays as it is, per primitive.
 pub fn make(
     document: &mut Document,
     names: &[PrimitiveName],
@@ -177,11 +177,21 @@ pub fn make(
     if names.is_empty() {
         return Ok(());
     }
-    let places: BTreeSet<(usize, usize)> = names.iter().map(|name| (name.mesh, name.primitive)).collect();
-    let is_wanted = |name: &PrimitiveName| places.contains(&(name.mesh, name.primitive));
-    let adding = AddTangentsOptions::default().with_tangents(options.tangents).with_overwrite(true);
+    let mut of_methods: Vec<(TangentOptions, BTreeSet<Key>)> = Vec::new();
+    for key in names.iter().map(key) {
+        let method = kept.get(&key).and_then(|kept| kept.method);
+        let tangents = method.map_or(options.tangents, TangentOptions::from);
+        match of_methods.iter_mut().find(|(known, _)| *known == tangents) {
+            Some((_, places)) => places.extend([key]),
+            None => of_methods.push((tangents, BTreeSet::from([key]))),
+        }
+    }
     let context = &mut Context::new();
-    add_tangents_to(document, &adding, &is_wanted, context, Generate::OnCpu, &mut |_| {})?;
+    for (tangents, places) in of_methods {
+        let is_wanted = |name: &PrimitiveName| places.contains(&key(name));
+        let adding = AddTangentsOptions::default().with_tangents(tangents).with_overwrite(true);
+        add_tangents_to(document, &adding, &is_wanted, context, Generate::OnCpu, &mut |_| {})?;
+    }
     let staying = |stays: fn(&Kept) -> bool| {
         let names = names.iter().filter(|name| kept.get(&key(name)).is_some_and(stays));
         names.cloned().collect::<Vec<_>>()

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use darboux::TangentOptions;
 use darboux_check::{
-    Change, Code, Finding, FixOptions, FixedFinding, ReportedFinding, Severity, check_document, diagnosis,
+    Change, Finding, FixOptions, FixedFinding, ReportedFinding, Severity, check_document, diagnosis,
     fix_document, plan_repair,
 };
 use darboux_io::gltf::Document;
@@ -13,7 +13,7 @@ use darboux_io::{FileKind, read_regular};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::arguments::CheckArguments;
+use super::arguments::{CheckArguments, FindingOptions};
 use super::model::Model;
 use super::report::ReportedEdit;
 use crate::batch::command::{FileCommand, ProcessedFile};
@@ -138,7 +138,7 @@ impl FileCommand for Repair<'_> {
             left => format!("{left} left although --fix repairs such ones, "),
         };
         let FixCounts { unrepairable, infos, .. } = counts;
-        format!("{repaired}, {left}{unrepairable} that --fix cannot repair, {infos} only worth knowing")
+        format!("{repaired}, {left}{unrepairable} that --fix leaves, {infos} only worth knowing")
     }
 }
 
@@ -234,12 +234,13 @@ fn error_line(finding: &ReportedFinding) -> Option<String> {
 
 impl CheckArguments {
     fn fix_options(&self) -> FixOptions {
-        let codes = Code::ALL.iter().copied().filter(|&code| self.findings.reports(code));
-        FixOptions::default()
+        let FindingOptions { only, allow, .. } = &self.findings;
+        let options = FixOptions::default()
             .with_check(self.findings.check_options())
             .with_tangents(TangentOptions::from(self.method))
             .with_normals(self.normals.options())
-            .with_codes(codes)
+            .without_codes(allow.iter().copied());
+        if only.is_empty() { options } else { options.with_codes(only.iter().copied()) }
     }
 }
 
