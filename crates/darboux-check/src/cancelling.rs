@@ -5,7 +5,7 @@ use darboux::Recipe;
 
 use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Fault, MapFault, PAIRS, Pair, TangentFault};
-use crate::hypotheses::{are_nearly_all_flipped, severity_under_inverted_map};
+use crate::hypotheses::{are_nearly_all_flipped, damaged_under_inverted_map, most_severe};
 use crate::severity::Severity;
 
 /// All codes of the pairs.
@@ -61,12 +61,17 @@ pub fn mark(
     for (index, pair) in pairs.iter_mut().enumerate() {
         *pair = pair.filter(|_| cancels(index));
     }
+    let damaged = pairs.iter().zip(&*surfaces).filter_map(|(pair, surface)| {
+        let of_pair = surface.iter().filter(|defect| pair.is_some_and(|pair| is_part(pair, defect)));
+        pair.map(|_| of_pair.map(|defect| damaged_under_inverted_map(defect)).sum::<f64>())
+    });
+    let most = most_severe(damaged.sum());
     let mut severity = Severity::Warning;
     for (pair, surface) in pairs.iter().zip(&mut *surfaces) {
         let Some(pair) = *pair else { continue };
         for defect in surface.iter_mut().filter(|defect| is_part(pair, defect)) {
             defect.cancelled.get_or_insert(Cancelled::ByMap { pair, image, is_whole: false });
-            defect.severity = severity_under_inverted_map(defect);
+            defect.severity = defect.severity.min(most);
             severity = severity.max(defect.severity);
         }
     }

@@ -11,7 +11,7 @@ use crate::indices::Indices;
 use crate::measure::fit::{Difference, flips_signs};
 use crate::measure::leaning::leaning;
 use crate::measure::reversed::front;
-use crate::model_area::area_of;
+use crate::model_area::area;
 use crate::severity::SEEN;
 use crate::surface::{Surface, dot, length};
 
@@ -73,17 +73,13 @@ fn of_difference(facts: &SurfaceFacts<'_>, found: &TangentDifference) -> f64 {
         }
         Difference::SignPartlyFlipped => area_of_triangles(surface, &found.items),
         Difference::PartlyNegated | Difference::PartlyRotated => area_at(surface, &found.items, |_| 1.0),
-        _ => {
-            let all = surface.triangles().map(|triangle| area(surface, triangle)).sum::<f64>();
-            all * found.percent() / 100.0
-        }
+        Difference::SignFlipped => area_of_all(surface) * found.flipped_percent / 100.0,
+        _ => area_of_all(surface) * found.percent() / 100.0,
     }
 }
 
-/// The area of a triangle; 0 where that is not finite.
-fn area(surface: &Surface, triangle: [usize; 3]) -> f64 {
-    let area = area_of(triangle.map(|vertex| surface.positions[vertex]));
-    if area.is_finite() { area } else { 0.0 }
+fn area_of_all(surface: &Surface) -> f64 {
+    surface.triangles().map(|triangle| area(surface, triangle)).sum()
 }
 
 fn area_of_triangles(surface: &Surface, triangles: &Indices) -> f64 {

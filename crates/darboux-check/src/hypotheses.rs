@@ -18,7 +18,7 @@ use darboux::BitangentDirection;
 
 use crate::check_options::{AssumedMap, CheckOptions};
 use crate::code::Code;
-use crate::defect::{Defect, Fault, MapFault, Obstacle, TangentFault};
+use crate::defect::{Defect, Fault, MapFault, Obstacle, TangentDifference, TangentFault};
 use crate::measure::fit::Difference;
 use crate::severity::{MIN_DAMAGED, Severity};
 
@@ -139,20 +139,10 @@ pub fn needs_new_tangents(defect: &Defect) -> bool {
     matches!(&defect.fault, Fault::Tangent(fault) if !fault.is_about_single_tangents())
 }
 
-/// The severity of flipped signs, or of a map that they cancel, where the map may be inverted: what looks
-/// wrong either way counts.
-pub fn severity_under_unknown_map(defect: &Defect) -> Severity {
-    at_most_a_warning(defect, surely_damaged(defect))
-}
-
-/// The same where the map is inverted.
-pub fn severity_under_inverted_map(defect: &Defect) -> Severity {
-    at_most_a_warning(defect, damaged_under_inverted_map(defect))
-}
-
-/// `damaged`: in percent of the area.
-fn at_most_a_warning(defect: &Defect, damaged: f64) -> Severity {
-    if damaged < MIN_DAMAGED { defect.severity.min(Severity::Warning) } else { defect.severity }
+/// The largest severity of flipped signs, and of a map that they cancel. `damaged`: the part that looks
+/// wrong, of all surfaces with that map, in percent of the model's area.
+pub fn most_severe(damaged: f64) -> Severity {
+    if damaged < MIN_DAMAGED { Severity::Warning } else { Severity::Error }
 }
 
 /// Whether a defect says that a channel of the whole map is inverted.
@@ -160,10 +150,7 @@ pub fn is_about_channels(defect: &Defect) -> bool {
     matches!(defect.fault, Fault::Map(MapFault::GreenFlipped { .. } | MapFault::RedFlipped(_)))
 }
 
-/// All of a surface, in percent.
-pub const ALL_PERCENT: f64 = 100.0;
-
-/// The share of flipped triangles, in percent, from which on a map that cancels them makes the picture right.
+/// The flipped share of a surface, in percent, from which on a map that cancels it makes the picture right.
 const NEARLY_ALL: f64 = 80.0;
 
 /// Whether the signs of all or nearly all of a surface are flipped: a map that cancels them makes the picture
@@ -183,30 +170,49 @@ pub fn is_about_signs(defect: &Defect) -> bool {
     flipped_percent(defect).is_some()
 }
 
-/// What a defect calls flipped, in percent of the triangles or corners that were measured; none for a defect
-/// that is not about the signs of triangles.
-pub fn flipped_percent(defect: &Defect) -> Option<f64> {
-    let Fault::Tangent(TangentFault::Differs(found)) = &defect.fault else { return None };
-    match found.difference {
-        Difference::SignFlipped => Some(ALL_PERCENT),
-        Difference::SignPartlyFlipped | Difference::SignFlippedWhereMirrored => Some(found.percent()),
-        _ => None,
-    }
+/// Whether the signs of a whole surface are flipped, but for errors.
+pub fn are_all_flipped(defect: &Defect) -> bool {
+    sign_difference(defect).is_some_and(|found| found.difference == Difference::SignFlipped)
 }
 
-/// In percent of the model's area: the part that looks wrong whether a map cancels flipped signs or not: the
-/// smaller one of the part with flipped signs and the rest.
-fn surely_damaged(defect: &Defect) -> f64 {
-    defect.damaged_percent.unwrap_or(0.0).min(damaged_under_inverted_map(defect))
+/// Whether the signs of a part of a surface are flipped, and those of the rest are right.
+pub fn are_partly_flipped(defect: &Defect) -> bool {
+    is_about_signs(defect) && !are_all_flipped(defect)
+}
+
+/// The difference that a defect is about, if it is one of the signs of triangles.
+fn sign_difference(defect: &Defect) -> Option<&TangentDifference> {
+    let Fault::Tangent(TangentFault::Differs(found)) = &defect.fault else { return None };
+    let is_of_signs = matches!(
+        found.difference,
+        Difference::SignFlipped | Difference::SignPartlyFlipped | Difference::SignFlippedWhereMirrored
+    );
+    is_of_signs.then_some(found)
+}
+
+/// What a defect calls flipped, in percent of the area that was measured; none for a defect that is not about
+/// the signs of triangles.
+fn flipped_percent(defect: &Defect) -> Option<f64> {
+    let found = sign_difference(defect)?;
+    Some(if are_all_flipped(defect) { 100.0 } else { found.flipped_percent })
+}
+
+/// In percent of the model's area: the part of surfaces with one map that looks wrong whether the map cancels
+/// flipped signs or not: the smaller one of the part with flipped signs and the rest.
+fn damaged_either_way<'a>(surfaces: impl Iterator<Item = &'a Defect>) -> f64 {
+    let (mut flipped, mut rest) = (0.0, 0.0);
+    for defect in surfaces.filter(|defect| is_about_signs(defect)) {
+        flipped += defect.damaged_percent.unwrap_or(0.0);
+        rest += damaged_under_inverted_map(defect);
+    }
+    f64::min(flipped, rest)
 }
 
 /// In percent of the model's area: the part without flipped signs, which looks wrong where a map cancels
 /// flipped signs.
-fn damaged_under_inverted_map(defect: &Defect) -> f64 {
+pub fn damaged_under_inverted_map(defect: &Defect) -> f64 {
     match (defect.damaged_percent, flipped_percent(defect)) {
-        (Some(damaged), Some(percent)) if percent > 0.0 => {
-            damaged * (ALL_PERCENT - percent).max(0.0) / percent
-        }
+        (Some(damaged), Some(percent)) if percent > 0.0 => damaged * (100.0 - percent).max(0.0) / percent,
         _ => 0.0,
     }
 }
@@ -259,13 +265,13 @@ pub fn leave_unidentified(
         }
     }
     // Where the map is right after all, flipped signs are a mistake; where it is not, they cancel it.
+    let most = most_severe(damaged_either_way(surfaces.iter().flatten().map(|defect| &**defect)));
     for defect in surfaces.iter_mut().flatten().filter(|defect| is_about_signs(defect)) {
         defect.leave(Obstacle::MapMayCancel { image, is_from_sketchfab, wanted });
-        defect.severity = severity_under_unknown_map(defect);
+        defect.severity = defect.severity.min(most);
     }
     for surface in surfaces {
-        let mut percents = surface.iter().filter_map(|defect| flipped_percent(defect));
-        if percents.any(|percent| percent < ALL_PERCENT) {
+        if surface.iter().any(|defect| are_partly_flipped(defect)) {
             for defect in surface.iter_mut().filter(|defect| needs_new_tangents(defect)) {
                 defect.leave(Obstacle::SignsAreLeft);
             }
@@ -308,6 +314,37 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// What looks wrong on many surfaces with one map adds up: either the flipped parts, or the rest of them.
+    #[test]
+    fn the_damage_of_surfaces_with_one_map_adds_up() {
+        let flipped = |flipped_percent: f64, damaged: f64| {
+            let difference = TangentDifference {
+                difference: Difference::SignPartlyFlipped,
+                supporting: 1,
+                measured: 2,
+                items: (&[0][..]).into(),
+                exceptions: (&[][..]).into(),
+                flipped_percent,
+                uv_set: 0,
+                follows_from_normals: false,
+            };
+            Defect { damaged_percent: Some(damaged), ..Defect::new(TangentFault::Differs(difference)) }
+        };
+        let severities = |mut defects: Vec<Defect>| {
+            let mut surfaces: Vec<Vec<&mut Defect>> = defects.iter_mut().map(|defect| vec![defect]).collect();
+            let options = CheckOptions::default();
+            let witness = MapWitness::of_unread(&options);
+            leave_unidentified(&mut [], &witness, &mut surfaces, &MapContext::alone(&options));
+            defects.iter().map(|defect| defect.severity).collect::<Vec<Severity>>()
+        };
+        let [error, warning] = [Severity::Error, Severity::Warning];
+        assert_eq!(severities(vec![flipped(50.0, 0.1); 4]), [warning; 4]);
+        assert_eq!(severities(vec![flipped(50.0, 0.1); 5]), [error; 5]);
+        // The first is right under an inverted map, the second under another one.
+        assert_eq!(severities(vec![flipped(99.0, 40.0), flipped(1.0, 0.4)]), [error; 2]);
+        assert_eq!(severities(vec![flipped(99.9, 40.0), flipped(99.0, 10.0)]), [warning; 2]);
     }
 
     /// Inverted red and green look alike to the derivatives: faces, another map, flipped signs and the user

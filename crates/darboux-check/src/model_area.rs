@@ -9,7 +9,7 @@ use darboux_io::gltf::{Document, Material, MeshInstances};
 use crate::code::Family;
 use crate::instances::{Key, key, meshes_without_node};
 use crate::place::Place;
-use crate::surface::{cross, length, sub};
+use crate::surface::{Surface, cross, length, sub};
 
 /// The area of the surfaces of a model.
 #[derive(Clone, Debug, Default)]
@@ -106,6 +106,12 @@ fn area_scale([x, y, z, _]: &[[f64; 4]; 4]) -> f64 {
     let determinant = x[0] * (y[1] * z[2] - y[2] * z[1]) - y[0] * (x[1] * z[2] - x[2] * z[1])
         + z[0] * (x[1] * y[2] - x[2] * y[1]);
     determinant.abs().cbrt().powi(2)
+}
+
+/// The area of a triangle of a surface; 0 where that is not finite.
+pub fn area(surface: &Surface, triangle: [usize; 3]) -> f64 {
+    let area = area_of(triangle.map(|vertex| surface.positions[vertex]));
+    if area.is_finite() { area } else { 0.0 }
 }
 
 /// The area of a triangle.

@@ -284,7 +284,7 @@ fn signs_of_nearly_all_triangles_may_cancel() {
     let [joint] = joint[..] else { panic!("{findings:#?}") };
     // On a tenth of the model nothing cancels the map.
     assert!(joint.severity == Severity::Error && joint.is_fixable());
-    assert!(joint.text.contains("of nearly all triangles of"), "{joint:#?}");
+    assert!(joint.text.contains("of nearly all of the area of"), "{joint:#?}");
     let is_half = |code: Code| matches!(code, Code::MapGreenFlipped | Code::TangentSignPartlyFlipped);
     assert!(!findings.iter().any(|finding| is_half(finding.code)), "{findings:#?}");
     let mut document = model.document();

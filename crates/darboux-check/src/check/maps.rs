@@ -292,24 +292,27 @@ fn is_unread(defect: &Defect) -> bool {
     matches!(&defect.fault, Fault::Map(MapFault::Unreadable { why: Unread::NotCarried(_), .. }))
 }
 
-/// Leaves flipped signs that a normal map without an image may cancel. `materials`: those with such maps.
+/// Leaves flipped signs that a normal map without an image may cancel. `materials`: those with such maps,
+/// each with one of its own.
 fn leave_under_unread_maps(
     document: &Document,
     materials: &HashSet<usize>,
     options: &CheckOptions,
     on_surfaces: &mut [Defect],
 ) {
-    let is_under = |defect: &Defect| {
-        let name = defect.place.primitive.as_ref();
-        let primitive =
-            name.and_then(|name| document.meshes().get(name.mesh)?.primitives.get(name.primitive));
-        primitive.is_some_and(|primitive| primitive.materials().iter().any(|used| materials.contains(used)))
-    };
-    let under: Vec<&mut Defect> = on_surfaces.iter_mut().filter(|defect| is_under(defect)).collect();
     let witness = MapWitness::of_unread(options);
     let is_from_sketchfab = is_from_sketchfab(document);
     let context = MapContext { is_from_sketchfab, ..MapContext::alone(options) };
-    hypotheses::leave_unidentified(&mut [], &witness, &mut [under], &context);
+    for material in materials {
+        let is_under = |defect: &Defect| {
+            let name = defect.place.primitive.as_ref();
+            let primitive =
+                name.and_then(|name| document.meshes().get(name.mesh)?.primitives.get(name.primitive));
+            primitive.is_some_and(|primitive| primitive.materials().contains(material))
+        };
+        let under: Vec<&mut Defect> = on_surfaces.iter_mut().filter(|defect| is_under(defect)).collect();
+        hypotheses::leave_unidentified(&mut [], &witness, &mut [under], &context);
+    }
 }
 
 /// The most characters of a name that are shown.

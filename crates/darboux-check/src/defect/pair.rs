@@ -41,7 +41,7 @@ pub enum Cancelled {
         pair: &'static Pair,
         first: Option<Place>,
         are_several: bool,
-        /// Whether nearly all triangles of a surface are meant, and not all.
+        /// Whether nearly all of the area of a surface is meant, and not all.
         is_of_most: bool,
         /// The known method, other than MikkTSpace, that computed the tangents of a surface.
         recipe: Option<Recipe>,

@@ -56,6 +56,8 @@ pub struct TangentDifference {
     pub items: Indices,
     /// Where most tangents are negated: the vertices whose tangents are not.
     pub exceptions: Indices,
+    /// By area, the part of what was measured whose signs are flipped, in percent.
+    pub flipped_percent: f64,
     /// The UV set that the tangents should follow.
     pub uv_set: usize,
     /// Whether it follows from reversed normals.

@@ -12,6 +12,7 @@ use crate::measure::expected::{is_measured, on_mirrored_seams};
 use crate::measure::reversal::{Reversal, Sides, Undecided};
 use crate::measure::turned::{Turned, turned};
 use crate::measure::values::MIN_SIGN;
+use crate::model_area::area;
 use crate::surface::{Surface, cross, dot, indices_where, xyz};
 
 /// How the tangents of a file differ from MikkTSpace's.
@@ -48,12 +49,14 @@ pub struct Fit {
     pub items: Vec<usize>,
     /// Where most tangents are negated, the vertices whose tangents are not, ascending.
     pub exceptions: Vec<usize>,
+    /// By area, the part of what was measured whose signs are flipped, in percent.
+    pub flipped_percent: f64,
 }
 
 /// The smallest share of the corners that decides.
 const MIN_SHARE: f64 = 0.9;
 
-/// The largest share of corners whose sign may contradict the others.
+/// The largest share of corners, and of their area, whose sign may contradict the others.
 const MAX_SIGN_ERRORS: f64 = 0.01;
 
 /// The largest number of other UV sets that tangents are compared with, which bounds the time.
@@ -70,11 +73,60 @@ struct Counts {
     near: usize,
     /// The supporting corners that have the same sign.
     close: usize,
-    /// Per orientation (unmirrored, mirrored): corners, and those whose sign differs.
-    signs: [[usize; 2]; 2],
-    /// Triangles with three measured corners, and the numbers of those whose three signs differ.
-    triangles: usize,
+    /// Per orientation (unmirrored, mirrored): corners whose sign can be judged.
+    signs: [Signs; 2],
+    /// Triangles with three of these, and the numbers of those whose three signs differ.
+    of_triangles: Signs,
     flipped_triangles: Vec<usize>,
+}
+
+/// Corners or triangles, and those whose sign differs, by their number and by their area.
+#[derive(Clone, Copy, Default)]
+struct Signs {
+    count: usize,
+    flipped: usize,
+    area: f64,
+    flipped_area: f64,
+}
+
+impl Signs {
+    fn add(&mut self, is_flipped: bool, area: f64) {
+        self.count += 1;
+        self.area += area;
+        self.flipped += usize::from(is_flipped);
+        self.flipped_area += if is_flipped { area } else { 0.0 };
+    }
+
+    fn with(self, other: Self) -> Self {
+        Self {
+            count: self.count + other.count,
+            flipped: self.flipped + other.flipped,
+            area: self.area + other.area,
+            flipped_area: self.flipped_area + other.flipped_area,
+        }
+    }
+
+    /// By area, the flipped part in percent; by number where nothing has an area.
+    fn flipped_percent(self) -> f64 {
+        let by_area = 100.0 * self.flipped_area / self.area;
+        if by_area.is_finite() { by_area } else { 100.0 * self.flipped as f64 / self.count.max(1) as f64 }
+    }
+
+    /// Whether these are no more than a part of others, by number and by area.
+    fn are_few_of(self, all: Self, part: f64) -> bool {
+        self.count as f64 <= part * all.count as f64 && self.area <= part * all.area
+    }
+
+    /// Whether all but a part are flipped.
+    fn are_flipped_but(self, part: f64) -> bool {
+        self.flipped as f64 >= (1.0 - part) * self.count as f64
+            && self.flipped_area >= (1.0 - part) * self.area
+    }
+
+    /// Whether no more than a part is flipped.
+    fn are_kept_but(self, part: f64) -> bool {
+        self.flipped as f64 <= part * self.count as f64 && self.flipped_area <= part * self.area
+    }
 }
 
 /// Measures: how the directions differ, and how the signs do where that is a difference of its own. Nothing
@@ -95,9 +147,12 @@ pub fn measure(
         supporting,
         items: Vec::new(),
         exceptions: Vec::new(),
+        flipped_percent: 0.0,
     };
+    let all_signs = own.signs[0].with(own.signs[1]);
+    let flipped_percent = all_signs.flipped_percent();
     let signs = by_signs(&own);
-    let of_signs = || signs.map(|signs| fit(Some(signs), own.signs[0][1] + own.signs[1][1]));
+    let of_signs = || signs.map(|signs| Fit { flipped_percent, ..fit(Some(signs), all_signs.flipped) });
     if own.corners == 0 {
         return vec![fit(None, 0)];
     }
@@ -158,8 +213,9 @@ fn other_uv_set(surface: &Surface, own: &Counts, winding: Winding<'_>) -> Option
 
 /// The differences of parts of the surface.
 fn partly(surface: &Surface, expected: &[[f32; 4]], counts: &Counts) -> Vec<Fit> {
-    let flipped =
-        Fit::of_part(Difference::SignPartlyFlipped, counts.flipped_triangles.clone(), counts.triangles);
+    let Counts { of_triangles, flipped_triangles, .. } = counts;
+    let flipped = Fit::of_part(Difference::SignPartlyFlipped, flipped_triangles.clone(), of_triangles.count);
+    let flipped = flipped.map(|fit| Fit { flipped_percent: of_triangles.flipped_percent(), ..fit });
     flipped.into_iter().chain(partly_turned(surface, expected)).collect()
 }
 
@@ -205,19 +261,21 @@ impl Fit {
     /// None without items.
     fn of_part(difference: Difference, items: Vec<usize>, measured: usize) -> Option<Self> {
         let (difference, supporting) = (Some(difference), items.len());
-        (supporting > 0).then_some(Self { difference, measured, supporting, items, exceptions: Vec::new() })
+        let (exceptions, flipped_percent) = (Vec::new(), 0.0);
+        let part = Self { difference, measured, supporting, items, exceptions, flipped_percent };
+        (supporting > 0).then_some(part)
     }
 }
 
 fn by_signs(counts: &Counts) -> Option<Difference> {
-    let all = counts.signs[0][0] + counts.signs[1][0];
-    // An orientation with no more corners than may contradict the others decides nothing.
-    let is_few = |[corners, _]: [usize; 2]| corners as f64 <= MAX_SIGN_ERRORS * all as f64;
-    let is_flipped = |of: [usize; 2]| !is_few(of) && of[1] as f64 >= (1.0 - MAX_SIGN_ERRORS) * of[0] as f64;
-    let is_kept = |of: [usize; 2]| !is_few(of) && of[1] as f64 <= MAX_SIGN_ERRORS * of[0] as f64;
     let [unmirrored, mirrored] = counts.signs;
-    let is_flipped_or_few = |of: [usize; 2]| is_flipped(of) || is_few(of);
-    if all == 0 {
+    let all = unmirrored.with(mirrored);
+    // An orientation with no more corners than may contradict the others decides nothing.
+    let is_few = |of: Signs| of.are_few_of(all, MAX_SIGN_ERRORS);
+    let is_flipped = |of: Signs| !is_few(of) && of.are_flipped_but(MAX_SIGN_ERRORS);
+    let is_kept = |of: Signs| !is_few(of) && of.are_kept_but(MAX_SIGN_ERRORS);
+    let is_flipped_or_few = |of: Signs| is_flipped(of) || is_few(of);
+    if all.count == 0 {
         return None;
     }
     if is_flipped_or_few(unmirrored) && is_flipped_or_few(mirrored) {
@@ -302,6 +360,7 @@ impl<'a> Comparison<'a> {
     fn add_triangle(&self, counts: &mut Counts, number: usize, triangle: [usize; 3]) {
         // Corners whose sign can be judged, and those whose sign differs.
         let (mut judged, mut flipped) = (0, 0);
+        let area = area(self.surface, triangle);
         for (corner, vertex) in
             triangle.into_iter().enumerate().filter(|(_, vertex)| !self.is_on_seam[*vertex])
         {
@@ -313,13 +372,13 @@ impl<'a> Comparison<'a> {
             counts.near += usize::from(angle < 1.0);
             counts.close += usize::from(angle < 1.0 && !difference.flips_sign);
             if theirs[3].abs() >= MIN_SIGN && self.has_sign[number] {
-                let of_orientation = &mut counts.signs[usize::from(ours[3] < 0.0)];
-                of_orientation[0] += 1;
-                of_orientation[1] += usize::from(difference.flips_sign);
+                counts.signs[usize::from(ours[3] < 0.0)].add(difference.flips_sign, area / 3.0);
                 (judged, flipped) = (judged + 1, flipped + usize::from(difference.flips_sign));
             }
         }
-        counts.triangles += usize::from(judged == 3);
+        if judged == 3 {
+            counts.of_triangles.add(flipped == 3, area);
+        }
         if flipped == 3 {
             counts.flipped_triangles.push(number);
         }

@@ -11,11 +11,9 @@ use super::options::FixOptions;
 use crate::cancelling::{is_part, pair_of};
 use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Obstacle, PAIRS, Pair, Unseen};
-use crate::hypotheses::{
-    ALL_PERCENT, flipped_percent, is_about_green, is_about_signs, needs_new_tangents,
-    severity_under_inverted_map, severity_under_unknown_map,
-};
+use crate::hypotheses::{are_partly_flipped, is_about_green, is_about_signs, needs_new_tangents};
 use crate::instances::{Key, key};
+use crate::severity::Severity;
 
 /// The primitives and images that are left because a part of such a pair is left, each with the pair, or may
 /// be one.
@@ -27,12 +25,13 @@ pub struct LeftPairs {
     /// together or not.
     partly: BTreeSet<Key>,
     partly_on: BTreeSet<usize>,
-    /// The primitives whose flipped signs a map may cancel, each with that reason to leave them.
-    may_cancel: BTreeMap<Key, Obstacle>,
+    /// The primitives whose flipped signs a map may cancel, each with that reason to leave them, and how bad
+    /// they are.
+    may_cancel: BTreeMap<Key, (Obstacle, Severity)>,
     /// The primitives whose tangents nothing shows, each with the reason.
     unseen: BTreeMap<Key, Unseen>,
-    /// What cancels the defects of a code of a primitive.
-    cancelled: BTreeMap<(Key, Code), Cancelled>,
+    /// What cancels the defects of a code of a primitive, and how bad they are.
+    cancelled: BTreeMap<(Key, Code), (Cancelled, Severity)>,
 }
 
 impl LeftPairs {
@@ -46,13 +45,14 @@ impl LeftPairs {
     ) -> Result<Self, Error> {
         let may_cancel = |defect: &Defect| match (&defect.place.primitive, &defect.obstacle) {
             (Some(primitive), Some(obstacle @ Obstacle::MapMayCancel { .. })) => {
-                Some((key(primitive), obstacle.clone()))
+                Some((key(primitive), (obstacle.clone(), defect.severity)))
             }
             _ => None,
         };
         let may_cancel = on_surfaces.iter().filter_map(may_cancel).collect();
         let cancelled = |defect: &Defect| {
-            Some(((key(defect.place.primitive.as_ref()?), defect.code()), defect.cancelled.clone()?))
+            let at = (key(defect.place.primitive.as_ref()?), defect.code());
+            Some((at, (defect.cancelled.clone()?, defect.severity)))
         };
         let cancelled = on_surfaces.iter().filter_map(cancelled).collect();
         let unseen = |defect: &Defect| Some((key(defect.place.primitive.as_ref()?), defect.unseen?));
@@ -88,9 +88,7 @@ impl LeftPairs {
     /// The defects, with the reason where they are left.
     pub fn mark(&self, defects: Vec<Defect>) -> Vec<Defect> {
         let defects: Vec<Defect> = defects.into_iter().map(|defect| self.marked(defect)).collect();
-        let is_left = |defect: &&Defect| {
-            defect.obstacle.is_some() && flipped_percent(defect).is_some_and(|percent| percent < ALL_PERCENT)
-        };
+        let is_left = |defect: &&Defect| defect.obstacle.is_some() && are_partly_flipped(defect);
         let kept: BTreeSet<Key> = defects.iter().filter(is_left).filter_map(primitive_of).collect();
         let mark = |defect: Defect| {
             let is_kept = primitive_of(&defect).is_some_and(|key| kept.contains(&key));
@@ -114,22 +112,21 @@ impl LeftPairs {
             let primitive = defect.place.primitive.as_ref()?;
             self.cancelled.get(&(key(primitive), defect.code())).cloned()
         };
-        defect.cancelled = defect.cancelled.take().or_else(|| cancelled(&defect));
+        let cancelled = cancelled(&defect);
+        let map = may_cancel(&defect);
+        let known =
+            cancelled.iter().map(|(_, severity)| severity).chain(map.iter().map(|(_, severity)| severity));
+        defect.severity = known.fold(defect.severity, |severity, known| severity.min(*known));
+        defect.cancelled = defect.cancelled.take().or(cancelled.map(|(cancelled, _)| cancelled));
         // Other mistakes of the place are repaired, and the pair stays as it is.
         let pair = pair_of(&defect).filter(|pair| is_part(pair, &defect));
         let pair = pair.or_else(|| self.is_partly_left(&defect).then_some(&PAIRS[0]));
         let pair = pair.map(Obstacle::PairIsLeft);
-        let map = may_cancel(&defect);
-        if defect.cancelled.is_some() {
-            defect.severity = severity_under_inverted_map(&defect);
-        } else if map.is_some() {
-            defect.severity = severity_under_unknown_map(&defect);
-        }
         let unseen = defect.place.primitive.as_ref().and_then(|name| self.unseen.get(&key(name)));
         if let Some(&why) = unseen {
             defect = defect.that_is_unseen(why);
         }
-        defect.with_obstacle(pair.or(map))
+        defect.with_obstacle(pair.or(map.map(|(obstacle, _)| obstacle)))
     }
 
     /// Whether signs or channels cancel on a part, and one of them is left.

@@ -7,7 +7,7 @@ use darboux::Method;
 use super::options::FixOptions;
 use crate::code::{Code, Family};
 use crate::defect::{Defect, Fault, NormalFault, Obstacle, TangentFault};
-use crate::hypotheses::{ALL_PERCENT, are_most_flipped, flipped_percent, needs_new_tangents};
+use crate::hypotheses::{are_all_flipped, are_most_flipped, are_partly_flipped, needs_new_tangents};
 use crate::indices::Indices;
 use crate::instances::{Key, key};
 use crate::measure::fit::Difference;
@@ -39,9 +39,8 @@ impl Kept {
     fn of(defects: &[&Defect], options: &FixOptions) -> Self {
         let left = || defects.iter().filter(|defect| !options.repairs(defect));
         let is_negated = |defect: &&&Defect| defect.code() == Code::TangentNegated && !defect.lists_items();
-        let is_about_all = |defect: &&Defect| flipped_percent(defect) == Some(ALL_PERCENT);
         Self {
-            flipped: left().any(is_about_all),
+            flipped: left().any(|defect| are_all_flipped(defect)),
             negated: left().any(|defect| is_negated(&defect)),
             method: left().find_map(|defect| kept_method(defect)),
         }
@@ -202,9 +201,7 @@ fn next_action(defects: &[&Defect], options: &FixOptions, stage: Stage) -> Optio
 
 /// Whether flipped signs of a part are left, which new tangents would not have.
 fn leaves_some_signs(defects: &[&Defect], options: &FixOptions) -> bool {
-    let is_about_a_part =
-        |defect: &Defect| flipped_percent(defect).is_some_and(|percent| percent < ALL_PERCENT);
-    defects.iter().any(|defect| is_about_a_part(defect) && !options.repairs(defect))
+    defects.iter().any(|defect| are_partly_flipped(defect) && !options.repairs(defect))
 }
 
 fn repair_of_normals(defects: &[&Defect]) -> Action {

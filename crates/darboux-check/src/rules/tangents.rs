@@ -106,7 +106,7 @@ fn direction_or_sign(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
 }
 
 fn different(facts: &SurfaceFacts<'_>, fit: &Fit) -> Option<Defect> {
-    let Fit { difference, supporting, measured, items, exceptions } = fit;
+    let Fit { difference, supporting, measured, items, exceptions, flipped_percent } = fit;
     let difference = (*difference)?;
     let difference = TangentDifference {
         difference,
@@ -114,6 +114,7 @@ fn different(facts: &SurfaceFacts<'_>, fit: &Fit) -> Option<Defect> {
         measured: *measured,
         items: items.as_slice().into(),
         exceptions: exceptions.as_slice().into(),
+        flipped_percent: *flipped_percent,
         uv_set: facts.surface.uv_set,
         follows_from_normals: difference == Difference::SignFlipped
             && facts.reversal == Some(Reversal::NormalsByTangents),

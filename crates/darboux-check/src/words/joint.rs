@@ -12,8 +12,8 @@ pub fn text(map: &Defect) -> String {
     let [of_map, of_surface] = names(pair);
     let place = first.as_ref().map_or("the model".to_owned(), ToString::to_string);
     let further = if *are_several { " and of all others that use the map" } else { "" };
-    let most = if *is_of_most { "nearly all triangles of " } else { "" };
-    let most_of_them = if *is_of_most { ", on these triangles, and inverted on the others" } else { "" };
+    let most = if *is_of_most { "nearly all of the area of " } else { "" };
+    let most_of_them = if *is_of_most { ", on this part of the area, and inverted on the rest" } else { "" };
     let program = recipe.map_or_else(String::new, |recipe| {
         format!(", by a program that computes tangents by {}", name(&recipe))
     });

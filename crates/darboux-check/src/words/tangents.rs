@@ -102,7 +102,13 @@ fn differing(found: &TangentDifference) -> Said {
         Difference::PartlyNegated | Difference::PartlyRotated => "part of all vertices",
         _ => "part of all corners",
     };
-    Said::new(text).with(part, found.percent(), "%")
+    let said = Said::new(text).with(part, found.percent(), "%");
+    match difference {
+        Difference::SignPartlyFlipped | Difference::SignFlippedWhereMirrored => {
+            said.with("part of the area of this surface", found.flipped_percent, "%")
+        }
+        _ => said,
+    }
 }
 
 fn outliers(recipe: &Recipe, part: &Part) -> Said {
