@@ -11,6 +11,7 @@ import simd from './wasm/check.simd.wasm';
 interface CheckExports extends Exports {
   file_bytes(bytes: number): number;
   tangents_to_recognise(corners: number): number;
+  codes_to_repair(bytes: number): number;
   check_file(isGreenDown: number, judgesMaps: number, assumedMap: number, repairs: number): number;
   judge_normal_map(isWide: number, channels: number, width: number, height: number): number;
   recognise_recipe(): number;
@@ -21,7 +22,7 @@ interface CheckExports extends Exports {
   repaired_length(): number;
 }
 
-/** Options of {@link check} and {@link fix}. */
+/** Options of {@link check}, and of {@link fix} with {@link FixOptions}. */
 export interface CheckOptions {
   /** Where the green of normal maps should point: 'up' (glTF, OpenGL) or 'down' (DirectX). Default: 'up'. */
   green?: 'up' | 'down' | null;
@@ -29,6 +30,12 @@ export interface CheckOptions {
   maps?: boolean | null;
   /** What normal maps are where neither their texels nor the faces decide it. Default: nothing is assumed. */
   assume?: (typeof ASSUMED_MAPS)[number] | null;
+}
+
+/** Options of {@link fix}. */
+export interface FixOptions extends CheckOptions {
+  /** The codes that are repaired. Default: all, but tangents of a known method other than MikkTSpace are left, because the map may have been baked with it: `['tangent-other-recipe']` computes them again. */
+  only?: readonly string[] | null;
 }
 
 /** A number that supports a finding. */
@@ -157,18 +164,20 @@ export function check(file: Uint8Array, options?: CheckOptions | null): Findings
 }
 
 /**
- * Repairs a model: tangents, normals, and the texels of embedded PNG and JPEG normal maps. Tangents of a known method other than MikkTSpace are left,
- * because the map may have been baked with it.
+ * Repairs a model: tangents, normals, and the texels of embedded PNG and JPEG normal maps.
  *
  * @param file As for {@link check}, but no image.
  * @returns The repaired GLB, null where nothing was repaired, and all findings with what became of each.
- * @throws As {@link check}.
+ * @throws As {@link check}. Error for an unknown code, RangeError for none.
  */
 export function fix(
   file: Uint8Array,
-  options?: CheckOptions | null,
+  options?: FixOptions | null,
 ): { file: Uint8Array<ArrayBuffer> | null; findings: Findings } {
+  const only = optionsOf(options).only ?? null;
+  if (only?.length === 0) throw new RangeError('only is empty; name the codes that are repaired, or leave it out');
   return checkModule.call((exports) => {
+    writeTexts(exports, [(only ?? []).map((code) => `${code}\n`).join('')], exports.codes_to_repair);
     const found = findings(exports, file, options, true);
     const repaired = newFile(exports);
     return { file: repaired.length ? repaired : null, findings: found };

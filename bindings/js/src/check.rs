@@ -2,14 +2,15 @@
 
 use darboux::BitangentDirection;
 use darboux_check::{
-    CheckOptions, FixOptions, ReportedFindings, ReportedJudgement, ReportedRecipe, check_document, check_map,
-    fix_document,
+    CheckOptions, Code, FixOptions, ReportedFindings, ReportedJudgement, ReportedRecipe, check_document,
+    check_map, fix_document,
 };
 use darboux_io::gltf::Document;
 use darboux_io::image::RgbaImage;
 use serde::Serialize;
 
 use crate::arena::with_arena;
+use crate::check_arrays::CheckArrays;
 use crate::mesh_arrays::rows;
 use crate::options::choice;
 use crate::reading::load_options;
@@ -24,6 +25,12 @@ pub extern "C" fn file_bytes(bytes: usize) -> *mut u8 {
 #[unsafe(no_mangle)]
 pub extern "C" fn tangents_to_recognise(corners: usize) -> *mut f32 {
     with_arena(|arena| crate::inputs::resized(&mut arena.check.tangents, 4 * corners))
+}
+
+/// The names of the codes that a repair is limited to, one per line; no bytes: all.
+#[unsafe(no_mangle)]
+pub extern "C" fn codes_to_repair(bytes: usize) -> *mut u8 {
+    with_arena(|arena| crate::inputs::resized(&mut arena.check.codes_to_repair, bytes))
 }
 
 /// The number of bytes of the last result.
@@ -69,33 +76,40 @@ pub extern "C" fn check_file(
     with_arena(|arena| {
         let arrays = &mut arena.check;
         arrays.repaired.clear();
-        let checked = if !repairs && RgbaImage::is_format_known(&arrays.bytes) {
+        let checked = if repairs {
+            fix_model(arrays, options)
+        } else if RgbaImage::is_format_known(&arrays.bytes) {
             let findings = check_map(&arrays.bytes, &options).findings;
-            Ok(Checked::Findings(ReportedFindings::new(findings, None, &options)))
+            Ok(ReportedFindings::new(findings, None, &options))
         } else {
-            check_model(&arrays.bytes, options, repairs, &mut arrays.repaired)
+            check_model(&arrays.bytes, &options).map_err(|error| error.to_string())
         };
-        let checked = checked.unwrap_or_else(|error| Checked::Error { error: error.to_string() });
+        let checked = checked.map_or_else(|error| Checked::Error { error }, Checked::Findings);
         arrays.put_json(&checked)
     })
 }
 
-fn check_model(
-    file: &[u8],
-    options: CheckOptions,
-    repairs: bool,
-    repaired: &mut Vec<u8>,
-) -> Result<Checked, darboux_io::Error> {
-    let mut document = Document::from_bytes("the model", file.to_vec(), None, &load_options())?;
-    let findings = check_document(&document, &options)?;
-    if !repairs {
-        return Ok(Checked::Findings(ReportedFindings::new(findings, Some(&document), &options)));
-    }
-    let fixed = fix_document(&mut document, findings, &FixOptions::default().with_check(options))?;
+fn check_model(file: &[u8], options: &CheckOptions) -> Result<ReportedFindings, darboux_io::Error> {
+    let document = Document::from_bytes("the model", file.to_vec(), None, &load_options())?;
+    let findings = check_document(&document, options)?;
+    Ok(ReportedFindings::new(findings, Some(&document), options))
+}
+
+/// Repairs the codes that are asked for.
+fn fix_model(arrays: &mut CheckArrays, options: CheckOptions) -> Result<ReportedFindings, String> {
+    let fixing = FixOptions::default().with_check(options);
+    let names = String::from_utf8_lossy(&arrays.codes_to_repair);
+    let codes: Vec<Code> = names.split_terminator('\n').map(str::parse).collect::<Result<_, String>>()?;
+    let fixing = if codes.is_empty() { fixing } else { fixing.with_codes(codes) };
+    let sentence = |error: darboux_io::Error| error.to_string();
+    let mut document =
+        Document::from_bytes("the model", arrays.bytes.clone(), None, &load_options()).map_err(sentence)?;
+    let findings = check_document(&document, &options).map_err(sentence)?;
+    let fixed = fix_document(&mut document, findings, &fixing).map_err(sentence)?;
     if fixed.is_changed {
-        *repaired = document.to_glb()?;
+        arrays.repaired = document.to_glb().map_err(sentence)?;
     }
-    Ok(Checked::Findings(ReportedFindings::new(fixed.findings, Some(&document), &options)))
+    Ok(ReportedFindings::new(fixed.findings, Some(&document), &options))
 }
 
 /// Judges the texels in the bytes: `channels` channels of 8 bits or, with `is_wide`, of 16. Returns the

@@ -11,6 +11,8 @@ pub struct CheckArrays {
     pub tangents: Vec<f32>,
     /// The result, as JSON.
     pub json: String,
+    /// The names of the codes that a repair is limited to, one per line; empty: all.
+    pub codes_to_repair: Vec<u8>,
     /// The conventions and layouts of a conversion, one per line.
     pub conversion_text: Vec<u8>,
     /// The repaired or converted file; empty where nothing was repaired.

@@ -59,6 +59,16 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
     assert.equal(fix(fixed.file).file, null);
   });
 
+  test(`${name}: repairs can be chosen`, () => {
+    const shield = asset('made/shield.glb');
+    const outcome = (only, code) => fix(shield, { only }).findings.find((finding) => finding.code === code);
+    assert.equal(fix(shield, { only: ['tangent-zero'] }).file, null);
+    assert.match(outcome(null, 'tangent-other-recipe').leftBecause, /--only tangent-other-recipe/);
+    assert.ok(outcome(['tangent-other-recipe'], 'tangent-other-recipe').repaired);
+    assert.throws(() => fix(shield, { only: ['tangent-odd'] }), /^Error: .*tangent-odd/);
+    assert.throws(() => fix(shield, { only: [] }), RangeError);
+  });
+
   test(`${name}: findings are those of the command`, () => {
     const { stdout } = command('check', 'assets/made/shield.glb', '--json');
     const underscored = (finding) => {
