@@ -94,6 +94,9 @@ export interface BakeModelsOptions extends Omit<BakeOptions, 'meshConvention'> {
   texture?: string | null;
 }
 
+/** Options of `PreparedModels`: what all bakes of its models share. */
+export type PreparedModelsOptions = Pick<BakeModelsOptions, 'maps' | 'material' | 'uvSet' | 'match' | 'highMaps' | 'texture'>;
+
 /** The images of a bake, the top row first; null where a kind was not chosen. */
 export interface BakedImages {
   /** Unit normals in tangent space, 3 floats per texel, (0, 0, 1) in the background. A texel of 8 bits is 127.5 + 127.5 n, rounded. */

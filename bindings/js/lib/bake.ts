@@ -3,7 +3,7 @@
 import { checkIndices, checkType, choice, optionsOf, rowCount, wholeRows } from './core/checks.js';
 import { MAP_CHANNELS, MAP_KINDS } from './core/choices.js';
 import { checkedMesh, readFloats, writeArrays, writeMesh, writeTexts, type Copy } from './core/mesh.js';
-import { load, type Exports } from './core/wasm-module.js';
+import { load, type Call, type Exports, type OwnInstance } from './core/wasm-module.js';
 import { optionsText, sizeOf } from './bake-options.js';
 import type {
   BakedImages,
@@ -19,6 +19,7 @@ import type {
   LowMesh,
   MapKind,
   NormalTexels,
+  PreparedModelsOptions,
   Verification,
   VerifyModelsOptions,
   VerifyOptions,
@@ -35,6 +36,8 @@ interface BakeExports extends Exports {
   model_bytes(bytes: number): number;
   bake_options(bytes: number): number;
   bake_models(): number;
+  prepare_models(): number;
+  bake_prepared_models(): number;
   low_tangents(corners: number): number;
   cage_positions(vertices: number): number;
   high_positions(vertices: number): number;
@@ -134,6 +137,44 @@ export function bakeModels(low: Uint8Array, high: Uint8Array | readonly Uint8Arr
     writeTexts(exports, [text], exports.bake_options);
     return exports.bake_models();
   }, bakedMaps(chosen));
+}
+
+/**
+ * Models that are read once, with the hierarchies over the high ones, for several bakes with other options: other sizes, cages, distances, samples. It keeps
+ * the models in memory until it is garbage-collected.
+ */
+export class PreparedModels {
+  readonly #instance: OwnInstance<BakeExports>;
+  readonly #options: PreparedModelsOptions;
+
+  /**
+   * Parameters and errors are those of {@link bakeModels}.
+   *
+   * @param options What all bakes share.
+   */
+  constructor(low: Uint8Array, high: Uint8Array | readonly Uint8Array[], options?: PreparedModelsOptions | null) {
+    const files = checkedFiles(low, high);
+    this.#options = { ...optionsOf(options) };
+    const text = optionsText(this.#options);
+    this.#instance = bakeModule.newInstance();
+    this.#call(null, text, (exports) => {
+      for (const file of files) writeBytes(exports, file);
+    }, 'prepare_models', () => undefined);
+  }
+
+  /** As {@link bakeModels} with these models, with the same bits. Errors: those of {@link bakeModels}. After an error of `onProgress` the models have to be prepared again. */
+  bake(options?: Omit<BakeModelsOptions, keyof PreparedModelsOptions> | null): BakedMaps {
+    const chosen = { ...optionsOf(options), ...this.#options };
+    return this.#call(chosen.onProgress, optionsText(chosen), () => {}, 'bake_prepared_models', bakedMaps(chosen));
+  }
+
+  #call<R, T>(onProgress: BakeOptions['onProgress'], text: string, write: Write, work: 'prepare_models' | 'bake_prepared_models', read: (report: R, exports: BakeExports) => T): T {
+    return call(onProgress, (exports) => {
+      write(exports);
+      writeTexts(exports, [text], exports.bake_options);
+      return exports[work]();
+    }, read, this.#instance.call);
+  }
 }
 
 /**
@@ -246,10 +287,15 @@ export function udimTilesOfModel(model: Uint8Array, options?: Pick<BakeModelsOpt
   }, (tiles: number[]) => tiles);
 }
 
-/** Calls the module. `run` writes the inputs and returns the address of the outcome; `read` makes the result of the report. Errors: the module's sentence. */
-function call<R, T>(onProgress: BakeOptions['onProgress'], run: (exports: BakeExports) => number, read: (report: R, exports: BakeExports) => T): T {
+/** Calls an instance of the module. `run` writes the inputs and returns the address of the outcome; `read` makes the result of the report. Errors: the module's sentence. */
+function call<R, T>(
+  onProgress: BakeOptions['onProgress'],
+  run: (exports: BakeExports) => number,
+  read: (report: R, exports: BakeExports) => T,
+  callInstance: Call<BakeExports> = bakeModule.call,
+): T {
   tell = onProgress;
-  return bakeModule.call((exports) => {
+  return callInstance((exports) => {
     exports.begin_bake();
     const { report, error } = readJson<Outcome<R>>(exports, run(exports));
     if (report === undefined) throw new Error(error);

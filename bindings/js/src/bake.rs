@@ -2,21 +2,20 @@
 //! functions share with it.
 
 use std::collections::BTreeMap;
+use std::mem::take;
 
 use darboux::{Choice, Context, Convention};
 use darboux_bake::{
-    BakeOptions, BakeProgress, BakeReport, Baked, Bitangent, CurvatureRadius, HighModel, HighModelOptions,
-    HighSurface, IdColor, IdSource, LowModel, LowModelOptions, LowSurface, MapKind, MapSet, OcclusionFalloff,
-    OcclusionWeights, Udim, bake, default_cage_offset, group_by_name, inflated_cage,
+    BakeOptions, BakeProgress, BakeReport, Baked, Bitangent, CurvatureRadius, IdColor, IdSource, MapKind,
+    MapSet, OcclusionFalloff, OcclusionWeights, PreparedSurfaces, Udim, default_cage_offset,
 };
-use darboux_io::gltf::Document;
 use serde::{Deserialize, Serialize};
 
 use crate::arena::with_arena;
 use crate::bake_arrays::BakeArrays;
 use crate::inputs::resized;
 use crate::options::{Named, choice};
-use crate::reading::load_options;
+use crate::prepared_models::PreparedModels;
 
 #[cfg(target_family = "wasm")]
 #[link(wasm_import_module = "darboux")]
@@ -91,10 +90,10 @@ pub struct Options {
     pub padding: Option<u32>,
     udim: Option<u32>,
     back_faces: bool,
-    material: Option<usize>,
-    uv_set: Option<usize>,
-    matches_names: bool,
-    high_maps: bool,
+    pub material: Option<usize>,
+    pub uv_set: Option<usize>,
+    pub matches_names: bool,
+    pub high_maps: bool,
     ao_rays: u32,
     ao_distance: Option<f32>,
     ao_falloff: Named<OcclusionFalloff>,
@@ -103,9 +102,9 @@ pub struct Options {
     thickness_distance: Option<f32>,
     curvature_radius: f32,
     is_curvature_in_texels: bool,
-    id_from: Named<IdSource>,
+    pub id_from: Named<IdSource>,
     world_direction: [f32; 3],
-    texture: Option<String>,
+    pub texture: Option<String>,
 }
 
 impl Options {
@@ -146,8 +145,7 @@ pub struct Setup {
 
 /// The surfaces that are worked on.
 pub struct Surfaces<'a> {
-    pub low: &'a [LowSurface<'a>],
-    pub high: &'a [HighSurface<'a>],
+    pub prepared: &'a PreparedSurfaces<'a>,
     pub settings: &'a BakeOptions,
 }
 
@@ -209,15 +207,48 @@ pub enum Outcome<R> {
 pub extern "C" fn bake_models() -> *const u8 {
     with_arena(|arena| {
         let arrays = &mut arena.bake;
-        let result = with_models(&arrays.files, &arrays.options, &mut arena.context, bake_surfaces);
+        let files = take(&mut arrays.files);
+        let result = with_models(files, &arrays.options, &mut arena.context, bake_surfaces);
+        put_baked(arrays, result)
+    })
+}
+
+/// Reads and keeps the models in the arena, in place of those that were kept. Returns the address of the
+/// JSON.
+#[unsafe(no_mangle)]
+pub extern "C" fn prepare_models() -> *const u8 {
+    with_arena(|arena| {
+        let arrays = &mut arena.bake;
+        let files = take(&mut arrays.files);
+        let result = read_options(&arrays.options)
+            .and_then(|options| PreparedModels::read(files, &options, &arena.context));
+        let outcome = match result {
+            Ok(prepared) => {
+                arrays.prepared = Some(prepared);
+                Outcome::Report(())
+            }
+            Err(sentence) => Outcome::Error(sentence),
+        };
+        arrays.put_json(&outcome)
+    })
+}
+
+/// Bakes the models that were kept. Returns the address of the JSON.
+#[unsafe(no_mangle)]
+pub extern "C" fn bake_prepared_models() -> *const u8 {
+    with_arena(|arena| {
+        let arrays = &mut arena.bake;
+        let result = read_options(&arrays.options).and_then(|options| {
+            let prepared = arrays.prepared.as_ref().ok_or("no models were prepared")?;
+            prepared.with_surfaces(&options, &mut arena.context, bake_surfaces)
+        });
         put_baked(arrays, result)
     })
 }
 
 /// Bakes surfaces. Errors: one sentence.
 pub fn bake_surfaces(surfaces: Surfaces<'_>, context: &mut Context) -> Result<Baked, String> {
-    let Surfaces { low, high, settings } = surfaces;
-    bake(low, high, settings, context, &mut tell).map_err(text)
+    surfaces.prepared.bake(surfaces.settings, context, &mut tell).map_err(text)
 }
 
 /// Keeps the images and the report of a bake, or the sentence why there is none. Returns the address of the
@@ -246,89 +277,18 @@ pub fn tell(BakeProgress { done, total }: BakeProgress) {
 
 /// Reads the models and works on their surfaces. Errors: one sentence.
 pub fn with_models<T>(
-    files: &[Vec<u8>],
+    files: Vec<Vec<u8>>,
     options: &[u8],
     context: &mut Context,
     work: impl FnOnce(Surfaces<'_>, &mut Context) -> Result<T, String>,
 ) -> Result<(T, Setup), String> {
     let options = read_options(options)?;
-    let (low_file, high_files) = files.split_first().ok_or("there is no model to bake")?;
-    let low_document = open("the low model", low_file)?;
-    let high_documents: Vec<_> =
-        high_files.iter().map(|file| open("the high model", file)).collect::<Result<_, _>>()?;
-    let low_corners = low_document.corners().map_err(sentence)?;
-    let low = LowModel::read(&low_document, &low_corners, &low_options(&options)).map_err(sentence)?;
-    let high_corners: Vec<_> =
-        high_documents.iter().map(Document::corners).collect::<Result<_, _>>().map_err(sentence)?;
-    let high_options = HighModelOptions::default()
-        .with_normal_maps(options.high_maps)
-        .with_maps(chosen_maps(&options))
-        .with_texture(options.texture.clone());
-    let highs = HighModel::read_all(&high_documents, &high_corners, &high_options).map_err(sentence)?;
-    let mut setup = Setup {
-        diagonal: low.diagonal(),
-        distance: distance(&options, low.diagonal()),
-        has_cage: options.distance.is_none(),
-        warnings: warnings(&low, &highs),
-        id_names: HighModel::names_of_all(&highs, options.id_from.0).into_iter().map(str::to_owned).collect(),
-        part_names: low.names().map(str::to_owned).collect(),
-    };
-    let done = with_read(&low, &highs, &options, &mut setup, context, work)?;
-    Ok((done, setup))
+    PreparedModels::read(files, &options, context)?.with_surfaces(&options, context, work)
 }
 
-/// Reads the low model and works on its surfaces. Errors: one sentence.
-pub fn with_low_model<T>(
-    files: &[Vec<u8>],
-    options: &Options,
-    work: impl FnOnce(&[LowSurface<'_>]) -> Result<T, String>,
-) -> Result<T, String> {
-    let document = open("the model", files.first().ok_or("there is no model")?)?;
-    let corners = document.corners().map_err(sentence)?;
-    let low = LowModel::read(&document, &corners, &low_options(options)).map_err(sentence)?;
-    work(&low.surfaces().map_err(sentence)?)
-}
-
-fn low_options(options: &Options) -> LowModelOptions {
-    LowModelOptions::default().with_uv_set(options.uv_set).with_material(options.material)
-}
-
-fn chosen_maps(options: &Options) -> MapSet {
+pub fn chosen_maps(options: &Options) -> MapSet {
     let kinds: Vec<MapKind> = options.maps.iter().map(|kind| kind.0).collect();
     MapSet::of(&kinds)
-}
-
-/// Works on models that were read.
-fn with_read<T>(
-    low: &LowModel<'_>,
-    highs: &[HighModel<'_>],
-    options: &Options,
-    setup: &mut Setup,
-    context: &mut Context,
-    work: impl FnOnce(Surfaces<'_>, &mut Context) -> Result<T, String>,
-) -> Result<T, String> {
-    let mut low_surfaces = low.surfaces().map_err(sentence)?;
-    let mut high_surfaces = HighModel::surfaces_of_all(highs).map_err(sentence)?;
-    if options.matches_names {
-        let unpaired = group_by_name((low, &mut low_surfaces), (highs, &mut high_surfaces)).warnings();
-        if high_surfaces.is_empty() {
-            return Err(unpaired.join("; "));
-        }
-        setup.warnings.extend(unpaired);
-    }
-    let cages = match setup.has_cage {
-        true => cages(&low_surfaces, setup.distance[0])?,
-        false => Vec::new(),
-    };
-    let mut caged_surfaces = Vec::with_capacity(low_surfaces.len());
-    for (index, surface) in low_surfaces.into_iter().enumerate() {
-        caged_surfaces.push(match cages.get(index) {
-            Some(cage) => surface.with_cage(cage).map_err(text)?,
-            None => surface,
-        });
-    }
-    let settings = bake_settings(options, setup.distance)?;
-    work(Surfaces { low: &caged_surfaces, high: &high_surfaces, settings: &settings }, context)
 }
 
 pub fn bake_settings(options: &Options, distance: [f32; 2]) -> Result<BakeOptions, String> {
@@ -359,32 +319,7 @@ pub fn distance(options: &Options, diagonal: f64) -> [f32; 2] {
     options.distance.unwrap_or([options.cage_offset.unwrap_or(default_cage_offset(diagonal)); 2])
 }
 
-fn cages(low: &[LowSurface<'_>], offset: f32) -> Result<Vec<Vec<[f32; 3]>>, String> {
-    low.iter().map(|surface| inflated_cage(surface.mesh(), offset).map_err(text)).collect()
-}
-
-/// What was left out.
-fn warnings(low: &LowModel<'_>, highs: &[HighModel<'_>]) -> Vec<String> {
-    let mut warnings: Vec<String> = highs.iter().flat_map(HighModel::warnings).cloned().collect();
-    if low.without_uvs > 0 {
-        warnings
-            .push(format!("{} primitives of the low model have no UVs and are not baked", low.without_uvs));
-    }
-    if low.materials.len() > 1 {
-        let count = low.materials.len();
-        warnings.push(format!(
-            "the {count} materials of the low model share one map; where their charts \
-             overlap, the first triangle wins"
-        ));
-    }
-    warnings
-}
-
-fn open(name: &str, file: &[u8]) -> Result<Document, String> {
-    Document::from_bytes(name, file.to_vec(), None, &load_options()).map_err(sentence)
-}
-
-fn sentence(error: darboux_io::Error) -> String {
+pub fn sentence(error: darboux_io::Error) -> String {
     error.to_string()
 }
 

@@ -4,11 +4,15 @@ use darboux::{Channel, TexelLayout};
 use darboux_bake::Images;
 use serde::Serialize;
 
+use crate::prepared_models::PreparedModels;
+
 /// The inputs and results of these functions.
 #[derive(Default)]
 pub struct BakeArrays {
     /// The files: the low model, then the high ones.
     pub files: Vec<Vec<u8>>,
+    /// Models that are kept from call to call.
+    pub prepared: Option<PreparedModels>,
     /// Of the low mesh: four floats per corner, or three per vertex.
     pub low_tangents: Option<Vec<f32>>,
     pub cage: Option<Vec<f32>>,
@@ -65,8 +69,8 @@ fn decoded<C: Channel>(codes: &[C]) -> Vec<[f32; 3]> {
 impl BakeArrays {
     /// Frees the models of the call before.
     pub fn clear_models(&mut self) {
-        let Self { options, json, images, states, .. } = std::mem::take(self);
-        *self = Self { options, json, images, states, ..Self::default() };
+        let Self { prepared, options, json, images, states, .. } = std::mem::take(self);
+        *self = Self { prepared, options, json, images, states, ..Self::default() };
     }
 
     /// Keeps a report as JSON. Returns its address.

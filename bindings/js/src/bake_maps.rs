@@ -1,17 +1,20 @@
 //! What belongs to a bake: the error of its map in degrees, maps in another space, tiles.
 
+use std::mem::take;
+
 use darboux::Context;
 use darboux_bake::{
     ConvertedSpace, Images, LowSurface, NormalSpace, NormalTexture, SpaceOptions, TexelState, Udim,
-    Verification, convert_space, udims_of, verify,
+    Verification, convert_space, udims_of,
 };
 use serde::Serialize;
 
 use crate::arena::{Arena, with_arena};
-use crate::bake::{Options, Outcome, Setup, Surfaces, read_options, tell, text, with_low_model, with_models};
+use crate::bake::{Options, Outcome, Setup, Surfaces, read_options, tell, text, with_models};
 use crate::bake_arrays::{BakeArrays, GivenMap};
 use crate::bake_meshes::{with_low_mesh, with_meshes};
 use crate::inputs::resized;
+use crate::prepared_models::with_low_model;
 
 /// The normal map of a bake: three floats per texel.
 #[unsafe(no_mangle)]
@@ -69,8 +72,9 @@ pub extern "C" fn converted_texels() -> *const [f32; 3] {
 pub extern "C" fn verify_models() -> *const u8 {
     with_arena(|arena| {
         let arrays = &mut arena.bake;
+        let files = take(&mut arrays.files);
         let work = |surfaces: Surfaces<'_>, context: &mut Context| verified(arrays, &surfaces, context);
-        let result = with_models(&arrays.files, &arrays.options, &mut arena.context, work);
+        let result = with_models(files, &arrays.options, &mut arena.context, work);
         put_verified(arrays, result)
     })
 }
@@ -91,7 +95,7 @@ fn verified(
     surfaces: &Surfaces<'_>,
     context: &mut Context,
 ) -> Result<Verification, String> {
-    let Surfaces { low, high, settings } = surfaces;
+    let Surfaces { prepared, settings } = surfaces;
     let states = arrays.given_states.iter().map(|&number| TexelState::from_number(number));
     let states: Option<Vec<_>> = states.collect();
     let states = states.ok_or("baked.states has numbers that no state has; pass what bake returned")?;
@@ -100,7 +104,7 @@ fn verified(
     let map = arrays.given_map.vectors();
     let written =
         NormalTexture::new(settings.size, map, settings.map_convention, settings.surface_convention);
-    verify(low, high, &images, &written.map_err(text)?, settings, context, &mut tell).map_err(text)
+    prepared.verify(&images, &written.map_err(text)?, settings, context, &mut tell).map_err(text)
 }
 
 /// What a verification reports beside the picture of its errors.
@@ -135,8 +139,9 @@ fn put_verified(arrays: &mut BakeArrays, result: Result<(Verification, Setup), S
 pub extern "C" fn convert_space_of_model() -> *const u8 {
     with_arena(|arena| {
         let Arena { bake: arrays, context, .. } = arena;
+        let file = arrays.files.pop().unwrap_or_default();
         let result = read_options(&arrays.options).and_then(|options| {
-            with_low_model(&arrays.files, &options, |low| converted(arrays, &options, low, context))
+            with_low_model(file, &options, |low| converted(arrays, &options, low, context))
         });
         put_converted(arrays, result)
     })
@@ -188,8 +193,9 @@ fn put_converted(arrays: &mut BakeArrays, result: Result<ConvertedSpace, String>
 pub extern "C" fn tiles_of_model() -> *const u8 {
     with_arena(|arena| {
         let arrays = &mut arena.bake;
+        let file = arrays.files.pop().unwrap_or_default();
         let result = read_options(&arrays.options)
-            .and_then(|options| with_low_model(&arrays.files, &options, |low| tiles(&options, low)));
+            .and_then(|options| with_low_model(file, &options, |low| tiles(&options, low)));
         put_tiles(arrays, result)
     })
 }

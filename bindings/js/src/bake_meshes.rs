@@ -3,7 +3,7 @@
 //! The low mesh lies in the arena as the meshes of other functions do.
 
 use darboux::{Context, Indices, Mesh, Strided, TangentOptions, write_tangents};
-use darboux_bake::{HighSurface, LowSurface, inflated_cage};
+use darboux_bake::{HighSurface, LowSurface, PreparedSurfaces, inflated_cage};
 
 use crate::arena::{Arena, with_arena};
 use crate::bake::{Setup, Surfaces, bake_settings, bake_surfaces, distance, put_baked, read_options, text};
@@ -69,7 +69,8 @@ pub fn with_meshes<T>(
         let caged = cage.map_or(Ok(low), |cage| low.with_cage(cage)).map_err(text)?;
         let high = high_surface(arrays)?;
         let settings = bake_settings(&options, distance)?;
-        let done = work(Surfaces { low: &[caged], high: &[high], settings: &settings }, context)?;
+        let prepared = &PreparedSurfaces::new(&[caged], &[high], None, context).map_err(text)?;
+        let done = work(Surfaces { prepared, settings: &settings }, context)?;
         let setup = Setup {
             diagonal: low.diagonal(),
             distance,

@@ -44,6 +44,8 @@ mod measure;
 mod normals;
 #[cfg(feature = "full")]
 mod plan;
+#[cfg(feature = "bake")]
+mod prepared_models;
 #[cfg(any(feature = "bake", feature = "check"))]
 mod reading;
 #[cfg(feature = "full")]

@@ -41,7 +41,7 @@ const results = [];
 /** The codes of a map as a file of 8 or 16 bits has them. */
 const codes = (vectors, bits) => (bits === 8 ? Uint8Array : Uint16Array).from(vectors, (c) => Math.round((c + 1) * (2 ** bits - 1) / 2));
 
-for (const [name, { bake, bakeModels, TEXEL_STATES, verify, verifyModels, convertSpace, convertSpaceOfModel, udimTiles, udimTilesOfModel }] of Object.entries(forms)) {
+for (const [name, { bake, bakeModels, PreparedModels, TEXEL_STATES, verify, verifyModels, convertSpace, convertSpaceOfModel, udimTiles, udimTilesOfModel }] of Object.entries(forms)) {
   test(`${name}: a slope leans the normal against it`, () => {
     const progress = [];
     const maps = ['normal', 'object-normal', 'height', 'ao', 'position'];
@@ -55,6 +55,39 @@ for (const [name, { bake, bakeModels, TEXEL_STATES, verify, verifyModels, conver
     assert.deepEqual([baked.report.chartedTexels, baked.report.missedTexels, baked.warnings], [2048, 0, []]);
     assert.ok(progress.at(-1) === 1 && progress.every((done, at) => done > (progress[at - 1] ?? 0)));
     results.push(baked);
+  });
+
+  test(`${name}: prepared models are baked with the same bits, again and again`, () => {
+    const shared = { maps: ['normal', 'height'] };
+    const prepared = new PreparedModels(shield, [shield], shared);
+    const all = [{ size: [64, 64], cageOffset: 0.02 }, { size: [32, 64], distance: [0.05, 0.03], samples: 2 }, { size: [64, 64], cageOffset: 0.001, backFaces: true }, { size: [64, 64], cageOffset: 0.02 }];
+    for (const options of all) {
+      const once = bakeModels(shield, shield, { ...shared, ...options });
+      assert.deepEqual(prepared.bake(options), once);
+    }
+    const other = new PreparedModels(bytes(0), bytes(0.5));
+    assert.deepEqual(other.bake({ size: [8, 8], distance: [1, 1] }), bakeModels(bytes(0), bytes(0.5), { size: [8, 8], distance: [1, 1] }));
+    assert.deepEqual(prepared.bake(all[0]), bakeModels(shield, shield, { ...shared, ...all[0] }), 'not those of the other object');
+  });
+
+  test(`${name}: prepared models refuse what a bake of models refuses, and stay usable`, () => {
+    assert.throws(() => new PreparedModels(bytes(0, { hasUvs: false }), bytes(0)), /UVs|TEXCOORD_0/);
+    assert.throws(() => new PreparedModels(Uint8Array.of(1, 2, 3), bytes(0)), /the low model/);
+    assert.throws(() => new PreparedModels(bytes(0), []), { name: 'RangeError' });
+    const prepared = new PreparedModels(bytes(0), bytes(0.5));
+    const options = { size: [8, 8], distance: [1, 1] };
+    assert.throws(() => prepared.bake({ ...options, distance: [0, 0] }), /distance/);
+    assert.throws(() => prepared.bake({ ...options, samples: 0 }), /samples/);
+    assert.deepEqual(prepared.bake(options), bakeModels(bytes(0), bytes(0.5), options));
+  });
+
+  test(`${name}: an error of onProgress reaches the caller, and says why prepared models are lost`, () => {
+    const prepared = new PreparedModels(bytes(0), bytes(0.5));
+    const stop = () => {
+      throw new Error('enough');
+    };
+    assert.throws(() => prepared.bake({ size: [8, 8], distance: [1, 1], onProgress: stop }), { message: 'enough' });
+    assert.throws(() => prepared.bake({ size: [8, 8], distance: [1, 1] }), /an error of a callback ended a call before/);
   });
 
   test(`${name}: an FBX is baked as the same model in a GLB`, () => {

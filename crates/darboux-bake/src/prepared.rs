@@ -1,6 +1,8 @@
 //! [`PreparedSurfaces`]: surfaces in their common box, with the hierarchies over the high ones, for several
 //! bakes.
 
+use std::sync::Arc;
+
 use darboux::Context;
 
 use crate::budget::Budget;
@@ -15,9 +17,9 @@ pub struct PreparedSurfaces<'a> {
     /// In the box.
     pub(crate) low: Vec<LowSurface<'a>>,
     /// In the box.
-    pub(crate) high: Vec<HighSurface<'a>>,
+    pub(crate) high: Arc<[HighSurface<'a>]>,
     /// The high surfaces by group, for every group of the low surfaces.
-    pub(crate) groups: Vec<HighGroup<'a>>,
+    pub(crate) groups: Arc<[HighGroup<'a>]>,
 }
 
 impl<'a> PreparedSurfaces<'a> {
@@ -33,7 +35,7 @@ impl<'a> PreparedSurfaces<'a> {
         check_surfaces(low, high)?;
         Budget::new(memory_limit).add(memory::of_hierarchies(high))?;
         let space = box_around(low);
-        let high: Vec<_> = high.iter().map(|surface| surface.in_space(space)).collect();
+        let high: Arc<[_]> = high.iter().map(|surface| surface.in_space(space)).collect();
         let low: Vec<_> = low.iter().map(|surface| surface.in_space(space)).collect();
         let groups = (0..group_count(&low))
             .map(|group| HighGroup::new(&high, group, context))
@@ -41,17 +43,24 @@ impl<'a> PreparedSurfaces<'a> {
         Ok(Self { space, low, high, groups })
     }
 
-    /// These surfaces with other low ones, such as the same with another cage. The hierarchies are kept where
-    /// the new surfaces lie in the same box and groups, and are built anew otherwise. Errors: as of
+    /// These surfaces with other low ones, such as the same with another cage. The hierarchies are shared
+    /// where the new surfaces lie in the same box and groups, and are built anew otherwise. Errors: as of
     /// [`PreparedSurfaces::new`].
-    pub fn with_low(self, low: &[LowSurface<'a>], context: &Context) -> Result<Self, BakeError> {
+    pub fn with_low<'b>(
+        &self,
+        low: &[LowSurface<'b>],
+        context: &Context,
+    ) -> Result<PreparedSurfaces<'b>, BakeError>
+    where
+        'a: 'b,
+    {
         let is_same = box_around(low) == self.space && group_count(low) == self.groups.len();
         if !is_same {
-            return Self::new(low, &self.high, None, context);
+            return PreparedSurfaces::new(low, &self.high, None, context);
         }
         check_surfaces(low, &self.high)?;
         let low = low.iter().map(|surface| surface.in_space(self.space)).collect();
-        Ok(Self { low, ..self })
+        Ok(PreparedSurfaces { space: self.space, low, high: self.high.clone(), groups: self.groups.clone() })
     }
 
     /// The low surfaces.

@@ -1,6 +1,6 @@
 // A thread of its own for baking, which the page can end at any time.
 
-import { bakeModels, ready, TEXEL_STATES, type BakeModelsOptions, type BakeReport } from 'darboux/bake';
+import { PreparedModels, ready, TEXEL_STATES, type BakeModelsOptions, type BakeReport } from 'darboux/bake';
 
 import { answer, tellProgress } from '../worker/calls';
 
@@ -28,21 +28,29 @@ const MISS_COLORS: Partial<Record<(typeof TEXEL_STATES)[number], readonly [numbe
 
 let files: { low: Uint8Array; high: Uint8Array[] } = { low: new Uint8Array(), high: [] };
 
+/** The models of the last bake, with the material that it was prepared for: all other options may change without reading them again. */
+let prepared: { models: PreparedModels; material: number | null } | null = null;
+
 /** The functions that the page can call. */
 const functions = {
   /** Replaces the models, which are self-contained GLBs. */
   open(low: Uint8Array, high: Uint8Array[]): void {
-    files = { low, high };
+    [files, prepared] = [{ low, high }, null];
   },
 
   /** Bakes the normal map of the low model. */
-  bake(options: Omit<BakeModelsOptions, 'maps' | 'onProgress'>): ShownBake {
+  bake({ material = null, ...options }: Omit<BakeModelsOptions, 'maps' | 'onProgress'>): ShownBake {
     const start = performance.now();
-    const baked = bakeModels(files.low, files.high, { ...options, onProgress: tellProgress });
+    if (prepared?.material !== material) prepared = { models: new PreparedModels(files.low, files.high, { material }), material };
+    const { models } = prepared;
+    // Models on which a bake failed for want of memory are lost.
+    prepared = null;
+    const baked = models.bake({ ...options, onProgress: tellProgress });
+    prepared = { models, material };
     const seconds = (performance.now() - start) / 1000;
     const [width, height] = baked.size;
     const { report, warnings } = baked;
-    return { width, height, normals: texels(baked.normal!), misses: missesOf(baked.states), material: options.material ?? null, report, warnings, seconds };
+    return { width, height, normals: texels(baked.normal!), misses: missesOf(baked.states), material, report, warnings, seconds };
   },
 };
 

@@ -120,11 +120,13 @@ export function load<E extends Exports>(
     let failure: unknown;
     const call: Call<E> = (work) => {
       if (failure) throw failure;
+      isInCallback = false;
       try {
         return work(own);
       } catch (error) {
-        if (isTrap(error)) failure = worded(error, own);
-        throw failure ?? error;
+        if (isTrap(error)) throw (failure = worded(error, own));
+        if (isInCallback) failure = new Error('an error of a callback ended a call before; what it was called on can no longer be used', { cause: error });
+        throw error;
       }
     };
     return { call, isFull: () => failure !== undefined || own.memory.buffer.byteLength > MAX_KEPT_MEMORY };

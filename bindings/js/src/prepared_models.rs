@@ -1,0 +1,186 @@
+//! Models that are read once, with the hierarchies over the high ones: for one bake, or for several with
+//! other options.
+
+use darboux::Context;
+use darboux_bake::{
+    HighModel, HighModelOptions, LowModel, LowModelOptions, LowSurface, PreparedSurfaces, group_by_name,
+    inflated_cage,
+};
+use darboux_io::gltf::{Document, PrimitiveCorners};
+use self_cell::self_cell;
+
+use crate::bake::{Options, Setup, Surfaces, bake_settings, chosen_maps, distance, sentence, text};
+use crate::reading::load_options;
+
+type Corners<'a> = Vec<Vec<PrimitiveCorners<'a>>>;
+
+struct Models<'a> {
+    low: LowModel<'a>,
+    highs: Vec<HighModel<'a>>,
+}
+
+struct Prepared<'a> {
+    /// Without cages, which depend on the distance of rays.
+    low: Vec<LowSurface<'a>>,
+    surfaces: PreparedSurfaces<'a>,
+}
+
+self_cell! {
+    struct ReadFiles {
+        owner: Vec<Document>,
+        #[covariant]
+        dependent: Corners,
+    }
+}
+
+self_cell! {
+    struct ReadModels {
+        owner: ReadFiles,
+        #[covariant]
+        dependent: Models,
+    }
+}
+
+self_cell! {
+    struct ReadSurfaces {
+        owner: ReadModels,
+        #[covariant]
+        dependent: Prepared,
+    }
+}
+
+/// Models, with all that does not depend on the options of a bake but the choice of the maps, of the material
+/// and UVs of the low model, and of what counts on the high ones.
+pub struct PreparedModels {
+    surfaces: ReadSurfaces,
+    /// What was left out.
+    warnings: Vec<String>,
+}
+
+impl PreparedModels {
+    /// Reads the low model, then the high ones. Errors: one sentence.
+    pub fn read(files: Vec<Vec<u8>>, options: &Options, context: &Context) -> Result<Self, String> {
+        let read = ReadFiles::try_new(open_all(files)?, |documents| {
+            documents.iter().map(Document::corners).collect::<Result<_, _>>().map_err(sentence)
+        })?;
+        let models = ReadModels::try_new(read, |read| Models::read(read, options))?;
+        let mut warnings = models.borrow_dependent().warnings();
+        let surfaces = ReadSurfaces::try_new(models, |models| {
+            models.borrow_dependent().prepare(options, &mut warnings, context)
+        })?;
+        Ok(Self { surfaces, warnings })
+    }
+
+    /// Works on the surfaces, with the cage and the settings of a bake. Errors: one sentence.
+    pub fn with_surfaces<T>(
+        &self,
+        options: &Options,
+        context: &mut Context,
+        work: impl FnOnce(Surfaces<'_>, &mut Context) -> Result<T, String>,
+    ) -> Result<(T, Setup), String> {
+        let Models { low, highs } = self.surfaces.borrow_owner().borrow_dependent();
+        let Prepared { low: without_cage, surfaces } = self.surfaces.borrow_dependent();
+        let id_names = HighModel::names_of_all(highs, options.id_from.0);
+        let setup = Setup {
+            diagonal: low.diagonal(),
+            distance: distance(options, low.diagonal()),
+            has_cage: options.distance.is_none(),
+            warnings: self.warnings.clone(),
+            id_names: id_names.into_iter().map(str::to_owned).collect(),
+            part_names: low.names().map(str::to_owned).collect(),
+        };
+        let settings = &bake_settings(options, setup.distance)?;
+        if !setup.has_cage {
+            return Ok((work(Surfaces { prepared: surfaces, settings }, context)?, setup));
+        }
+        let cages = cages(without_cage, setup.distance[0])?;
+        let caged = without_cage.iter().zip(&cages).map(|(surface, cage)| surface.with_cage(cage));
+        let caged: Vec<_> = caged.collect::<Result<_, _>>().map_err(text)?;
+        let surfaces = &surfaces.with_low(&caged, context).map_err(text)?;
+        Ok((work(Surfaces { prepared: surfaces, settings }, context)?, setup))
+    }
+}
+
+impl<'a> Models<'a> {
+    fn read(files: &'a ReadFiles, options: &Options) -> Result<Self, String> {
+        let no_model = || "there is no model to bake";
+        let (low, highs) = files.borrow_owner().split_first().ok_or_else(no_model)?;
+        let (low_corners, high_corners) = files.borrow_dependent().split_first().ok_or_else(no_model)?;
+        let high_options = HighModelOptions::default()
+            .with_normal_maps(options.high_maps)
+            .with_maps(chosen_maps(options))
+            .with_texture(options.texture.clone());
+        let low = LowModel::read(low, low_corners, &low_options(options)).map_err(sentence)?;
+        let highs = HighModel::read_all(highs, high_corners, &high_options).map_err(sentence)?;
+        Ok(Self { low, highs })
+    }
+
+    /// Groups parts by name if that was chosen; `warnings` receives those without a partner.
+    fn prepare(
+        &'a self,
+        options: &Options,
+        warnings: &mut Vec<String>,
+        context: &Context,
+    ) -> Result<Prepared<'a>, String> {
+        let mut low = self.low.surfaces().map_err(sentence)?;
+        let mut highs = HighModel::surfaces_of_all(&self.highs).map_err(sentence)?;
+        if options.matches_names {
+            let unpaired = group_by_name((&self.low, &mut low), (&self.highs, &mut highs)).warnings();
+            if highs.is_empty() {
+                return Err(unpaired.join("; "));
+            }
+            warnings.extend(unpaired);
+        }
+        let surfaces = PreparedSurfaces::new(&low, &highs, None, context).map_err(text)?;
+        Ok(Prepared { low, surfaces })
+    }
+
+    /// What was left out.
+    fn warnings(&self) -> Vec<String> {
+        let Self { low, highs } = self;
+        let mut warnings: Vec<String> = highs.iter().flat_map(HighModel::warnings).cloned().collect();
+        if low.without_uvs > 0 {
+            warnings.push(format!(
+                "{} primitives of the low model have no UVs and are not baked",
+                low.without_uvs
+            ));
+        }
+        if low.materials.len() > 1 {
+            let count = low.materials.len();
+            warnings.push(format!(
+                "the {count} materials of the low model share one map; where their charts \
+                 overlap, the first triangle wins"
+            ));
+        }
+        warnings
+    }
+}
+
+/// Reads the low model and works on its surfaces. Errors: one sentence.
+pub fn with_low_model<T>(
+    file: Vec<u8>,
+    options: &Options,
+    work: impl FnOnce(&[LowSurface<'_>]) -> Result<T, String>,
+) -> Result<T, String> {
+    let document = open("the model", file)?;
+    let corners = document.corners().map_err(sentence)?;
+    let low = LowModel::read(&document, &corners, &low_options(options)).map_err(sentence)?;
+    work(&low.surfaces().map_err(sentence)?)
+}
+
+fn low_options(options: &Options) -> LowModelOptions {
+    LowModelOptions::default().with_uv_set(options.uv_set).with_material(options.material)
+}
+
+fn cages(low: &[LowSurface<'_>], offset: f32) -> Result<Vec<Vec<[f32; 3]>>, String> {
+    low.iter().map(|surface| inflated_cage(surface.mesh(), offset).map_err(text)).collect()
+}
+
+fn open_all(files: Vec<Vec<u8>>) -> Result<Vec<Document>, String> {
+    let name = |place| if place == 0 { "the low model" } else { "the high model" };
+    files.into_iter().enumerate().map(|(place, file)| open(name(place), file)).collect()
+}
+
+fn open(name: &str, file: Vec<u8>) -> Result<Document, String> {
+    Document::from_bytes(name, file, None, &load_options()).map_err(sentence)
+}
