@@ -71,8 +71,8 @@ impl Contradiction {
         if wanted == BitangentDirection::Up { down } else { up }
     }
 
-    /// None where all clear blocks have one convention. `layout`: the channels of x, y and z.
-    pub fn of(image: &RgbaImage, layout: TexelLayout<4>) -> Option<Self> {
+    /// None where all clear blocks have one convention.
+    pub fn of(image: &RgbaImage) -> Option<Self> {
         let [width, height] = [image.width, image.height].map(|side| side as usize);
         let side = (width.min(height) / BLOCKS).max(MIN_SIDE);
         let mut found = Self { side, parts: [Part::default(); 2] };
@@ -84,14 +84,17 @@ impl Contradiction {
             for row in image.texels.chunks_exact(width).skip(top).take(side) {
                 block.extend_from_slice(&row[left..left + side]);
             }
-            let judgement = judge_normal_map(&block, [side; 2], layout).ok()?;
+            let energy = deviation(&block);
+            if energy < MIN_DEVIATION * MIN_DEVIATION {
+                continue;
+            }
+            let judgement = judge_normal_map(&block, [side; 2], TexelLayout::RGBA).ok()?;
             let part = match judgement.verdict {
                 MapVerdict::OpenGl => 0,
                 MapVerdict::DirectX => 1,
                 _ => continue,
             };
-            let energy = deviation(&block, layout);
-            if judgement.confidence >= CLEAR && energy >= MIN_DEVIATION * MIN_DEVIATION {
+            if judgement.confidence >= CLEAR {
                 expected_wrong += 1.0 - f64::from(judgement.confidence);
                 found.parts[part].add(side, [left, top], judgement.z_score, energy);
             }
@@ -116,15 +119,20 @@ fn chance_of(events: usize, expected: f64) -> f64 {
     1.0 - fewer
 }
 
-/// The mean squared deviation of x and y from their means.
-fn deviation(block: &[[u8; 4]], layout: TexelLayout<4>) -> f64 {
-    let mut sums = [0.0f64; 4];
-    for texel in block {
-        let [x, y, _] = layout.vector(*texel).map(f64::from);
-        sums.iter_mut().zip([x, y, x * x, y * y]).for_each(|(sum, term)| *sum += term);
-    }
-    let [x, y, squared_x, squared_y] = sums.map(|sum| sum / block.len().max(1) as f64);
-    squared_x - x * x + squared_y - y * y
+/// The mean squared deviation of red and green from their means, in units of vectors.
+fn deviation(block: &[[u8; 4]]) -> f64 {
+    let variance = |channel: usize| {
+        // Of a block of 2^16 texels or fewer at a time, sums of 32 bits hold all squares.
+        let (mut sum, mut squares) = (0u64, 0u64);
+        for texels in block.chunks(1 << 16) {
+            let codes = || texels.iter().map(|texel| u32::from(texel[channel]));
+            sum += u64::from(codes().sum::<u32>());
+            squares += u64::from(codes().map(|code| code * code).sum::<u32>());
+        }
+        let count = block.len().max(1) as f64;
+        squares as f64 / count - (sum as f64 / count).powi(2)
+    };
+    (variance(0) + variance(1)) / (127.5 * 127.5)
 }
 
 #[cfg(test)]

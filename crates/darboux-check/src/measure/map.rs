@@ -89,8 +89,7 @@ impl TwoChannels {
         };
         let [first_red, .., first_alpha] = image.texels.first()?;
         let is_red_constant = image.texels.iter().all(|[red, ..]| red == first_red);
-        let is_alpha_varying = image.texels.iter().any(|[.., alpha]| alpha != first_alpha);
-        if is_red_constant && is_alpha_varying {
+        if is_red_constant && image.texels.iter().any(|[.., alpha]| alpha != first_alpha) {
             judge([3, 1]).map(Self::AlphaGreen)
         } else if judgement.is_two_channel() {
             judge([0, 1]).map(Self::RedGreen)
@@ -126,7 +125,7 @@ impl Map {
                 let facets = vote.map(|vote| vote(&image));
                 let reordered =
                     judgement.as_ref().ok().and_then(|judgement| Reordered::of(&image, judgement));
-                let contradiction = Contradiction::of(&image, TexelLayout::RGBA);
+                let contradiction = Contradiction::of(&image);
                 let is_picture = judgement.as_ref().is_ok_and(|judgement| is_picture(&image, judgement));
                 Self {
                     judgement,

@@ -14,7 +14,12 @@
 //! their ends. A large map is sampled: of the rows of blocks, the first eight count, then every second,
 //! fourth and so on, with weights.
 
+use std::ops::Range;
+
 use super::fourier::Fourier;
+
+/// Sums that are added side by side; a divisor of the texels of all blocks.
+const LANES: usize = 16;
 
 /// The largest side of a block.
 const MAX_SIDE: usize = 64;
@@ -136,12 +141,15 @@ impl Spectrum {
     /// most texels are none.
     #[inline(always)]
     fn prepare(&self, values: &mut [f32]) -> bool {
-        let (mut sum, mut count) = (0.0, 0.0);
-        for &value in values.iter() {
-            let is_valid = !value.is_nan();
-            sum += if is_valid { value } else { 0.0 };
-            count += if is_valid { 1.0 } else { 0.0 };
+        let (mut sums, mut counts) = ([0.0; LANES], [0.0; LANES]);
+        for lanes in values.as_chunks::<LANES>().0 {
+            for i in 0..LANES {
+                let is_valid = !lanes[i].is_nan();
+                sums[i] += if is_valid { lanes[i] } else { 0.0 };
+                counts[i] += if is_valid { 1.0 } else { 0.0 };
+            }
         }
+        let [sum, count] = [sums, counts].map(|lanes| lanes.iter().sum::<f32>());
         if 2.0 * count < values.len() as f32 {
             return false;
         }
@@ -158,17 +166,36 @@ impl Spectrum {
     #[inline(always)]
     fn add_frequencies(&mut self, real: &[f32], imaginary: &[f32], weight: f32) {
         let side = self.side;
-        let ([cross_real, cross_imaginary], [p, q]) = (&mut self.cross, &mut self.squares);
         for u in 0..=side / 2 {
-            let opposite = (side - u) % side * side;
-            for v in 0..side {
-                let (here, there) = (u * side + v, opposite + (side - v) % side);
-                let ([a, b], [c, d]) = ([real[here], imaginary[here]], [real[there], imaginary[there]]);
-                cross_real[here] += weight * 0.5 * (a * d + b * c);
-                cross_imaginary[here] += weight * 0.25 * (a * a - c * c + b * b - d * d);
-                p[here] += weight * 0.25 * ((a + c) * (a + c) + (b - d) * (b - d));
-                q[here] += weight * 0.25 * ((b + d) * (b + d) + (a - c) * (a - c));
-            }
+            let (row, opposite) = (u * side, (side - u) % side * side);
+            self.add_frequency_pairs(row..row + 1, [real, imaginary], opposite..opposite + 1, weight);
+            let (row, opposite) = (row + 1..row + side, opposite + 1..opposite + side);
+            self.add_frequency_pairs(row, [real, imaginary], opposite, weight);
+        }
+    }
+
+    /// Adds the products of frequencies `here`, each with its opposite one, of which the last is first in
+    /// `there`.
+    #[inline(always)]
+    fn add_frequency_pairs(
+        &mut self,
+        here: Range<usize>,
+        [real, imaginary]: [&[f32]; 2],
+        there: Range<usize>,
+        weight: f32,
+    ) {
+        let ([cross_real, cross_imaginary], [p, q]) = (&mut self.cross, &mut self.squares);
+        let count = here.len();
+        let [a, b] = [real, imaginary].map(|values| &values[here.clone()][..count]);
+        let [c, d] = [real, imaginary].map(|values| &values[there.clone()][..count]);
+        let sums = [cross_real, cross_imaginary, p, q].map(|sums| &mut sums[here.clone()][..count]);
+        let [cross_real, cross_imaginary, p, q] = sums;
+        for i in 0..count {
+            let (a, b, c, d) = (a[i], b[i], c[count - 1 - i], d[count - 1 - i]);
+            cross_real[i] += weight * 0.5 * (a * d + b * c);
+            cross_imaginary[i] += weight * 0.25 * (a * a - c * c + b * b - d * d);
+            p[i] += weight * 0.25 * ((a + c) * (a + c) + (b - d) * (b - d));
+            q[i] += weight * 0.25 * ((b + d) * (b + d) + (a - c) * (a - c));
         }
     }
 

@@ -145,12 +145,16 @@ impl TexelCounts {
 
     /// The commonest code among `x` and `y` of a range, and its number. The smallest one of several.
     fn commonest(&self, range: std::ops::RangeInclusive<usize>) -> ([u8; 2], usize) {
-        let codes = range.clone().flat_map(|y| range.clone().map(move |x| (x, y)));
-        let start = ([0, 0], 0);
-        codes.fold(start, |best, (x, y)| {
-            let count = self.codes[x | y << 8] as usize;
-            if count > best.1 { ([x as u8, y as u8], count) } else { best }
-        })
+        let mut best = ([0, 0], 0);
+        for y in range.clone() {
+            let row = &self.codes[y << 8..][range.clone()];
+            let most = row.iter().copied().max().unwrap_or(0);
+            if most > best.1 {
+                let x = row.iter().position(|&count| count == most).unwrap_or(0);
+                best = ([(range.start() + x) as u8, y as u8], most);
+            }
+        }
+        (best.0, best.1 as usize)
     }
 
     /// Whether x and y of all texels but a few are within [`FLAT_TOLERANCE`] codes of the commonest ones. A
