@@ -103,7 +103,7 @@ fn fix_defects(
     options: &FixOptions,
 ) -> Result<FixedDocument, Error> {
     let promised: HashSet<Sameness> =
-        before.iter().filter(|defect| defect.is_fixable()).map(Defect::sameness).collect();
+        before.iter().filter(|defect| is_promised(defect, options)).map(Defect::sameness).collect();
     let (of_images, of_surfaces): (Vec<Defect>, Vec<Defect>) =
         before.into_iter().partition(|defect| defect.place.image.is_some());
     let left = LeftPairs::new(document, &of_images, &of_surfaces, options)?;
@@ -112,10 +112,15 @@ fn fix_defects(
     fixed.is_changed |= of_images.iter().any(|image| image.repaired);
     fixed.findings.extend(of_images);
     for fixed in &mut fixed.findings {
-        let is_promised = |defect: &Defect| promised.contains(&defect.sameness());
-        fixed.was_fixable |= fixed.finding.defects.iter().any(is_promised);
+        let was_promised = |defect: &Defect| promised.contains(&defect.sameness());
+        fixed.was_fixable |= fixed.finding.defects.iter().any(was_promised);
     }
     Ok(fixed)
+}
+
+/// Whether the check said that a repair removes a defect, or the chosen codes have it removed.
+fn is_promised(defect: &Defect, options: &FixOptions) -> bool {
+    defect.is_fixable() || options.repairs(defect)
 }
 
 /// Whether a finding was left because a map might cancel it, and that map was repaired: only now its texels

@@ -7,7 +7,9 @@ use darboux::{Method, NormalOptions, TangentOptions};
 use crate::check_options::CheckOptions;
 use crate::code::Code;
 use crate::defect::{Defect, Fault, Obstacle, TangentFault};
+use crate::finding::Finding;
 use crate::measure::recipe::Recognised;
+use crate::words;
 
 /// What is repaired, and how.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -74,9 +76,26 @@ impl FixOptions {
         if is_wanted_method() {
             return Some(&Obstacle::OtherMethodWanted);
         }
-        let is_overcome =
-            |obstacle: &Obstacle| *obstacle == Obstacle::BakedWithMethod && self.codes.is_some();
-        defect.obstacle.as_ref().filter(|obstacle| !is_overcome(obstacle))
+        defect.obstacle.as_ref().filter(|obstacle| !self.overcomes(obstacle))
+    }
+
+    /// Whether the choice of codes overcomes the obstacle of a defect whose code is chosen.
+    fn overcomes(&self, obstacle: &Obstacle) -> bool {
+        *obstacle == Obstacle::BakedWithMethod && self.codes.is_some()
+    }
+
+    /// The findings of a check as a repair with these options sees them: tangents of a known method can be
+    /// repaired where their code is named.
+    #[must_use]
+    pub fn seen(&self, findings: Vec<Finding>) -> Vec<Finding> {
+        let seen = |defect: Defect| {
+            let is_chosen = self.chooses(defect.reported_code());
+            let obstacle =
+                defect.obstacle.clone().filter(|obstacle| !(is_chosen && self.overcomes(obstacle)));
+            Defect { obstacle, ..defect }
+        };
+        let of_finding = |finding: Finding| words::of_group(finding.defects.into_iter().map(seen).collect());
+        findings.into_iter().map(of_finding).collect()
     }
 
     /// Whether a code is among those to repair.

@@ -63,8 +63,8 @@ pub struct FixedDocument {
 }
 
 impl FixedFinding {
-    /// Whether the check said that a repair removes it. [`Finding::left_because`] says why one that is still
-    /// there is.
+    /// Whether the check said that a repair removes it, or the chosen codes have it removed.
+    /// [`Finding::left_because`] says why one that is still there is.
     pub fn was_fixable(&self) -> bool {
         self.was_fixable
     }

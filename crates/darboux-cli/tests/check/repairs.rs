@@ -48,6 +48,27 @@ fn healthy_models_are_copied() {
     assert_eq!(names(), before);
 }
 
+/// Tangents of a known method are left unless their code is named, and the report says the one or the other.
+#[test]
+fn tangents_of_a_known_method_are_made_again_where_their_code_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (model, out) = (asset("made/shield.glb"), folder.path().join("out.glb"));
+    let code = "tangent-other-recipe";
+    let run = |words: &[&str]| {
+        let fix = ["check", text(&model), "--fix", "--force", "--fail-on", "never", "-o", text(&out)];
+        darboux(&[&fix, words].concat()).exits(0).stderr
+    };
+    let left = format!("left {code}");
+    for words in [&[][..], &["--dry-run"], &["--allow", "map-flat"]] {
+        let printed = run(words);
+        assert!(printed.contains(&left) && printed.contains(&format!("`--only {code}`")), "{printed}");
+    }
+    for (words, done) in [(&["--dry-run"][..], "would compute all tangents again"), (&[], "repaired")] {
+        let printed = run(&[&["--only", code], words].concat());
+        assert!(printed.contains(done) && !printed.contains(&left), "{printed}");
+    }
+}
+
 /// What cannot be repaired makes the exit code 1, and the reason is printed.
 #[test]
 fn what_is_left_is_said() {

@@ -279,7 +279,10 @@ impl Repair<'_> {
         options: &FixOptions,
     ) -> Result<ProcessedFile<FixSummary>, darboux_io::Error> {
         let planned = plan_repair(document, &findings, options)?.into_iter().map(Into::into).collect();
-        let reported = findings.into_iter().filter(|finding| self.arguments.findings.reports(finding.code));
+        let reported = options
+            .seen(findings)
+            .into_iter()
+            .filter(|finding| self.arguments.findings.reports(finding.code));
         let findings: Vec<ReportedFinding> = reported.map(Into::into).collect();
         let summary = FixSummary {
             diagnosis: diagnosis(&findings, &options.check),
