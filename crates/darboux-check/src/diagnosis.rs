@@ -126,9 +126,9 @@ fn lower_case(sentence: &str) -> String {
 
 /// What to do about findings.
 fn to_do(findings: &[&ReportedFinding], options: &CheckOptions) -> String {
-    let (option, inverted) = match options.green {
-        BitangentDirection::Up => ("", ["directx", "opengl"]),
-        BitangentDirection::Down => (" --convention directx", ["opengl", "directx"]),
+    let option = match options.green {
+        BitangentDirection::Up => "",
+        BitangentDirection::Down => " --convention directx",
     };
     let assumed = options.assumed_map.map(|assumed| format!(" --assume map={}", assumed.name()));
     let assumed = assumed.unwrap_or_default();
@@ -142,11 +142,12 @@ fn to_do(findings: &[&ReportedFinding], options: &CheckOptions) -> String {
             "`darboux check FILE{option}{assumed} --fix` repairs {fixable} of these {all}; the others say why not."
         );
     }
-    let reason = findings.iter().find_map(|finding| finding.left_because.as_deref()).unwrap_or_default();
-    match inverted.iter().find(|name| reason.contains(&format!("--assume map={name}"))) {
-        Some(name) => format!(
+    let first_left = findings.iter().find(|finding| finding.left_because.is_some());
+    match first_left.and_then(|finding| finding.suggested_assumption) {
+        Some(assumed) => format!(
             "Nothing in the file decides which of two repairs is right: look, and if it is so, type `darboux \
-             check FILE{option} --fix --assume map={name}`."
+             check FILE{option} --fix --assume map={}`.",
+            assumed.name()
         ),
         None => findings[0].cure.clone(),
     }

@@ -4,8 +4,9 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
+use crate::check_options::AssumedMap;
 use crate::code::Code;
-use crate::defect::Defect;
+use crate::defect::{Defect, Obstacle};
 use crate::indices::Items;
 use crate::place::Place;
 use crate::severity::Severity;
@@ -53,6 +54,12 @@ pub struct Finding {
 }
 
 impl Finding {
+    /// What the user may say of the map, with `--assume`, so that a repair does not leave it.
+    pub(crate) fn suggested_assumption(&self) -> Option<AssumedMap> {
+        let obstacle = self.defects.iter().find_map(|defect| defect.obstacle.as_ref());
+        obstacle.and_then(Obstacle::suggested_assumption)
+    }
+
     /// Whether it can be repaired.
     pub fn is_fixable(&self) -> bool {
         self.defects.iter().all(Defect::is_fixable)

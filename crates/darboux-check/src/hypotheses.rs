@@ -118,6 +118,19 @@ pub fn relative(assumed: AssumedMap, wanted: BitangentDirection) -> Inverted {
     }
 }
 
+/// What a map is assumed to be that has some channels inverted where green should point in a direction: the
+/// inverse of [`relative`].
+pub fn assumption(inverted: Inverted, wanted: BitangentDirection) -> AssumedMap {
+    let is_left = matches!(inverted, Inverted::Red | Inverted::Both);
+    let is_green_inverted = matches!(inverted, Inverted::Green | Inverted::Both);
+    match (is_left, is_green_inverted != (wanted == BitangentDirection::Down)) {
+        (false, false) => AssumedMap::OpenGl,
+        (false, true) => AssumedMap::DirectX,
+        (true, false) => AssumedMap::RedInverted,
+        (true, true) => AssumedMap::BothInverted,
+    }
+}
+
 /// The channels that defects of a map call inverted.
 pub fn inverted(on_map: &[Defect]) -> Inverted {
     let has = |code: Code| on_map.iter().any(|defect| is_about_channels(defect) && defect.code() == code);
@@ -345,6 +358,17 @@ mod tests {
         // The first is right under an inverted map, the second under another one.
         assert_eq!(severities(vec![flipped(99.0, 40.0), flipped(1.0, 0.4)]), [error; 2]);
         assert_eq!(severities(vec![flipped(99.9, 40.0), flipped(99.0, 10.0)]), [warning; 2]);
+    }
+
+    #[test]
+    fn assumptions_name_the_inverted_channels() {
+        for wanted in [BitangentDirection::Up, BitangentDirection::Down] {
+            for inverted in ALL {
+                assert_eq!(relative(assumption(inverted, wanted), wanted), inverted);
+            }
+        }
+        assert_eq!(assumption(Inverted::Green, BitangentDirection::Up), AssumedMap::DirectX);
+        assert_eq!(assumption(Inverted::Both, BitangentDirection::Down), AssumedMap::RedInverted);
     }
 
     /// Inverted red and green look alike to the derivatives: faces, another map, flipped signs and the user

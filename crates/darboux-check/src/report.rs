@@ -3,6 +3,7 @@
 use darboux_io::source::Provenance;
 use serde::Serialize;
 
+use crate::check_options::AssumedMap;
 use crate::code::Code;
 use crate::finding::{Evidence, Finding};
 use crate::place::Place;
@@ -55,6 +56,9 @@ pub struct ReportedFinding {
     pub fixable: bool,
     /// Why a repair leaves it, as a clause; none where it is repaired.
     pub left_because: Option<String>,
+    /// What the user may say of the map so that a repair does not leave it.
+    #[serde(skip)]
+    pub(crate) suggested_assumption: Option<AssumedMap>,
     /// Whether it was repaired; none without a repair.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repaired: Option<bool>,
@@ -83,6 +87,7 @@ impl From<Finding> for ReportedFinding {
     fn from(finding: Finding) -> Self {
         let place = finding.place.to_string();
         let (fixable, first_are) = (finding.is_fixable(), finding.first_are());
+        let suggested_assumption = finding.suggested_assumption();
         let Place { primitive, same_as, material, image } = finding.place;
         let (mesh, number) =
             (primitive.as_ref().map(|name| name.mesh), primitive.as_ref().map(|name| name.primitive));
@@ -106,6 +111,7 @@ impl From<Finding> for ReportedFinding {
             cure: finding.cure.into_owned(),
             fixable,
             left_because: finding.left_because,
+            suggested_assumption,
             repaired: None,
             change: None,
         }

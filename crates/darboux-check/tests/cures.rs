@@ -2,6 +2,7 @@
 
 mod support;
 
+use darboux::{BitangentDirection, Choice};
 use darboux_check::{
     AssumedMap, CheckOptions, Code, Finding, FixOptions, Severity, check_document, fix_document,
 };
@@ -11,6 +12,7 @@ use serde_json::json;
 use support::container::{with_json, with_vectors};
 use support::maps::Map;
 use support::models::{Model, healthy_models};
+use support::table::rgb;
 
 fn model(name: &str) -> Model {
     healthy_models().into_iter().find(|model| model.name == name).expect("a healthy model")
@@ -110,33 +112,40 @@ fn cures_do_not_name_a_repair_that_is_left() {
     }
 }
 
-/// Exchanged channels of an image within a model: one command repairs them, also where one was inverted.
+/// Exchanged channels of an image within a model, of which one was inverted before or none: one command
+/// repairs them, and it fits the convention that is wanted.
 #[test]
 fn exchanged_channels_within_a_model_are_repaired() {
-    for is_inverted in [false, true] {
+    use AssumedMap::{BothInverted, DirectX, OpenGl, RedInverted};
+    let inverted: [fn([u8; 3]) -> [u8; 3]; 3] =
+        [|texel| texel, |[r, g, b]| [r, 255 - g, b], |[r, g, b]| [255 - r, g, b]];
+    let [green_up, green_down] = [inverted[0], inverted[1]];
+    for (wanted, of_wanted, assumptions) in [
+        (BitangentDirection::Up, green_up, [None, Some(DirectX), Some(RedInverted)]),
+        (BitangentDirection::Down, green_down, [None, Some(OpenGl), Some(BothInverted)]),
+    ] {
         let mut model = healthy_models().remove(9);
-        let green = |g: u8| if is_inverted { 255 - g } else { g };
-        model.map =
-            model.map.with_texels(model.map.texels.iter().map(|&[r, g, b]| [green(g), r, b]).collect());
-        let mut document = model.document();
-        let findings = check(&document);
-        let found = find(&findings, Code::MapChannelsSwapped);
-        let said = format!("{} {}", found.cure, found.left_because.as_deref().unwrap_or_default());
-        let command = if is_inverted { "`--assume map=directx`" } else { "`darboux check FILE --fix`" };
-        assert!(said.contains(command), "{said}");
-        let check_options = CheckOptions::default();
-        let check_options = match is_inverted {
-            true => check_options.with_assumed_map(Some(AssumedMap::DirectX)),
-            false => check_options,
-        };
-        let options = FixOptions::default().with_check(check_options);
-        let findings = check_document(&document, &options.check).expect("a valid document");
-        let fixed = fix_document(&mut document, findings, &options).expect("a repair");
-        assert!(fixed.is_changed, "{fixed:#?}");
-        let image = document.image_bytes(0).expect("an image").into_owned();
-        let left = check(&document);
-        assert!(left.iter().all(|finding| finding.severity <= Severity::Info), "{left:#?}");
-        assert_ne!(image, model.map.file);
+        let right: Vec<[u8; 3]> = model.map.texels.iter().copied().map(of_wanted).collect();
+        for (inverted, assumed) in inverted.iter().zip(assumptions) {
+            let exchanged = right.iter().copied().map(inverted).map(|[r, g, b]| [g, r, b]);
+            model.map = model.map.with_texels(exchanged.collect());
+            let mut document = model.document();
+            let options = CheckOptions::default().with_green(wanted);
+            let findings = check_document(&document, &options).expect("a valid document");
+            let found = find(&findings, Code::MapChannelsSwapped);
+            let said = format!("{} {}", found.cure, found.left_because.as_deref().unwrap_or_default());
+            let command = assumed.map_or("`darboux check FILE --fix`".to_owned(), |assumed| {
+                format!("`--assume map={}`", assumed.name())
+            });
+            assert!(said.contains(&command), "{wanted:?}, {assumed:?}: {said}");
+            assert_eq!(found.is_fixable(), assumed.is_none(), "{wanted:?}: {said}");
+            let options = FixOptions::default().with_check(options.with_assumed_map(assumed));
+            let findings = check_document(&document, &options.check).expect("a valid document");
+            let fixed = fix_document(&mut document, findings, &options).expect("a repair");
+            assert!(fixed.is_changed, "{fixed:#?}");
+            let texels = rgb(&document.image_bytes(0).expect("an image"));
+            assert_eq!(texels, right, "{wanted:?}, {assumed:?}");
+        }
     }
 }
 

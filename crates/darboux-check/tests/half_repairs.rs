@@ -7,7 +7,10 @@ use darboux_check::{
     AssumedMap, CheckOptions, Code, FixOptions, check_document, check_map_on_model, check_model_of_maps,
     fix_document,
 };
+use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
+use serde_json::{Value, json};
+use support::container::{with_json, with_view};
 use support::maps::Map;
 use support::models::{Model, healthy_models};
 use support::table::rgb;
@@ -27,6 +30,7 @@ enum OfMap {
     Right,
     GreenInverted,
     RedInverted,
+    BothInverted,
     /// Nothing shows which way its green points.
     Noise,
     Unread,
@@ -63,6 +67,7 @@ fn with_map(healthy: &Map, of_map: OfMap) -> Map {
         OfMap::Right => healthy.clone(),
         OfMap::GreenInverted => healthy.through(|[r, g, b]| [r, 1.0 - g, b]),
         OfMap::RedInverted => healthy.through(|[r, g, b]| [1.0 - r, g, b]),
+        OfMap::BothInverted => healthy.through(|[r, g, b]| [1.0 - r, 1.0 - g, b]),
         OfMap::Noise => healthy.with_texels((0..healthy.texels.len()).map(noise).collect()),
         OfMap::Unread => file(b"\0\0\0\x20ftypavif and more"),
     }
@@ -128,30 +133,131 @@ fn what_looks_right_still_does_after_a_repair() {
                     let case = format!("{}, {wrong:?}, {of_map:?}, {:?}", healthy.name, options.codes);
                     // Where nothing shows the convention of the map, both must stay as right as they are.
                     let image = document.image_bytes(0).expect("an image").into_owned();
-                    let is_changed = image != model.map.file;
                     // None of 264 published maps had inverted red, and most of flipped signs are beside
                     // inverted green, which is believed.
                     if of_map == OfMap::RedInverted && are_nearly_all(wrong) {
                         continue;
                     }
-                    let hypotheses: &[bool] = match of_map {
-                        OfMap::Right => &[false],
-                        OfMap::GreenInverted => &[true],
-                        _ => &[false, true],
-                    };
-                    for &was_inverted in hypotheses {
-                        let inverts_green = is_changed && inverts_green(&model.map, &image);
-                        let is_inverted = was_inverted != inverts_green;
-                        let [before, after] = [(&before, was_inverted), (&after, is_inverted)]
-                            .map(|(signs, is_inverted)| looks_right(signs, &right_signs, is_inverted));
-                        let worse = before.iter().zip(&after).filter(|(before, after)| **before && !**after);
-                        assert_eq!(worse.count(), 0, "{case}, inverted: {was_inverted}");
-                    }
+                    let worse =
+                        corners_made_worse([&before, &after], &right_signs, (&model.map, of_map, &image));
+                    assert_eq!(worse, 0, "{case}");
                 }
             }
         }
     }
     assert!(repaired_signs > 20, "{repaired_signs}: a check that leaves everything proves nothing");
+}
+
+/// The corners that looked right with a map before a repair and do not after it, in the worst case where
+/// nothing shows the convention of the map. `signs`: before and after. `map`: what was wrong with it, and its
+/// image after the repair.
+fn corners_made_worse(
+    signs: [&[f32]; 2],
+    right: &[f32],
+    (map, of_map, image): (&Map, OfMap, &[u8]),
+) -> usize {
+    let inverts_green = image != map.file && inverts_green(map, image);
+    let hypotheses: &[bool] = match of_map {
+        OfMap::Right => &[false],
+        OfMap::GreenInverted | OfMap::BothInverted => &[true],
+        _ => &[false, true],
+    };
+    let worse = hypotheses.iter().map(|&was_inverted| {
+        let [before, after] = [(signs[0], was_inverted), (signs[1], was_inverted != inverts_green)]
+            .map(|(signs, is_inverted)| looks_right(signs, right, is_inverted));
+        before.iter().zip(&after).filter(|(before, after)| **before && !**after).count()
+    });
+    worse.max().unwrap_or_default()
+}
+
+/// A model whose primitive has two materials through variants (`KHR_materials_variants`), each with a map of
+/// its own.
+fn with_variant(model: &Model, map: &Map) -> Document {
+    let (glb, view) = with_view(&model.glb(), &map.file);
+    let glb = with_json(&glb, |json| {
+        let mut push = |list: &str, value: Value| json[list].as_array_mut().expect("a list").push(value);
+        push("images", json!({"bufferView": view, "mimeType": "image/png"}));
+        push("textures", json!({"source": 1}));
+        push("materials", json!({"normalTexture": {"index": 1}}));
+        json["meshes"][0]["primitives"][0]["extensions"] =
+            json!({"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]}]}});
+    });
+    Document::from_bytes("variants.glb", glb, None, &LoadOptions::default()).expect("a valid GLB")
+}
+
+/// Signs are right or wrong for all maps of a surface together: those of one variant are not made wrong for
+/// those of another.
+#[test]
+fn what_looks_right_in_any_variant_still_does_after_a_repair() {
+    const MAPS: [OfMap; 4] = [OfMap::Right, OfMap::GreenInverted, OfMap::Noise, OfMap::Unread];
+    let healthy = unindexed_models().remove(0);
+    let right_signs = signs(&healthy.document());
+    let (mut repaired_signs, mut failures) = (0, Vec::new());
+    for (wrong, of_maps) in [Signs::Flipped(43), Signs::Flipped(90), Signs::Flipped(100), Signs::All(1.0)]
+        .into_iter()
+        .flat_map(|wrong| MAPS.map(|own| (wrong, own)))
+        .flat_map(|(wrong, own)| MAPS.map(|other| (wrong, [own, other])))
+        .filter(|(_, [own, other])| own != other)
+    {
+        let mut model = with_signs(&healthy, wrong);
+        let [own, other] = of_maps.map(|of_map| with_map(&healthy.map, of_map));
+        model.map = own.clone();
+        // An assumption overrules nothing that the texels show.
+        let is_true = |options: &FixOptions| {
+            of_maps.iter().all(|of_map| *of_map == OfMap::Right || is_true(options, *of_map))
+        };
+        for options in requests().into_iter().filter(is_true) {
+            let mut document = with_variant(&model, &other);
+            let before = signs(&document);
+            let findings = check_document(&document, &options.check).expect("a valid document");
+            fix_document(&mut document, findings, &options).expect("a repair");
+            let after = signs(&document);
+            repaired_signs += usize::from(after != before);
+            for (index, (map, of_map)) in [&own, &other].into_iter().zip(of_maps).enumerate() {
+                let image = document.image_bytes(index).expect("an image").into_owned();
+                let worse = corners_made_worse([&before, &after], &right_signs, (map, of_map, &image));
+                if worse > 0 {
+                    failures.push(format!(
+                        "{wrong:?}, {of_maps:?}, {:?}: {worse} corners of map {index}",
+                        options.codes
+                    ));
+                }
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+    assert!(repaired_signs > 3, "{repaired_signs}: a check that leaves everything proves nothing");
+}
+
+/// A map whose red is left is left as a whole, and so are the signs that its green cancels.
+#[test]
+fn signs_are_left_where_inverted_red_keeps_green() {
+    let assumed = CheckOptions::default().with_assumed_map(Some(AssumedMap::BothInverted));
+    let signs_and = |maps: &[Code]| {
+        let of_signs =
+            [Code::TangentSignFlipped, Code::TangentSignPartlyFlipped, Code::TangentSignFlippedWhereMirrored];
+        FixOptions::default().with_check(assumed).with_codes(of_signs.into_iter().chain(maps.iter().copied()))
+    };
+    let (green, red) = (Code::MapGreenFlipped, Code::MapRedFlipped);
+    for healthy in unindexed_models() {
+        let right_signs = signs(&healthy.document());
+        for (wrong, options, is_repaired) in [
+            (Signs::Flipped(100), signs_and(&[green]), false),
+            (Signs::Flipped(43), signs_and(&[green]), false),
+            (Signs::Flipped(100), signs_and(&[green, red]), true),
+        ] {
+            let mut model = with_signs(&healthy, wrong);
+            model.map = with_map(&healthy.map, OfMap::BothInverted);
+            let mut document = model.document();
+            let before = signs(&document);
+            let findings = check_document(&document, &options.check).expect("a valid document");
+            fix_document(&mut document, findings, &options).expect("a repair");
+            let (after, image) = (signs(&document), document.image_bytes(0).expect("an image").into_owned());
+            let of_map = (&model.map, OfMap::BothInverted, &*image);
+            assert_eq!(corners_made_worse([&before, &after], &right_signs, of_map), 0, "{wrong:?}");
+            assert_eq!(after == right_signs, is_repaired, "{}, {wrong:?}", healthy.name);
+        }
+    }
 }
 
 /// A map that is checked for a model is not repaired alone where signs of the model cancel it, on a part,

@@ -4,7 +4,8 @@
 
 mod support;
 
-use darboux_check::{CheckOptions, Code, FixOptions, Severity, check_document, fix_document};
+use darboux::{BitangentDirection, Choice};
+use darboux_check::{AssumedMap, CheckOptions, Code, FixOptions, Severity, check_document, fix_document};
 use darboux_tests::{OwnedMesh, families};
 use support::maps::{Map, healthy_map};
 use support::models::Model;
@@ -159,4 +160,37 @@ fn reliefs_that_lie_on_faces_are_never_turned_over() {
         }
     }
     assert!(failures.is_empty(), "{failures:#?}");
+}
+
+/// A map that may be one of dents names what the user can say so that it fits the convention that is wanted.
+#[test]
+fn what_may_be_dents_is_turned_over_on_request() {
+    let healthy = relief(&healthy_map(0), PROFILES[1].1, 1.0);
+    let mut model = Model::new(0, "boxes", mesh(&boxes()));
+    for (wanted, both, right) in [
+        (BitangentDirection::Up, AssumedMap::BothInverted, AssumedMap::OpenGl),
+        (BitangentDirection::Down, AssumedMap::RedInverted, AssumedMap::DirectX),
+    ] {
+        let is_down = wanted == BitangentDirection::Down;
+        let turn = |[r, g, b]: [u8; 3]| [r, if is_down { 255 - g } else { g }, b];
+        let texels: Vec<[u8; 3]> = healthy.texels.iter().copied().map(turn).collect();
+        model.map = healthy.with_texels(texels.clone());
+        let options = CheckOptions::default().with_green(wanted);
+        let findings = check_document(&model.document(), &options).expect("a valid document");
+        let found = findings.iter().find(|finding| finding.code == Code::MapMayBeDents).expect("dents");
+        let reason = found.left_because.as_deref().expect("a reason");
+        let [say_both, say_right] = [both, right].map(|assumed| format!("--assume map={}`", assumed.name()));
+        assert!(reason.contains(&say_both) && reason.contains(&say_right), "{reason}");
+        assert!(found.cure.contains(&say_both), "{}", found.cure);
+        assert_eq!(found.cure.contains("--convention directx"), is_down, "{}", found.cure);
+        for assumed in [both, right] {
+            let mut document = model.document();
+            let options = FixOptions::default().with_check(options.with_assumed_map(Some(assumed)));
+            let findings = check_document(&document, &options.check).expect("a valid document");
+            fix_document(&mut document, findings, &options).expect("a repair");
+            let after = rgb(&document.image_bytes(0).expect("an image"));
+            let turned_over = texels.iter().map(|[r, g, b]| [255 - r, 255 - g, *b]).collect();
+            assert!(after == if assumed == both { turned_over } else { texels.clone() }, "{assumed:?}");
+        }
+    }
 }

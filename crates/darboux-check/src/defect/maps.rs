@@ -174,7 +174,10 @@ pub enum MapFault {
     },
     RedFlipped(DirectionEvidence),
     /// The faces lean to inverted red and green, without deciding it.
-    MayBeDents(FacesScore),
+    MayBeDents {
+        wanted: BitangentDirection,
+        score: FacesScore,
+    },
     /// The fine detail is in another convention than the relief.
     DetailFlipped {
         /// Whether the relief has green up.
@@ -237,7 +240,7 @@ impl MapFault {
             Self::TwoChannel { .. } => Code::MapTwoChannel,
             Self::Contradiction { .. } | Self::GreenFlipped { .. } => Code::MapGreenFlipped,
             Self::RedFlipped(_) => Code::MapRedFlipped,
-            Self::MayBeDents(_) => Code::MapMayBeDents,
+            Self::MayBeDents { .. } => Code::MapMayBeDents,
             Self::DetailFlipped { .. } => Code::MapDetailFlipped,
             Self::NotUnit { .. } => Code::MapNotUnit,
             Self::NegativeZ(_) => Code::MapNegativeZ,

@@ -3,7 +3,9 @@
 use darboux::BitangentDirection;
 
 use super::pair::Pair;
+use crate::check_options::AssumedMap;
 use crate::code::Code;
+use crate::hypotheses::{Inverted, assumption};
 use crate::measure::reversal::Undecided;
 
 /// Why a repair leaves a defect. Directions are those where green should point: what a map may be is named as
@@ -53,7 +55,10 @@ pub enum Obstacle {
         wanted: BitangentDirection,
     },
     OnlyTheModelTells(BitangentDirection),
-    ExchangedAndInverted,
+    /// One channel is inverted once red and green are exchanged back.
+    ExchangedAndInverted(BitangentDirection),
+    /// Bumps on the faces look the same as dents.
+    MayBeDents(BitangentDirection),
     VectorsLean,
     MayBeNoMap,
     NegativeScale,
@@ -107,7 +112,19 @@ impl Obstacle {
                 | Self::RedLikelier { .. }
                 | Self::OnlyTheModelTells(_)
                 | Self::FacesLeanToRed(_)
-                | Self::ExchangedAndInverted
+                | Self::ExchangedAndInverted(_)
         )
+    }
+
+    /// What the user may say of the map to overcome it, where it is the likeliest: that green is inverted.
+    pub fn suggested_assumption(&self) -> Option<AssumedMap> {
+        let wanted = match self {
+            Self::NotIdentified { wanted, .. } | Self::MapMayCancel { wanted, .. } => *wanted,
+            Self::FacesLeanToRed(wanted)
+            | Self::OnlyTheModelTells(wanted)
+            | Self::ExchangedAndInverted(wanted) => *wanted,
+            _ => return None,
+        };
+        Some(assumption(Inverted::Green, wanted))
     }
 }

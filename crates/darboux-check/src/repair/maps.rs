@@ -14,6 +14,7 @@ use darboux_io::{Error, LoadOptions};
 
 use super::options::FixOptions;
 use super::outcome::{FixedFinding, outcome};
+use super::pairs::leaves_inverted_red;
 use crate::check::{MapDefects, ModelOfMaps, identified_defects, map_defects, map_defects_on_model};
 use crate::code::Code;
 use crate::defect::Defect;
@@ -83,7 +84,7 @@ fn fix_checked(
     options: &FixOptions,
 ) -> Result<FixedMap, Error> {
     let known = &checked.defects;
-    if known.iter().any(|defect| defect.code() == Code::MapRedFlipped && !options.repairs(defect)) {
+    if leaves_inverted_red(known, options) {
         return Ok(all_left(known.clone(), &Obstacle::OnlyInvertedRedIsCertain));
     }
     let repair = ImageRepair { name, file, checked: &checked, check, loading, options };

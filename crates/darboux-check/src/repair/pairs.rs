@@ -205,7 +205,16 @@ fn is_partly_left(on_map: &[&Defect], on_surface: &[&Defect], options: &FixOptio
     let green = || on_map.iter().filter(|defect| is_about_green(defect));
     let signs = || on_surface.iter().filter(|defect| is_about_signs(defect));
     let are_both = green().next().is_some() && signs().next().is_some();
-    are_both.then(|| green().chain(signs()).any(|defect| !options.repairs(defect)))
+    are_both.then(|| {
+        leaves_inverted_red(on_map.iter().copied(), options)
+            || green().chain(signs()).any(|defect| !options.repairs(defect))
+    })
+}
+
+/// Whether the inverted red of a map is left, so that nothing of the map is repaired: once it is known, only
+/// that is certain of the channels.
+pub fn leaves_inverted_red<'a>(on_map: impl IntoIterator<Item = &'a Defect>, options: &FixOptions) -> bool {
+    on_map.into_iter().any(|defect| defect.code() == Code::MapRedFlipped && !options.repairs(defect))
 }
 
 /// Whether a mistake of a pair is left, so that none is repaired.

@@ -1,6 +1,6 @@
 //! Rules about the texels of normal maps.
 
-use darboux::{MapJudgement, MapVerdict, SrgbMistake, TangentDirection};
+use darboux::{BitangentDirection, MapJudgement, MapVerdict, SrgbMistake, TangentDirection};
 
 use super::rule::MapRule;
 use crate::defect::Obstacle;
@@ -235,7 +235,8 @@ fn may_be_dents(map: &Map) -> Option<Defect> {
     let directions = directions(judgement, map)?;
     let seems_right = directions.red == TangentDirection::Right && directions.green == map.wanted;
     let leans_against = seems_right && map.decide(shown).is_none() && map.facet_score(shown) <= LEANS_TO_RED;
-    leans_against.then(|| Defect::new(MapFault::MayBeDents(faces_score(map, shown))))
+    let found = || Defect::new(MapFault::MayBeDents { wanted: map.wanted, score: faces_score(map, shown) });
+    leans_against.then(|| Defect { obstacle: Some(Obstacle::MayBeDents(map.wanted)), ..found() })
 }
 
 fn other_layout(map: &Map) -> Option<Defect> {
@@ -253,9 +254,10 @@ fn channels_swapped(map: &Map) -> Option<Defect> {
     if !by_derivatives && !by_facets {
         return None;
     }
-    let is_decided =
-        map.decide(Arrangement::ExchangedAndInverted).is_some() || map.assumed.is_some_and(has_one_inverted);
-    let is_undecided = judgement.z_score < 0.0 && !is_decided;
+    let [is_down, wants_down] = [judgement.z_score < 0.0, map.wanted == BitangentDirection::Down];
+    let is_assumed = || map.assumed.is_some_and(|assumed| has_one_inverted(assumed) == is_down);
+    let is_decided = || map.decide(candidates(judgement)[1]).is_some() || is_assumed();
+    let is_undecided = is_down != wants_down && !is_decided();
     let [up, down] = judgement.residuals;
     // What is a gradient with exchanged channels is the rest of one in the other convention.
     let found = Defect::new(MapFault::ChannelsSwapped {
@@ -265,7 +267,7 @@ fn channels_swapped(map: &Map) -> Option<Defect> {
         certainty: certainty(judgement, map),
         faces: by_facets.then(|| faces_score(map, candidates(judgement)[1])),
     });
-    Some(found.with_obstacle(is_undecided.then_some(Obstacle::ExchangedAndInverted)))
+    Some(found.with_obstacle(is_undecided.then_some(Obstacle::ExchangedAndInverted(map.wanted))))
 }
 
 /// How far x and y of a map may lean on average; the slopes of a surface cancel.
@@ -380,7 +382,7 @@ fn of_step(fault: MapFault, step: f64, visible: f64) -> Defect {
 
 #[cfg(test)]
 mod tests {
-    use darboux::{BitangentDirection, TexelLayout, judge_normal_map};
+    use darboux::{TexelLayout, judge_normal_map};
 
     use super::*;
 

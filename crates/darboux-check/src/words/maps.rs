@@ -65,11 +65,7 @@ pub fn said(fault: &MapFault) -> Said {
             };
             with_directions(Said::new(text), evidence)
         }
-        MapFault::MayBeDents(score) => {
-            let text = "its texels lean against the faces of the mesh: it has a bump on every face, or its \
-                 red and green are both inverted, so that bumps are dents";
-            with_faces(Said::new(text), Some(score))
-        }
+        MapFault::MayBeDents { wanted, score } => may_be_dents(*wanted, score),
         MapFault::DetailFlipped { is_relief_up, evidence } => detail_flipped(*is_relief_up, evidence),
         MapFault::ChannelsSwapped { by_derivatives, log_energy_ratio, residuals, certainty, faces } => {
             let text = if *by_derivatives {
@@ -349,6 +345,19 @@ fn green_flipped(wanted: BitangentDirection, doubt: RedDoubt, evidence: &Directi
     };
     let said = Said::new(format!("it is in the convention of {program}{doubt}")).with_cure(cure);
     with_directions(said, evidence)
+}
+
+fn may_be_dents(wanted: BitangentDirection, score: &FacesScore) -> Said {
+    let text = "its texels lean against the faces of the mesh: it has a bump on every face, or its red and \
+         green are both inverted, so that bumps are dents";
+    let cure = match wanted {
+        BitangentDirection::Up => Code::MapMayBeDents.cure(),
+        BitangentDirection::Down => {
+            "Look at one bump. If it is a dent, type `darboux check FILE --convention directx --fix --assume \
+             map=red-inverted`."
+        }
+    };
+    with_faces(Said::new(text).with_cure(cure), Some(score))
 }
 
 fn not_unit(texels: &Texels, mean_length: f32, doubt: Option<LengthDoubt>) -> Said {

@@ -1,11 +1,12 @@
 //! The words of obstacles, as clauses.
 
-use darboux::BitangentDirection;
+use darboux::{BitangentDirection, Choice};
 
 use super::counts::Sure;
 use crate::code::Code;
 use crate::defect::Obstacle;
 use crate::defect::Pair;
+use crate::hypotheses::{Inverted, assumption};
 use crate::measure::reversal::Undecided;
 
 /// Why a repair leaves a defect.
@@ -36,6 +37,14 @@ pub fn reason(obstacle: &Obstacle) -> String {
             return format!(
                 "only the faces of the model tell inverted green from inverted red; name the model with \
                  --model, or say which it is with `--assume map={green}` or `--assume map={red}`"
+            );
+        }
+        Obstacle::ExchangedAndInverted(wanted) => {
+            let [green, red, _] = assumptions(*wanted);
+            return format!(
+                "one channel is inverted, too, and no faces of a model show which: `--assume map={green}` \
+                 says that green is, once red and green are exchanged back, and `--assume map={red}` that \
+                 red is"
             );
         }
         Obstacle::RedLikelier { image } => {
@@ -122,10 +131,13 @@ pub fn reason(obstacle: &Obstacle) -> String {
             "its fine detail is in the other convention, and would be inverted with the rest"
         }
         Obstacle::OnlyAPartOfMap => "nothing says where one part ends and the other one begins",
-        Obstacle::ExchangedAndInverted => {
-            "one channel is inverted, too, and no faces of a model show which: `--assume map=directx` says \
-             that green is, once red and green are exchanged back, and `--assume map=red-inverted` that red \
-             is"
+        Obstacle::MayBeDents(BitangentDirection::Up) => {
+            Code::MapMayBeDents.left_because().unwrap_or_default()
+        }
+        Obstacle::MayBeDents(BitangentDirection::Down) => {
+            "a map with bumps on the faces looks the same to every test; `--assume map=red-inverted` says \
+             that both channels are inverted (red points to the left, and green up), `--assume map=directx` \
+             that the map is right"
         }
         Obstacle::VectorsLean => {
             "scaled to length 1, the vectors would still lean; undo the change of the colours, or export the \
@@ -192,10 +204,7 @@ fn undecided(reason: Undecided) -> &'static str {
 /// What `--assume` calls a map with inverted green, one with inverted red and one that is right, where green
 /// should point in a direction.
 fn assumptions(wanted: BitangentDirection) -> [&'static str; 3] {
-    match wanted {
-        BitangentDirection::Up => ["directx", "red-inverted", "opengl"],
-        BitangentDirection::Down => ["opengl", "both-inverted", "directx"],
-    }
+    [Inverted::Green, Inverted::Red, Inverted::None].map(|inverted| assumption(inverted, wanted).name())
 }
 
 /// What cancels, of the map and of the tangents.

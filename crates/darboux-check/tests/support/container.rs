@@ -44,6 +44,16 @@ pub fn container(mut json: Vec<u8>, mut bytes: Vec<u8>) -> Vec<u8> {
 
 /// A GLB with a further accessor of vectors; its index is returned.
 pub fn with_vectors<const N: usize>(glb: &[u8], vectors: &[[f32; N]], element: &str) -> (Vec<u8>, usize) {
+    with_more(glb, |writer| writer.vectors(vectors, element))
+}
+
+/// A GLB with further bytes; the index of their buffer view is returned.
+pub fn with_view(glb: &[u8], bytes: &[u8]) -> (Vec<u8>, usize) {
+    with_more(glb, |writer| writer.view(bytes))
+}
+
+/// A GLB with more in its buffer; the index of that is returned.
+fn with_more(glb: &[u8], write: impl FnOnce(&mut Writer) -> Value) -> (Vec<u8>, usize) {
     let length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
     let mut json: Value = serde_json::from_slice(&glb[20..20 + length]).expect("JSON");
     let list = |name: &str| json[name].as_array().cloned().unwrap_or_default();
@@ -52,11 +62,11 @@ pub fn with_vectors<const N: usize>(glb: &[u8], vectors: &[[f32; N]], element: &
         views: list("bufferViews"),
         accessors: list("accessors"),
     };
-    let accessor = writer.vectors(vectors, element).as_u64().expect("an index") as usize;
+    let index = write(&mut writer).as_u64().expect("an index") as usize;
     json["bufferViews"] = Value::Array(writer.views);
     json["accessors"] = Value::Array(writer.accessors);
     json["buffers"] = json!([{"byteLength": writer.bytes.len()}]);
-    (container(serde_json::to_vec(&json).expect("JSON"), writer.bytes), accessor)
+    (container(serde_json::to_vec(&json).expect("JSON"), writer.bytes), index)
 }
 
 /// A GLB with another JSON.
