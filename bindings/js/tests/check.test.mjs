@@ -92,8 +92,13 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
       const found = check(asset(path));
       const { stdout, stderr } = command('check', alone, '--json');
       const { findings, importer_note, diagnosis } = JSON.parse(stdout).files[0];
-      assert.deepEqual(found.map(({ code, text, first }) => [code, text, first]), findings.map(({ code, text, first }) => [code, text, first]), path);
-      assert.deepEqual([found.diagnosis, found.importerNote], [diagnosis, importer_note ?? null], path);
+      // A map that the package does not look up is not there for the command.
+      const isRead = ({ code }) => code !== 'map-unreadable';
+      const said = (findings) => findings.filter(isRead).map(({ code, text, first }) => [code, text, first]);
+      assert.deepEqual(said(found), said(findings), path);
+      assert.equal(found.length, findings.length, path);
+      if (found.every(isRead)) assert.equal(found.diagnosis, diagnosis, path);
+      assert.equal(found.importerNote, importer_note ?? null, path);
       const missing = /was not looked up, because the model came without a folder/;
       for (const warning of found.warnings) assert.ok(missing.test(warning) || stderr.includes(warning), `${warning} is not in ${stderr}`);
       const words = new RegExp(`your ${extname(path).slice(1).toUpperCase()}$`);

@@ -63,13 +63,22 @@ fn images_of<'m>(
     used.into_iter().filter(move |material| !are_shown || !material.is_unlit).flat_map(of_material)
 }
 
-/// The images of the normal maps of all meshes that nodes have. `are_shown`: as of [`images_of`].
-fn images_in_scene(document: &Document, materials: &[Material], are_shown: bool) -> BTreeSet<usize> {
+/// The primitives of all meshes that nodes have.
+fn primitives_in_scene(document: &Document) -> impl Iterator<Item = &schema::Primitive> {
     let unused = meshes_without_node(document);
     let meshes = document.meshes().iter().enumerate();
-    let meshes = meshes.filter(|(index, _)| !unused.contains(index));
-    let primitives = meshes.flat_map(|(_, mesh)| &mesh.primitives);
-    primitives.flat_map(|primitive| images_of(primitive, materials, are_shown)).collect()
+    let meshes = meshes.filter(move |(index, _)| !unused.contains(index));
+    meshes.flat_map(|(_, mesh)| &mesh.primitives)
+}
+
+/// The materials of all meshes that nodes have.
+pub fn materials_in_scene(document: &Document) -> BTreeSet<usize> {
+    primitives_in_scene(document).flat_map(schema::Primitive::materials).collect()
+}
+
+/// The images of the normal maps of all meshes that nodes have. `are_shown`: as of [`images_of`].
+fn images_in_scene(document: &Document, materials: &[Material], are_shown: bool) -> BTreeSet<usize> {
+    primitives_in_scene(document).flat_map(|primitive| images_of(primitive, materials, are_shown)).collect()
 }
 
 impl<'a> MapUsers<'a> {

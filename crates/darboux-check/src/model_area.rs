@@ -68,7 +68,11 @@ impl ModelArea {
 /// The primitives whose tangents something shows.
 fn tangents_needed_by(document: &Document) -> Result<HashSet<Key>, Error> {
     let materials = document.materials()?;
-    let shows = |&material: &usize| materials.get(material).is_some_and(shows_tangents);
+    let is_unread = |material: usize| {
+        document.provenance().is_some_and(|source| source.unread_maps_of(material).next().is_some())
+    };
+    let shows =
+        |&material: &usize| materials.get(material).is_some_and(shows_tangents) || is_unread(material);
     let meshes = document.meshes().iter().enumerate();
     let primitives = meshes.flat_map(|(mesh, of_mesh)| {
         of_mesh.primitives.iter().enumerate().map(move |(number, primitive)| ((mesh, number), primitive))

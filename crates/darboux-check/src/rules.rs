@@ -10,6 +10,7 @@ mod tangents;
 mod transforms;
 mod uvs;
 
+pub use maps::unreadable;
 use rule::{MapRule, MaterialRule, SurfaceRule};
 
 /// All rules about surfaces: causes before what follows from them.

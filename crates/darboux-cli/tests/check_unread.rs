@@ -31,3 +31,23 @@ fn a_map_that_glb_cannot_hold_is_named() {
         "{printed}"
     );
 }
+
+/// A normal map that is not on the disk is named as one of a glTF, and the tangents are those of a surface
+/// with a normal map: what is wrong with them is told.
+#[test]
+fn a_map_that_is_not_there_is_an_error_and_tangents_are_used() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (name, content) in [("a.obj", OBJ), ("a.mtl", MTL)] {
+        std::fs::write(folder.path().join(name), content).expect("a file");
+    }
+    let model = folder.path().join("a.obj");
+    let report = darboux(&["check", text(&model), "--json"]).exits(1).json();
+    let findings = report["files"][0]["findings"].as_array().expect("a list");
+    let unread: Vec<_> = findings.iter().filter(|finding| finding["code"] == "map-unreadable").collect();
+    let [unread] = unread[..] else { panic!("{findings:#?}") };
+    assert_eq!((&unread["severity"], &unread["material"]), (&"error".into(), &0.into()), "{unread}");
+    assert_eq!(unread["text"], "its file wall_n.bmp is not in the model's folder");
+    let cure = unread["cure"].as_str().unwrap_or_default();
+    assert!(cure.starts_with("Put the image where the model refers to it"), "{cure}");
+    assert!(findings.iter().any(|finding| finding["code"] == "tangent-missing"), "{findings:#?}");
+}

@@ -38,11 +38,11 @@ pub(crate) use format::{detect, without_byte_order_mark};
 pub(crate) use others::problem as problem_of_other;
 #[cfg(any(feature = "obj", feature = "ply", feature = "stl"))]
 pub(crate) use program::program_of_comment;
-#[cfg(any(feature = "fbx", feature = "obj"))]
-pub(crate) use scene::NormalMap;
 pub(crate) use scene::{
     CornerValues, FaceSizes, SourceImage, SourceMaterial, SourceMesh, SourceScene, SourceTexture, SourceUvSet,
 };
+#[cfg(any(feature = "fbx", feature = "obj"))]
+pub(crate) use scene::{MissingImage, MissingNormalMap, NormalMap};
 #[cfg(feature = "fbx")]
 pub(crate) use scene::{SourceMorph, SourceNode, SourceSkin, VertexWeights};
 #[cfg(feature = "fbx")]

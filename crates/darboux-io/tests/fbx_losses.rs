@@ -2,7 +2,7 @@
 #![cfg(feature = "fbx")]
 
 use darboux_io::LoadOptions;
-use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents};
+use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents, inspect};
 
 /// An ASCII FBX of one triangle with two UV sets, at the node `Plate`.
 #[derive(Clone, Copy, Default)]
@@ -329,4 +329,35 @@ fn a_uv_set_is_looked_up_in_each_mesh() {
         let found = document.warnings().iter().filter(|warning| warning.contains("UV set")).count();
         assert_eq!(found, warnings, "{name}: {:?}", document.warnings());
     }
+}
+
+/// The tangents of a surface whose normal map is not read are used: the map is in the file of the model.
+#[test]
+fn normal_maps_that_are_not_read_need_tangents() {
+    let uv_set = "Properties70:  {\nP: \"UVSet\", \"KString\", \"\", \"\", \"second\"\n}\n";
+    for (content, is_absent, problem) in [
+        ("", true, "is not in the model's folder"),
+        ("Content: ,\n\"Qk0gYW5kIHNvIG9u\"\n", false, "is BMP, which is not read; save it as PNG"),
+    ] {
+        let objects = format!(
+            "Texture: 12, \"Texture::bumps\", \"\" {{\nType: \"TextureVideoClip\"\nFileName: \"bumps.png\"\nRelativeFilename: \"bumps.png\"\n{uv_set}}}\n\
+            Video: 62, \"Video::bumps\", \"Clip\" {{\nType: \"Clip\"\nFileName: \"bumps.png\"\nRelativeFilename: \"bumps.png\"\n{content}}}\n"
+        );
+        let connections = "C: \"OP\",12,4, \"NormalMap\"\nC: \"OO\",62,12\n";
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("plate.fbx");
+        std::fs::write(&path, fbx(Parts { objects: &objects, connections, ..Parts::default() })).unwrap();
+        let document = Document::open(&path, &LoadOptions::default()).unwrap();
+        let unread = &document.provenance().unwrap().unread_maps;
+        let told: Vec<_> = unread
+            .iter()
+            .map(|map| (map.material, map.uv_set, &*map.file, &*map.problem, map.is_absent))
+            .collect();
+        assert_eq!(told, [(0, 1, "bumps.png", problem, is_absent)]);
+        let info = &inspect(&document).unwrap()[0];
+        assert!(info.needs_tangents);
+        assert_eq!(info.uv_set, 1, "the set that the texture names");
+    }
+    let without = inspect(&open(Parts::default())).unwrap();
+    assert!(!without[0].needs_tangents);
 }

@@ -275,6 +275,23 @@ fn normal_maps_that_are_left_out_are_told_by_their_materials() {
     assert_eq!(model.warnings().len(), 2, "{:?}", model.warnings());
 }
 
+/// A map of `norm` is a normal map; one of the bump statements may be one of heights.
+#[test]
+fn normal_maps_that_are_not_there_are_told_by_their_materials() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "a.obj", OBJ);
+    write(
+        folder.path(),
+        "a.mtl",
+        "newmtl b\nmap_Bump heights.png\nnewmtl a\nmap_Kd w.png\nnorm C:\\maps\\n.png\n",
+    );
+    let model = Document::open(&folder.path().join("a.obj"), &LoadOptions::default()).unwrap();
+    let unread = &model.provenance().unwrap().unread_maps;
+    let told: Vec<_> =
+        unread.iter().map(|map| (map.material, &*map.file, &*map.problem, map.is_absent)).collect();
+    assert_eq!(told, [(1, "n.png", "is not in the model's folder", true)]);
+}
+
 /// Several statements of one material, in several of its textures.
 #[test]
 fn a_material_that_loses_something_counts_once() {

@@ -11,11 +11,11 @@ use darboux_io::words::Count;
 use super::surfaces::{defects_of_surface, for_each_surface, weigh};
 use crate::cancelling;
 use crate::check_options::CheckOptions;
-use crate::defect::{Defect, Fault, MapFault, Obstacle, Unread, UvFault};
+use crate::defect::{Defect, Fault, MapFault, Obstacle, Unread, Unseen, UvFault};
 use crate::finding::Finding;
 use crate::hypotheses::{self, Inverted, MapContext, MapWitness, inverted, is_about_channels};
 use crate::instances::{Key, key};
-use crate::map_users::{MapSurfaces, MapUsers};
+use crate::map_users::{MapSurfaces, MapUsers, materials_in_scene};
 use crate::measure::directions::{directions_by_mesh, witness};
 use crate::measure::facet::MapUse;
 use crate::measure::map::{Map, MapDirections, Vote};
@@ -24,7 +24,7 @@ use crate::measure::texture_axes::{axes, turns_channels};
 use crate::model_area::ModelArea;
 use crate::obstacles;
 use crate::place::Place;
-use crate::rules::{MAP_RULES, MATERIAL_RULES};
+use crate::rules::{MAP_RULES, MATERIAL_RULES, unreadable};
 use crate::severity::Severity;
 use crate::surface::Surface;
 use crate::words;
@@ -179,14 +179,18 @@ pub fn defects_of_materials(
 ) -> Result<Vec<Defect>, Error> {
     let options = &options.in_document(document);
     let (mut defects, mut images) = (Vec::new(), BTreeMap::new());
-    let materials = document.materials()?;
+    let (materials, in_scene) = (document.materials()?, materials_in_scene(document));
     for (index, material) in materials.iter().enumerate() {
         let place = Place { material: Some(index), ..Place::default() };
         let found = MATERIAL_RULES.iter().filter_map(|rule| rule(material));
         defects.extend(found.map(|defect| Defect { place: place.clone(), ..defect }));
         if options.maps {
             let unread = unread_maps(document, index, material);
-            defects.extend(unread.map(|defect| Defect { place: place.clone(), ..defect }));
+            let unread = unread.map(|defect| Defect { place: place.clone(), ..defect });
+            defects.extend(unread.map(|defect| match in_scene.contains(&index) {
+                true => defect,
+                false => defect.that_is_unseen(Unseen::NotInScene),
+            }));
         }
         for image in material.normal_maps().filter_map(|texture| texture.image).filter(|_| options.maps) {
             images.entry(image).or_insert(index);
@@ -273,23 +277,24 @@ pub fn defects_of_materials(
 }
 
 /// The normal maps of a material that have no image here: the reader of another format than glTF left them
-/// out, or no format of their textures is known.
+/// out or did not find them, or no format of their textures is known.
 fn unread_maps(document: &Document, index: usize, material: &Material) -> impl Iterator<Item = Defect> {
-    let unread = document.provenance().into_iter().flat_map(|provenance| &provenance.unread_maps);
-    let unread = unread.filter(move |map| map.material == index);
-    let unread = unread.map(|map| (map.file.clone(), map.problem.clone()));
+    let unread = document.provenance().into_iter().flat_map(move |source| source.unread_maps_of(index));
+    let unread = unread.map(|map| {
+        let why = if map.is_absent { Unread::Absent } else { Unread::NotCarried };
+        (map.file.clone(), why(map.problem.clone()))
+    });
     let without_image = material.normal_maps().filter(|texture| texture.image.is_none());
-    let without_image = without_image
-        .map(|_| (String::new(), "has no image, only extensions that are not known here".to_owned()));
-    unread.chain(without_image).map(|(name, problem)| {
-        let why = Unread::NotCarried(problem);
-        Defect::new(MapFault::Unreadable { name, why, bytes: 0 }).with_severity(Severity::NotChecked)
-    })
+    let without_image = without_image.map(|_| {
+        let problem = "has no image, only extensions that are not known here";
+        (String::new(), Unread::NotCarried(problem.to_owned()))
+    });
+    unread.chain(without_image).map(|(name, why)| unreadable(name, why, 0))
 }
 
 /// Whether a defect of a material says that a normal map has no image.
 fn is_unread(defect: &Defect) -> bool {
-    matches!(&defect.fault, Fault::Map(MapFault::Unreadable { why: Unread::NotCarried(_), .. }))
+    matches!(defect.fault, Fault::Map(MapFault::Unreadable { .. }))
 }
 
 /// Leaves flipped signs that a normal map without an image may cancel. `materials`: those with such maps,

@@ -24,10 +24,7 @@ impl Misreading {
         let (mut squares, mut damaged, mut count) = (0.0, 0.0, 0.0f64);
         // An odd step visits all columns of an image whose width is a power of two.
         for texel in image.texels.iter().step_by((image.texels.len() / Self::TEXELS) | 1) {
-            if x_and_y
-                .iter()
-                .all(|&channel| texel[channel] == texel[x_and_y[0]] && is_extreme(texel[channel]))
-            {
+            if is_background(x_and_y.map(|channel| texel[channel])) {
                 continue;
             }
             let coordinate = |channel: usize| f64::from(texel[channel]) / 127.5 - 1.0;
@@ -43,9 +40,9 @@ impl Misreading {
     }
 }
 
-/// Whether a code is the lowest or the highest one: both channels of background are.
-fn is_extreme(code: u8) -> bool {
-    code == 0 || code == 255
+/// Whether a texel is background: both channels have the lowest code or the highest one.
+fn is_background([x, y]: [u8; 2]) -> bool {
+    x == y && (x == 0 || x == 255)
 }
 
 /// The angle between two vectors, in degrees.

@@ -12,6 +12,7 @@
 use darboux_io::image::RgbaImage;
 
 use crate::measure::facet::MapUse;
+use crate::measure::values::median;
 use crate::model_area::area_of;
 use crate::surface::{Surface, uv_area};
 
@@ -218,9 +219,4 @@ fn extent_of(surface: &Surface) -> f64 {
 fn bounds(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let widen = |(low, high): (f64, f64), value: f64| (low.min(value), high.max(value));
     values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), widen)
-}
-
-fn median(values: &mut [f64]) -> f64 {
-    let middle = values.len() / 2;
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }

@@ -7,6 +7,8 @@
 
 use darboux_io::image::RgbaImage;
 
+use crate::measure::values::median;
+
 /// What storage did to a map.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Storage {
@@ -248,7 +250,7 @@ impl BlockSteps {
             return None;
         }
         let share = larger as f64 / excesses.len() as f64;
-        Some(Borders { excess: median(excesses), ratio: median(ratios), share })
+        Some(Borders { excess: median(&mut excesses), ratio: median(&mut ratios), share })
     }
 }
 
@@ -259,11 +261,6 @@ struct Borders {
     /// The median of their ratios.
     ratio: f64,
     share: f64,
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! What single vectors tell, and how far they may be off.
+//! What single vectors tell, and how far they may be off; the median of numbers.
 
 use std::collections::HashMap;
 
@@ -39,4 +39,14 @@ pub fn is_unit(vector: [f32; 3]) -> bool {
 /// Whether the size of a sign w is 1, up to rounding.
 pub fn is_sign(w: f32) -> bool {
     (w.abs() - 1.0).abs() <= SIGN
+}
+
+/// The median, which is the upper one of the two in the middle of an even number. The order of the values
+/// changes.
+///
+/// # Panics
+/// Without values.
+pub fn median(values: &mut [f64]) -> f64 {
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }

@@ -188,10 +188,10 @@ impl Link {
 
 /// The links of which a mistake is left, or that share a map or a surface with such links.
 fn left_links(links: Vec<Link>) -> Vec<Link> {
-    let primitives: BTreeMap<Key, usize> = links.iter().map(|link| (link.primitive, 0)).collect();
-    let primitives: BTreeMap<Key, usize> = primitives.into_keys().zip(0..).collect();
-    let images: BTreeMap<usize, usize> = links.iter().map(|link| (link.image, 0)).collect();
-    let images: BTreeMap<usize, usize> = images.into_keys().zip(primitives.len()..).collect();
+    let primitives: BTreeSet<Key> = links.iter().map(|link| link.primitive).collect();
+    let primitives: BTreeMap<Key, usize> = primitives.into_iter().zip(0..).collect();
+    let images: BTreeSet<usize> = links.iter().map(|link| link.image).collect();
+    let images: BTreeMap<usize, usize> = images.into_iter().zip(primitives.len()..).collect();
     let mut groups = DisjointSets::new(primitives.len() + images.len());
     links.iter().for_each(|link| groups.join(primitives[&link.primitive], images[&link.image]));
     let mut group = |link: &Link| groups.name(primitives[&link.primitive]);

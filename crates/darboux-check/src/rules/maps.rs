@@ -21,7 +21,7 @@ use crate::severity::{MIN_DAMAGED, Severity};
 /// In the order of their findings: causes come before what follows from them. A strong compression changes
 /// lengths, flat texels and what the derivatives show.
 pub const RULES: &[MapRule] = &[
-    unreadable,
+    not_read,
     height,
     object_space,
     reordered,
@@ -57,11 +57,16 @@ fn of_kind(map: &Map, wanted: Kind) -> Option<&MapJudgement> {
     map.judged().filter(|judgement| kind(map, judgement) == wanted)
 }
 
-fn unreadable(map: &Map) -> Option<Defect> {
+fn not_read(map: &Map) -> Option<Defect> {
     let why = map.judgement.as_ref().err()?.clone();
+    Some(unreadable(String::new(), why, map.file_size))
+}
+
+/// The defect of a map without texels. `name`: of its file, or of the image; `bytes`: the size of the file.
+pub fn unreadable(name: String, why: Unread, bytes: usize) -> Defect {
     let is_wrong = matches!(why, Unread::Damaged(_) | Unread::Absent(_) | Unread::GitLfsPointer);
-    let found = Defect::new(MapFault::Unreadable { name: String::new(), why, bytes: map.file_size });
-    Some(if is_wrong { found } else { found.with_severity(Severity::NotChecked) })
+    let found = Defect::new(MapFault::Unreadable { name, why, bytes });
+    if is_wrong { found } else { found.with_severity(Severity::NotChecked) }
 }
 
 fn height(map: &Map) -> Option<Defect> {

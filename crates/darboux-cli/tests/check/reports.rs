@@ -95,7 +95,7 @@ fn a_code_is_not_both_reported_and_allowed() {
     assert_eq!(run.stderr.trim().lines().count(), 1, "{}", run.stderr);
 }
 
-/// No finding can name what did not come into the document, so a warning does.
+/// A bump map that is not there may be one of heights: no finding names it, and a warning does.
 #[test]
 fn textures_that_an_obj_lacks_are_warned_of() {
     let folder = folder_with(&["blender/scene.obj", "blender/scene.mtl"]);

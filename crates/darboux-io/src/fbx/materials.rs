@@ -2,13 +2,14 @@
 
 use std::collections::{HashMap, HashSet};
 
-use darboux::BitangentDirection;
 use ufbx::{MaterialMap, Scene, ShaderType, Texture, TextureFile, WrapMode};
 
 use super::placement::{self, Convention, Placement};
 use crate::error::shortened;
 use crate::image::{DecodeLimits, RgbaImage};
-use crate::source::{ModelFiles, NormalMap, SourceImage, SourceMaterial, SourceTexture};
+use crate::source::{
+    MissingImage, MissingNormalMap, ModelFiles, NormalMap, SourceImage, SourceMaterial, SourceTexture,
+};
 
 /// Reads the materials of a scene with their images.
 pub struct MaterialReader<'a> {
@@ -16,10 +17,8 @@ pub struct MaterialReader<'a> {
     files: &'a ModelFiles,
     /// By which rule textures are placed.
     convention: Convention,
-    /// What green means in normal maps, where the program that wrote the file decides it.
-    green: Option<BitangentDirection>,
-    /// The image of each texture file; none for those that cannot be read.
-    image_of_file: HashMap<u32, Option<usize>>,
+    /// The image of each texture file.
+    image_of_file: HashMap<u32, Result<usize, MissingImage>>,
     /// The images of bump maps that were decoded: whether they are heights.
     is_grey: HashMap<usize, bool>,
     pub images: Vec<SourceImage>,
@@ -29,14 +28,10 @@ pub struct MaterialReader<'a> {
 
 impl<'a> MaterialReader<'a> {
     pub fn new(scene: &'a Scene, files: &'a ModelFiles) -> Self {
-        // Blender's normal maps have green up. FBX itself does not say it, and other programs write either.
-        let convention = Convention::of(&scene.metadata);
-        let is_from_blender = convention != Convention::Others;
         Self {
             scene,
             files,
-            convention,
-            green: is_from_blender.then_some(BitangentDirection::Up),
+            convention: Convention::of(&scene.metadata),
             image_of_file: HashMap::new(),
             is_grey: HashMap::new(),
             images: Vec::new(),
@@ -70,6 +65,7 @@ impl<'a> MaterialReader<'a> {
             metallic: Some(scalar(&pbr.metalness, 0.0)),
             roughness: Some(roughness(material)),
             normal_map: self.normal_map(material, uv_sets),
+            missing_normal_map: self.missing_normal_map(material, uv_sets),
             emissive: emissive.filter(|color| *color != [0.0; 3]),
             emissive_texture,
             occlusion_texture: self.texture(&pbr.ambient_occlusion, uv_sets),
@@ -103,13 +99,30 @@ impl<'a> MaterialReader<'a> {
                 texture
             }
         };
-        if self.green.is_none() {
+        // Blender's normal maps have green up. FBX itself does not say it, and other programs write either.
+        if self.convention == Convention::Others {
             self.warnings.push(format!(
                 "FBX does not say whether green points up or down in the normal map of material {name:?}; it \
                  is taken as glTF's, up: darboux check judges the image"
             ));
         }
-        Some(NormalMap { texture, scale: None, green: self.green })
+        Some(NormalMap { texture, scale: None })
+    }
+
+    /// The normal map whose file was not read, of a material without another one. A bump map that was not
+    /// read may hold heights.
+    fn missing_normal_map(&self, material: &ufbx::Material, uv_sets: &[String]) -> Option<MissingNormalMap> {
+        let maps = [&material.fbx.normal_map, &material.pbr.normal_map];
+        let images = maps.map(|map| {
+            let (texture, with_file) = texture_of(map)?;
+            Some((texture, self.image_of_file.get(&with_file.file_index)?))
+        });
+        if images.iter().flatten().any(|(_, image)| image.is_ok()) {
+            return None;
+        }
+        let (texture, image) = images.into_iter().flatten().next()?;
+        let uv_set = place_of_uv_set(texture, uv_sets).unwrap_or(0);
+        Some(MissingNormalMap { image: image.as_ref().err()?.clone(), uv_set })
     }
 
     /// Lists the textures and layers of shading that have no place in glTF's metallic-roughness.
@@ -168,8 +181,7 @@ impl<'a> MaterialReader<'a> {
 
     /// The texture of a map: the first file, where the material layers or computes several.
     fn texture(&mut self, map: &MaterialMap, uv_sets: &[String]) -> Option<SourceTexture> {
-        let texture: &Texture = map.texture.as_deref().filter(|_| map.texture_enabled)?;
-        let with_file = if texture.has_file { texture } else { texture.file_textures.into_iter().next()? };
+        let (texture, with_file) = texture_of(map)?;
         let image = self.image(with_file.file_index)?;
         let wanted = shortened(&texture.uv_set);
         let uv_set = place_of_uv_set(texture, uv_sets);
@@ -206,28 +218,29 @@ impl<'a> MaterialReader<'a> {
     }
 
     fn image(&mut self, file: u32) -> Option<usize> {
-        if let Some(&image) = self.image_of_file.get(&file) {
-            return image;
+        if let Some(image) = self.image_of_file.get(&file) {
+            return image.as_ref().ok().copied();
         }
-        let image = self.scene.texture_files.get(file as usize).and_then(|file| self.read_image(file));
-        let place = image.map(|image| {
+        let read = self.scene.texture_files.get(file as usize).and_then(|file| self.read_image(file));
+        let image = read?.map(|image| {
             self.images.push(image);
             self.images.len() - 1
         });
-        self.image_of_file.insert(file, place);
+        let place = image.as_ref().ok().copied();
+        self.image_of_file.insert(file, image);
         place
     }
 
     /// The bytes within the FBX, or of the file that it names: relative to the model, then as the exporter's
-    /// machine had it.
-    fn read_image(&mut self, file: &TextureFile) -> Option<SourceImage> {
+    /// machine had it. None where it names no file.
+    fn read_image(&mut self, file: &TextureFile) -> Option<Result<SourceImage, MissingImage>> {
         let paths = [&*file.relative_filename, &*file.absolute_filename, &*file.filename];
         let mut references = paths.into_iter().filter(|path| !path.is_empty());
         let embedded = (!file.content.is_empty()).then_some("embedded texture");
         let first = references.clone().next().or(embedded)?;
         let name = first.rsplit(['/', '\\']).next().unwrap_or(first).to_owned();
         if !file.content.is_empty() {
-            return Some(SourceImage { name, bytes: file.content.to_vec() });
+            return Some(Ok(SourceImage { name, bytes: file.content.to_vec() }));
         }
         self.files.begin_reference();
         // A path that leads to the file comes before one of which only the name is found.
@@ -236,18 +249,25 @@ impl<'a> MaterialReader<'a> {
         let best = found.iter().find(|(_, file)| !file.is_by_name).or_else(|| found.first());
         let Some((path, found)) = best else {
             self.warnings.push(format!("{}; the texture is left out", self.files.problem(first)));
-            return None;
+            return Some(Err(self.files.missing_image(first)));
         };
         self.warnings.extend(ModelFiles::by_name_warning(path, found));
-        match self.files.read(found) {
-            Ok(bytes) => Some(SourceImage { name, bytes }),
+        Some(match self.files.read(found) {
+            Ok(bytes) => Ok(SourceImage { name, bytes }),
             Err(error) => {
-                self.warnings
-                    .push(format!("{}: cannot be read: {error}; the texture is left out", found.name));
-                None
+                let problem = format!("cannot be read: {error}");
+                self.warnings.push(format!("{}: {problem}; the texture is left out", found.name));
+                Err(MissingImage { name: found.name.clone(), problem, is_absent: true })
             }
-        }
+        })
     }
+}
+
+/// The texture of a map, and the first one with a file, where the material layers or computes several.
+fn texture_of(map: &MaterialMap) -> Option<(&Texture, &Texture)> {
+    let texture: &Texture = map.texture.as_deref().filter(|_| map.texture_enabled)?;
+    let with_file = if texture.has_file { texture } else { texture.file_textures.into_iter().next()? };
+    Some((texture, with_file))
 }
 
 /// The index, among the UV sets of a mesh, of the set that each texture of a material names; 0 where the mesh

@@ -11,7 +11,8 @@ use crate::error::{shortened, system_reason};
 use crate::git_lfs;
 use crate::image::{DecodeLimits, RgbaImage, srgb_to_linear};
 use crate::source::{
-    FoundFile, ModelFiles, NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture,
+    FoundFile, MissingImage, MissingNormalMap, ModelFiles, NormalMap, SourceImage, SourceMaterial,
+    SourceScene, SourceTexture,
 };
 use crate::words::counted;
 
@@ -23,10 +24,10 @@ pub struct Materials<'a> {
     index_of_name: HashMap<Vec<u8>, u32>,
     materials: Vec<SourceMaterial>,
     images: Vec<SourceImage>,
-    image_of_file: HashMap<PathBuf, Option<usize>>,
+    image_of_file: HashMap<PathBuf, Result<usize, MissingImage>>,
     /// The images of bump statements that were decoded: whether they are heights.
     is_grey: HashMap<usize, bool>,
-    image_of_statement: HashMap<(String, String), Option<usize>>,
+    image_of_statement: HashMap<(String, String), Result<usize, MissingImage>>,
     /// The name of the last `usemtl` statement.
     name: Vec<u8>,
     /// Names of faces' materials that no library has, or not yet: materials with a name only.
@@ -149,6 +150,7 @@ impl<'a> Materials<'a> {
             roughness: material.roughness.or_else(|| material.shininess.map(roughness)),
             metallic_roughness_texture: self.texture(library, packed),
             normal_map: self.normal_map(library, material),
+            missing_normal_map: self.missing_normal_map(library, material),
             // A map without a colour shines as it is.
             emissive: emissive.or(emissive_texture.as_ref().map(|_| [1.0; 3])),
             emissive_texture,
@@ -175,7 +177,7 @@ impl<'a> Materials<'a> {
     fn normal_map(&mut self, library: &str, material: &MtlMaterial) -> Option<NormalMap> {
         if let Some(map) = &material.normal_map {
             let texture = self.texture(library, Some(map))?;
-            return Some(NormalMap { texture, scale: map.multiplier, green: None });
+            return Some(NormalMap { texture, scale: map.multiplier });
         }
         let map = material.bump_map.as_ref()?;
         let texture = self.texture(library, Some(map))?;
@@ -191,17 +193,25 @@ impl<'a> Materials<'a> {
             ));
             return None;
         }
-        Some(NormalMap { texture, scale: map.multiplier, green: None })
+        Some(NormalMap { texture, scale: map.multiplier })
+    }
+
+    /// The map of `norm` whose file was not read. One of the bump statements may hold heights.
+    fn missing_normal_map(&self, library: &str, material: &MtlMaterial) -> Option<MissingNormalMap> {
+        let statement = material.normal_map.as_ref()?.statement.clone();
+        let image = self.image_of_statement.get(&(library.to_owned(), statement))?.as_ref().err()?;
+        Some(MissingNormalMap { image: image.clone(), uv_set: 0 })
     }
 
     fn texture(&mut self, library: &str, map: Option<&MtlMap>) -> Option<SourceTexture> {
         let map = map?;
         let key = (library.to_owned(), map.statement.clone());
         let image = match self.image_of_statement.get(&key) {
-            Some(image) => *image,
+            Some(image) => image.as_ref().ok().copied(),
             None => {
-                let image = self.find_image(library, map);
-                self.image_of_statement.insert(key, image);
+                let found = self.find_image(library, map);
+                let image = found.as_ref().ok().copied();
+                self.image_of_statement.insert(key, found);
                 image
             }
         };
@@ -213,35 +223,33 @@ impl<'a> Materials<'a> {
         })
     }
 
-    fn find_image(&mut self, library: &str, map: &MtlMap) -> Option<usize> {
+    fn find_image(&mut self, library: &str, map: &MtlMap) -> Result<usize, MissingImage> {
         let Some((reference, file)) = lookup::texture(self.files, library, map) else {
-            let problem = self.files.problem(lookup::without_quotes(&map.file).unwrap_or(&map.file));
+            let reference = lookup::without_quotes(&map.file).unwrap_or(&map.file);
+            let problem = self.files.problem(reference);
             self.warnings.push(format!("{library}: {problem}; the texture is left out"));
-            return None;
+            return Err(self.files.missing_image(reference));
         };
         self.warnings.extend(ModelFiles::by_name_warning(&reference, &file));
         self.image(file)
     }
 
-    fn image(&mut self, file: FoundFile) -> Option<usize> {
-        if let Some(&image) = self.image_of_file.get(&file.path) {
-            return image;
+    fn image(&mut self, file: FoundFile) -> Result<usize, MissingImage> {
+        if let Some(image) = self.image_of_file.get(&file.path) {
+            return image.clone();
         }
         let image = match self.files.read(&file) {
             Ok(bytes) => {
                 self.images.push(SourceImage { name: file.name, bytes });
-                Some(self.images.len() - 1)
+                Ok(self.images.len() - 1)
             }
             Err(error) => {
-                self.warnings.push(format!(
-                    "{}: cannot be read: {}; the texture is left out",
-                    file.name,
-                    system_reason(&error)
-                ));
-                None
+                let problem = format!("cannot be read: {}", system_reason(&error));
+                self.warnings.push(format!("{}: {problem}; the texture is left out", file.name));
+                Err(MissingImage { name: file.name, problem, is_absent: true })
             }
         };
-        self.image_of_file.insert(file.path, image);
+        self.image_of_file.insert(file.path, image.clone());
         image
     }
 

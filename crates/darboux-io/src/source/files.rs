@@ -14,6 +14,10 @@ use super::other_case::OtherCase;
 #[cfg(any(feature = "fbx", feature = "obj"))]
 use crate::MemoryLimit;
 use crate::error::quoted;
+#[cfg(any(feature = "fbx", feature = "obj"))]
+use crate::error::shortened;
+#[cfg(any(feature = "fbx", feature = "obj"))]
+use crate::source::scene::MissingImage;
 use crate::words::Count;
 use crate::{Files, LoadOptions, files, paths};
 
@@ -226,28 +230,39 @@ impl ModelFiles {
 
     /// What is wrong with a reference that was not found: a sentence without its last part.
     pub fn problem(&self, reference: &str) -> String {
-        let shown = quoted(reference);
+        format!("{} {}", quoted(reference), self.absence(reference))
+    }
+
+    /// The image of a reference that was not found.
+    #[cfg(any(feature = "fbx", feature = "obj"))]
+    pub fn missing_image(&self, reference: &str) -> MissingImage {
+        let name = reference.rsplit(['/', '\\']).next().unwrap_or(reference);
+        let was_looked_up = self.lookups_left.get() > 0 && self.left_of_reference.get() > 0;
+        let is_absent = was_looked_up && !matches!(self.source, FileSource::None);
+        MissingImage { name: shortened(name), problem: self.absence(reference), is_absent }
+    }
+
+    /// What is wrong with a reference that was not found: a clause whose subject is the file.
+    fn absence(&self, reference: &str) -> String {
         match &self.source {
             _ if self.lookups_left.get() == 0 => {
                 format!(
-                    "{shown} was looked up at its own path only, because more than {} paths were tried for the \
-                     files that the model names",
+                    "was looked up at its own path only, because more than {} paths were tried for the files \
+                     that the model names",
                     Count(MAX_LOOKUPS)
                 )
             }
             _ if self.left_of_reference.get() == 0 => {
-                format!("{shown} is not at the first {} paths that it may mean", Count(MAX_LOOKUPS_OF_ONE))
+                format!("is not at the first {} paths that it may mean", Count(MAX_LOOKUPS_OF_ONE))
             }
-            FileSource::None => {
-                format!("{shown} was not looked up, because the model came without a folder")
-            }
-            FileSource::Given(..) => format!("{shown} is not among the files"),
-            FileSource::Folder(_) if self.allow_outside => format!("{shown} does not exist"),
+            FileSource::None => "was not looked up, because the model came without a folder".to_owned(),
+            FileSource::Given(..) => "is not among the files".to_owned(),
+            FileSource::Folder(_) if self.allow_outside => "does not exist".to_owned(),
             FileSource::Folder(_) if reference.contains("..") => {
                 let option = self.allow_outside_name;
-                format!("{shown} is not in the model's folder ({option} allows files outside)")
+                format!("is not in the model's folder ({option} allows files outside)")
             }
-            FileSource::Folder(_) => format!("{shown} is not in the model's folder"),
+            FileSource::Folder(_) => "is not in the model's folder".to_owned(),
         }
     }
 

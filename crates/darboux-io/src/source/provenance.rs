@@ -23,7 +23,8 @@ pub struct Provenance {
     pub polygon_rule: PolygonRule,
     /// What was not carried over: a noun phrase each, such as `2 cameras`.
     pub not_carried: Vec<String>,
-    /// The normal maps of materials that are not in the document, because glTF cannot hold their images.
+    /// The normal maps of materials that are not in the document, because glTF cannot hold their images or
+    /// their files are not there.
     pub unread_maps: Vec<UnreadMap>,
     /// The files beside it that were read, links resolved: material libraries, textures.
     pub(crate) companions: Vec<PathBuf>,
@@ -31,6 +32,11 @@ pub struct Provenance {
 }
 
 impl Provenance {
+    /// The normal maps of a material that are not in the document.
+    pub fn unread_maps_of(&self, material: usize) -> impl Iterator<Item = &UnreadMap> {
+        self.unread_maps.iter().filter(move |map| map.material == material)
+    }
+
     /// Where a primitive of a mesh came from.
     pub fn primitive(&self, mesh: usize, primitive: usize) -> Option<&PrimitiveSource> {
         self.primitives.get(&(mesh, primitive))
@@ -51,10 +57,15 @@ impl Provenance {
 pub struct UnreadMap {
     /// The index of the material.
     pub material: usize,
+    /// The UV set n of `TEXCOORD_n` that it uses.
+    pub uv_set: usize,
     /// The name of the image's file.
     pub file: String,
     /// What is wrong with the file: a clause whose subject it is, with what to do.
     pub problem: String,
+    /// Whether the file is not where the model refers to it, or the system refuses it. Others are in formats
+    /// that are not read.
+    pub is_absent: bool,
 }
 
 /// Where a primitive came from.

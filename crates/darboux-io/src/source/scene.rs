@@ -1,7 +1,7 @@
 //! What the reader of a format returns: a scene as the file has it, before faces are cut and vertices are
 //! made.
 
-use darboux::{BitangentDirection, Convention, UvOrigin};
+use darboux::{Convention, UvOrigin};
 
 use super::format::SourceFormat;
 
@@ -192,6 +192,8 @@ pub struct SourceMaterial {
     /// Roughness in green and metalness in blue.
     pub metallic_roughness_texture: Option<SourceTexture>,
     pub normal_map: Option<NormalMap>,
+    /// The normal map that the file names, where its image cannot be read.
+    pub missing_normal_map: Option<MissingNormalMap>,
     pub occlusion_texture: Option<SourceTexture>,
     /// Linear RGB.
     pub emissive: Option<[f32; 3]>,
@@ -207,8 +209,14 @@ pub struct NormalMap {
     pub texture: SourceTexture,
     /// How strong it is; none is 1.
     pub scale: Option<f32>,
-    /// What green means, where the file says so. The image is turned to green up, as glTF has it.
-    pub green: Option<BitangentDirection>,
+}
+
+/// A normal map without an image.
+#[derive(Clone, Debug)]
+pub struct MissingNormalMap {
+    pub image: MissingImage,
+    /// The place of the UV set in [`SourceMesh::uv_sets`].
+    pub uv_set: usize,
 }
 
 /// A use of an image.
@@ -228,4 +236,14 @@ pub struct SourceTexture {
 pub struct SourceImage {
     pub name: String,
     pub bytes: Vec<u8>,
+}
+
+/// An image file that could not be read.
+#[derive(Clone, Debug)]
+pub struct MissingImage {
+    pub name: String,
+    /// What is wrong: a clause whose subject is the file.
+    pub problem: String,
+    /// Whether the file was looked for and is not there, or the system refuses it.
+    pub is_absent: bool,
 }

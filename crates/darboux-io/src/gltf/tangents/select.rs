@@ -10,6 +10,7 @@ use crate::gltf::primitives::element_count;
 use crate::gltf::primitives::triangles::{TriangleMode, mode_name};
 use crate::gltf::schema::{Material, Primitive};
 use crate::gltf::{Document, PrimitiveName};
+use crate::source::UnreadMap;
 use crate::words::Count;
 use crate::{Error, OptionNames};
 
@@ -123,8 +124,9 @@ fn candidate(
     let materials = materials_of(document, &name, primitive)?;
     let choices: Vec<_> =
         materials.iter().filter_map(|&(index, material)| UvChoice::of(material, index)).collect();
-    let needs_tangents = materials.iter().any(|(_, material)| needs_tangents(material));
-    let uv = choices.first().cloned().unwrap_or_default();
+    let unread = unread_map(document, primitive, &materials);
+    let needs_tangents = unread.is_some() || materials.iter().any(|(_, material)| needs_tangents(material));
+    let uv = choices.first().cloned().or(unread.map(UvChoice::of_unread)).unwrap_or_default();
     let verdict = judge(document, primitive, &uv, needs_tangents, options)?;
     if let TangentVerdict::Chosen(chosen) = &verdict {
         warnings.variants(&name, &choices);
@@ -149,6 +151,17 @@ fn materials_of<'a>(
                 .invalid(name.path(), format!("its material {index} does not exist; export the file again"))),
         })
         .collect()
+}
+
+/// The first normal map of a primitive's materials that was not read, and whose UV set the primitive has.
+fn unread_map<'a>(
+    document: &'a Document,
+    primitive: &Primitive,
+    materials: &[(usize, &Material)],
+) -> Option<&'a UnreadMap> {
+    let provenance = document.provenance()?;
+    let mut maps = materials.iter().flat_map(|&(index, _)| provenance.unread_maps_of(index));
+    maps.find(|map| primitive.attributes.contains_key(&format!("TEXCOORD_{}", map.uv_set)))
 }
 
 fn judge(

@@ -1,6 +1,7 @@
 //! Chooses the UV set that tangents follow, and applies texture transforms.
 
 use crate::gltf::schema::{Material, TextureInfo, TextureTransform};
+use crate::source::UnreadMap;
 
 /// The UVs that a primitive's tangents follow.
 #[derive(Clone, Debug)]
@@ -20,6 +21,12 @@ impl UvChoice {
         let transform = info.extensions.transform.clone();
         let set = transform.as_ref().and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord);
         Some(Self { set, reason: format!("{texture} of materials[{index}]"), transform })
+    }
+
+    /// The choice for a normal map that was not read.
+    pub fn of_unread(map: &UnreadMap) -> Self {
+        let reason = format!("the normal map of materials[{}], which was not read", map.material);
+        Self { set: map.uv_set, reason, transform: None }
     }
 }
 

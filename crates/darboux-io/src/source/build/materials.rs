@@ -4,11 +4,9 @@ use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
-use darboux::{BitangentDirection, Convention};
 use serde_json::{Value, json};
 
 use super::data::DataBuilder;
-use crate::image::{Channels, PngImage, convert_normal_map};
 use crate::source::provenance::UnreadMap;
 use crate::source::scene::{NormalMap, SourceImage, SourceMaterial, SourceScene, SourceTexture};
 use crate::words::counted;
@@ -64,10 +62,9 @@ struct MaterialBuilder<'a> {
     options: &'a LoadOptions,
     warnings: &'a mut Vec<String>,
     built: Materials,
-    /// The texture of an image, as it is or with green inverted, repeated or clamped; none for images that
-    /// glTF cannot hold.
-    texture_of_use: HashMap<(usize, bool, [bool; 2]), Option<usize>>,
-    image_of_source: HashMap<(usize, bool), Option<GltfImage>>,
+    /// The texture of an image, repeated or clamped; none for images that glTF cannot hold.
+    texture_of_use: HashMap<(usize, [bool; 2]), Option<usize>>,
+    image_of_source: HashMap<usize, Option<GltfImage>>,
     /// Why images are left out: a clause each, whose subject is the image.
     problem_of_image: HashMap<usize, String>,
     sampler_of_clamps: HashMap<[bool; 2], usize>,
@@ -100,6 +97,14 @@ impl MaterialBuilder<'_> {
         let mut json = json!({"name": material.name, "pbrMetallicRoughness": shading});
         if let Some(map) = &material.normal_map {
             self.set_normal_map(&mut json, map);
+        } else if let Some(missing) = &material.missing_normal_map {
+            self.built.unread_maps.push(UnreadMap {
+                material: self.built.materials.len(),
+                uv_set: missing.uv_set,
+                file: missing.image.name.clone(),
+                problem: missing.image.problem.clone(),
+                is_absent: missing.image.is_absent,
+            });
         }
         self.set(&mut json, "occlusionTexture", material.occlusion_texture.as_ref());
         self.set(&mut json, "emissiveTexture", material.emissive_texture.as_ref());
@@ -126,22 +131,23 @@ impl MaterialBuilder<'_> {
     }
 
     fn set(&mut self, json: &mut Value, key: &str, texture: Option<&SourceTexture>) {
-        if let Some(info) = texture.and_then(|texture| self.texture_info(texture, false)) {
+        if let Some(info) = texture.and_then(|texture| self.texture_info(texture)) {
             json[key] = info;
         }
     }
 
     fn set_normal_map(&mut self, json: &mut Value, map: &NormalMap) {
-        let is_inverted = map.green == Some(BitangentDirection::Down);
-        let Some(mut info) = self.texture_info(&map.texture, is_inverted) else {
+        let Some(mut info) = self.texture_info(&map.texture) else {
             let image = map.texture.image;
             if let (Some(source), Some(problem)) =
                 (self.scene.images.get(image), self.problem_of_image.get(&image))
             {
                 self.built.unread_maps.push(UnreadMap {
                     material: self.built.materials.len(),
+                    uv_set: map.texture.uv_set,
                     file: source.name.clone(),
                     problem: problem.clone(),
+                    is_absent: false,
                 });
             }
             return;
@@ -152,8 +158,8 @@ impl MaterialBuilder<'_> {
         json["normalTexture"] = info;
     }
 
-    fn texture_info(&mut self, texture: &SourceTexture, is_inverted: bool) -> Option<Value> {
-        let index = self.texture(texture, is_inverted)?;
+    fn texture_info(&mut self, texture: &SourceTexture) -> Option<Value> {
+        let index = self.texture(texture)?;
         let mut info = json!({"index": index});
         if texture.uv_set > 0 {
             info["texCoord"] = texture.uv_set.into();
@@ -166,12 +172,12 @@ impl MaterialBuilder<'_> {
         Some(info)
     }
 
-    fn texture(&mut self, texture: &SourceTexture, is_inverted: bool) -> Option<usize> {
-        let texture_use = (texture.image, is_inverted, texture.clamps);
+    fn texture(&mut self, texture: &SourceTexture) -> Option<usize> {
+        let texture_use = (texture.image, texture.clamps);
         if let Some(&texture) = self.texture_of_use.get(&texture_use) {
             return texture;
         }
-        let image = self.image(texture.image, is_inverted);
+        let image = self.image(texture.image);
         let made = image.map(|image| self.add_texture(image, texture.clamps));
         self.texture_of_use.insert(texture_use, made);
         made
@@ -203,32 +209,26 @@ impl MaterialBuilder<'_> {
         })
     }
 
-    fn image(&mut self, image: usize, is_inverted: bool) -> Option<GltfImage> {
-        if let Some(&made) = self.image_of_source.get(&(image, is_inverted)) {
+    fn image(&mut self, image: usize) -> Option<GltfImage> {
+        if let Some(&made) = self.image_of_source.get(&image) {
             return made;
         }
         let made = self.scene.images.get(image).and_then(|source| match self.as_gltf_holds_it(source) {
-            Ok(file) => self.add_image(source, file, is_inverted),
+            Ok(file) => self.add_image(source, &file),
             Err(problem) => {
                 self.warnings.push(format!("{}: {problem}; the texture is left out", source.name));
                 self.problem_of_image.insert(image, problem);
                 None
             }
         });
-        self.image_of_source.insert((image, is_inverted), made);
+        self.image_of_source.insert(image, made);
         made
     }
 
     /// Adds an image. `file`: one that glTF can hold.
-    fn add_image(
-        &mut self,
-        image: &SourceImage,
-        file: Cow<'_, [u8]>,
-        is_inverted: bool,
-    ) -> Option<GltfImage> {
-        let file = if is_inverted { self.inverted(&image.name, file) } else { file };
-        let mime = mime_type(&file)?;
-        let view = self.data.view(&file);
+    fn add_image(&mut self, image: &SourceImage, file: &[u8]) -> Option<GltfImage> {
+        let mime = mime_type(file)?;
+        let view = self.data.view(file);
         let is_converted = mime_type(&image.bytes) != Some(mime);
         let name = if is_converted { Cow::Owned(png_name(&image.name)) } else { Cow::Borrowed(&*image.name) };
         self.built.images.push(json!({"name": name, "mimeType": mime, "bufferView": view}));
@@ -269,31 +269,6 @@ impl MaterialBuilder<'_> {
                 format!("{first} and {others} are TGA, which glTF cannot hold; in the document they are PNG")
             }
         });
-    }
-
-    /// A normal map with green inverted; as it is, with a warning, where it cannot be.
-    fn inverted<'i>(&mut self, name: &str, file: Cow<'i, [u8]>) -> Cow<'i, [u8]> {
-        let down = Convention { bitangent: BitangentDirection::Down, ..Convention::GLTF };
-        let png = match PngImage::is_png(&file) {
-            true => Ok(file.to_vec()),
-            false => {
-                converted::to_png(name, &file, self.options).map_err(|problem| format!("{name}: {problem}"))
-            }
-        };
-        let turned = png.and_then(|png| {
-            let turn = |mut png: PngImage| {
-                convert_normal_map(&mut png, &down.to(Convention::GLTF), Channels::RGB, Channels::RGB)?;
-                png.to_bytes()
-            };
-            PngImage::from_bytes(name, png, self.options).and_then(turn).map_err(|error| error.to_string())
-        });
-        self.warnings.push(match &turned {
-            Ok(_) => {
-                format!("{name}: its green points down in the source; it was inverted, as glTF has it up")
-            }
-            Err(error) => format!("{error}; its green points down, and is not inverted: save the map as PNG"),
-        });
-        turned.map_or(file, Cow::from)
     }
 }
 

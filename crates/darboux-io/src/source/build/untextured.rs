@@ -80,5 +80,6 @@ fn with_uv_sets(material: &SourceMaterial, sets: usize) -> SourceMaterial {
     copy.occlusion_texture.take_if(lacks);
     copy.emissive_texture.take_if(lacks);
     copy.normal_map.take_if(|map| lacks(&mut map.texture));
+    copy.missing_normal_map.take_if(|map| map.uv_set >= sets);
     copy
 }
