@@ -77,7 +77,7 @@ fn on_a_terminal(arguments: &[&str]) -> Option<String> {
 fn a_long_check_has_a_progress_bar_on_a_terminal_only() {
     let folder = tempfile::tempdir().expect("a folder");
     let maps: Vec<String> = (0..4).map(|index| format!("{}/{index}.png", text(folder.path()))).collect();
-    let map = flat(1600);
+    let map = flat(3200);
     maps.iter().for_each(|path| fs::write(path, &map).expect("a file"));
     let maps: Vec<&str> = maps.iter().map(String::as_str).collect();
     let arguments = |more: &[&'static str]| [&["check", "--jobs", "1"], more, &maps].concat();
