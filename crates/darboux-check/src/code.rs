@@ -395,8 +395,8 @@ codes! {
         "Bumps are lit as if the map were turned by 90 degrees and mirrored; with blue exchanged, the whole \
          surface is dark or lit from a side."
         "Channels were packed in another order."
-        "Let `darboux check FILE --fix` exchange red and green, where FILE is the model or the image of the \
-         map; or export or bake the map again with x in red and y in green."
+        "Let `darboux check FILE --fix` exchange red and green, in a model or in an image alone; or export or \
+         bake the map again with x in red and y in green."
         Repair "red and green are exchanged"
     }
     MapSrgb "map-srgb" Error {

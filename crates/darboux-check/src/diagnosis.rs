@@ -30,8 +30,9 @@ fn of_findings(findings: &[ReportedFinding], options: &CheckOptions) -> String {
     };
     let of_severity: Vec<&ReportedFinding> = left().filter(|finding| finding.severity == worst).collect();
     let main = main_code(&of_severity);
-    let of_main: Vec<&ReportedFinding> =
-        of_severity.iter().copied().filter(|finding| finding.code == main).collect();
+    let first = of_severity.iter().copied().find(|finding| finding.code == main);
+    let is_same = |finding: &&ReportedFinding| first.is_some_and(|first| first.says_the_same(finding));
+    let of_main: Vec<&ReportedFinding> = of_severity.iter().copied().filter(is_same).collect();
     let others = of_severity.len() - of_main.len();
     let happened = happened(main, &of_main, others, worst, options.green);
     let first = of_main[0];
@@ -183,6 +184,40 @@ mod tests {
     #[test]
     fn nothing_is_wrong_without_findings() {
         assert_eq!(diagnosis(&[], &CheckOptions::default()), "Nothing is wrong.");
+    }
+
+    /// Parts whose tangents another method made, or that are left, have findings of their own.
+    #[test]
+    fn only_places_of_which_it_is_true_are_named() {
+        let finding = |place: &str, text: &str| ReportedFinding {
+            code: Code::TangentOtherRecipe,
+            severity: Severity::Warning,
+            place: place.to_owned(),
+            mesh: None,
+            mesh_name: None,
+            primitive: None,
+            source: None,
+            same_as: 0,
+            material: None,
+            image: None,
+            count: 1,
+            first: Vec::new(),
+            first_are: "vertices",
+            evidence: Vec::new(),
+            text: text.to_owned(),
+            looks_like: "",
+            cure: String::new(),
+            fixable: true,
+            left_because: None,
+            suggested_assumption: None,
+            repaired: None,
+            change: None,
+        };
+        let others = [finding("a", "12 corners differ"), finding("b", "3 corners differ")];
+        let left = ReportedFinding { left_because: Some(String::new()), ..finding("c", "12 corners differ") };
+        let all = others.into_iter().chain([left, finding("d", "they are Lengyel's")]).collect::<Vec<_>>();
+        let told = diagnosis(&all, &CheckOptions::default());
+        assert!(told.starts_with("a and b: 12 corners differ. 2 other warnings are listed below."), "{told}");
     }
 
     /// A healthy DirectX map is one only where that is expected.

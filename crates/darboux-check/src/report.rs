@@ -73,6 +73,16 @@ impl ReportedFinding {
         self.fixable && self.repaired.is_none()
     }
 
+    /// Whether another finding says the same of another place, but for its numbers: the same kind, as severe,
+    /// and repaired or left alike. Tangents of two methods are not the same.
+    pub fn says_the_same(&self, other: &Self) -> bool {
+        let kind = |finding: &Self| (finding.severity, finding.code, finding.left_because.is_some());
+        let words = |finding: &Self| -> String {
+            finding.text.chars().filter(|letter| !letter.is_ascii_digit()).collect()
+        };
+        kind(self) == kind(other) && (self.code != Code::TangentOtherRecipe || words(self) == words(other))
+    }
+
     /// Names the place as a file of another format than glTF does, too: `Armature/Body in your FBX,
     /// meshes[1].primitives[0] "Body"`.
     pub(crate) fn name_place(&mut self, source: &Provenance) {

@@ -26,7 +26,7 @@ use crate::options::formats::with_endings;
 /// Finds and repairs what is wrong with the normal maps and tangents of 3D models; computes, bakes and
 /// converts them
 #[derive(Debug, Parser)]
-#[command(name = "darboux", version, about, long_about = LONG_ABOUT, arg_required_else_help = true, max_term_width = 100)]
+#[command(name = "darboux", version, long_about = LONG_ABOUT, arg_required_else_help = true, max_term_width = 100)]
 pub struct Arguments {
     /// The subcommand
     #[command(subcommand)]

@@ -52,7 +52,7 @@ pub fn command_line(arguments: &[&str], files: &[&str]) -> String {
 }
 
 /// A word that a POSIX shell takes literally.
-fn shell_word(word: &str) -> String {
+pub fn shell_word(word: &str) -> String {
     let is_literal = |c: char| {
         c.is_ascii_alphanumeric() || "-_./,:=@%+".contains(c) || (!c.is_ascii() && !is_unprintable(c))
     };

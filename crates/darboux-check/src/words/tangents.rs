@@ -135,7 +135,7 @@ fn other_recipe(recognised: &Recognised, far: Far, severity: Severity) -> Said {
     } else if severity > Severity::Info && recognised.other_method().is_some_and(|recipe| !recipe.from_quads)
     {
         Said::new(text).with_cure(
-            "Keep them if the map was baked with this method; otherwise `darboux check --fix --only \
+            "Keep them if the map was baked with this method; otherwise `darboux check FILE --fix --only \
              tangent-other-recipe`.",
         )
     } else {

@@ -51,7 +51,7 @@ pub struct FileOptions {
     ///
     /// An output is up to date if it was made from the same content with the same options.
     /// FOLDER/darboux-journal.jsonl records this for each finished file. So the same command continues a
-    /// run that was stopped.
+    /// run that was stopped. Give it from the first run on: runs without it keep no journal.
     #[arg(long, requires = "out_dir", help_heading = "Output")]
     pub resume: bool,
 

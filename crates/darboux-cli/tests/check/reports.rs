@@ -46,6 +46,20 @@ fn wrong_models_are_named() {
     }
 }
 
+/// The commands that are told can be typed as they stand.
+#[test]
+fn commands_have_the_name_of_the_file() {
+    let folder = folder_with(&[]);
+    let model = folder.path().join("a shield.glb");
+    let shield = asset("made/shield.glb");
+    let method = ["tangents", text(&shield), "--method", "average", "--overwrite", "-o", text(&model)];
+    darboux(&method).exits(0);
+    let printed = darboux(&["check", text(&model)]).exits(0).stdout;
+    let printed = String::from_utf8_lossy(&printed);
+    let command = format!("`darboux check '{}' --fix --only tangent-other-recipe`", text(&model));
+    assert!(printed.matches(&command).count() == 2 && !printed.contains("FILE"), "{printed}");
+}
+
 /// Several files end with a total by code.
 #[test]
 fn several_files_have_a_total() {

@@ -29,7 +29,8 @@ Bake the detail of high-poly models into maps of a low-poly model.
 From every texel of the low model a ray passes from outside through its surface; the first surface of the \
 high models that it hits gives the content. A normal map holds those normals in the tangent frames that \
 renderers will use, so that the low model is shaded as the high one is. The frames are those in the file of \
-the low model; if it has no tangents, run darboux tangents on it before it is used.
+the low model, or MikkTSpace's if it has none: then run darboux tangents on the model that you ship, so that \
+renderers use the same.
 
 All models are placed as their scenes have them; skinned meshes have the pose in which they are stored. \
 Texels that several triangles cover belong to the first one. Texels outside the UV charts are filled from \

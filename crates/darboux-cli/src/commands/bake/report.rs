@@ -2,6 +2,7 @@
 
 pub mod advice;
 
+use darboux_io::words::Count;
 use serde::Serialize;
 
 use super::cage::Rays;
@@ -86,7 +87,7 @@ pub fn summary(report: &BakeReport) -> Vec<String> {
     let of_run = format!(
         "{} onto {}, {}; charts cover {share:.1} % of the image{}",
         counted(as_count(counts.high_triangles), "triangle", "triangles"),
-        as_count(counts.low_triangles),
+        Count(counts.low_triangles),
         report.rays.describe(),
         nonzero_counts([
             (as_count(counts.missed_texels), "texel without a hit", "texels without a hit"),

@@ -1,4 +1,4 @@
-//! Findings in the order in which they are read, and by kind.
+//! Findings in the order in which they are read, by kind and by what they say.
 
 use std::cmp::Reverse;
 
@@ -13,11 +13,21 @@ pub fn by_severity(findings: &[ReportedFinding]) -> Vec<&ReportedFinding> {
 
 /// The findings of one severity and code together, in the order of [`by_severity`].
 pub fn by_kind(findings: &[ReportedFinding]) -> Vec<Vec<&ReportedFinding>> {
+    grouped(findings, |a, b| (a.severity, a.code) == (b.severity, b.code))
+}
+
+/// The findings that say the same together, in the order of [`by_severity`].
+pub fn by_statement(findings: &[ReportedFinding]) -> Vec<Vec<&ReportedFinding>> {
+    grouped(findings, ReportedFinding::says_the_same)
+}
+
+fn grouped(
+    findings: &[ReportedFinding],
+    is_same: impl Fn(&ReportedFinding, &ReportedFinding) -> bool,
+) -> Vec<Vec<&ReportedFinding>> {
     let mut groups: Vec<Vec<&ReportedFinding>> = Vec::new();
     for finding in by_severity(findings) {
-        let is_same =
-            |other: &ReportedFinding| (other.severity, other.code) == (finding.severity, finding.code);
-        match groups.iter_mut().find(|group| is_same(group[0])) {
+        match groups.iter_mut().find(|group| is_same(group[0], finding)) {
             Some(group) => group.push(finding),
             None => groups.push(vec![finding]),
         }

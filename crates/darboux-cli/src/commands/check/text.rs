@@ -6,9 +6,9 @@ use darboux_check::{Code, Evidence, ReportedFinding, Severity};
 use darboux_io::words::{Count, Sure, listed};
 
 use super::arguments::FailOn;
-use super::groups::{by_kind, by_severity};
+use super::groups::{by_kind, by_severity, by_statement};
 use super::report::{CheckTotals, CheckedFile, DirectionsByModel, ReportedMap};
-use crate::text::{counted, printable};
+use crate::text::{counted, printable, shell_word};
 
 /// The findings in a file, each at its place.
 pub fn describe(file: &CheckedFile) -> String {
@@ -22,7 +22,7 @@ pub fn describe(file: &CheckedFile) -> String {
     }
     for (place, findings) in places {
         text += &format!("  {}\n", printable(place));
-        text.extend(findings.into_iter().map(lines));
+        text.extend(findings.into_iter().map(|finding| lines(&[finding], file)));
     }
     text + &counts(file)
 }
@@ -30,15 +30,14 @@ pub fn describe(file: &CheckedFile) -> String {
 /// The findings in a file by severity and code, with the first places of each, and what is worth knowing in
 /// one line.
 pub fn describe_folded(file: &CheckedFile) -> String {
-    let (known, severe): (Vec<_>, Vec<_>) =
-        by_kind(&file.findings).into_iter().partition(|group| group[0].severity <= Severity::Info);
     let mut text = head(file);
-    for group in severe {
+    for group in by_statement(&file.findings).into_iter().filter(|group| group[0].severity > Severity::Info) {
         let places: Vec<&str> = group.iter().map(|finding| &*finding.place).collect();
-        text += &format!("  {}\n{}", printable(&listed(&places)), lines(group[0]));
+        text += &format!("  {}\n{}", printable(&listed(&places)), lines(&group, file));
     }
+    let known = by_kind(&file.findings).into_iter().filter(|group| group[0].severity <= Severity::Info);
     let (unchecked, known): (Vec<_>, Vec<_>) =
-        known.into_iter().partition(|group| group[0].severity == Severity::NotChecked);
+        known.partition(|group| group[0].severity == Severity::NotChecked);
     for finding in unchecked.into_iter().flatten().take(MOST_UNCHECKED) {
         text += &format!("  not checked: {}: {}\n", printable(&finding.place), printable(&finding.text));
     }
@@ -88,7 +87,8 @@ fn with_count(group: &[&ReportedFinding]) -> String {
 
 /// The name of a file, the diagnosis and the verdict on an image.
 fn head(file: &CheckedFile) -> String {
-    let mut text = format!("{}\n  {}\n", printable(&file.input), printable(&file.diagnosis));
+    let diagnosis = with_file_name(&file.diagnosis, file);
+    let mut text = format!("{}\n  {}\n", printable(&file.input), printable(&diagnosis));
     if !file.warnings.is_empty() {
         text += "  The warnings say what was lost when it was read.\n";
     }
@@ -97,6 +97,11 @@ fn head(file: &CheckedFile) -> String {
         text += &format!("  {}\n", verdict(map));
     }
     text
+}
+
+/// Words with the file's name in the commands that they tell, so that these can be typed as they stand.
+fn with_file_name(words: &str, file: &CheckedFile) -> String {
+    words.replace("darboux check FILE", &format!("darboux check {}", shell_word(&file.input)))
 }
 
 /// The number of findings by severity.
@@ -177,17 +182,20 @@ fn undecided(z_score: f32) -> &'static str {
     }
 }
 
-fn lines(finding: &ReportedFinding) -> String {
+/// Findings that say the same, with the numbers of the first.
+fn lines(group: &[&ReportedFinding], file: &CheckedFile) -> String {
+    let finding = group[0];
     let mut text = format!("    {:7} {}: {}\n", finding.severity, finding.code, printable(&finding.text));
     let evidence: Vec<String> = finding.evidence.iter().map(number).collect();
     if !evidence.is_empty() {
-        text += &format!("            evidence: {}\n", evidence.join("; "));
+        let of_first = if group.len() > 1 { " of the first" } else { "" };
+        text += &format!("            evidence{of_first}: {}\n", evidence.join("; "));
     }
     let ReportedFinding { looks_like, cure, .. } = finding;
     if finding.severity > Severity::Info {
         text += &format!("            looks like: {looks_like}\n");
     }
-    text += &format!("            cure: {cure}\n");
+    text += &format!("            cure: {}\n", printable(&with_file_name(cure, file)));
     match &finding.left_because {
         None => text += "            --fix repairs it\n",
         Some(reason) if finding.severity > Severity::Info => {
