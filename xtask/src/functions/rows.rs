@@ -151,6 +151,8 @@ pub const GROUPS: &[(&str, &[Row])] = &[
             "bake surfaces": ["darboux_bake::bake"]; []; []; ["bake"]; ["bake:bake"]; [],
             "bake models": ["darboux_bake::LowModel::surfaces", "darboux_bake::HighModel::surfaces"]; []; []; [];
                 ["bake:bakeModels"]; ["darboux bake"],
+            "several bakes of the same models": ["darboux_bake::PreparedSurfaces::new"]; []; []; [];
+                ["bake:PreparedModels"]; [],
             "errors of a baked map in degrees": ["darboux_bake::verify"]; []; []; ["verify"];
                 ["bake:verify", "bake:verifyModels"]; ["darboux bake"],
             "a cage that is made": ["darboux_bake::auto_cage"]; []; []; ["auto_cage"]; []; ["darboux bake"],
