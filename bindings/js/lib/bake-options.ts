@@ -2,7 +2,7 @@
 
 import { checkType, choice } from './core/checks.js';
 import { BITANGENTS, ID_SOURCES, MAP_KINDS, OCCLUSION_FALLOFFS, OCCLUSION_WEIGHTS } from './core/choices.js';
-import type { BakeModelsOptions, BakeOptions } from './bake-types.js';
+import type { BakeModelsOptions, BakeOptions, PreparedModelsOptions } from './bake-types.js';
 import type { Convention } from './types.js';
 
 /** Options that `bakeModels` does not have. */
@@ -11,6 +11,46 @@ interface OtherOptions {
   sourceConvention?: Convention | null | undefined;
   /** Whether a map becomes one in object space. */
   toObject?: boolean;
+}
+
+/** Which options of a bake of models all bakes of `PreparedModels` share. */
+const IS_SHARED: { [Option in keyof Required<BakeModelsOptions>]: Option extends keyof PreparedModelsOptions ? true : false } = {
+  size: false,
+  cageOffset: false,
+  distance: false,
+  maps: true,
+  samples: false,
+  bitangent: false,
+  convention: false,
+  padding: false,
+  backFaces: false,
+  aoRays: false,
+  aoDistance: false,
+  aoFalloff: false,
+  aoWeights: false,
+  thicknessDistance: false,
+  curvatureRadius: false,
+  curvatureUnit: false,
+  worldDirection: false,
+  udim: false,
+  onProgress: false,
+  material: true,
+  uvSet: true,
+  match: true,
+  highMaps: true,
+  aoOwnPart: false,
+  idFrom: false,
+  texture: true,
+};
+
+/** The options that have a value. Errors: one that is shared where `shared` is false, or the other way round. */
+export function optionsOfScope(options: BakeModelsOptions, shared: boolean): BakeModelsOptions {
+  const given = Object.entries(options).filter(([, value]) => value != null);
+  for (const [name] of given) {
+    if (!Object.hasOwn(IS_SHARED, name) || IS_SHARED[name as keyof BakeModelsOptions] === shared) continue;
+    throw new TypeError(shared ? `${name} is an option of each bake, not of PreparedModels` : `${name} is an option of PreparedModels, not of its bakes`);
+  }
+  return Object.fromEntries(given);
 }
 
 /** Width and height in texels. */

@@ -4,7 +4,7 @@ import { checkIndices, checkType, choice, optionsOf, rowCount, wholeRows } from 
 import { MAP_CHANNELS, MAP_KINDS } from './core/choices.js';
 import { checkedMesh, readFloats, writeArrays, writeMesh, writeTexts, type Copy } from './core/mesh.js';
 import { load, type Call, type Exports, type OwnInstance } from './core/wasm-module.js';
-import { optionsText, sizeOf } from './bake-options.js';
+import { optionsOfScope, optionsText, sizeOf } from './bake-options.js';
 import type {
   BakedImages,
   BakedMaps,
@@ -83,7 +83,7 @@ interface VerifyOutcome {
   heat_size: [number, number];
 }
 
-/** The receiver of the running call's progress. */
+/** The receiver of the innermost call's progress. */
 let tell: ((done: number) => void) | null | undefined;
 
 const bakeModule = load<BakeExports>(
@@ -140,8 +140,9 @@ export function bakeModels(low: Uint8Array, high: Uint8Array | readonly Uint8Arr
 }
 
 /**
- * Models that are read once, with the hierarchies over the high ones, for several bakes with other options: other sizes, cages, distances, samples. It keeps
- * the models in memory until it is garbage-collected.
+ * Models that are read once, with the hierarchies over the high ones, for several bakes with other options: other sizes, cages, distances, samples. Its
+ * memory grows and never shrinks: until it is garbage-collected it keeps the models, some ten times the bytes of their files (260 MB for a GLB of 26 MB that
+ * is both the low and the high model), and room for the images of its largest bake.
  */
 export class PreparedModels {
   readonly #instance: OwnInstance<BakeExports>;
@@ -151,10 +152,11 @@ export class PreparedModels {
    * Parameters and errors are those of {@link bakeModels}.
    *
    * @param options What all bakes share.
+   * @throws TypeError for an option of single bakes.
    */
   constructor(low: Uint8Array, high: Uint8Array | readonly Uint8Array[], options?: PreparedModelsOptions | null) {
     const files = checkedFiles(low, high);
-    this.#options = { ...optionsOf(options) };
+    this.#options = optionsOfScope(optionsOf(options), true);
     const text = optionsText(this.#options);
     this.#instance = bakeModule.newInstance();
     this.#call(null, text, (exports) => {
@@ -162,9 +164,13 @@ export class PreparedModels {
     }, 'prepare_models', () => undefined);
   }
 
-  /** As {@link bakeModels} with these models, with the same bits. Errors: those of {@link bakeModels}. After an error of `onProgress` the models have to be prepared again. */
+  /**
+   * As {@link bakeModels} with these models, with the same bits. After an error of `onProgress` the models have to be prepared again.
+   *
+   * @throws As {@link bakeModels}. TypeError for an option that all bakes share. Error in the `onProgress` of another bake of these models.
+   */
   bake(options?: Omit<BakeModelsOptions, keyof PreparedModelsOptions> | null): BakedMaps {
-    const chosen = { ...optionsOf(options), ...this.#options };
+    const chosen = { ...optionsOfScope(optionsOf(options), false), ...this.#options };
     return this.#call(chosen.onProgress, optionsText(chosen), () => {}, 'bake_prepared_models', bakedMaps(chosen));
   }
 
@@ -294,13 +300,18 @@ function call<R, T>(
   read: (report: R, exports: BakeExports) => T,
   callInstance: Call<BakeExports> = bakeModule.call,
 ): T {
+  const outer = tell;
   tell = onProgress;
-  return callInstance((exports) => {
-    exports.begin_bake();
-    const { report, error } = readJson<Outcome<R>>(exports, run(exports));
-    if (report === undefined) throw new Error(error);
-    return read(report, exports);
-  });
+  try {
+    return callInstance((exports) => {
+      exports.begin_bake();
+      const { report, error } = readJson<Outcome<R>>(exports, run(exports));
+      if (report === undefined) throw new Error(error);
+      return read(report, exports);
+    });
+  } finally {
+    tell = outer;
+  }
 }
 
 /** Copies inputs into the memory of an instance. */

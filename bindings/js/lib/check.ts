@@ -168,20 +168,31 @@ export function check(file: Uint8Array, options?: CheckOptions | null): Findings
  *
  * @param file As for {@link check}, but no image.
  * @returns The repaired GLB, null where nothing was repaired, and all findings with what became of each.
- * @throws As {@link check}. Error for an unknown code, RangeError for none.
+ * @throws As {@link check}. TypeError where `only` is not an array of strings, RangeError where it is empty. Error for an unknown code.
  */
 export function fix(
   file: Uint8Array,
   options?: FixOptions | null,
 ): { file: Uint8Array<ArrayBuffer> | null; findings: Findings } {
-  const only = optionsOf(options).only ?? null;
-  if (only?.length === 0) throw new RangeError('only is empty; name the codes that are repaired, or leave it out');
+  const codes = codesText(optionsOf(options).only);
   return checkModule.call((exports) => {
-    writeTexts(exports, [(only ?? []).map((code) => `${code}\n`).join('')], exports.codes_to_repair);
+    writeTexts(exports, [codes], exports.codes_to_repair);
     const found = findings(exports, file, options, true);
     const repaired = newFile(exports);
     return { file: repaired.length ? repaired : null, findings: found };
   });
+}
+
+/** Codes as the module reads them, one per line; empty for all. Errors: another type, no code, or a code that is not one line. */
+function codesText(codes: FixOptions['only']): string {
+  if (codes == null) return '';
+  checkType('only', codes, ['Array']);
+  if (codes.length === 0) throw new RangeError('only is empty; name the codes that are repaired, or leave it out');
+  return Array.from(codes, (code, at) => {
+    checkType(`only[${at}]`, code, ['String']);
+    if (code.includes('\n')) throw new Error(`only[${at}] is ${JSON.stringify(code)}, which has a line break; give each code an element of its own`);
+    return `${code}\n`;
+  }).join('');
 }
 
 /** Options of {@link convertFile}, for normal maps. */

@@ -283,6 +283,8 @@ pub fn with_models<T>(
     work: impl FnOnce(Surfaces<'_>, &mut Context) -> Result<T, String>,
 ) -> Result<(T, Setup), String> {
     let options = read_options(options)?;
+    // Wrong options are told before the work on the models. Any diagonal gives a valid distance.
+    bake_settings(&options, distance(&options, 1.0))?.check().map_err(text)?;
     PreparedModels::read(files, &options, context)?.with_surfaces(&options, context, work)
 }
 

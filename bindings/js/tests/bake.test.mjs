@@ -90,6 +90,70 @@ for (const [name, { bake, bakeModels, PreparedModels, TEXEL_STATES, verify, veri
     assert.throws(() => prepared.bake({ size: [8, 8], distance: [1, 1] }), /an error of a callback ended a call before/);
   });
 
+  test(`${name}: options of prepared models and of their bakes are told apart`, () => {
+    const shared = { maps: ['base-color'], material: 0, uvSet: 0, match: 'name', highMaps: true, texture: 'occlusionTexture' };
+    const prepared = new PreparedModels(bytes(0), bytes(0.5), { size: undefined, onProgress: null });
+    for (const [option, value] of Object.entries(shared)) {
+      assert.throws(() => prepared.bake({ [option]: value }), { name: 'TypeError', message: `${option} is an option of PreparedModels, not of its bakes` });
+    }
+    const ofBakes = { size: [8, 8], cageOffset: 1, samples: 2, udim: 1001, aoOwnPart: false, idFrom: 'mesh', onProgress: () => {} };
+    for (const [option, value] of Object.entries(ofBakes)) {
+      assert.throws(() => new PreparedModels(bytes(0), bytes(0.5), { [option]: value }), { name: 'TypeError', message: `${option} is an option of each bake, not of PreparedModels` });
+    }
+    const options = { size: [8, 8], distance: [1, 1] };
+    assert.deepEqual(prepared.bake({ ...options, maps: undefined, match: null }), bakeModels(bytes(0), bytes(0.5), options));
+  });
+
+  test(`${name}: onProgress can bake other models, and its errors stay its own`, () => {
+    const prepared = new PreparedModels(bytes(0), bytes(0.5));
+    const options = { size: [8, 8], distance: [1, 1] };
+    const expected = bakeModels(bytes(0), bytes(0.5), options);
+    const progress = [];
+    const nested = (done) => {
+      progress.push(done);
+      assert.deepEqual(bakeModels(bytes(0), bytes(0.5), options), expected);
+    };
+    assert.deepEqual(prepared.bake({ size: [64, 64], distance: [1, 1], onProgress: nested }), bakeModels(bytes(0), bytes(0.5), { size: [64, 64], distance: [1, 1] }));
+    assert.equal(progress.at(-1), 1, 'progress is told after a nested call, too');
+    const stop = () => {
+      nested(0);
+      throw new Error('enough');
+    };
+    assert.throws(() => prepared.bake({ ...options, onProgress: stop }), { message: 'enough' });
+    assert.throws(() => prepared.bake(options), /^Error: an error of a callback ended a call before/);
+    const trap = () => {
+      throw new WebAssembly.RuntimeError('of the caller');
+    };
+    assert.throws(() => bakeModels(bytes(0), bytes(0.5), { ...options, onProgress: trap }), { name: 'RuntimeError', message: 'of the caller' });
+    assert.deepEqual(bakeModels(bytes(0), bytes(0.5), options), expected);
+  });
+
+  test(`${name}: a call in onProgress on what is being baked is refused`, () => {
+    const options = { size: [8, 8], distance: [1, 1] };
+    const sentence = { name: 'Error', message: 'a call is still running; make the next one after its end, not in its callback' };
+    const [prepared, lost] = [0, 1].map(() => new PreparedModels(bytes(0), bytes(0.5)));
+    assert.throws(() => lost.bake({ ...options, onProgress: () => lost.bake(options) }), sentence);
+    assert.throws(() => bakeModels(bytes(0), bytes(0.5), { ...options, onProgress: () => bakeModels(bytes(0), bytes(0.5), options) }), sentence);
+    // The refusal does no harm to the running bake.
+    let refused = 0;
+    const onProgress = () => {
+      assert.throws(() => prepared.bake(options), sentence);
+      refused++;
+    };
+    const expected = bakeModels(bytes(0), bytes(0.5), options);
+    assert.deepEqual(prepared.bake({ ...options, onProgress }), expected);
+    assert.ok(refused > 0);
+    assert.deepEqual(prepared.bake(options), expected);
+  });
+
+  test(`${name}: wrong options are told before the models are read`, () => {
+    const broken = Uint8Array.of(1, 2, 3);
+    assert.throws(() => bakeModels(broken, broken, { samples: 17 }), /^Error: 17 samples per axis cannot be taken/);
+    assert.throws(() => bakeModels(broken, broken, { size: [0, 4] }), /^Error: an image of 0 x 4 texels/);
+    assert.throws(() => bakeModels(broken, broken, { convention: 'quake' }), /^Error: convention: /);
+    assert.throws(() => bakeModels(broken, broken), /^Error: the low model: /);
+  });
+
   test(`${name}: an FBX is baked as the same model in a GLB`, () => {
     const [options, high] = [{ size: [64, 64], maps: ['normal', 'position'] }, asset('blender/scene.stl')];
     for (const path of ['blender/scene.fbx', 'others/assimp.fbx']) {

@@ -67,6 +67,12 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
     assert.ok(outcome(['tangent-other-recipe'], 'tangent-other-recipe').repaired);
     assert.throws(() => fix(shield, { only: ['tangent-odd'] }), /^Error: .*tangent-odd/);
     assert.throws(() => fix(shield, { only: [] }), RangeError);
+    for (const [only, type] of [['tangent-zero', 'String'], [new Set(['tangent-zero']), 'Set'], [7, 'Number']]) {
+      assert.throws(() => fix(shield, { only }), { name: 'TypeError', message: `only must be an Array, not ${type}` });
+    }
+    assert.throws(() => fix(shield, { only: ['tangent-zero', 7] }), { name: 'TypeError', message: 'only[1] must be a String, not Number' });
+    assert.throws(() => fix(shield, { only: new Array(1) }), { name: 'TypeError', message: 'only[0] must be a String, not Undefined' });
+    assert.throws(() => fix(shield, { only: ['tangent-zero\nnormal-zero'] }), { name: 'Error', message: /^only\[0\] is "tangent-zero\\nnormal-zero", which has a line break/ });
   });
 
   test(`${name}: findings are those of the command`, () => {

@@ -11,13 +11,12 @@ use crate::charts::Charts;
 use crate::high::HighGroup;
 use crate::images::{Band, Images, TexelState};
 use crate::layout::{BLOCK, Layout};
-use crate::limits::{MAX_SAMPLES_PER_AXIS, MAX_SIDE};
 use crate::maps::{MapList, Units, has_palette, is_label};
 use crate::prepared::check_surfaces;
 use crate::samples::pattern;
 use crate::{
-    BakeError, BakeOptions, BakeReport, CurvatureRadius, HighSurface, IdColor, LowSurface, MapKind,
-    PreparedSurfaces, memory, padding, palette,
+    BakeError, BakeOptions, BakeReport, HighSurface, IdColor, LowSurface, MapKind, PreparedSurfaces, memory,
+    padding, palette,
 };
 
 /// The share of a run that is done.
@@ -79,7 +78,7 @@ pub fn bake(
     context: &mut Context,
     progress: &mut (dyn FnMut(BakeProgress) + Send),
 ) -> Result<Baked, BakeError> {
-    check_options(options)?;
+    options.check()?;
     check_surfaces(low, high)?;
     Budget::new(options.memory_limit).add(memory::of_bake(high, options))?;
     PreparedSurfaces::new(low, high, options.memory_limit, context)?.bake(options, context, progress)
@@ -93,7 +92,7 @@ impl PreparedSurfaces<'_> {
         context: &mut Context,
         progress: &mut (dyn FnMut(BakeProgress) + Send),
     ) -> Result<Baked, BakeError> {
-        check_options(options)?;
+        options.check()?;
         let PreparedSurfaces { space, low, high, groups } = self;
         let mut budget = Budget::new(options.memory_limit);
         budget.add(memory::of_bake(high, options))?;
@@ -119,58 +118,6 @@ impl PreparedSurfaces<'_> {
         let legends = color_labels(&mut images, options);
         count_triangles(&mut report, low, high, &layout, groups);
         Ok(Baked { images, report, legends })
-    }
-}
-
-pub(crate) fn check_options(options: &BakeOptions) -> Result<(), BakeError> {
-    let BakeOptions { size, samples_per_axis, distance, maps, .. } = *options;
-    if size.iter().any(|&side| side == 0 || side > MAX_SIDE) {
-        return Err(BakeError::Size { size });
-    }
-    if samples_per_axis == 0 || samples_per_axis > MAX_SAMPLES_PER_AXIS {
-        return Err(BakeError::Samples { found: samples_per_axis });
-    }
-    let is_distance = |x: &f32| x.is_finite() && *x >= 0.0;
-    if !distance.iter().all(is_distance) || distance == [0.0; 2] {
-        return Err(BakeError::Distance { found: distance });
-    }
-    if maps.is_empty() {
-        return Err(BakeError::NoMaps);
-    }
-    check_map_options(options)
-}
-
-/// Refuses numbers of single maps that mean nothing.
-fn check_map_options(options: &BakeOptions) -> Result<(), BakeError> {
-    let radius = match options.curvature_radius {
-        CurvatureRadius::Texels(radius) | CurvatureRadius::Distance(radius) => radius,
-    };
-    let largest = options.world_direction.iter().fold(0f32, |most, x| most.max(x.abs()));
-    let is_positive = |x: f32| x > 0.0;
-    let needed = [
-        (
-            "the distance of occlusion",
-            "above 0",
-            options.occlusion_distance,
-            !options.occlusion_distance.is_nan(),
-        ),
-        (
-            "the distance of thickness",
-            "above 0",
-            options.thickness_distance,
-            is_positive(options.thickness_distance),
-        ),
-        ("the radius of curvature", "finite and above 0", radius, is_positive(radius) && radius.is_finite()),
-        (
-            "the largest component of the world's direction",
-            "finite and above 0",
-            largest,
-            is_positive(largest) && options.world_direction.iter().all(|x| x.is_finite()),
-        ),
-    ];
-    match needed.into_iter().find(|(.., is_valid)| !is_valid) {
-        Some((what, expected, found, _)) => Err(BakeError::Option { what, expected, found }),
-        None => Ok(()),
     }
 }
 

@@ -2,7 +2,8 @@
 
 use darboux::{Convention, choice};
 
-use crate::{MapKind, MapSet, Udim};
+use crate::limits::{MAX_SAMPLES_PER_AXIS, MAX_SIDE};
+use crate::{BakeError, MapKind, MapSet, Udim};
 
 /// Options of [`bake`](crate::bake()).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -203,6 +204,68 @@ impl BakeOptions {
     #[must_use]
     pub fn with_memory_limit(self, memory_limit: Option<u64>) -> Self {
         Self { memory_limit, ..self }
+    }
+
+    /// Refuses options with which nothing can be baked, as [`bake`](crate::bake()) does.
+    ///
+    /// # Errors
+    ///
+    /// A size, number of samples or distance out of range, no map, and numbers of maps that mean nothing.
+    pub fn check(&self) -> Result<(), BakeError> {
+        let BakeOptions { size, samples_per_axis, distance, maps, .. } = *self;
+        if size.iter().any(|&side| side == 0 || side > MAX_SIDE) {
+            return Err(BakeError::Size { size });
+        }
+        if samples_per_axis == 0 || samples_per_axis > MAX_SAMPLES_PER_AXIS {
+            return Err(BakeError::Samples { found: samples_per_axis });
+        }
+        let is_distance = |x: &f32| x.is_finite() && *x >= 0.0;
+        if !distance.iter().all(is_distance) || distance == [0.0; 2] {
+            return Err(BakeError::Distance { found: distance });
+        }
+        if maps.is_empty() {
+            return Err(BakeError::NoMaps);
+        }
+        self.check_maps()
+    }
+
+    /// Refuses numbers of single maps that mean nothing.
+    fn check_maps(&self) -> Result<(), BakeError> {
+        let radius = match self.curvature_radius {
+            CurvatureRadius::Texels(radius) | CurvatureRadius::Distance(radius) => radius,
+        };
+        let largest = self.world_direction.iter().fold(0f32, |most, x| most.max(x.abs()));
+        let is_positive = |x: f32| x > 0.0;
+        let needed = [
+            (
+                "the distance of occlusion",
+                "above 0",
+                self.occlusion_distance,
+                !self.occlusion_distance.is_nan(),
+            ),
+            (
+                "the distance of thickness",
+                "above 0",
+                self.thickness_distance,
+                is_positive(self.thickness_distance),
+            ),
+            (
+                "the radius of curvature",
+                "finite and above 0",
+                radius,
+                is_positive(radius) && radius.is_finite(),
+            ),
+            (
+                "the largest component of the world's direction",
+                "finite and above 0",
+                largest,
+                is_positive(largest) && self.world_direction.iter().all(|x| x.is_finite()),
+            ),
+        ];
+        match needed.into_iter().find(|(.., is_valid)| !is_valid) {
+            Some((what, expected, found, _)) => Err(BakeError::Option { what, expected, found }),
+            None => Ok(()),
+        }
     }
 }
 

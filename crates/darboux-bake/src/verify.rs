@@ -15,7 +15,7 @@ mod summary;
 
 use darboux::Context;
 
-use crate::bake::{check_options, for_each_band};
+use crate::bake::for_each_band;
 use crate::budget::Budget;
 use crate::layout::Layout;
 use crate::prepared::check_surfaces;
@@ -114,7 +114,7 @@ impl Plan {
         high: &[HighSurface<'_>],
         options: &BakeOptions,
     ) -> Result<Self, BakeError> {
-        check_options(options)?;
+        options.check()?;
         check_surfaces(low, high)?;
         let mut budget = Budget::new(options.memory_limit);
         budget.add(memory::of_verification(high, options))?;

@@ -41,10 +41,10 @@ const functions = {
   /** Bakes the normal map of the low model. */
   bake({ material = null, ...options }: Omit<BakeModelsOptions, 'maps' | 'onProgress'>): ShownBake {
     const start = performance.now();
-    if (prepared?.material !== material) prepared = { models: new PreparedModels(files.low, files.high, { material }), material };
-    const { models } = prepared;
-    // Models on which a bake failed for want of memory are lost.
+    const kept = prepared?.material === material ? prepared.models : null;
+    // Other models are freed before new ones are made. Models on which a bake failed for want of memory are lost.
     prepared = null;
+    const models = kept ?? new PreparedModels(files.low, files.high, { material });
     const baked = models.bake({ ...options, onProgress: tellProgress });
     prepared = { models, material };
     const seconds = (performance.now() - start) / 1000;

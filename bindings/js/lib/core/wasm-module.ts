@@ -21,7 +21,7 @@ const MAX_KEPT_MEMORY = 2 ** 28;
 /** A single array of 2 GiB ends in a trap without an allocation. A trap of an instance with a quarter of that is taken for such an array. */
 const LARGE_MEMORY = 2 ** 29;
 
-/** Runs a function with the exports of an instance. @throws RangeError where WebAssembly has not enough memory; Error where darboux has a fault. */
+/** Runs a function with the exports of an instance. @throws RangeError where WebAssembly has not enough memory; Error where darboux has a fault, and in a callback of a call of the same instance. */
 export type Call<E extends Exports> = <R>(work: (exports: E) => R) => R;
 
 /** A module that is loading, or has loaded. */
@@ -66,8 +66,10 @@ export function load<E extends Exports>(
 ): WasmModule<E> {
   let module: WebAssembly.Module;
   let exports: E | undefined;
-  /** Whether a callback is running, or has ended the call with an error. */
+  /** Of the innermost call: whether a callback is running, or has ended the call with an error. */
   let isInCallback = false;
+  /** The instances whose calls have not ended. */
+  const running = new Set<E>();
 
   const watched = Object.entries(callbacks).map(([name, callback]) => {
     const call = (...numbers: number[]) => {
@@ -97,20 +99,33 @@ export function load<E extends Exports>(
     return exports;
   }
 
+  /** Calls an instance. `lose` is told of errors that leave it in an unspecified state: traps, and errors of callbacks. */
+  function callInstance<R>(exported: E, work: (exports: E) => R, lose: (error: unknown, isOfCallback: boolean) => void): R {
+    if (running.has(exported)) throw new Error('a call is still running; make the next one after its end, not in its callback');
+    const outer = isInCallback;
+    isInCallback = false;
+    running.add(exported);
+    try {
+      return work(exported);
+    } catch (error) {
+      const told = isInCallback ? error : worded(error, exported);
+      if (isInCallback || isTrap(error)) lose(told, isInCallback);
+      throw told;
+    } finally {
+      running.delete(exported);
+      isInCallback = outer;
+    }
+  }
+
   function call<R>(work: (exports: E) => R): R {
     const exported = shared();
-    let isUsable = false;
-    isInCallback = false;
+    let isLost = false;
     try {
-      const result = work(exported);
-      isUsable = true;
-      return result;
-    } catch (error) {
-      isUsable = !isTrap(error) && !isInCallback;
-      throw worded(error, exported);
+      return callInstance(exported, work, () => {
+        isLost = true;
+      });
     } finally {
-      // A trap, or an error of a callback, leaves the instance in an unspecified state.
-      if (!isUsable || exported.memory.buffer.byteLength > MAX_KEPT_MEMORY) exports = instantiate();
+      if (isLost || exported.memory.buffer.byteLength > MAX_KEPT_MEMORY) exports = instantiate();
     }
   }
 
@@ -118,16 +133,12 @@ export function load<E extends Exports>(
     shared();
     const own = instantiate();
     let failure: unknown;
+    const lose = (error: unknown, isOfCallback: boolean) => {
+      failure = isOfCallback ? new Error('an error of a callback ended a call before; what it was called on can no longer be used', { cause: error }) : error;
+    };
     const call: Call<E> = (work) => {
       if (failure) throw failure;
-      isInCallback = false;
-      try {
-        return work(own);
-      } catch (error) {
-        if (isTrap(error)) throw (failure = worded(error, own));
-        if (isInCallback) failure = new Error('an error of a callback ended a call before; what it was called on can no longer be used', { cause: error });
-        throw error;
-      }
+      return callInstance(own, work, lose);
     };
     return { call, isFull: () => failure !== undefined || own.memory.buffer.byteLength > MAX_KEPT_MEMORY };
   }
