@@ -285,7 +285,9 @@ pub fn leave_unidentified(
     }
     for surface in surfaces {
         if surface.iter().any(|defect| are_partly_flipped(defect)) {
-            for defect in surface.iter_mut().filter(|defect| needs_new_tangents(defect)) {
+            let is_mixed =
+                |defect: &Defect| matches!(defect.fault, Fault::Tangent(TangentFault::SignMixed(_)));
+            for defect in surface.iter_mut().filter(|defect| needs_new_tangents(defect) || is_mixed(defect)) {
                 defect.leave(Obstacle::SignsAreLeft);
             }
         }

@@ -358,6 +358,24 @@ fn a_chain_of_repairs_keeps_the_evidence_of_the_mesh() {
 }
 
 /// Negated normals lean against all texels, and say nothing about the map.
+/// Triangles without an area, and normals without a direction, show no side, and hide none.
+#[test]
+fn reversed_faces_are_found_among_triangles_that_show_no_side() {
+    let mut model = healthy_models().into_iter().find(|model| model.name == "sphere").expect("a sphere");
+    let triangles = model.indices.len() / 3;
+    model.turn_faces();
+    let degenerate: Vec<u32> =
+        model.indices.as_chunks::<3>().0.iter().flat_map(|&[a, b, _]| [a, b, b, a, a, b]).collect();
+    model.indices.extend(degenerate);
+    let mut document = model.document();
+    let findings = check_document(&document, &CheckOptions::default()).expect("a valid document");
+    let reversed = findings.iter().find(|finding| finding.code == Code::NormalAgainstWinding);
+    assert!(reversed.is_some_and(|found| found.is_fixable() && found.count <= triangles), "{findings:#?}");
+    let fixed = fix_document(&mut document, findings, &FixOptions::default()).expect("a repair");
+    let is_reversed = |fixed: &&FixedFinding| fixed.finding.code == Code::NormalAgainstWinding;
+    assert!(fixed.findings.iter().filter(is_reversed).all(|fixed| fixed.repaired));
+}
+
 #[test]
 fn reversed_normals_leave_the_map_alone() {
     for mut model in support::baked::baked_models().into_iter().take(4) {

@@ -1,6 +1,6 @@
 //! Checks materials and the images of their normal maps, and maps without a document.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use darboux::{MapJudgement, SrgbMistake};
 use darboux_io::Error;
@@ -196,12 +196,9 @@ pub fn defects_of_materials(
             images.entry(image).or_insert(index);
         }
     }
-    let unread: HashSet<usize> = defects
-        .iter()
-        .filter(|defect| is_unread(defect))
-        .filter_map(|defect| defect.place.material)
-        .collect();
-    leave_under_unread_maps(document, &unread, options, on_surfaces);
+    if options.maps {
+        leave_under_unread_maps(document, &materials, options, on_surfaces);
+    }
     if images.is_empty() {
         return Ok(defects);
     }
@@ -292,31 +289,47 @@ fn unread_maps(document: &Document, index: usize, material: &Material) -> impl I
     unread.chain(without_image).map(|(name, why)| unreadable(name, why, 0))
 }
 
-/// Whether a defect of a material says that a normal map has no image.
-fn is_unread(defect: &Defect) -> bool {
-    matches!(defect.fault, Fault::Map(MapFault::Unreadable { .. }))
+/// A normal map without an image: its texture, or its file, which a reader of another format left out.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+enum UnreadTexture<'a> {
+    Index(usize),
+    File(&'a str),
 }
 
-/// Leaves flipped signs that a normal map without an image may cancel. `materials`: those with such maps,
-/// each with one of its own.
+/// Leaves flipped signs that a normal map without an image may cancel, for all surfaces with that map
+/// together.
 fn leave_under_unread_maps(
     document: &Document,
-    materials: &HashSet<usize>,
+    materials: &[Material],
     options: &CheckOptions,
     on_surfaces: &mut [Defect],
 ) {
+    let mut of_material: HashMap<usize, Vec<UnreadTexture<'_>>> = HashMap::new();
+    for map in document.provenance().into_iter().flat_map(|source| &source.unread_maps) {
+        of_material.entry(map.material).or_default().push(UnreadTexture::File(&map.file));
+    }
+    for (index, material) in materials.iter().enumerate() {
+        for texture in material.normal_maps().filter(|texture| texture.image.is_none()) {
+            of_material.entry(index).or_default().push(UnreadTexture::Index(texture.texture));
+        }
+    }
+    let mut by_surface = BySurface::new(on_surfaces);
+    let mut users: BTreeMap<&UnreadTexture<'_>, BTreeSet<Key>> = BTreeMap::new();
+    for &(mesh, primitive) in by_surface.0.keys() {
+        let found = document.meshes().get(mesh).and_then(|mesh| mesh.primitives.get(primitive));
+        let materials = found.map(|primitive| primitive.materials()).unwrap_or_default();
+        for texture in materials.iter().filter_map(|material| of_material.get(material)).flatten() {
+            users.entry(texture).or_default().insert((mesh, primitive));
+        }
+    }
     let witness = MapWitness::of_unread(options);
     let is_from_sketchfab = is_from_sketchfab(document);
     let context = MapContext { is_from_sketchfab, ..MapContext::alone(options) };
-    for material in materials {
-        let is_under = |defect: &Defect| {
-            let name = defect.place.primitive.as_ref();
-            let primitive =
-                name.and_then(|name| document.meshes().get(name.mesh)?.primitives.get(name.primitive));
-            primitive.is_some_and(|primitive| primitive.materials().contains(material))
-        };
-        let under: Vec<&mut Defect> = on_surfaces.iter_mut().filter(|defect| is_under(defect)).collect();
-        hypotheses::leave_unidentified(&mut [], &witness, &mut [under], &context);
+    for keys in users.into_values() {
+        let keys: Vec<Key> = keys.into_iter().collect();
+        by_surface.visit(&keys, |surfaces| {
+            hypotheses::leave_unidentified(&mut [], &witness, surfaces, &context);
+        });
     }
 }
 

@@ -20,8 +20,8 @@ pub struct Sides {
     pub against: Vec<usize>,
     /// The number of triangles whose normals all point to their front.
     along: usize,
-    /// The number of triangles with three normals that have a direction: the others show no side, and none
-    /// of them may hide which side is that of most.
+    /// The number of triangles with an area and three normals that have a direction: the others show no
+    /// side, and none of them may hide which side is that of most.
     with_directions: usize,
 }
 
@@ -33,9 +33,13 @@ impl Sides {
         for (number, triangle) in surface.triangles().enumerate() {
             let [a, b, c] = triangle.map(|vertex| surface.positions[vertex]);
             let front = cross(sub(b, a), sub(c, a));
+            let have_directions = triangle.iter().all(|&vertex| has_direction(normals[vertex]));
+            // The front of a triangle with NaN is not longer than zero.
+            if !(have_directions && dot(front, front) > 0.0) {
+                continue;
+            }
+            sides.with_directions += 1;
             let cosines = triangle.map(|vertex| dot(front, normals[vertex]));
-            sides.with_directions +=
-                usize::from(triangle.iter().all(|&vertex| has_direction(normals[vertex])));
             if cosines.iter().all(|cosine| *cosine < 0.0) {
                 sides.against.push(number);
             } else if cosines.iter().all(|cosine| *cosine > 0.0) {
@@ -45,7 +49,7 @@ impl Sides {
         sides
     }
 
-    /// Whether most triangles whose normals have a direction are wound against them.
+    /// Whether most triangles that can show a side are wound against their normals.
     pub fn are_mostly_against(&self) -> bool {
         2 * self.against.len() > self.with_directions
     }
