@@ -113,7 +113,7 @@ pub fn reason(obstacle: &Obstacle) -> String {
         Obstacle::DifferenceIsInvisible => "the difference cannot be seen",
         Obstacle::BakedOnQuads => "the map was probably baked on the quads, for these tangents",
         Obstacle::BakedWithMethod => {
-            "they are right if the map was baked with this method; if it was not, `--only \
+            "tangents of this method are right if the map was baked with it; if it was not, `--only \
              tangent-other-recipe` computes them again"
         }
         Obstacle::EncodedAndInverted => {
