@@ -10,9 +10,10 @@ use darboux_bake::{
 use serde::Serialize;
 
 use crate::arena::{Arena, with_arena};
-use crate::bake::{Options, Outcome, Setup, Surfaces, read_options, tell, text, with_models};
+use crate::bake::{Outcome, tell, with_models};
 use crate::bake_arrays::{BakeArrays, GivenMap};
 use crate::bake_meshes::{with_low_mesh, with_meshes};
+use crate::bake_settings::{Options, Setup, Surfaces, read_options, text};
 use crate::inputs::resized;
 use crate::prepared_models::with_low_model;
 

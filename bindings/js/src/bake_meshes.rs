@@ -6,8 +6,9 @@ use darboux::{Context, Indices, Mesh, Strided, TangentOptions, write_tangents};
 use darboux_bake::{HighSurface, LowSurface, PreparedSurfaces, inflated_cage};
 
 use crate::arena::{Arena, with_arena};
-use crate::bake::{Setup, Surfaces, bake_settings, bake_surfaces, distance, put_baked, read_options, text};
+use crate::bake::{bake_surfaces, put_baked};
 use crate::bake_arrays::BakeArrays;
+use crate::bake_settings::{Setup, Surfaces, bake_settings, distance, read_options, text};
 use crate::inputs::resized;
 use crate::mesh_arrays::{Surface, Vertices, rows};
 

@@ -20,6 +20,8 @@ mod bake_arrays;
 mod bake_maps;
 #[cfg(feature = "bake")]
 mod bake_meshes;
+#[cfg(feature = "bake")]
+mod bake_settings;
 #[cfg(feature = "check")]
 mod check;
 #[cfg(feature = "check")]

@@ -9,7 +9,7 @@ use darboux_bake::{
 use darboux_io::gltf::{Document, PrimitiveCorners};
 use self_cell::self_cell;
 
-use crate::bake::{Options, Setup, Surfaces, bake_settings, chosen_maps, distance, sentence, text};
+use crate::bake_settings::{Options, Setup, Surfaces, bake_settings, chosen_maps, distance, sentence, text};
 use crate::reading::load_options;
 
 type Corners<'a> = Vec<Vec<PrimitiveCorners<'a>>>;

@@ -16,22 +16,12 @@
 
 use darboux::BitangentDirection;
 
-use crate::check_options::{AssumedMap, CheckOptions};
+use crate::check_options::CheckOptions;
 use crate::code::Code;
 use crate::defect::{Defect, Fault, MapFault, Obstacle, TangentDifference, TangentFault};
+use crate::inverted::{ALL, Inverted, relative};
 use crate::measure::fit::Difference;
 use crate::severity::{MIN_DAMAGED, Severity};
-
-/// The channels of a map that are inverted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Inverted {
-    None,
-    Green,
-    Red,
-    Both,
-}
-
-const ALL: [Inverted; 4] = [Inverted::None, Inverted::Green, Inverted::Red, Inverted::Both];
 
 /// How often each is so on a model whose signs w are right, and on one where nearly all are flipped. None of
 /// 264 published maps had its red inverted: one in a thousand is assumed. Of seven published models with
@@ -99,35 +89,6 @@ impl MapWitness {
         const SURE: f64 = 0.9;
         let is_odd = matches!(assumed, Inverted::Green | Inverted::Red);
         self.odd.is_none_or(|odd| if is_odd { odd > 1.0 - SURE } else { odd < SURE })
-    }
-}
-
-/// Which channels of an assumed map are inverted where green should point in a direction.
-pub fn relative(assumed: AssumedMap, wanted: BitangentDirection) -> Inverted {
-    let (is_left, is_down) = match assumed {
-        AssumedMap::OpenGl => (false, false),
-        AssumedMap::DirectX => (false, true),
-        AssumedMap::RedInverted => (true, false),
-        AssumedMap::BothInverted => (true, true),
-    };
-    match (is_left, is_down != (wanted == BitangentDirection::Down)) {
-        (false, false) => Inverted::None,
-        (false, true) => Inverted::Green,
-        (true, false) => Inverted::Red,
-        (true, true) => Inverted::Both,
-    }
-}
-
-/// What a map is assumed to be that has some channels inverted where green should point in a direction: the
-/// inverse of [`relative`].
-pub fn assumption(inverted: Inverted, wanted: BitangentDirection) -> AssumedMap {
-    let is_left = matches!(inverted, Inverted::Red | Inverted::Both);
-    let is_green_inverted = matches!(inverted, Inverted::Green | Inverted::Both);
-    match (is_left, is_green_inverted != (wanted == BitangentDirection::Down)) {
-        (false, false) => AssumedMap::OpenGl,
-        (false, true) => AssumedMap::DirectX,
-        (true, false) => AssumedMap::RedInverted,
-        (true, true) => AssumedMap::BothInverted,
     }
 }
 
@@ -360,17 +321,6 @@ mod tests {
         // The first is right under an inverted map, the second under another one.
         assert_eq!(severities(vec![flipped(99.0, 40.0), flipped(1.0, 0.4)]), [error; 2]);
         assert_eq!(severities(vec![flipped(99.9, 40.0), flipped(99.0, 10.0)]), [warning; 2]);
-    }
-
-    #[test]
-    fn assumptions_name_the_inverted_channels() {
-        for wanted in [BitangentDirection::Up, BitangentDirection::Down] {
-            for inverted in ALL {
-                assert_eq!(relative(assumption(inverted, wanted), wanted), inverted);
-            }
-        }
-        assert_eq!(assumption(Inverted::Green, BitangentDirection::Up), AssumedMap::DirectX);
-        assert_eq!(assumption(Inverted::Both, BitangentDirection::Down), AssumedMap::RedInverted);
     }
 
     /// Inverted red and green look alike to the derivatives: faces, another map, flipped signs and the user

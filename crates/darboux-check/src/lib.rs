@@ -37,6 +37,7 @@ mod finding;
 mod hypotheses;
 mod indices;
 mod instances;
+mod inverted;
 mod judged;
 mod map_users;
 mod measure;

@@ -5,7 +5,7 @@ use darboux::BitangentDirection;
 use super::pair::Pair;
 use crate::check_options::AssumedMap;
 use crate::code::Code;
-use crate::hypotheses::{Inverted, assumption};
+use crate::inverted::{Inverted, assumption};
 use crate::measure::reversal::Undecided;
 
 /// Why a repair leaves a defect. Directions are those where green should point: what a map may be is named as

@@ -4,7 +4,8 @@
 use darboux::{BitangentDirection, MapJudgement, MapVerdict, TangentDirection};
 
 use crate::check_options::AssumedMap;
-use crate::hypotheses::{MapWitness, relative};
+use crate::hypotheses::MapWitness;
+use crate::inverted::relative;
 use crate::measure::arrangement::Arrangement;
 use crate::measure::map::{Map, MapDirections, TwoChannels};
 use crate::measure::map_kind::{Kind, kind};

@@ -19,7 +19,8 @@ use crate::check::{MapDefects, ModelOfMaps, identified_defects, map_defects, map
 use crate::code::Code;
 use crate::defect::Defect;
 use crate::defect::Obstacle;
-use crate::hypotheses::{Inverted, is_about_channels, relative};
+use crate::hypotheses::is_about_channels;
+use crate::inverted::{Inverted, relative};
 use crate::map_users::MapUsers;
 use crate::place::Place;
 use crate::severity::Severity;

@@ -6,7 +6,7 @@ use super::counts::Sure;
 use crate::code::Code;
 use crate::defect::Obstacle;
 use crate::defect::Pair;
-use crate::hypotheses::{Inverted, assumption};
+use crate::inverted::{Inverted, assumption};
 use crate::measure::reversal::Undecided;
 
 /// Why a repair leaves a defect.
