@@ -293,7 +293,7 @@ fn unread_maps(document: &Document, index: usize, material: &Material) -> impl I
 /// A normal map without an image: its texture, or its file, which a reader of another format left out.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 enum UnreadTexture<'a> {
-    Index(usize),
+    Index(u64),
     File(&'a str),
 }
 
@@ -310,8 +310,14 @@ fn leave_under_unread_maps(
         of_material.entry(map.material).or_default().push(UnreadTexture::File(&map.file));
     }
     for (index, material) in materials.iter().enumerate() {
-        for texture in material.normal_maps().filter(|texture| texture.image.is_none()) {
-            of_material.entry(index).or_default().push(UnreadTexture::Index(texture.texture));
+        let stored = &document.json()["materials"][index];
+        let clearcoat = &stored["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"];
+        let maps = [&material.normal_texture, &material.clearcoat_normal_texture];
+        for (map, stored) in maps.into_iter().zip([&stored["normalTexture"], clearcoat]) {
+            if map.as_ref().is_some_and(|texture| texture.image.is_none()) {
+                let texture = stored["index"].as_u64().unwrap_or_default();
+                of_material.entry(index).or_default().push(UnreadTexture::Index(texture));
+            }
         }
     }
     let mut by_surface = BySurface::new(on_surfaces);

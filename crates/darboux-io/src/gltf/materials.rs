@@ -96,8 +96,6 @@ pub enum Alpha {
 /// A texture of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureUse {
-    /// The index of the texture.
-    pub texture: usize,
     /// The index of the image: the texture's source, or else the source of an extension for WebP, AVIF or
     /// KTX 2.
     pub image: Option<usize>,
@@ -412,7 +410,6 @@ impl Document {
         }
         let transform = used.extensions.transform.as_ref();
         Ok(TextureUse {
-            texture: used.index,
             image,
             uv_set: transform.and_then(|transform| transform.tex_coord).unwrap_or(used.tex_coord),
             wrap: [sampler.wrap_s, sampler.wrap_t].map(Wrap::from_code),
