@@ -211,11 +211,12 @@ codes! {
         "Smooth shading differs a little from the bake: faint gradients and seams on low-poly models."
         "meshoptimizer's and gltfpack's default weights, three.js computeTangents, averages of an own \
          importer (glTF-Blender-IO 2226)."
-        "Keep them if the map was baked for them, as is likely for those of MikkTSpace on quads (`--allow \
-         tangent-other-recipe`); otherwise `darboux tangents --overwrite`."
-        Repair "tangents of no known method are computed again by MikkTSpace, or by the method that \
-             `--method` names, and single ones as the others were; those of a known method only where `--only \
-             tangent-other-recipe` asks for it, and those of MikkTSpace on quads are kept"
+        "Keep them if the map was baked with them (`--allow tangent-other-recipe` accepts them); otherwise \
+         compute them again: `darboux check FILE --fix --only tangent-other-recipe`."
+        Repair "single tangents that differ are computed as the others were; all are computed again by \
+             MikkTSpace, or by the method that `--method` names, where most are MikkTSpace's or many point to \
+             wrong directions; others may be those that the map was baked with, and are computed again only \
+             where `--only tangent-other-recipe` or another method asks for it"
     }
     TangentMissing "tangent-missing" Info {
         "The material has a normal map and the primitive has no tangents."

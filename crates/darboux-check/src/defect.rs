@@ -186,7 +186,7 @@ impl Defect {
     /// Gives a reason why a repair leaves it. The first reason stays, unless the user's choice of codes
     /// overcomes that one.
     pub fn leave(&mut self, obstacle: Obstacle) {
-        if self.obstacle.as_ref().is_none_or(|known| *known == Obstacle::BakedWithMethod) {
+        if self.obstacle.as_ref().is_none_or(Obstacle::yields_to_choice) {
             self.obstacle = Some(obstacle);
         }
     }

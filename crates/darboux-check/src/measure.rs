@@ -2,6 +2,7 @@
 //! [`Map`](map::Map).
 
 pub mod arrangement;
+pub mod closeness;
 pub mod contradiction;
 pub mod directions;
 pub mod expected;
@@ -27,6 +28,7 @@ pub mod seams;
 pub mod storage;
 pub mod texture_axes;
 pub mod turned;
+pub mod u_directions;
 pub mod uv_rounding;
 pub mod uv_scale;
 pub mod values;

@@ -87,7 +87,7 @@ fn single(defect: Defect) -> Finding {
         text += &format!("; {}, so that bumps look right now: repair both or none", cancels(cancelled));
     }
     let cure = cure.unwrap_or(code.cure().into());
-    let cure = cures::without_repair(&defect).map_or(cure, Into::into);
+    let cure = cures::of_left(&defect).map_or(cure, Into::into);
     Finding {
         code,
         severity: defect.severity,

@@ -140,6 +140,63 @@ fn the_repair_of_other_mistakes_keeps_a_known_method() {
     assert!(count > 300, "{count} mistakes");
 }
 
+/// Turns a tangent around its normal.
+fn turn(model: &mut Model, vertex: usize, degrees: f32) {
+    let n = model.normals.as_ref().expect("normals")[vertex];
+    let [x, y, z, w] = model.tangents()[vertex];
+    let across = [n[1] * z - n[2] * y, n[2] * x - n[0] * z, n[0] * y - n[1] * x];
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let turned = [cos * x + sin * across[0], cos * y + sin * across[1], cos * z + sin * across[2], w];
+    model.tangents()[vertex] = turned;
+}
+
+/// No method makes a tangent that is beside all u directions around it, and one such tangent is enough.
+#[test]
+fn single_rotated_tangents_beside_a_known_method_are_those_of_the_method_again() {
+    let options = FixOptions::default().with_check(without_maps());
+    for method in [Method::Area, Method::AngleEdge, Method::Lengyel, Method::Average] {
+        let healthy = named("large wavy grid");
+        let of_method = Model { tangents: Some(healthy.computed(method, healthy.uv_set)), ..healthy.clone() };
+        let before = tangents(&of_method.document());
+        for degrees in [90.0, -90.0, 45.0, 135.0] {
+            let mut model = of_method.clone();
+            let vertices = [40, 77, 150];
+            vertices.iter().for_each(|&vertex| turn(&mut model, vertex, degrees));
+            let what = format!("{degrees} degrees, {}", method.name());
+            let mut document = model.document();
+            let findings = check_document(&document, &options.check).expect("a valid document");
+            let fixable = findings.iter().filter(|finding| finding.is_fixable());
+            let named: Vec<(&str, usize)> = fixable.map(|found| (&*found.text, found.count)).collect();
+            let are_these = !named.is_empty() && named.iter().all(|(_, count)| *count == 3);
+            assert!(are_these, "{what}: {named:#?}");
+            fix_document(&mut document, findings, &options).expect("a repair");
+            for (corner, (old, new)) in before.iter().zip(tangents(&document)).enumerate() {
+                let is_turned = vertices.contains(&(model.indices[corner] as usize));
+                assert!(*old == new || is_turned && distance(*old, new) < 1e-5, "{what}: corner {corner}");
+            }
+        }
+    }
+}
+
+/// Smaller differences may be those of another version of the method: they are told, and left.
+#[test]
+fn small_differences_to_a_known_method_are_told_and_left() {
+    let healthy = named("large wavy grid");
+    let of_method = healthy.computed(Method::Average, healthy.uv_set);
+    let mut model = Model { tangents: Some(of_method), ..healthy };
+    (0..model.positions.len()).step_by(20).for_each(|vertex| turn(&mut model, vertex, 15.0));
+    let mut document = model.document();
+    let findings = check_document(&document, &without_maps()).expect("a valid document");
+    let found = findings.iter().find(|finding| finding.code == Code::TangentOtherRecipe);
+    let found = found.expect("the finding");
+    assert!(found.text.contains("(Maya), but some differ") && !found.is_fixable(), "{found:#?}");
+    let largest = found.evidence.iter().find(|evidence| evidence.what == "largest angle to it");
+    assert!(largest.is_some_and(|largest| (largest.value - 15.0).abs() < 0.2), "{largest:?}");
+    let options = FixOptions::default().with_check(without_maps());
+    fix_document(&mut document, findings, &options).expect("a repair");
+    assert!(!document.is_changed());
+}
+
 /// Tangents of a method that were written through an index list are those of the method again.
 #[test]
 fn a_known_method_is_kept_where_vertices_are_split() {
@@ -165,13 +222,8 @@ fn a_known_method_is_kept_where_vertices_are_split() {
 #[test]
 fn signs_of_a_part_are_negated_and_directions_kept() {
     let mut model = named("wavy sphere");
-    // Turned in the plane of the normals, each by another angle below 20 degrees.
-    let normals = model.normals.clone().expect("normals");
-    for (number, (tangent, n)) in model.tangents().iter_mut().zip(&normals).enumerate() {
-        let [x, y, z, w] = *tangent;
-        let across = [n[1] * z - n[2] * y, n[2] * x - n[0] * z, n[0] * y - n[1] * x];
-        let (sin, cos) = (0.3 * (number as f32).sin()).sin_cos();
-        *tangent = [cos * x + sin * across[0], cos * y + sin * across[1], cos * z + sin * across[2], w];
+    for vertex in 0..model.positions.len() {
+        turn(&mut model, vertex, 17.0 * (vertex as f32).sin());
     }
     let before = tangents(&model.document());
     let count = model.positions.len() / 3;
@@ -192,13 +244,7 @@ fn a_shared_vertex_is_split_and_the_rest_kept() {
     (model.positions, model.normals, model.uvs) = (positions, Some(normals), uvs);
     (model.tangents, model.indices) = (Some(of_vertex), indices);
     // Of another recipe: MikkTSpace's, turned by 3 degrees.
-    let normals = model.normals.clone().expect("normals");
-    for (tangent, n) in model.tangents().iter_mut().zip(&normals) {
-        let [x, y, z, w] = *tangent;
-        let across = [n[1] * z - n[2] * y, n[2] * x - n[0] * z, n[0] * y - n[1] * x];
-        let (sin, cos) = 3f32.to_radians().sin_cos();
-        *tangent = [cos * x + sin * across[0], cos * y + sin * across[1], cos * z + sin * across[2], w];
-    }
+    (0..model.positions.len()).for_each(|vertex| turn(&mut model, vertex, 3.0));
     let before = tangents(&model.document());
     let vertices = model.positions.len();
     let mut document = model.document();

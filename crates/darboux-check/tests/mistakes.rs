@@ -93,7 +93,9 @@ fn tangents_of_a_known_method_are_left_unless_their_code_is_named() {
         let fixed = fix_document(&mut model.document(), findings.clone(), &named).expect("a repair");
         let repaired = fixed.findings.iter().find(|fixed| fixed.finding.code == code).expect("the finding");
         assert!(repaired.repaired && repaired.finding.left_because.is_none(), "{repaired:#?}");
-        assert!(repaired.was_fixable() && named.seen(findings.clone()).iter().any(Finding::is_fixable));
+        assert!(
+            repaired.was_fixable() && named.with_reasons(findings.clone()).iter().any(Finding::is_fixable)
+        );
         assert_eq!(repaired_model(&model, findings, &healthy, &named), Ok(()), "{}", model.name);
     }
     assert_eq!(count, 17);

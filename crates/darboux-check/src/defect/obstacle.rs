@@ -30,8 +30,8 @@ pub enum Obstacle {
     NoTangents(String),
     DifferenceIsInvisible,
     BakedOnQuads,
-    /// The tangents are those of a known method, and right where the map was baked with it.
-    BakedWithMethod,
+    /// The tangents are those of another method, and right where the map was baked with them.
+    MapMayFitTangents,
     /// The tangents may be older than the rounding of the UVs, and right.
     UvsWereRounded {
         steps: usize,
@@ -101,13 +101,20 @@ pub enum Obstacle {
 }
 
 impl Obstacle {
+    /// Whether it is overcome where the code of the defect is chosen.
+    pub fn yields_to_choice(&self) -> bool {
+        matches!(self, Self::BakedOnQuads | Self::MapMayFitTangents)
+    }
+
     /// Whether other options of the repair overcome it.
     pub fn depends_on_options(&self) -> bool {
+        if self.yields_to_choice() {
+            return true;
+        }
         matches!(
             self,
             Self::NotChosen
                 | Self::OtherMethodWanted
-                | Self::BakedWithMethod
                 | Self::NotIdentified { .. }
                 | Self::RedLikelier { .. }
                 | Self::OnlyTheModelTells(_)

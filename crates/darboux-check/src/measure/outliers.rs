@@ -2,7 +2,8 @@
 //! overwritten.
 //!
 //! Such damage leaves two kinds of tangents: tangents of the method, and tangents that have nothing to do
-//! with it. Where many lie between the two, the method is not known.
+//! with it. Where many lie between the two, the method is not known. A few, beside a known method, are
+//! outliers where no method can have made them.
 
 use std::borrow::Cow;
 
@@ -10,11 +11,13 @@ use darboux::internal::recipe_tangents;
 use darboux::{Context, Convention, CornerDifference, Recipe, RecipeMatch};
 
 use crate::facts::SurfaceFacts;
+use crate::measure::closeness::is_other_method;
 use crate::measure::expected::{is_measured, rounding};
 use crate::measure::fit::{Difference, Fit};
 use crate::measure::leaning::{in_plane, leaning};
+use crate::measure::u_directions::beside_u_directions;
 use crate::measure::values::{has_length, is_sign};
-use crate::surface::{Surface, length, xyz};
+use crate::surface::{Surface, indices_where, length, xyz};
 
 /// Degrees to the method's tangent beyond which one is far: bumps lean by a third of their slope (the sine).
 pub const FAR: f64 = 20.0;
@@ -26,8 +29,8 @@ const MIN_NEAR: f64 = 0.5;
 /// are wrong.
 const MAX_BETWEEN: f64 = 0.1;
 
-/// The share above which far tangents are an error: one in a hundred is seen on a model that fills the
-/// screen. Fewer may be differences between versions of a method.
+/// The share above which far tangents are damage by their number: one in a hundred is seen on a model that
+/// fills the screen. Fewer may be differences between versions of a method, unless no method makes them.
 const MIN_FAR: f64 = 0.01;
 
 /// The tangents that are far from the method that made the others.
@@ -42,7 +45,7 @@ pub struct Outliers {
 }
 
 impl Outliers {
-    /// None where no method explains most tangents, or no part of the others is far from it. `tangents`: of
+    /// None where no method explains most tangents, or none of the others is an outlier. `tangents`: of
     /// corners, without other mistakes; `best`: the recipe that explains them best.
     pub fn from(facts: &SurfaceFacts<'_>, mut tangents: Vec<[f32; 4]>, best: &RecipeMatch) -> Option<Self> {
         if (best.close as f64) < MIN_NEAR * best.corners as f64 {
@@ -57,19 +60,23 @@ impl Outliers {
         };
         let near = count(&|angle| angle <= rounding(surface));
         let far = count(&|angle| angle > FAR);
-        let is_damaged = near >= MIN_NEAR * judged
+        let are_many = near >= MIN_NEAR * judged
             && far > MIN_FAR * judged
             && judged - near - far <= MAX_BETWEEN * judged;
-        if !is_damaged {
+        let far = surface.used(indices_where(&angles, |angle| angle.is_some_and(|angle| angle > FAR)));
+        let vertices = match are_many {
+            true => far,
+            false if is_other_method(best) => beside_u_directions(surface, far, FAR),
+            false => return None,
+        };
+        if vertices.is_empty() {
             return None;
         }
-        let is_far = |vertex: usize| angles[vertex].is_some_and(|angle| angle > FAR);
         for ((tangent, made), &vertex) in tangents.iter_mut().zip(made).zip(&surface.vertex_of_corner) {
-            if is_far(vertex as usize) {
+            if vertices.binary_search(&(vertex as usize)).is_ok() {
                 *tangent = made;
             }
         }
-        let vertices = surface.used((0..angles.len()).filter(|&vertex| is_far(vertex)).collect());
         Some(Self { recipe: best.recipe, vertices, replaced: tangents })
     }
 }

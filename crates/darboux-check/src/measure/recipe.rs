@@ -1,20 +1,17 @@
 //! How the tangents of a surface were computed.
 
-use darboux::{Mesh, Method, Recipe, RecipeMatch, recognise_recipe};
+use darboux::{Mesh, Recipe, RecipeMatch, recognise_recipe};
 
 use crate::facts::SurfaceFacts;
+use crate::measure::closeness::{
+    IS_MIKKTSPACE, are_most_of_mikktspace, close, is_mikktspace, is_other_method,
+};
 use crate::measure::expected::is_measured;
 use crate::measure::fit::{Difference, Fit};
 use crate::measure::outliers::{FAR, Outliers, tangents_without_other_mistakes};
 use crate::measure::values::{has_length, is_unit};
 use crate::model_area::area_of;
 use crate::surface::{Surface, cross, dot, length, xyz};
-
-/// The percentage of close corners from which on tangents are those of MikkTSpace.
-const IS_MIKKTSPACE: f64 = 99.0;
-
-/// The percentage from which on they are called those of another method.
-pub const IS_KNOWN: f64 = 90.0;
 
 /// The best recipe and the best one of MikkTSpace on the triangles as they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +29,14 @@ pub struct Far {
     pub percent: f64,
     /// Their area by the angle, in the units of the positions: a right angle counts whole.
     pub damaged_area: f64,
+}
+
+impl Far {
+    /// Whether there are so many that tangents of no known method are an error where they damage enough of
+    /// the model.
+    pub fn are_many(&self) -> bool {
+        self.percent > 1.0
+    }
 }
 
 /// The recipes of a surface.
@@ -118,8 +123,12 @@ impl Recipes {
 impl Recognised {
     /// The known method, other than MikkTSpace on the triangles as they are.
     pub fn other_method(&self) -> Option<Recipe> {
-        let is_known = !is_mikktspace(&self.best) && close(&self.best) >= IS_KNOWN;
-        is_known.then_some(self.best.recipe)
+        is_other_method(&self.best).then_some(self.best.recipe)
+    }
+
+    /// Whether the tangents of most corners are those of MikkTSpace.
+    pub fn are_most_of_mikktspace(&self) -> bool {
+        are_most_of_mikktspace(&self.best)
     }
 
     pub fn is_of_mikktspace(&self) -> bool {
@@ -173,14 +182,4 @@ fn unit_normals(surface: &Surface) -> Option<Vec<[f32; 3]>> {
         if is_scalable(normal) { normal.map(|x| (f64::from(x) / length) as f32) } else { normal }
     };
     normals.iter().any(is_scaled).then(|| normals.iter().copied().map(unit).collect())
-}
-
-/// Whether a recipe is MikkTSpace on the triangles as they are.
-pub fn is_mikktspace(found: &RecipeMatch) -> bool {
-    matches!(found.recipe.method, Method::MikkTSpace(_)) && !found.recipe.from_quads
-}
-
-/// Close corners in percent.
-pub fn close(found: &RecipeMatch) -> f64 {
-    100.0 * found.close as f64 / found.corners.max(1) as f64
 }

@@ -12,7 +12,8 @@
 //! triangles are MikkTSpace's, so that nothing was rounded since.
 
 use crate::measure::expected::{are_those_of_the_file, is_measured};
-use crate::surface::{Surface, cross, dot, indices_where, length, sub, uv_area, xyz};
+use crate::measure::u_directions::{Thin, u_direction};
+use crate::surface::{Surface, cross, dot, indices_where, length, sub, xyz};
 
 /// The vertices whose tangents are turned, ascending.
 #[derive(Default)]
@@ -45,10 +46,6 @@ const MIN_SHARE_OF_THIN: f64 = 0.9;
 
 /// The shortest sum of u directions, as a part of the sum of their weights, that is sure of its direction.
 const MIN_SUM: f64 = 0.3;
-
-/// Compression stores UVs with 12 bits or more: a triangle is thin only if its height is a smaller part of
-/// the extent of all UVs than this, and than 1 in 50 of its longest edge.
-const THIN: f64 = 1.0 / 4096.0;
 
 /// The sum of u directions times the angles at a vertex, and the sum of these angles.
 #[derive(Clone, Copy)]
@@ -136,13 +133,13 @@ pub fn turned(surface: &Surface, expected: &[[f32; 4]]) -> Turned {
     if are_those_of_the_file(surface, expected) {
         return Turned::default();
     }
-    let thin = THIN * extent(uvs);
+    let thin = Thin::among(uvs);
     let mut around = vec![Around::EMPTY; tangents.len()];
     let (mut corners, mut thin_corners) = (Corners::default(), Corners::default());
     for (triangle, expected) in surface.triangles().zip(expected.as_chunks::<3>().0) {
         let along_u = u_direction(surface, uvs, triangle).filter(|_| is_measured(surface, uvs, triangle));
         let Some(along_u) = along_u else { continue };
-        let is_thin = is_thin(uvs, triangle, thin);
+        let is_thin = thin.contains(triangle);
         for (corner, vertex) in triangle.into_iter().enumerate() {
             let at = &mut around[vertex];
             let (tangent, ours) = (xyz(tangents[vertex]), xyz(expected[corner]));
@@ -176,42 +173,9 @@ fn cosine(a: [f32; 3], b: [f32; 3]) -> f64 {
     dot(a, b) / (length(a) * length(b))
 }
 
-/// The larger side of the bounding box of UVs.
-fn extent(uvs: &[[f32; 2]]) -> f64 {
-    let side = |i: usize| {
-        let values = uvs.iter().map(|uv| f64::from(uv[i])).filter(|x| x.is_finite());
-        let [low, high] =
-            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
-        (high - low).max(0.0)
-    };
-    side(0).max(side(1))
-}
-
-/// Whether a triangle is so thin in UV space that rounding its UVs could flip its u direction. `thin`: the
-/// height below which it may be.
-fn is_thin(uvs: &[[f32; 2]], triangle: [usize; 3], thin: f64) -> bool {
-    let [a, b, c] = triangle.map(|vertex| uvs[vertex]);
-    let edge =
-        |[p, q]: [[f32; 2]; 2]| (f64::from(p[0]) - f64::from(q[0])).hypot(f64::from(p[1]) - f64::from(q[1]));
-    let longest = [[a, b], [b, c], [c, a]].map(edge).into_iter().fold(0.0, f64::max);
-    let area = uv_area(uvs, triangle).abs();
-    area < 0.02 * longest * longest && area < thin * longest
-}
-
 /// The angle of a triangle at one of its corners; 0 where it has none.
 fn angle(surface: &Surface, triangle: [usize; 3], corner: usize) -> f64 {
     let [a, b, c] = [0, 1, 2].map(|i| surface.positions[triangle[(corner + i) % 3]]);
     let cosine = cosine(sub(b, a), sub(c, a));
     if cosine.is_finite() { cosine.clamp(-1.0, 1.0).acos() } else { 0.0 }
-}
-
-/// The derivative of the position along u, up to a positive factor; none where a triangle has no area.
-fn u_direction(surface: &Surface, uvs: &[[f32; 2]], triangle: [usize; 3]) -> Option<[f32; 3]> {
-    let [a, b, c] = triangle.map(|vertex| surface.positions[vertex]);
-    let area = uv_area(uvs, triangle);
-    let [s, t, r] = triangle.map(|vertex| f64::from(uvs[vertex][1]));
-    let [to_b, to_c] = [sub(b, a), sub(c, a)];
-    let along = |i: usize| ((r - s) * f64::from(to_b[i]) - (t - s) * f64::from(to_c[i])) * area.signum();
-    let direction = [0, 1, 2].map(|i| along(i) as f32);
-    (area != 0.0 && length(direction) > 0.0).then_some(direction)
 }

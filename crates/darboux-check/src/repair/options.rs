@@ -21,7 +21,8 @@ pub struct FixOptions {
     pub tangents: TangentOptions,
     /// How missing normals are made. Default: smooth.
     pub normals: NormalOptions,
-    /// The codes that are repaired; none: all, but tangents of known methods other than MikkTSpace stay.
+    /// The codes that are repaired; none: all, but tangents with which the map may have been baked
+    /// stay, unless `tangents` names another method than MikkTSpace.
     pub codes: Option<BTreeSet<Code>>,
     /// The codes that are left, of those.
     pub left: BTreeSet<Code>,
@@ -64,7 +65,8 @@ impl FixOptions {
     }
 
     /// Why a defect is left; none where it is repaired. Tangents that the wanted method made are not made
-    /// again, and those of another known method where their code is named.
+    /// again, and those with which the map may have been baked only where their code or another method is
+    /// named.
     pub(super) fn left_because<'a>(&self, defect: &'a Defect) -> Option<&'a Obstacle> {
         let is_wanted_method = || match &defect.fault {
             Fault::Tangent(TangentFault::OtherRecipe { recognised, .. }) => self.is_other_method(recognised),
@@ -76,25 +78,20 @@ impl FixOptions {
         if is_wanted_method() {
             return Some(&Obstacle::OtherMethodWanted);
         }
-        defect.obstacle.as_ref().filter(|obstacle| !self.overcomes(obstacle))
+        let chooses_tangents = self.codes.is_some() || self.asks_for_other_method();
+        let is_overcome = |obstacle: &Obstacle| obstacle.yields_to_choice() && chooses_tangents;
+        defect.obstacle.as_ref().filter(|obstacle| !is_overcome(obstacle))
     }
 
-    /// Whether the choice of codes overcomes the obstacle of a defect whose code is chosen.
-    fn overcomes(&self, obstacle: &Obstacle) -> bool {
-        *obstacle == Obstacle::BakedWithMethod && self.codes.is_some()
-    }
-
-    /// The findings of a check as a repair with these options sees them: tangents of a known method can be
-    /// repaired where their code is named.
+    /// The findings of a check, each with the reason for which a repair with these options leaves it.
     #[must_use]
-    pub fn seen(&self, findings: Vec<Finding>) -> Vec<Finding> {
-        let seen = |defect: Defect| {
-            let is_chosen = self.chooses(defect.reported_code());
-            let obstacle =
-                defect.obstacle.clone().filter(|obstacle| !(is_chosen && self.overcomes(obstacle)));
-            Defect { obstacle, ..defect }
+    pub fn with_reasons(&self, findings: Vec<Finding>) -> Vec<Finding> {
+        let with_reason = |defect: Defect| match self.left_because(&defect).cloned() {
+            Some(reason) => defect.with_obstacle(Some(reason)),
+            None => Defect { obstacle: None, ..defect },
         };
-        let of_finding = |finding: Finding| words::of_group(finding.defects.into_iter().map(seen).collect());
+        let of_finding =
+            |finding: Finding| words::of_group(finding.defects.into_iter().map(with_reason).collect());
         findings.into_iter().map(of_finding).collect()
     }
 

@@ -57,7 +57,7 @@ struct Repair {
     refused: BTreeMap<Key, Option<Obstacle>>,
     /// The primitives whose tangents were corrected, and are not all made again to repair the rest.
     kept: BTreeSet<Key>,
-    /// The primitives whose repair failed while the known method of their tangents was kept.
+    /// The primitives whose repair failed while tangents were kept with which the map may have been baked.
     without_method: BTreeSet<Key>,
 }
 
@@ -117,7 +117,9 @@ impl Work<'_> {
                 repair.after = attempt.after;
                 return Ok(!attempt.edited.is_empty());
             }
-            refused.extend(failed.into_iter().filter(|(at, _)| !repair.without_method.insert(*at)));
+            let keeping = keeping_tangents(&repair.after);
+            let mut gives_up = |at: &Key| keeping.contains(at) && repair.without_method.insert(*at);
+            refused.extend(failed.into_iter().filter(|(at, _)| !gives_up(at)));
             document.roll_back(checkpoint);
         }
     }
@@ -134,8 +136,7 @@ impl Work<'_> {
         let gives_up_method = |at: Key| repair.without_method.contains(&at) && !refused.contains_key(&at);
         loop {
             for defect in &mut attempt.after {
-                let is_kept = defect.obstacle == Some(Obstacle::BakedWithMethod);
-                if is_kept && place_of(defect).is_some_and(gives_up_method) {
+                if is_of_kept_tangents(defect) && place_of(defect).is_some_and(gives_up_method) {
                     defect.obstacle = None;
                 }
             }
@@ -255,6 +256,16 @@ impl Work<'_> {
         let fixed = outcome(defect, of_place.iter().copied(), self.options);
         FixedFinding { change: change.filter(|_| fixed.repaired), ..fixed }
     }
+}
+
+/// Whether a defect is about tangents that are kept because the map may have been baked with them.
+fn is_of_kept_tangents(defect: &Defect) -> bool {
+    defect.obstacle == Some(Obstacle::MapMayFitTangents)
+}
+
+/// The primitives with such tangents.
+fn keeping_tangents(defects: &[Defect]) -> BTreeSet<Key> {
+    defects.iter().filter(|defect| is_of_kept_tangents(defect)).filter_map(place_of).collect()
 }
 
 /// The defects by their primitives; other defects have none.

@@ -1,7 +1,5 @@
 //! The rule about how tangents were computed.
 
-use darboux::Recipe;
-
 use super::rule::SurfaceRule;
 use crate::defect::Obstacle;
 use crate::defect::{Defect, TangentFault};
@@ -13,10 +11,6 @@ use crate::severity::Severity;
 use crate::surface::Surface;
 
 pub const RULES: &[SurfaceRule] = &[other_recipe];
-
-/// The share of corners far from MikkTSpace, in percent, above which tangents of no known method are an
-/// error where they damage enough of the model.
-const MAX_PERCENT_FAR: f64 = 1.0;
 
 /// The largest angle to MikkTSpace in degrees that cannot be seen.
 const MAX_UNSEEN: f64 = 0.5;
@@ -35,7 +29,7 @@ fn other_recipe(facts: &SurfaceFacts<'_>) -> Vec<Defect> {
 fn of_all(facts: &SurfaceFacts<'_>, recipes: &Recipes) -> Option<Defect> {
     let recognised = recipes.of_all.filter(|recognised| !recognised.is_of_mikktspace())?;
     let far = if recognised.other_method().is_some() { Far::default() } else { recipes.far(facts) };
-    let severity = if far.percent > MAX_PERCENT_FAR {
+    let severity = if far.are_many() {
         Severity::Error
     } else if recognised.mikktspace.worst > MAX_UNSEEN {
         Severity::Warning
@@ -54,13 +48,14 @@ fn rounding_of_uvs(surface: &Surface) -> Option<UvRounding> {
     UvRounding::of(surface, surface.uv_sets.get(&surface.uv_set)?)
 }
 
+/// Why tangents are left: the map may have been baked with them, unless many of them point to wrong
+/// directions or most are MikkTSpace's.
 fn obstacle(recognised: &Recognised, severity: Severity) -> Option<Obstacle> {
-    if severity == Severity::Info {
-        return Some(Obstacle::DifferenceIsInvisible);
+    match recognised.other_method() {
+        _ if severity == Severity::Info => Some(Obstacle::DifferenceIsInvisible),
+        Some(recipe) if recipe.from_quads => Some(Obstacle::BakedOnQuads),
+        Some(_) => Some(Obstacle::MapMayFitTangents),
+        None if severity == Severity::Error || recognised.are_most_of_mikktspace() => None,
+        None => Some(Obstacle::MapMayFitTangents),
     }
-    let of_known = |recipe: Recipe| match recipe.from_quads {
-        true => Obstacle::BakedOnQuads,
-        false => Obstacle::BakedWithMethod,
-    };
-    recognised.other_method().map(of_known)
 }

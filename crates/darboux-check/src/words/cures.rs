@@ -2,13 +2,20 @@
 
 use darboux::BitangentDirection;
 
-use crate::defect::{Defect, Fault, MapFault, NormalFault, TangentFault};
+use crate::defect::{Defect, Fault, MapFault, NormalFault, Obstacle, TangentFault};
 
-/// The cure of a defect that a repair leaves whatever its options are; none where the usual one does not name
-/// the repair.
-pub fn without_repair(defect: &Defect) -> Option<&'static str> {
-    let is_left = defect.obstacle.as_ref().is_some_and(|obstacle| !obstacle.depends_on_options());
-    if is_left { other_cure(&defect.fault) } else { None }
+/// Tangents that are left because the map may have been baked with them.
+const OF_OTHER_TANGENTS: &str = "Keep them if the map was baked with them (`--allow tangent-other-recipe` accepts \
+     them); otherwise `darboux check FILE --fix --only tangent-other-recipe`.";
+
+/// The cure of a defect that a repair leaves; none where the usual one fits.
+pub fn of_left(defect: &Defect) -> Option<&'static str> {
+    match defect.obstacle.as_ref()? {
+        Obstacle::MapMayFitTangents | Obstacle::BakedOnQuads => Some(OF_OTHER_TANGENTS),
+        Obstacle::DifferenceIsInvisible => Some("None needed."),
+        obstacle if obstacle.depends_on_options() => None,
+        _ => other_cure(&defect.fault),
+    }
 }
 
 /// The cure of two conventions that cancel and are left.

@@ -111,10 +111,13 @@ pub fn reason(obstacle: &Obstacle) -> String {
             "the faces enclose a negative volume, so that they may be reversed, too"
         }
         Obstacle::DifferenceIsInvisible => "the difference cannot be seen",
-        Obstacle::BakedOnQuads => "the map was probably baked on the quads, for these tangents",
-        Obstacle::BakedWithMethod => {
-            "tangents of this method are right if the map was baked with it; if it was not, `--only \
+        Obstacle::BakedOnQuads => {
+            "the map was probably baked on the quads, with these tangents; if it was not, `--only \
              tangent-other-recipe` computes them again"
+        }
+        Obstacle::MapMayFitTangents => {
+            "they are right if the map was baked with them; if it was not, `--only tangent-other-recipe` \
+             computes them again"
         }
         Obstacle::EncodedAndInverted => {
             "invert the channel near 67 of the map again first: `darboux convert --from directx --to opengl` \

@@ -6,9 +6,10 @@ use super::counts::counted;
 use super::said::Said;
 use crate::defect::{TangentDifference, TangentFault};
 use crate::indices::Part;
+use crate::measure::closeness::{IS_KNOWN, IS_MIKKTSPACE, are_most_of_mikktspace, close, is_mikktspace};
 use crate::measure::fit::Difference;
 use crate::measure::outliers::FAR;
-use crate::measure::recipe::{Far, IS_KNOWN, Recognised, close, is_mikktspace};
+use crate::measure::recipe::{Far, Recognised};
 use crate::severity::Severity;
 
 pub fn said(fault: &TangentFault, severity: Severity) -> Said {
@@ -128,23 +129,23 @@ fn other_recipe(recognised: &Recognised, far: Far, severity: Severity) -> Said {
     if *with_unit_normals {
         text += ", on normals of length 1";
     }
-    let said = if severity == Severity::Error {
-        Said::new(text + ", and bumps are lit from wrong directions where they differ most")
-            .with_cure("Compute the tangents again: `darboux tangents --overwrite`.")
-            .with("corners more than 20 degrees from MikkTSpace", far.percent, "%")
-    } else if severity > Severity::Info && recognised.other_method().is_some_and(|recipe| !recipe.from_quads)
-    {
-        Said::new(text).with_cure(
-            "Keep them if the map was baked with this method; otherwise `darboux check FILE --fix --only \
-             tangent-other-recipe`.",
-        )
-    } else {
-        Said::new(text)
+    let mut said = match severity {
+        Severity::Error => {
+            Said::new(text + ", and bumps are lit from wrong directions where they differ most")
+        }
+        _ => Said::new(text),
     };
+    if far.are_many() {
+        said = said.with("corners more than 20 degrees from MikkTSpace", far.percent, "%");
+    }
     let said = said
+        .with_cure("Compute the tangents again: `darboux tangents --overwrite`.")
         .with("corners within 0.1 degrees (1 with 8 bits) of MikkTSpace", close(mikktspace), "%")
         .with("largest angle to MikkTSpace", mikktspace.worst, "degrees");
     match nearest {
+        Some(what) if close(best) < 100.0 => {
+            said.with(what, close(best), "%").with("largest angle to it", best.worst, "degrees")
+        }
         Some(what) => said.with(what, close(best), "%"),
         None => said,
     }
@@ -154,11 +155,12 @@ fn other_recipe(recognised: &Recognised, far: Far, severity: Severity) -> Said {
 fn description(best: &RecipeMatch) -> (String, Option<&'static str>) {
     let is_coarse = best.recipe.rounding == RecipeRounding::Bits8;
     let coarse = if is_coarse { ", or the file's numbers are rounded too coarsely to tell" } else { "" };
-    if is_mikktspace(best) && close(best) >= 50.0 {
+    if are_most_of_mikktspace(best) {
         let corners = counted(best.corners - best.close, "corner differs", "corners differ");
         (format!("most tangents are those of MikkTSpace, but {corners}"), None)
     } else if close(best) >= IS_KNOWN {
-        let text = format!("the tangents were computed by {}", name(&best.recipe));
+        let differ = if close(best) < IS_MIKKTSPACE { ", but some differ" } else { "" };
+        let text = format!("the tangents were computed by {}{differ}", name(&best.recipe));
         (text, Some("corners within 0.1 degrees (1 with 8 bits) of this method"))
     } else {
         let text = format!("the tangents are not those of any method that Darboux knows{coarse}");

@@ -280,7 +280,7 @@ impl Repair<'_> {
     ) -> Result<ProcessedFile<FixSummary>, darboux_io::Error> {
         let planned = plan_repair(document, &findings, options)?.into_iter().map(Into::into).collect();
         let reported = options
-            .seen(findings)
+            .with_reasons(findings)
             .into_iter()
             .filter(|finding| self.arguments.findings.reports(finding.code));
         let findings: Vec<ReportedFinding> = reported.map(Into::into).collect();
