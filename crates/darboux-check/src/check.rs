@@ -28,8 +28,9 @@ pub fn check_document(document: &Document, options: &CheckOptions) -> Result<Vec
 
 /// The defects of a document.
 pub fn defects_of(document: &Document, options: &CheckOptions) -> Result<Vec<Defect>, Error> {
-    let mut defects = defects_of_surfaces(document, &ModelArea::of(document)?, &|_| true)?;
-    let of_materials = maps::defects_of_materials(document, options, &mut defects)?;
+    let area = ModelArea::of(document)?;
+    let mut defects = defects_of_surfaces(document, &area, &|_| true)?;
+    let of_materials = maps::defects_of_materials(document, options, &area, &mut defects)?;
     defects.extend(of_materials);
     Ok(defects)
 }

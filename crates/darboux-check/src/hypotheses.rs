@@ -172,12 +172,19 @@ fn flipped_percent(defect: &Defect) -> Option<f64> {
 }
 
 /// In percent of the model's area: the part of surfaces with one map that looks wrong whether the map cancels
-/// flipped signs or not: the smaller one of the part with flipped signs and the rest.
-fn damaged_either_way<'a>(surfaces: impl Iterator<Item = &'a Defect>) -> f64 {
+/// flipped signs or not: the smaller one of the part with flipped signs and the rest. `area`: of a surface by
+/// its place in the list.
+fn damaged_either_way(surfaces: &[Vec<&mut Defect>], area: &dyn Fn(usize) -> f64) -> f64 {
     let (mut flipped, mut rest) = (0.0, 0.0);
-    for defect in surfaces.filter(|defect| is_about_signs(defect)) {
-        flipped += defect.damaged_percent.unwrap_or(0.0);
-        rest += damaged_under_inverted_map(defect);
+    for (index, surface) in surfaces.iter().enumerate() {
+        let mut of_signs = surface.iter().filter(|defect| is_about_signs(defect)).peekable();
+        if of_signs.peek().is_none() {
+            rest += area(index);
+        }
+        for defect in of_signs {
+            flipped += defect.damaged_percent.unwrap_or(0.0);
+            rest += damaged_under_inverted_map(defect);
+        }
     }
     f64::min(flipped, rest)
 }
@@ -212,11 +219,13 @@ impl MapContext {
 }
 
 /// Leaves what is not identified: inverted channels of a map, and flipped signs that the map may cancel.
-/// `surfaces`: the defects of each surface that uses the map.
+/// `surfaces`: the defects of each surface that uses the map; `area`: of a surface, by its place in the list,
+/// in percent of the model's.
 pub fn leave_unidentified(
     on_map: &mut [Defect],
     witness: &MapWitness,
     surfaces: &mut [Vec<&mut Defect>],
+    area: &dyn Fn(usize) -> f64,
     context: &MapContext,
 ) {
     let MapContext { wanted, image, sibling, is_from_sketchfab } = *context;
@@ -239,15 +248,14 @@ pub fn leave_unidentified(
         }
     }
     // Where the map is right after all, flipped signs are a mistake; where it is not, they cancel it.
-    let most = most_severe(damaged_either_way(surfaces.iter().flatten().map(|defect| &**defect)));
+    let most = most_severe(damaged_either_way(surfaces, area));
     for defect in surfaces.iter_mut().flatten().filter(|defect| is_about_signs(defect)) {
         defect.leave(Obstacle::MapMayCancel { image, is_from_sketchfab, wanted });
         defect.severity = defect.severity.min(most);
     }
     for surface in surfaces {
         if surface.iter().any(|defect| are_partly_flipped(defect)) {
-            let is_mixed =
-                |defect: &Defect| matches!(defect.fault, Fault::Tangent(TangentFault::SignMixed(_)));
+            let is_mixed = |defect: &Defect| defect.code() == Code::TangentSignMixed;
             for defect in surface.iter_mut().filter(|defect| needs_new_tangents(defect) || is_mixed(defect)) {
                 defect.leave(Obstacle::SignsAreLeft);
             }
@@ -312,7 +320,8 @@ mod tests {
             let mut surfaces: Vec<Vec<&mut Defect>> = defects.iter_mut().map(|defect| vec![defect]).collect();
             let options = CheckOptions::default();
             let witness = MapWitness::of_unread(&options);
-            leave_unidentified(&mut [], &witness, &mut surfaces, &MapContext::alone(&options));
+            let context = MapContext::alone(&options);
+            leave_unidentified(&mut [], &witness, &mut surfaces, &|_| 0.0, &context);
             defects.iter().map(|defect| defect.severity).collect::<Vec<Severity>>()
         };
         let [error, warning] = [Severity::Error, Severity::Warning];

@@ -77,6 +77,19 @@ pub fn distinct<'a>(
     found
 }
 
+/// For each primitive the first one with the same data.
+pub fn first_with_same_data(document: &Document) -> BTreeMap<Key, Key> {
+    let (mut firsts, mut known) = (BTreeMap::new(), BTreeMap::new());
+    for (index, mesh) in document.meshes().iter().enumerate() {
+        for primitive in 0..mesh.primitives.len() {
+            let name = PrimitiveName::new(index, mesh, primitive);
+            let first = known.entry(surface_key(document, &name)).or_insert((index, primitive));
+            firsts.insert((index, primitive), *first);
+        }
+    }
+    firsts
+}
+
 /// The meshes that no node has; none where no node has a mesh, as in a file of meshes alone.
 pub fn meshes_without_node(document: &Document) -> BTreeSet<usize> {
     let nodes = document.json()["nodes"].as_array().into_iter().flatten();

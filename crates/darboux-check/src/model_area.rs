@@ -7,7 +7,7 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, Material, MeshInstances};
 
 use crate::code::Family;
-use crate::instances::{Key, key, meshes_without_node};
+use crate::instances::{Key, first_with_same_data, key, meshes_without_node};
 use crate::place::Place;
 use crate::surface::{Surface, cross, length, sub};
 
@@ -18,6 +18,8 @@ pub struct ModelArea {
     total: f64,
     /// The area of those whose tangents something shows.
     with_maps: f64,
+    /// The area of the primitives with the same data, by the first of them.
+    of_primitives: BTreeMap<Key, f64>,
     /// By the index of a mesh: how many times its area is in the scene, scaled as its nodes are; 0 where
     /// other meshes have nodes and it has none. 1 for a mesh of another scene.
     scale_of_mesh: BTreeMap<usize, f64>,
@@ -31,15 +33,17 @@ impl ModelArea {
         let mut area = Self { scale_of_mesh: scales(&instances), ..Self::default() };
         area.scale_of_mesh.extend(meshes_without_node(document).into_iter().map(|mesh| (mesh, 0.0)));
         let needing: HashSet<Key> = tangents_needed_by(document)?;
+        let first = first_with_same_data(document);
         for corners in document.corners()? {
             let Some(positions) = corners.used_vectors::<3>("POSITION")? else { continue };
             let at = |vertex: u32| positions[vertex as usize];
             let triangles = corners.used_indices().as_chunks::<3>().0.iter();
             let own: f64 =
                 triangles.map(|triangle| area_of(triangle.map(at))).filter(|area| area.is_finite()).sum();
-            let own = own * area.scale(corners.name().mesh);
+            let (own, at) = (own * area.scale(corners.name().mesh), key(corners.name()));
             area.total += own;
-            area.with_maps += if needing.contains(&key(corners.name())) { own } else { 0.0 };
+            area.with_maps += if needing.contains(&at) { own } else { 0.0 };
+            *area.of_primitives.entry(first[&at]).or_default() += own;
         }
         Ok(area)
     }
@@ -58,6 +62,13 @@ impl ModelArea {
         let shown = own * self.scale(mesh) * (1 + place.same_as) as f64;
         let share = if shown == 0.0 { 0.0 } else { shown / all };
         (self.total > 0.0 && share.is_finite()).then_some(100.0 * share.min(1.0))
+    }
+
+    /// The area of a primitive and all with the same data in percent of what shows tangents. `at`: the first
+    /// of them.
+    pub fn percent_of_all(&self, at: Key) -> f64 {
+        let percent = 100.0 * self.of_primitives.get(&at).copied().unwrap_or(0.0) / self.with_maps;
+        if percent.is_finite() { percent.min(100.0) } else { 0.0 }
     }
 
     fn scale(&self, mesh: usize) -> f64 {

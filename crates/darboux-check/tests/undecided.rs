@@ -13,7 +13,7 @@ use darboux_check::{
 use darboux_io::gltf::Document;
 use darboux_io::{LoadOptions, MemoryLimit};
 use serde_json::{Value, json};
-use support::container::with_json;
+use support::container::{with_json, with_vectors};
 use support::mistakes::{MISTAKES, Mistake};
 use support::models::{Model, healthy_models};
 
@@ -236,6 +236,43 @@ fn flipped_signs_under_a_map_without_a_known_image_are_left() {
         let findings = check_document(&document, &right).expect("a valid document");
         let options = FixOptions::default().with_check(right);
         assert!(fix_document(&mut document, findings, &options).expect("a repair").is_changed);
+    }
+}
+
+/// Two parts, one with flipped and one with right signs, whose materials have one texture of an unknown
+/// format, or two.
+fn flipped_and_right_parts(second_material: Option<usize>) -> Document {
+    let mut model = healthy_models().remove(9);
+    let right = model.tangents().to_vec();
+    model.negate_signs();
+    let (glb, accessor) = with_vectors(&model.glb(), &right, "VEC4");
+    let glb = with_json(&glb, |json| {
+        json["textures"] = json!([{"extensions": {"XYZ_texture": {}}}, {"extensions": {"XYZ_texture": {}}}]);
+        let mut other = json["meshes"][0]["primitives"][0].clone();
+        other["attributes"]["TANGENT"] = accessor.into();
+        if let Some(texture) = second_material {
+            let mut material = json["materials"][0].clone();
+            material["normalTexture"]["index"] = texture.into();
+            json["materials"].as_array_mut().expect("materials").push(material);
+            other["material"] = 1.into();
+        }
+        json["meshes"][0]["primitives"].as_array_mut().expect("primitives").push(other);
+    });
+    Document::from_bytes("m.glb", glb, None, &LoadOptions::default()).expect("a model")
+}
+
+/// Where one map is on a part with flipped signs and on one with right ones, one of them looks wrong whatever
+/// the map's convention is.
+#[test]
+fn right_signs_beside_flipped_ones_under_one_map_are_an_error() {
+    for (second_material, severity) in
+        [(None, Severity::Error), (Some(0), Severity::Error), (Some(1), Severity::Warning)]
+    {
+        let document = flipped_and_right_parts(second_material);
+        let findings = check_document(&document, &CheckOptions::default()).expect("a valid document");
+        let flipped = findings.iter().find(|finding| finding.code == Code::TangentSignFlipped);
+        let flipped = flipped.expect("the finding");
+        assert_eq!((flipped.severity, flipped.is_fixable()), (severity, false), "{second_material:?}");
     }
 }
 

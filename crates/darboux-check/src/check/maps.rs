@@ -14,7 +14,7 @@ use crate::check_options::CheckOptions;
 use crate::defect::{Defect, Fault, MapFault, Obstacle, Unread, Unseen, UvFault};
 use crate::finding::Finding;
 use crate::hypotheses::{self, MapContext, MapWitness, inverted, is_about_channels};
-use crate::instances::{Key, key};
+use crate::instances::{Key, first_with_same_data, key};
 use crate::inverted::Inverted;
 use crate::map_users::{MapSurfaces, MapUsers, materials_in_scene};
 use crate::measure::directions::{directions_by_mesh, witness};
@@ -91,6 +91,7 @@ pub fn identified_defects(file: &[u8], surfaces: &MapSurfaces, options: &CheckOp
         &mut checked.defects,
         &checked.witness,
         &mut [],
+        &|_| 0.0,
         &MapContext::alone(options),
     );
     checked
@@ -101,6 +102,7 @@ pub fn identified_defects(file: &[u8], surfaces: &MapSurfaces, options: &CheckOp
 #[derive(Debug)]
 pub struct ModelOfMaps {
     surfaces: Vec<Surface>,
+    area: ModelArea,
     defects: Vec<Defect>,
     findings: Vec<Finding>,
     is_from_sketchfab: bool,
@@ -125,7 +127,8 @@ impl ModelOfMaps {
         let cancelled = BySurface::new(&mut on_model).visit(&keys, |surfaces| {
             let is_from_sketchfab = self.is_from_sketchfab;
             let context = MapContext { is_from_sketchfab, ..MapContext::alone(options) };
-            hypotheses::leave_unidentified(found, &on_map.witness, surfaces, &context);
+            let area = |index: usize| self.area.percent_of_all(keys[index]);
+            hypotheses::leave_unidentified(found, &on_map.witness, surfaces, &area, &context);
             cancelling::mark(found, surfaces, |_| true, None)
         });
         // Signs of a part, or of some surfaces, cancel green there.
@@ -152,7 +155,8 @@ pub fn check_model_of_maps(document: &Document) -> Result<ModelOfMaps, Error> {
     })?;
     weigh(&mut defects);
     let is_from_sketchfab = is_from_sketchfab(document);
-    Ok(ModelOfMaps { surfaces, findings: words::findings(defects.clone()), defects, is_from_sketchfab })
+    let findings = words::findings(defects.clone());
+    Ok(ModelOfMaps { surfaces, area, findings, defects, is_from_sketchfab })
 }
 
 /// Checks the file of an image as the normal map of a model, whose faces tell inverted red from inverted
@@ -176,6 +180,7 @@ pub fn map_defects_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOpt
 pub fn defects_of_materials(
     document: &Document,
     options: &CheckOptions,
+    area: &ModelArea,
     on_surfaces: &mut [Defect],
 ) -> Result<Vec<Defect>, Error> {
     let options = &options.in_document(document);
@@ -198,7 +203,7 @@ pub fn defects_of_materials(
         }
     }
     if options.maps {
-        leave_under_unread_maps(document, &materials, options, on_surfaces);
+        leave_under_unread_maps(document, &materials, options, area, on_surfaces);
     }
     if images.is_empty() {
         return Ok(defects);
@@ -250,7 +255,8 @@ pub fn defects_of_materials(
         by_surface.visit(&keys, |surfaces| {
             let context =
                 MapContext { image: Some(*image), sibling, is_from_sketchfab, wanted: options.green };
-            hypotheses::leave_unidentified(found, witness, surfaces, &context);
+            let area = |index: usize| area.percent_of_all(keys[index]);
+            hypotheses::leave_unidentified(found, witness, surfaces, &area, &context);
             cancelling::mark(found, surfaces, |index| !not_cancelled.contains(&keys[index]), Some(*image));
         });
     }
@@ -303,6 +309,7 @@ fn leave_under_unread_maps(
     document: &Document,
     materials: &[Material],
     options: &CheckOptions,
+    area: &ModelArea,
     on_surfaces: &mut [Defect],
 ) {
     let mut of_material: HashMap<usize, Vec<UnreadTexture<'_>>> = HashMap::new();
@@ -320,13 +327,15 @@ fn leave_under_unread_maps(
             }
         }
     }
+    if of_material.is_empty() {
+        return;
+    }
     let mut by_surface = BySurface::new(on_surfaces);
     let mut users: BTreeMap<&UnreadTexture<'_>, BTreeSet<Key>> = BTreeMap::new();
-    for &(mesh, primitive) in by_surface.0.keys() {
-        let found = document.meshes().get(mesh).and_then(|mesh| mesh.primitives.get(primitive));
-        let materials = found.map(|primitive| primitive.materials()).unwrap_or_default();
+    for first in first_with_same_data(document).into_values() {
+        let materials = document.meshes()[first.0].primitives[first.1].materials();
         for texture in materials.iter().filter_map(|material| of_material.get(material)).flatten() {
-            users.entry(texture).or_default().insert((mesh, primitive));
+            users.entry(texture).or_default().insert(first);
         }
     }
     let witness = MapWitness::of_unread(options);
@@ -335,7 +344,8 @@ fn leave_under_unread_maps(
     for keys in users.into_values() {
         let keys: Vec<Key> = keys.into_iter().collect();
         by_surface.visit(&keys, |surfaces| {
-            hypotheses::leave_unidentified(&mut [], &witness, surfaces, &context);
+            let area = |index: usize| area.percent_of_all(keys[index]);
+            hypotheses::leave_unidentified(&mut [], &witness, surfaces, &area, &context);
         });
     }
 }

@@ -87,15 +87,7 @@ impl LeftPairs {
 
     /// The defects, with the reason where they are left.
     pub fn mark(&self, defects: Vec<Defect>) -> Vec<Defect> {
-        let defects: Vec<Defect> = defects.into_iter().map(|defect| self.marked(defect)).collect();
-        let is_left = |defect: &&Defect| defect.obstacle.is_some() && are_partly_flipped(defect);
-        let kept: BTreeSet<Key> = defects.iter().filter(is_left).filter_map(primitive_of).collect();
-        let mark = |defect: Defect| {
-            let is_kept = primitive_of(&defect).is_some_and(|key| kept.contains(&key));
-            let is_remade = needs_new_tangents(&defect);
-            defect.with_obstacle((is_kept && is_remade).then_some(Obstacle::SignsAreLeft))
-        };
-        defects.into_iter().map(mark).collect()
+        with_signs_that_are_left(defects.into_iter().map(|defect| self.marked(defect)).collect())
     }
 
     fn marked(&self, mut defect: Defect) -> Defect {
@@ -136,6 +128,19 @@ impl LeftPairs {
         image.is_some_and(|image| self.partly_on.contains(&image))
             || primitive.is_some_and(|key| self.partly.contains(&key))
     }
+}
+
+/// The defects, with the reason where they need new tangents and flipped signs of a part of their primitive
+/// are left, which new tangents would not have.
+fn with_signs_that_are_left(mut defects: Vec<Defect>) -> Vec<Defect> {
+    let is_left = |defect: &&Defect| defect.obstacle.is_some() && are_partly_flipped(defect);
+    let keep_signs: BTreeSet<Key> = defects.iter().filter(is_left).filter_map(primitive_of).collect();
+    for defect in defects.iter_mut().filter(|defect| needs_new_tangents(defect)) {
+        if primitive_of(defect).is_some_and(|key| keep_signs.contains(&key)) {
+            defect.leave(Obstacle::SignsAreLeft);
+        }
+    }
+    defects
 }
 
 /// The defects by their group; defects without one are left out.

@@ -200,7 +200,7 @@ fn next_action(defects: &[&Defect], options: &FixOptions, stage: Stage) -> Optio
 }
 
 /// Whether flipped signs of a part are left, which new tangents would not have.
-fn leaves_some_signs(defects: &[&Defect], options: &FixOptions) -> bool {
+pub fn leaves_some_signs(defects: &[&Defect], options: &FixOptions) -> bool {
     defects.iter().any(|defect| are_partly_flipped(defect) && !options.repairs(defect))
 }
 

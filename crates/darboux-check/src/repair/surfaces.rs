@@ -9,11 +9,12 @@ use super::apply::apply;
 use super::options::FixOptions;
 use super::outcome::{Change, FixedDocument, FixedFinding, outcome};
 use super::pairs::LeftPairs;
-use super::plan::{Edit, Stage, keeps_recipe, place_of, plan};
+use super::plan::{Edit, Stage, keeps_recipe, leaves_some_signs, place_of, plan};
 use crate::check::defects_of_surfaces;
 use crate::code::{Code, Family};
 use crate::defect::Defect;
 use crate::defect::Obstacle;
+use crate::hypotheses::needs_new_tangents;
 use crate::instances::{Groups, Key, key};
 use crate::model_area::ModelArea;
 use crate::severity::Severity;
@@ -248,6 +249,9 @@ impl Work<'_> {
             }
             if repair.kept.contains(&at) && keeps_recipe(of_place, self.options) {
                 return FixedFinding::left(defect, Obstacle::RecipeIsKept);
+            }
+            if needs_new_tangents(&defect) && leaves_some_signs(of_place, self.options) {
+                return FixedFinding::left(defect, Obstacle::SignsAreLeft);
             }
         }
         let is_about_tangents = defect.family() == Family::Tangents;

@@ -97,8 +97,8 @@ pub fn reason(obstacle: &Obstacle) -> String {
         Obstacle::FlatShadingMayBeWanted => "flat shading may be wanted; `darboux normals` makes smooth ones",
         Obstacle::MorphTargetsMoveNormals => "morph targets move these normals",
         Obstacle::SignsAreLeft => {
-            "the signs w of these tangents are left, because the map may cancel them, and computing the \
-             tangents again would repair them"
+            "flipped signs w of a part of these tangents are left, and computing the tangents again would \
+             repair those, too: repair the signs first, or both together"
         }
         Obstacle::NormalsInOtherAxes => {
             "the normals of the primitive are in other axes, which has to be repaired first"
