@@ -34,7 +34,7 @@ export interface CheckOptions {
 
 /** Options of {@link fix}. */
 export interface FixOptions extends CheckOptions {
-  /** The codes that are repaired. Default: all, but tangents of a known method other than MikkTSpace are left, because the map may have been baked with it: `['tangent-other-recipe']` computes them again. */
+  /** The codes that are repaired. Default: all, but tangents of another method than MikkTSpace are left, because the map may have been baked with them: `['tangent-other-recipe']` computes them again. */
   only?: readonly string[] | null;
 }
 

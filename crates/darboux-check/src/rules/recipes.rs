@@ -1,5 +1,7 @@
 //! The rule about how tangents were computed.
 
+use darboux::Recipe;
+
 use super::rule::SurfaceRule;
 use crate::defect::Obstacle;
 use crate::defect::{Defect, TangentFault};
@@ -48,14 +50,14 @@ fn rounding_of_uvs(surface: &Surface) -> Option<UvRounding> {
     UvRounding::of(surface, surface.uv_sets.get(&surface.uv_set)?)
 }
 
-/// Why tangents are left: the map may have been baked with them, unless many of them point to wrong
-/// directions or most are MikkTSpace's.
+/// Why tangents are left: nobody sees the difference, or the map may have been baked with their method.
 fn obstacle(recognised: &Recognised, severity: Severity) -> Option<Obstacle> {
-    match recognised.other_method() {
-        _ if severity == Severity::Info => Some(Obstacle::DifferenceIsInvisible),
-        Some(recipe) if recipe.from_quads => Some(Obstacle::BakedOnQuads),
-        Some(_) => Some(Obstacle::MapMayFitTangents),
-        None if severity == Severity::Error || recognised.are_most_of_mikktspace() => None,
-        None => Some(Obstacle::MapMayFitTangents),
+    let of_method = |recipe: Recipe| match recipe.from_quads {
+        true => Obstacle::BakedOnQuads,
+        false => Obstacle::MapMayFitTangents,
+    };
+    match severity {
+        Severity::Info => Some(Obstacle::DifferenceIsInvisible),
+        _ => recognised.other_method().map(of_method),
     }
 }

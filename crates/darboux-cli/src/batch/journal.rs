@@ -96,13 +96,15 @@ impl Journal {
         journal.remove_temporary_files()?;
         journal.history.runs.insert(run);
         let superseded_lines = lines(&bytes).count().saturating_sub(journal.history.line_count());
-        if superseded_lines > journal.history.records.len() && journal.compact(&path).is_ok() {
-            return Ok(journal);
-        }
         if bytes.last().is_some_and(|&last| last != b'\n') {
             journal.file.write_all(b"\n").map_err(failed)?;
         }
+        // Before the first temporary file of this run, so that a later run recognises it.
         journal.append(&RunStart { run: run.to_string() })?;
+        if superseded_lines > journal.history.records.len() {
+            // A journal that stays long is as good.
+            let _ = journal.compact(&path);
+        }
         Ok(journal)
     }
 
