@@ -2,14 +2,17 @@
 
 import type { Shown } from './surface/sources';
 
-/** What the colours of the surface show. `bumps` is the shaded surface with a pattern of bumps where the file has no normal map. */
-export const PAINTS = ['shaded', 'bumps', 'tangent', 'bitangent', 'normal', 'sign', 'angle'] as const;
+/**
+ * What the colours of the surface show. `bumps` is the shaded surface with a pattern of bumps where the file has no normal map; `plain` is a grey matt
+ * surface with the file's normal maps, on which light and shadow are seen better than on dark or colourful textures.
+ */
+export const PAINTS = ['shaded', 'bumps', 'plain', 'tangent', 'bitangent', 'normal', 'sign', 'angle'] as const;
 
 export type Paint = (typeof PAINTS)[number];
 
 /** Whether the surface is lit, in place of showing frames as colours. */
 export function isLit(paint: Paint): boolean {
-  return paint === 'shaded' || paint === 'bumps';
+  return paint === 'shaded' || paint === 'bumps' || paint === 'plain';
 }
 
 /** Common mistakes with normal maps, applied to the right side on request. */

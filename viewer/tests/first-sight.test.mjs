@@ -34,7 +34,7 @@ const isOutline = (r, g, b) => b > 200 && g > 180 && r < 130;
 
 test('the camera goes to the fault, which has an outline, and a sentence says what it is and what the cure costs', () =>
   opened(async (viewer) => {
-    assert.match(await viewer.text('verdict-text'), /^Shield: 25 vertices serve both sides of mirrored UV seams\. The repaired file has 25 vertices more and [\d.]+ kB more; /);
+    assert.match(await viewer.text('verdict-text'), /^Shield: 25 vertices serve both sides of mirrored UV seams\. .* The repaired file has 25 vertices more and [\d.]+ kB more\.$/);
     assert.equal(await viewer.page.inputValue('#split'), '62');
     const near = await viewer.picture();
     assert.ok(near.share(isOutline) > 0.003, 'the outline is seen');
@@ -52,13 +52,29 @@ test('the camera goes to the fault, which has an outline, and a sentence says wh
 
 test('a fault of a map is shown beside the repaired file; a model without a fault is shown whole, without a sentence', () =>
   opened(async (viewer) => {
-    await give(viewer, 'flipped.glb', withImage(changedMap(([r, g, b]) => [r, 255 - g, b])));
-    assert.match(await viewer.text('verdict-text'), /^Image 0: it is in the convention of DirectX/);
+    const bare = (file) => {
+      const { json, binary } = parts(file);
+      delete json.meshes[0].primitives[0].attributes.TANGENT;
+      return glb(json, binary);
+    };
+    await give(viewer, 'flipped.glb', bare(withImage(changedMap(([r, g, b]) => [r, 255 - g, b]))));
+    assert.match(await viewer.text('verdict-text'), /^Image 0: it is in the convention of DirectX.*Dents look like bumps/);
     assert.equal(await viewer.page.inputValue('#right'), 'repaired');
-    const { json, binary } = parts(shield());
-    delete json.meshes[0].primitives[0].attributes.TANGENT;
-    await give(viewer, 'bare.glb', glb(json, binary));
+    await give(viewer, 'bare.glb', bare(shield()));
     assert.equal(await viewer.page.isVisible('#verdict'), false);
+  }));
+
+test('where textures hide a fault, the surface is plain grey until the next model', () =>
+  opened(async (viewer) => {
+    const { json, binary } = parts(shield());
+    const [material] = json.materials;
+    // A black surface without highlights.
+    material.pbrMetallicRoughness = { baseColorFactor: [0, 0, 0, 1], roughnessFactor: 1, metallicFactor: 0 };
+    await give(viewer, 'black.glb', glb(json, binary));
+    assert.equal(await viewer.page.isChecked('input[value=plain]'), true);
+    assert.match(await viewer.text('chips'), /^Plain grey/);
+    await give(viewer, 'shield.glb', shield());
+    assert.equal(await viewer.page.isChecked('input[value=shaded]'), true);
   }));
 
 test('where both sides look alike, it says by how much they differ, and shows where', () =>

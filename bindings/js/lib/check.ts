@@ -85,6 +85,8 @@ export interface Finding {
 export type Findings = Finding[] & {
   /** What happened to it, what it looks like and what to do, in one to three sentences. */
   diagnosis: string;
+  /** The indices of findings that say the same of several places, together. The most severe come first, and causes before what follows from them. */
+  statements: number[][];
   /** What importers of another format make of the mistakes; null for glTF, and without mistakes. */
   importerNote: string | null;
   /** What a model of another format lost as it became glTF, such as textures that are not among its bytes; empty for glTF. */
@@ -244,7 +246,7 @@ function findings(exports: CheckExports, file: Uint8Array, options: CheckOptions
   const assumed = assume == null ? 0 : choice('assume', assume, ASSUMED_MAPS) + 1;
   writeBytes(exports, file);
   const address = exports.check_file(Number(green === 'down'), Number(maps ?? true), assumed, Number(repairs));
-  type Checked = Pick<Findings, 'diagnosis' | 'importerNote' | 'warnings'> & { findings: Finding[] };
+  type Checked = Pick<Findings, 'diagnosis' | 'statements' | 'importerNote' | 'warnings'> & { findings: Finding[] };
   const checked = readJson<Checked | { error: string }>(exports, address);
   if ('error' in checked) throw new Error(checked.error);
   const { findings, ...words } = checked;

@@ -3,7 +3,7 @@
 use darboux::BitangentDirection;
 use darboux_check::{
     CheckOptions, Code, FixOptions, ReportedFindings, ReportedJudgement, ReportedRecipe, check_document,
-    check_map, fix_document,
+    check_map, fix_document, statements,
 };
 use darboux_io::gltf::Document;
 use darboux_io::image::RgbaImage;
@@ -51,12 +51,24 @@ pub extern "C" fn repaired_length() -> usize {
     with_arena(|arena| arena.check.repaired.len())
 }
 
-/// The result of a check: findings, or why the file cannot be read.
+/// The result of a check: findings and which of them say the same, or why the file cannot be read.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Checked {
-    Findings(ReportedFindings),
-    Error { error: String },
+    Findings {
+        #[serde(flatten)]
+        reported: ReportedFindings,
+        statements: Vec<Vec<usize>>,
+    },
+    Error {
+        error: String,
+    },
+}
+
+impl From<ReportedFindings> for Checked {
+    fn from(reported: ReportedFindings) -> Self {
+        Self::Findings { statements: statements(&reported.findings), reported }
+    }
 }
 
 /// Checks the file of a model or of a normal map; with `repairs`, repairs the model.
@@ -84,7 +96,7 @@ pub extern "C" fn check_file(
         } else {
             check_model(&arrays.bytes, &options).map_err(|error| error.to_string())
         };
-        let checked = checked.map_or_else(|error| Checked::Error { error }, Checked::Findings);
+        let checked = checked.map_or_else(|error| Checked::Error { error }, Checked::from);
         arrays.put_json(&checked)
     })
 }

@@ -88,6 +88,19 @@ for (const [name, { check, convertFile, fix, judgeNormalMap, recogniseRecipe }] 
     assert.ok(fix(asset('made/shield.glb')).findings.some(({ change }) => change));
   });
 
+  test(`${name}: findings that say the same are together, the most severe first`, () => {
+    for (const path of ['made/shield.glb', 'blender/scene.fbx']) {
+      const { statements, ...found } = check(asset(path));
+      const all = statements.flat();
+      assert.deepEqual([...all].sort((a, b) => a - b), Object.keys(found).map(Number).filter(Number.isInteger), path);
+      const of = (number) => [found[number].severity, found[number].code];
+      for (const same of statements) for (const number of same) assert.deepEqual(of(number), of(same[0]));
+      const ranks = statements.map(([first]) => ['error', 'warning', 'info', 'not-checked'].indexOf(found[first].severity));
+      assert.deepEqual(ranks, ranks.toSorted(), path);
+    }
+    assert.ok(check(asset('blender/scene.fbx')).statements.some((same) => same.length > 1));
+  });
+
   test(`${name}: models of other formats are those of the command, with their own words`, () => {
     const folder = mkdtempSync(join(tmpdir(), 'darboux-'));
     const seen = { findings: 0, importers: 0, sources: 0, repaired: 0 };

@@ -68,6 +68,6 @@ pub use repair::{
     Change, FixOptions, FixedDocument, FixedFinding, FixedMap, PlannedEdit, fix_document, fix_map,
     fix_map_on_model, plan_repair,
 };
-pub use report::ReportedFinding;
+pub use report::{ReportedFinding, statements};
 pub use reported_findings::ReportedFindings;
 pub use severity::Severity;

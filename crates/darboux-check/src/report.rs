@@ -1,5 +1,7 @@
 //! [`ReportedFinding`]: a finding with the fields that the command's JSON, Python and npm give alike.
 
+use std::cmp::Reverse;
+
 use darboux_io::source::Provenance;
 use serde::Serialize;
 
@@ -75,7 +77,7 @@ impl ReportedFinding {
 
     /// Whether another finding says the same of another place, but for its numbers: the same kind, as severe,
     /// and repaired or left alike. Tangents of two methods are not the same.
-    pub fn says_the_same(&self, other: &Self) -> bool {
+    pub(crate) fn says_the_same(&self, other: &Self) -> bool {
         let kind = |finding: &Self| (finding.severity, finding.code, finding.left_because.is_some());
         let words = |finding: &Self| -> String {
             finding.text.chars().filter(|letter| !letter.is_ascii_digit()).collect()
@@ -91,6 +93,22 @@ impl ReportedFinding {
             self.place = format!("{words}, {}", self.place);
         }
     }
+}
+
+/// The indices of findings that say the same of several places, together: the same kind, as severe, and
+/// repaired or left alike. The most severe come first, and causes before what follows from them.
+pub fn statements(findings: &[ReportedFinding]) -> Vec<Vec<usize>> {
+    let mut sorted: Vec<usize> = (0..findings.len()).collect();
+    sorted.sort_by_key(|&number| Reverse(findings[number].severity));
+    let mut statements: Vec<Vec<usize>> = Vec::new();
+    for number in sorted {
+        let is_same = |same: &&mut Vec<usize>| findings[same[0]].says_the_same(&findings[number]);
+        match statements.iter_mut().find(is_same) {
+            Some(same) => same.push(number),
+            None => statements.push(vec![number]),
+        }
+    }
+    statements
 }
 
 impl From<Finding> for ReportedFinding {

@@ -11,6 +11,8 @@ const OPTIONS = { assume: 'directx' } as const;
 /** The findings of a file, with what happened to it. Arrays lose their further properties between threads. */
 export interface Checked {
   findings: Finding[];
+  /** The indices of findings that say the same of several places, together, the worst first. */
+  statements: number[][];
   /** What happened, what it looks like and what to do, in one to three sentences. */
   diagnosis: string;
 }
@@ -35,7 +37,7 @@ const functions = {
 };
 
 function checked(findings: Findings): Checked {
-  return { findings: [...findings], diagnosis: findings.diagnosis };
+  return { findings: [...findings], statements: findings.statements, diagnosis: findings.diagnosis };
 }
 
 export type CheckerFunctions = typeof functions;

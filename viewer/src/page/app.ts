@@ -3,6 +3,7 @@
 import type { Finding } from 'darboux/check';
 import { Box3, Matrix3, Vector3 } from 'three';
 
+import type { Checked } from '../check/checker';
 import { openGltf } from '../files/gltf';
 import { openModel, withTangents, type Model } from '../files/model';
 import type { FileBundle } from '../files/file-bundle';
@@ -16,21 +17,19 @@ import { type Picked, Viewport } from '../scene/viewport';
 import type { Comparison } from '../surface/comparison';
 import { isOtherModel, SOURCE_NAMES, type Shown, type Source } from '../surface/sources';
 import { call } from '../worker/surfaces';
-import { chooseBaked, chooseRepaired, connectControls, offerSources, settings } from './controls';
+import { chooseBaked, choosePaint, chooseRepaired, connectControls, offerSources, settings } from './controls';
 import { BakePanel } from './bake-panel';
 import { element, isOn, numberOf } from './elements';
 import { connectEmbedding } from './embed';
 import { Examination } from './examination';
-import { isRepairable, placeOf } from './findings-panel';
+import { placeOf } from './findings-panel';
+import { facing, FirstScreen, trianglesOf } from './first-screen';
 import { connectKeys, connectLightDrag } from './keyboard';
 import { legendOf, showLegend } from './legend';
 import { captionsOf, showCaptions } from './captions';
 import { recordClip } from './clip';
-import { hideVerdict, showVerdict, swing, worstOf } from './first-sight';
 import { drawLabelled } from './labelled-picture';
 import { showTab, connectTabs } from './tabs';
-import { differenceOf, faultOf, type Fault } from '../surface/fault';
-import { outlineLines } from '../scene/fault-outline';
 import { hasView, readControls, readView, resetControls, writeLink } from './link';
 import { connectSheet, connectSplit } from './layout';
 import { connectLayoutFrame, showLayoutFrame } from './layout-frame';
@@ -42,24 +41,12 @@ import { clearError, showDone, showError, showProgress } from './status';
 import { connectTheme } from './theme';
 import { ValuesPanel } from './values-panel';
 import type { ShownBake } from '../bake/baker';
-import { isLit, type Settings } from '../settings';
+import type { Settings } from '../settings';
 import { counted } from '../plural';
 import type { Place } from '../surface/places';
 
 /** The most triangles that are searched while the pointer moves over the model. */
 const QUICK_TRIANGLES = 200_000;
-
-/** The most triangles whose worst place is searched when a model opens. */
-const SEARCHED_TRIANGLES = 300_000;
-
-/** The radius around the worst place that is in view, relative to the model's radius. */
-const FIRST_CLOSE_UP = 0.45;
-
-/** The share of a model's triangles from which a fault is everywhere, and has no outline. */
-const MOST_OF_A_MODEL = 0.6;
-
-/** The share of a picture's pixels below which a difference is not seen. */
-const ALIKE = 0.004;
 
 /** The most triangles that are shown only once their tangents are computed. */
 const PREVIEW_TRIANGLES = 200_000;
@@ -83,9 +70,19 @@ export class App {
   private sides: [Side, Side] = [empty(), empty()];
   private readonly examination = new Examination({
     visit: (finding, n) => this.visitFinding(finding, n),
-    checked: (findings) => this.showFirst(findings),
+    checked: (checked) => this.showFirst(checked),
     showRepaired: (file) => this.showRepaired(file),
     attempt: (work) => this.attempt(work),
+  });
+  private readonly firstScreen = new FirstScreen(this.viewport, {
+    parts: () => this.parts,
+    comparisons: () => this.comparisons,
+    costOfRepair: () => this.examination.costOfRepair(),
+    repair: () => this.examination.repair(),
+    visit: (finding) => this.visitFinding(finding, 0),
+    build: () => this.build(),
+    split: (percent) => this.setSplit(percent),
+    showAngles: () => this.showAngles(),
   });
   private readonly bakePanel = new BakePanel({
     openHigh: (bundle) => this.attempt(() => this.openHigh(bundle)),
@@ -104,9 +101,6 @@ export class App {
   private isLinkRead = false;
   /** Whether the address says what the open model's first screen is. */
   private isLinked = false;
-  /** Where the sides of the open model's parts differed when it was opened. */
-  private faults: (Fault | null)[] = [];
-  private outline: ReturnType<typeof outlineLines>[] = [];
   private comparisons: Comparison[] = [];
   private linkTimer = 0;
   /** Whether the model moved while its surfaces were read. */
@@ -132,7 +126,6 @@ export class App {
     connectSplit(() => this.moveSplit());
     connectSheet();
     connectTabs();
-    element('verdict-close').addEventListener('click', hideVerdict);
     connectLayoutFrame(this.viewport.layoutCamera);
     element('save-clip').addEventListener('click', () => this.attempt(() => this.saveClip()));
     element('copy-link').addEventListener('click', () => this.attempt(() => this.copyLink()));
@@ -263,8 +256,8 @@ export class App {
 
   /** Replaces the model. */
   private setModel(model: Model, parts: Part[]): void {
-    [this.model, this.parts, this.faults] = [model, parts, []];
-    hideVerdict();
+    [this.model, this.parts] = [model, parts];
+    this.firstScreen.clear();
     model.warnings.push(...oddities(parts.map((part) => part.surface)));
     this.viewport.layoutCamera.setWhole(uvSquare(parts));
     this.marker.hide();
@@ -334,8 +327,8 @@ export class App {
     this.changed();
     this.viewport.show(this.sides, now.layout);
     showLayoutFrame(now.layout);
-    showLegend(legendOf(now, this.hasFault()));
-    this.drawOutline(now);
+    showLegend(legendOf(now, this.firstScreen.hasFault()));
+    this.firstScreen.drawOutline(now);
     showCaptions(captionsOf(now, this.parts));
   }
 
@@ -386,65 +379,14 @@ export class App {
     await this.compare();
   }
 
-  /** Shows the worst fault of a model that has just been checked: its place, one sentence, the file and the cure. */
-  private async showFirst(findings: Finding[]): Promise<void> {
-    const worst = worstOf(findings);
-    if (!worst || !isOn('first-sight') || this.isLinked || this.bakePanel.isOpen) return;
-    const isSmall = trianglesOf(this.parts) <= SEARCHED_TRIANGLES;
-    this.faults = isSmall && this.hasTangents() ? this.comparisons.map(faultOf) : [];
-    const isOfTangents = worst.code.startsWith('tangent');
-    const cost = isSmall && isRepairable(worst) ? await this.examination.costOfRepair() : null;
-    // The cure of other faults is the repaired file: tangents computed again do not show it.
-    if (cost && !isOfTangents) await this.examination.repair();
-    if (isOfTangents && this.hasFault()) this.goToFault();
-    else this.viewport.lookAtAll();
-    this.build();
-    await nextPicture();
-    const alike = isSmall && this.hasTangents() && isOfTangents && this.viewport.visibleDifference() < ALIKE ? differenceOf(this.comparisons) : null;
-    showVerdict(worst, cost, alike, () => this.showAngles());
-    void swing({ split: (percent) => this.setSplit(percent), turnLight: (degrees) => this.viewport.lightFrom(numberOf('light-around') + degrees, numberOf('light-above')) });
-  }
-
-  /** Whether a part of the model is wrong, and not nearly all of it. */
-  private hasFault(): boolean {
-    const sum = (count: (fault: Fault) => number) => this.faults.reduce((sum, fault) => sum + (fault ? count(fault) : 0), 0);
-    const wrong = sum(({ triangles }) => triangles);
-    return wrong > 0 && wrong < MOST_OF_A_MODEL * trianglesOf(this.parts);
-  }
-
-  /** Moves the camera to the place where the sides differ most. */
-  private goToFault(): void {
-    const part = this.faults.reduce((worst, fault, at) => ((fault?.weight ?? 0) > (this.faults[worst]?.weight ?? 0) ? at : worst), 0);
-    const { position, normal, radius } = this.faults[part]!;
-    const [matrix] = placesOf(this.parts[part]);
-    const at = new Vector3(...position).applyMatrix4(matrix);
-    const direction = facing(new Vector3(...normal).applyMatrix3(new Matrix3().getNormalMatrix(matrix))).normalize();
-    // From a little above, where bumps throw longer highlights.
-    direction.y += 0.25;
-    const around = Math.max(FIRST_CLOSE_UP * this.viewport.radius, 1.5 * radius * matrix.getMaxScaleOnAxis());
-    this.viewport.look(at, Math.min(this.viewport.radius, around), direction, true);
-  }
-
-  /** Draws the outline of the fault, unless nearly everything is wrong. */
-  private drawOutline({ outline, hidden, paint }: Settings): void {
-    for (const lines of this.outline) {
-      lines.removeFromParent();
-      lines.geometry.dispose();
-      lines.material.dispose();
-    }
-    const isDrawn = outline && isLit(paint) && this.faults.length === this.parts.length && this.hasFault();
-    const drawn = isDrawn ? this.parts.map((part, at) => ({ part, fault: hidden.has(at) ? null : this.faults[at] })) : [];
-    this.outline = drawn.flatMap(({ part, fault }) => (fault?.outline.length ? [outlineLines(fault.outline, placesOf(part))] : []));
-    for (const lines of this.outline) this.viewport.add(lines);
-    this.viewport.draw();
+  /** Shows the worst fault of a model that has just been checked, unless a link or a bake decides what is shown. */
+  private async showFirst(checked: Checked): Promise<void> {
+    if (isOn('first-sight') && !this.isLinked && !this.bakePanel.isOpen) await this.firstScreen.show(checked);
   }
 
   private showAngles(): void {
     showTab('view');
-    const angle = document.querySelector<HTMLInputElement>('input[name=paint][value=angle]')!;
-    if (angle.disabled) return;
-    angle.checked = true;
-    angle.dispatchEvent(new Event('change', { bubbles: true }));
+    if (choosePaint('angle')) this.build();
   }
 
   private setSplit(percent: number): void {
@@ -506,7 +448,7 @@ export class App {
 
   private drawLabelled(out: HTMLCanvasElement): void {
     const now = settings();
-    drawLabelled(out, this.viewport.picture(), captionsOf(now, this.parts), legendOf(now, this.hasFault()), this.viewport.split, devicePixelRatio);
+    drawLabelled(out, this.viewport.picture(), captionsOf(now, this.parts), legendOf(now, this.firstScreen.hasFault()), this.viewport.split, devicePixelRatio);
   }
 
   private async saveClip(): Promise<void> {
@@ -541,11 +483,6 @@ export class App {
   }
 }
 
-/** A direction to look from: the normal, or along z where there is none. */
-function facing(normal: Vector3): Vector3 {
-  return normal.lengthSq() > 0 ? normal : new Vector3(0, 0, 1);
-}
-
 /**
  * The sources of the open model's comparison: a side that shows another model takes that of the other side, and the baked map is shown with the tangents
  * that it is baked for.
@@ -574,8 +511,4 @@ function materialsOf(parts: Part[]): Map<number, string> {
   const named = new Map<number, string>();
   for (const { origin, material } of parts) if (origin && origin.material !== null) named.set(origin.material, material.name || `Material ${origin.material}`);
   return named;
-}
-
-function trianglesOf(parts: Part[]): number {
-  return parts.reduce((sum, { surface }) => sum + surface.indices.length / 3, 0);
 }

@@ -6,7 +6,7 @@ import type { Part } from '../scene/model-parts';
 import { counted } from '../plural';
 import { mistakeCaption } from './controls';
 import { element } from './elements';
-import type { Settings } from '../settings';
+import type { Paint, Settings } from '../settings';
 
 /** The texts over a picture. */
 export interface Captions {
@@ -22,8 +22,9 @@ export interface Captions {
 export function captionsOf({ sources, mistakes, paint }: Settings, parts: Part[]): Captions {
   const [left, right] = sources.map((source) => SOURCE_NAMES[source]);
   const bumpy = parts.filter(takesBumps).length;
-  const chip = bumpy ? `Test bumps: not in the file, on ${counted(bumpy, 'part', 'parts')}` : 'Test bumps: no part lacks a normal map';
-  return { sides: [left, right], mistake: mistakeCaption(mistakes), chip: paint === 'bumps' ? chip : '' };
+  const bumps = bumpy ? `Test bumps: not in the file, on ${counted(bumpy, 'part', 'parts')}` : 'Test bumps: no part lacks a normal map';
+  const chips: Partial<Record<Paint, string>> = { bumps, plain: 'Plain grey, without the colours of the file' };
+  return { sides: [left, right], mistake: mistakeCaption(mistakes), chip: chips[paint] ?? '' };
 }
 
 /** Shows captions. */

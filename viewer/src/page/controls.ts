@@ -9,6 +9,7 @@ import { PAINTS, VECTORS, type Mistakes, type Paint, type Settings } from '../se
 const PAINT_NAMES: Record<Paint, string> = {
   shaded: 'Shaded',
   bumps: 'Test bumps',
+  plain: 'Plain grey',
   tangent: 'Tangent',
   bitangent: 'Bitangent',
   normal: 'Normal',
@@ -136,15 +137,26 @@ function offerAngle(isOffered: boolean): void {
   if (!isOffered && angle.checked) document.querySelector<HTMLInputElement>('input[name=paint]')!.checked = true;
 }
 
+/** The colours of the surface. */
+export function chosenPaint(): Paint {
+  return document.querySelector<HTMLInputElement>('input[name=paint]:checked')!.value as Paint;
+}
+
+/** Chooses the colours of the surface. Returns false where they are not offered. */
+export function choosePaint(paint: Paint): boolean {
+  const input = document.querySelector<HTMLInputElement>(`input[name=paint][value=${paint}]`)!;
+  input.checked ||= !input.disabled;
+  return input.checked;
+}
+
 /** The settings of all controls. */
 export function settings(): Settings {
   const source = (id: string) => element<HTMLSelectElement>(id).value as Shown;
   const sources = [source('left'), source('right')] as const;
   offerAngle(!sources.some(isOtherModel));
-  const paint = document.querySelector<HTMLInputElement>('input[name=paint]:checked')!.value as Paint;
   return {
     sources,
-    paint,
+    paint: chosenPaint(),
     vectors: { tangent: isOn('lines-tangent'), bitangent: isOn('lines-bitangent'), normal: isOn('lines-normal') },
     length: numberOf('length') / 100,
     seams: isOn('seams'),

@@ -17,7 +17,7 @@ export interface Host {
   /** Leads to a place of a finding on a mesh. */
   visit: Visit;
   /** Shows the worst of the findings of the check. */
-  checked(findings: Finding[]): Promise<void>;
+  checked(checked: Checked): Promise<void>;
   /** Shows the repaired file beside the open one. */
   showRepaired(file: Uint8Array<ArrayBuffer>): Promise<void>;
   /** Runs a task, and shows its error. */
@@ -64,7 +64,7 @@ export class Examination {
       if (this.model !== model) return;
       this.diagnosis = checked.diagnosis;
       showFindings({ ...checked, diagnosis: withImporterNote(model, checked) }, this.visit);
-      await this.host.checked(checked.findings);
+      await this.host.checked(checked);
       if (this.model !== model) return;
       const maps = await checker('judgeMaps', file);
       if (this.model !== model) return;

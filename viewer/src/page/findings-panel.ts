@@ -38,22 +38,19 @@ export function showChecking(): void {
 const SHOWN_PARTS = 6;
 
 /** Shows the diagnosis, and below it findings, the worst problem first. `before`: the diagnosis of the file that was repaired. */
-export function showFindings({ findings, diagnosis }: Checked, visit: Visit, before = ''): void {
+export function showFindings({ findings, statements, diagnosis }: Checked, visit: Visit, before = ''): void {
   const done = before && before !== diagnosis ? `${forPage(before, true)} ` : '';
   element('diagnosis').replaceChildren(...inWords(done + forPage(diagnosis, false)));
-  const sorted = [...findings].sort((a, b) => SEVERITIES.indexOf(a.severity) - SEVERITIES.indexOf(b.severity));
-  const problems = Map.groupBy(sorted, ({ code, severity }) => `${severity} ${code}`);
-  const cards = [...problems.values()].map((same) => ({ isNote: ['info', 'not-checked'].includes(same[0].severity), card: card(same, visit) }));
+  const problems = statements.map((numbers) => numbers.map((number) => findings[number]));
+  const cards = problems.map((same) => ({ isNote: ['info', 'not-checked'].includes(same[0].severity), card: card(same, visit) }));
   const of = (isNote: boolean) => cards.filter((one) => one.isNote === isNote).map(({ card }) => card);
   element('findings').replaceChildren(...of(false));
   element('notes-list').replaceChildren(...of(true));
   element('notes').hidden = !of(true).length;
   element('notes-title').textContent = counted(of(true).length, 'note', 'notes');
   element('findings-summary').textContent = summary(findings);
-  const repairable = findings.filter(isRepairable).length;
   const isDone = findings.some(({ repaired }) => repaired !== undefined);
-  element('repair').hidden = !repairable || isDone;
-  element('repair').textContent = `Repair ${counted(repairable, 'finding', 'findings')}`;
+  element('repair').hidden = !findings.some(isRepairable) || isDone;
   element('make-normals').hidden = isDone || !findings.some((finding) => finding.code === 'normal-missing' && !isRepairable(finding));
   element('save-repaired').hidden = !isDone;
 }

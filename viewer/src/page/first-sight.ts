@@ -3,22 +3,23 @@
 
 import type { Finding } from 'darboux/check';
 
+import type { Checked } from '../check/checker';
 import { contentOf } from '../files/glb';
 import type { Difference } from '../surface/fault';
 import { counted } from '../plural';
 import { element } from './elements';
-import { placeOf } from './findings-panel';
+import { isRepairable, placeOf } from './findings-panel';
 import { isStill, move } from './motion';
 import { severityIcon } from './severity-icon';
-
-/** The slider's position in percent at the end: the fault is in the middle of the picture, left of it. */
-const AT_REST = 62;
 
 /** How far the slider swings to both sides, in percent. */
 const SWING = 30;
 
 /** How far the light sweeps to both sides, in degrees. */
 const SWEEP = 70;
+
+/** Smaller angles in degrees are not told. */
+const SMALLEST = 0.01;
 
 /** The duration of swing and sweep in milliseconds. */
 const DURATION = 2400;
@@ -37,37 +38,58 @@ export interface Stage {
   turnLight(degrees: number): void;
 }
 
-/** The finding that the first screen shows: of the most severe ones that with the most places. A whole map has more than any mesh. Notes are no faults. */
-export function worstOf(findings: Finding[]): Finding | null {
-  const places = ({ mesh, count }: Finding) => (mesh === null ? Infinity : count);
-  const of = (wanted: Finding['severity']) => findings.filter(({ severity }) => severity === wanted).sort((a, b) => places(b) - places(a) || 0);
-  const [worst] = [...of('error'), ...of('warning')];
-  return worst ?? null;
+/** A problem: a finding, and the number of other parts of which a finding says the same. */
+export interface Problem {
+  finding: Finding;
+  others: number;
 }
 
-/** Swings the slider between both sides once, and sweeps the light across. */
-export async function swing(stage: Stage): Promise<void> {
+/**
+ * The problem that the first screen shows: of the most severe ones one that can be repaired, because its cure can be shown beside it, and of these the one
+ * with the most parts; of several the first one, as in the diagnosis. Notes are no problems.
+ */
+export function worstOf({ findings, statements }: Checked): Problem | null {
+  const problems = statements.map((numbers) => numbers.map((number) => findings[number]));
+  const isFault = ([{ severity }]: Finding[]) => severity === 'error' || severity === 'warning';
+  const rank = (parts: Finding[]) => [Number(parts[0].severity === 'error'), Number(parts.some(isRepairable)), parts.length];
+  const isBefore = (a: number[], b: number[]) => a.reduceRight((later, x, at) => (x === b[at] ? later : x > b[at]), false);
+  const [first, ...later] = problems.filter(isFault);
+  if (!first) return null;
+  const worst = later.reduce((worst, parts) => (isBefore(rank(parts), rank(worst)) ? parts : worst), first);
+  const finding = worst.reduce((most, part) => (part.count > most.count ? part : most));
+  return { finding, others: worst.length - 1 };
+}
+
+/** Swings the slider between both sides once, and sweeps the light across. `rest`: the slider's position in percent at the end. */
+export async function swing(stage: Stage, rest: number): Promise<void> {
   if (!isStill()) {
     const isWhole = await move(DURATION, (done) => {
       const wave = Math.sin(2 * Math.PI * done);
-      stage.split(50 + (AT_REST - 50) * done + SWING * wave);
+      stage.split(50 + (rest - 50) * done + SWING * wave);
       stage.turnLight(SWEEP * wave);
     });
     stage.turnLight(0);
     // Who took the slider keeps it.
     if (!isWhole) return;
   }
-  stage.split(AT_REST);
+  stage.split(rest);
 }
 
-/** Says what is wrong and what the cure costs. `cost`: null where it is not known; `alike`: the difference where both sides look alike, or null. */
-export function showVerdict(worst: Finding, cost: Cost | null, alike: Difference | null, show: () => void): void {
+/**
+ * Says what is wrong, what it looks like and what the cure costs. `cost`: null where it is not known; `alike`: where both sides look alike the difference
+ * of their tangents, or 'unmeasured', otherwise null.
+ */
+export function showVerdict({ finding: worst, others }: Problem, cost: Cost | null, alike: Difference | 'unmeasured' | null, show: () => void): void {
   const text = element('verdict-text');
-  const severity = document.createElement('strong');
+  const severity = document.createElement('span');
   severity.className = 'severity';
   severity.append(severityIcon(worst.severity));
-  text.replaceChildren(severity, `${placeOf(worst)}: ${worst.text}. ${costOf(worst, cost)}`);
-  if (alike) text.append(' ', ...differing(alike, show));
+  const what = document.createElement('strong');
+  const more = others ? ` and ${counted(others, 'other part', 'other parts')}` : '';
+  what.textContent = `${placeOf(worst)}${more}: ${worst.text}.`;
+  text.replaceChildren(severity, what, ` ${worst.looksLike} ${costOf(worst, cost)}`);
+  if (alike === 'unmeasured') text.append(' Both sides look alike here.');
+  else if (alike) text.append(' ', ...differing(alike, show));
   const box = element('verdict');
   box.dataset.severity = worst.severity;
   box.hidden = false;
@@ -79,25 +101,27 @@ export function hideVerdict(): void {
 }
 
 function costOf({ leftBecause }: Finding, cost: Cost | null): string {
-  if (leftBecause !== null) return `Not repaired here, because ${leftBecause}.`;
+  if (leftBecause !== null) return 'It is not repaired here; Evidence, in Check, says why.';
   if (!cost) return '';
   const vertices = cost.vertices > 0 ? `${counted(cost.vertices, 'vertex', 'vertices')} more` : 'no vertex more';
-  return `The repaired file has ${vertices} and ${bytesInWords(cost.bytes)}; what is not wrong stays as it is.`;
+  const bytes = cost.bytes > 0 ? ` and ${bytesInWords(cost.bytes)} more` : '';
+  return `The repaired file has ${vertices}${bytes}.`;
 }
 
-function bytesInWords(bytes: number): string {
-  const size = Math.abs(bytes);
-  const words = size < 1000 ? counted(size, 'byte', 'bytes') : `${Number((size / (size < 1e6 ? 1e3 : 1e6)).toPrecision(2)).toLocaleString('en')} ${size < 1e6 ? 'kB' : 'MB'}`;
-  return `${words} ${bytes < 0 ? 'less' : 'more'}`;
+function bytesInWords(size: number): string {
+  if (size < 1000) return counted(size, 'byte', 'bytes');
+  return `${Number((size / (size < 1e6 ? 1e3 : 1e6)).toPrecision(2)).toLocaleString('en')} ${size < 1e6 ? 'kB' : 'MB'}`;
 }
 
 function differing({ median, worst, flipped }: Difference, show: () => void): (string | HTMLElement)[] {
-  const degrees = (x: number | null) => (x === null ? 'unknown' : `${Number(x.toPrecision(2))}°`);
-  const signs = flipped ? `; the signs differ at ${counted(flipped, 'vertex', 'vertices')}` : '';
+  const degrees = (x: number) => `${Number(x.toPrecision(2))}°`;
+  const angles = median === null || worst === null || worst < SMALLEST ? [] : [`they differ by ${degrees(median)} (median), ${degrees(worst)} (worst)`];
+  const signs = flipped ? [`the signs differ at ${counted(flipped, 'vertex', 'vertices')}`] : [];
   const button = document.createElement('button');
   Object.assign(button, { type: 'button', textContent: 'show' });
   button.addEventListener('click', show);
-  return [`Both sides look alike from here: they differ by ${degrees(median)} (median), ${degrees(worst)} (worst)${signs}: `, button];
+  const differences = [...angles, ...signs].join('; ');
+  return differences ? [`Both sides look alike from here: ${differences}: `, button] : ['Both sides look alike here.'];
 }
 
 /** The vertices of all meshes in a GLB. */

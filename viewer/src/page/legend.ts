@@ -4,7 +4,7 @@ import { COLORS, RAMP, SCALE } from '../scene/frame-material';
 import { OUTLINE_COLOR } from '../scene/fault-outline';
 import { SEAM_COLOR, VECTOR_COLORS, VECTOR_DASHES } from '../scene/frame-lines';
 import { element } from './elements';
-import { VECTORS, type Settings } from '../settings';
+import { isLit, VECTORS, type Settings } from '../settings';
 
 /** A colour and its meaning. */
 export interface Key {
@@ -25,7 +25,7 @@ export interface Legend {
 export function legendOf({ paint, layout, vectors, seams, outline }: Settings, hasFault: boolean): Legend {
   const keys: Key[] = [];
   if (paint === 'angle') keys.push({ color: COLORS.flipped, text: 'signs differ', stripes: true }, { color: COLORS.none, text: 'no tangent' });
-  if (paint === 'sign' || (['shaded', 'bumps'].includes(paint) && layout)) keys.push({ color: COLORS.plus, text: 'w = 1' }, { color: COLORS.minus, text: 'w = -1' });
+  if (paint === 'sign' || (isLit(paint) && layout)) keys.push({ color: COLORS.plus, text: 'w = 1' }, { color: COLORS.minus, text: 'w = -1' });
   if (['tangent', 'bitangent', 'normal'].includes(paint)) keys.push({ color: '#ff8080', text: '+x' }, { color: '#80ff80', text: '+y' }, { color: '#8080ff', text: '+z' });
   for (const name of VECTORS) if (vectors[name]) keys.push({ color: VECTOR_COLORS[name], text: name, dashes: VECTOR_DASHES[name] });
   if (seams) keys.push({ color: SEAM_COLOR, text: 'mirrored edge', dashes: 1 });

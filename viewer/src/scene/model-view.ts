@@ -107,7 +107,7 @@ export class ModelView {
       const isShaded = isLit(settings.paint);
       const map = baked?.covers(part) ? baked : null;
       for (const copy of part.copies) {
-        const material = isShaded ? sideMaterial(part, hasTangents, settings.paint === 'bumps', mistakes, map) : frameMaterial(settings.paint, copy.place, false);
+        const material = isShaded ? sideMaterial(part, hasTangents, settings.paint, mistakes, map) : frameMaterial(settings.paint, copy.place, false);
         const mesh = meshOf(copy, geometry, material);
         mesh.userData.part = number;
         side.model.add(mesh);

@@ -1,8 +1,8 @@
 // The geometry and material of a part on one side of the slider, with the tangents of one source.
 
-import { BufferAttribute, BufferGeometry, MeshPhysicalMaterial, type MeshStandardMaterial } from 'three';
+import { BufferAttribute, BufferGeometry, Color, MeshPhysicalMaterial, MeshStandardMaterial } from 'three';
 
-import type { Mistakes } from '../settings';
+import type { Mistakes, Paint } from '../settings';
 import { NO_ANGLE } from '../surface/angles';
 import type { Comparison } from '../surface/comparison';
 import { floatsOf } from './attribute-floats';
@@ -72,10 +72,22 @@ export function takesBumps({ material }: Part): boolean {
   return !material.normalMap && !(material instanceof MeshPhysicalMaterial && material.anisotropy > 0);
 }
 
-/** Makes the material. `hasBumps`: whether test bumps stand for a missing normal map; `baked`: the map in place of the file's own, or null. */
-export function sideMaterial(part: Part, hasTangents: boolean, hasBumps: boolean, mistakes: Mistakes, baked: BakedMap | null): MeshStandardMaterial {
-  const material = part.material.clone();
-  const isBumpy = hasBumps && takesBumps(part) && !baked;
+/** The linear reflectance and the roughness of plain surfaces. */
+const PLAIN = { reflectance: 0.4, roughness: 0.55 } as const;
+
+/** A grey surface with the normal map of a material, and nothing else of it but where it is cut out. */
+function plainOf({ normalMap, normalMapType, normalScale, side, flatShading, map, alphaTest }: MeshStandardMaterial): MeshStandardMaterial {
+  const cutOut = alphaTest > 0 ? { map, alphaTest } : {};
+  const color = new Color().setScalar(PLAIN.reflectance);
+  const out = new MeshStandardMaterial({ color, roughness: PLAIN.roughness, metalness: 0, normalMap, normalMapType, side, flatShading, ...cutOut });
+  out.normalScale.copy(normalScale);
+  return out;
+}
+
+/** Makes the material of a lit surface. `baked`: the map in place of the file's own, or null. */
+export function sideMaterial(part: Part, hasTangents: boolean, paint: Paint, mistakes: Mistakes, baked: BakedMap | null): MeshStandardMaterial {
+  const material = paint === 'plain' ? plainOf(part.material) : part.material.clone();
+  const isBumpy = paint === 'bumps' && takesBumps(part) && !baked;
   if (isBumpy) withBumps(material);
   baked?.applyTo(material, part);
   // Without tangents, three.js takes green along the derivative by v. v points down the image, so green has to be negated.

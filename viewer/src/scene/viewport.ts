@@ -24,6 +24,7 @@ import { fly, type View } from './camera-flight';
 import { framing } from './framing';
 import { LayoutCamera } from './layout-camera';
 import type { Side } from './model-view';
+import { seenDifference, type SeenDifference } from './seen-difference';
 import { ENVIRONMENTS, studio } from './studio';
 
 /** The vertical field of view in degrees. */
@@ -31,6 +32,9 @@ const FIELD_OF_VIEW = 35;
 
 /** Where the camera is at first: in front, slightly right of the middle and above. */
 const HOME = new Vector3(0.35, 0.3, 1);
+
+/** The directions from which a whole model is seen: from where the camera is at first, around, from above and from below. */
+const AROUND = [HOME, ...[45, 90, 135, 180, 225, 270, 315].map((degrees) => turned(HOME, degrees)), ...[0, 90, 180, 270].map((degrees) => turned(new Vector3(0.35, 1.4, 1), degrees)), ...[0, 180].map((degrees) => turned(new Vector3(0.35, -0.7, 1), degrees))];
 
 /** The side of the UV layout, relative to the shorter side of the picture; page.css places its frame likewise. */
 const LAYOUT_SIZE = 0.5;
@@ -45,11 +49,11 @@ const REST = 250;
 /** A picture that takes longer than this, in milliseconds, is too slow for a moving camera. */
 const SLOW = 45;
 
-/** The size of the pictures that are compared for whether both sides look alike. */
-const COMPARED = [240, 150] as const;
+/** The height in pixels of the pictures that are compared for where both sides differ. */
+const COMPARED_HEIGHT = 150;
 
-/** The difference of a channel, of 255, that is seen. */
-const SEEN = 14;
+/** The least share of the canvas's height that is framed, whatever lies over the picture. */
+const LEAST_FREE = 0.3;
 
 /** What lies under a place of the picture. */
 export interface Picked {
@@ -88,6 +92,8 @@ export class Viewport {
   /** The requested animation frame, or 0. */
   private requestedFrame = 0;
   private stopFlight = () => {};
+  /** The heights in CSS pixels of what lies over the picture at its top and at its bottom. */
+  private bands = { top: 0, bottom: 0 };
 
   /** Errors: the browser has no WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -210,22 +216,47 @@ export class Viewport {
 
   /** Looks at a box from a direction, so that it fills the picture. */
   lookAtBox(box: Box3, from: Vector3, isFlight = false): void {
-    const to = framing(box, from, FIELD_OF_VIEW, this.camera.aspect);
-    const distance = to.eye.distanceTo(to.target);
-    this.camera.near = Math.min(this.sphere.radius / 100, distance / 100);
-    this.camera.far = this.sphere.radius * 20 + distance;
-    this.moveTo(to, isFlight);
+    this.moveTo(this.viewOfBox(box, from), isFlight);
   }
 
   /** Looks at a point from a direction, so that a sphere around it is in view. */
   look(at: Vector3, radius: number, from: Vector3, isFlight = false): void {
-    const distance = radius / Math.sin(((FIELD_OF_VIEW / 2) * Math.PI) / 180) / Math.min(1, this.camera.aspect);
-    this.camera.near = Math.min(this.sphere.radius, radius) / 100;
-    this.camera.far = this.sphere.radius * 20 + distance;
-    this.moveTo({ eye: at.clone().addScaledVector(from.clone().normalize(), distance), target: at.clone() }, isFlight);
+    this.moveTo(this.viewOfSphere(at, radius, from), isFlight);
   }
 
-  private moveTo(to: View, isFlight: boolean): void {
+  /** The views of the whole model from all around, the first one as {@link lookAtAll}. */
+  viewsAround(): View[] {
+    return AROUND.map((from) => this.viewOfBox(this.box, from));
+  }
+
+  private viewOfBox(box: Box3, from: Vector3): View {
+    const { fieldOfView, aspect } = this.free();
+    return framing(box, from, fieldOfView, aspect);
+  }
+
+  /** The view of a sphere from a direction. The bands may cover its edges. */
+  viewOfSphere(at: Vector3, radius: number, from: Vector3): View {
+    const distance = radius / Math.sin(((FIELD_OF_VIEW / 2) * Math.PI) / 180) / Math.min(1, this.camera.aspect);
+    return { eye: at.clone().addScaledVector(from.clone().normalize(), distance), target: at.clone() };
+  }
+
+  /** Keeps what the camera looks at out of bands at the top and at the bottom of the canvas, in CSS pixels. */
+  keepFree(top: number, bottom: number): void {
+    this.bands = { top, bottom };
+    this.draw();
+  }
+
+  /** The vertical field of view in degrees and the aspect of the picture between the bands. */
+  private free(): { fieldOfView: number; aspect: number } {
+    const height = this.canvas.clientHeight || 1;
+    const share = Math.max(LEAST_FREE, 1 - (this.bands.top + this.bands.bottom) / height);
+    const slope = share * Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
+    return { fieldOfView: (Math.atan(slope) * 360) / Math.PI, aspect: this.camera.aspect / share };
+  }
+
+  /** Moves the camera. */
+  moveTo(to: View, isFlight: boolean): void {
+    this.setDepths(to);
     const move = ({ eye, target }: View) => {
       this.camera.position.copy(eye);
       this.controls.target.copy(target);
@@ -235,6 +266,12 @@ export class Viewport {
     this.stopFlight();
     if (isFlight) this.stopFlight = fly({ eye: this.camera.position.clone(), target: this.controls.target.clone() }, to, move);
     else move(to);
+  }
+
+  private setDepths({ eye, target }: View): void {
+    const distance = eye.distanceTo(target);
+    this.camera.near = Math.min(this.sphere.radius, distance / 3) / 100;
+    this.camera.far = this.sphere.radius * 20 + distance;
   }
 
   /** Orbits around the model by degrees, and moves closer by a factor. */
@@ -296,33 +333,63 @@ export class Viewport {
     return this.canvas;
   }
 
-  /** The share of the pixels of the model's picture that differ visibly between both sides. */
-  visibleDifference(): number {
-    const [width, height] = COMPARED;
+  /** How much both sides differ visibly from a view, in small pictures. */
+  differenceFrom(view: View): SeenDifference {
+    const { camera, split, renderer, canvas } = this;
+    const [eye, turn, near, far] = [camera.position.clone(), camera.quaternion.clone(), camera.near, camera.far];
+    this.setDepths(view);
+    camera.position.copy(view.eye);
+    camera.lookAt(view.target);
+    this.prepare();
+    const height = Math.min(COMPARED_HEIGHT, canvas.clientHeight);
+    const width = Math.min(canvas.clientWidth, Math.round(height * camera.aspect));
     const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true })!;
-    const split = this.split;
+    const ratio = renderer.getPixelRatio();
     const [left, right] = [1, 0].map((at) => {
       this.split = at;
-      context.drawImage(this.picture(), 0, 0, width, height);
-      return context.getImageData(0, 0, width, height).data;
+      this.drawSplit(0, 0, width, height, this.scene, camera);
+      context.drawImage(canvas, 0, canvas.height - height * ratio, width * ratio, height * ratio, 0, 0, width, height);
+      return context.getImageData(0, 0, width, height);
     });
     this.split = split;
+    camera.position.copy(eye);
+    camera.quaternion.copy(turn);
+    [camera.near, camera.far] = [near, far];
     this.drawNow();
-    let differing = 0;
-    for (let at = 0; at < left.length; at += 4) differing += Number([0, 1, 2].some((i) => Math.abs(left[at + i] - right[at + i]) > SEEN));
-    return differing / (width * height);
+    return seenDifference(left, right);
+  }
+
+  /** The point of the model at a place of the picture from a view, from 0 to 1 from the left and from the top; null where there is none. */
+  pointAt(view: View, [x, y]: [number, number]): Vector3 | null {
+    const { camera } = this;
+    const [eye, turn] = [camera.position.clone(), camera.quaternion.clone()];
+    camera.position.copy(view.eye);
+    camera.lookAt(view.target);
+    camera.updateMatrixWorld();
+    const picked = this.pick(x * this.canvas.clientWidth, y * this.canvas.clientHeight);
+    camera.position.copy(eye);
+    camera.quaternion.copy(turn);
+    camera.updateMatrixWorld();
+    return picked?.hit.point ?? null;
+  }
+
+  /** Sets the sizes of the canvas and of the camera's picture. */
+  private prepare(): void {
+    const { renderer, canvas, camera } = this;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    renderer.setPixelRatio(devicePixelRatio);
+    renderer.setSize(width, height, false);
+    camera.aspect = width / height;
+    camera.setViewOffset(width, height, 0, (this.bands.bottom - this.bands.top) / 2, width, height);
   }
 
   private drawNow(): void {
     cancelAnimationFrame(this.requestedFrame);
     this.requestedFrame = 0;
-    const { renderer, canvas, camera } = this;
+    const { canvas, camera } = this;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     if (!width || !height) return;
-    renderer.setPixelRatio(devicePixelRatio);
-    renderer.setSize(width, height, false);
-    camera.aspect = width / height;
-    camera.updateProjectionMatrix();
+    this.prepare();
     const start = performance.now();
     this.drawSplit(0, 0, width, height, this.scene, camera);
     this.measure(start);
@@ -365,4 +432,9 @@ export class Viewport {
     }
     renderer.setScissorTest(false);
   }
+}
+
+/** A direction turned around the vertical axis. */
+function turned(direction: Vector3, degrees: number): Vector3 {
+  return direction.clone().applyAxisAngle(new Vector3(0, 1, 0), (degrees * Math.PI) / 180);
 }

@@ -2,7 +2,7 @@
 
 use std::cmp::Reverse;
 
-use darboux_check::ReportedFinding;
+use darboux_check::{ReportedFinding, statements};
 
 /// The errors first, then warnings, then what is worth knowing; causes before what follows from them.
 pub fn by_severity(findings: &[ReportedFinding]) -> Vec<&ReportedFinding> {
@@ -13,24 +13,21 @@ pub fn by_severity(findings: &[ReportedFinding]) -> Vec<&ReportedFinding> {
 
 /// The findings of one severity and code together, in the order of [`by_severity`].
 pub fn by_kind(findings: &[ReportedFinding]) -> Vec<Vec<&ReportedFinding>> {
-    grouped(findings, |a, b| (a.severity, a.code) == (b.severity, b.code))
-}
-
-/// The findings that say the same together, in the order of [`by_severity`].
-pub fn by_statement(findings: &[ReportedFinding]) -> Vec<Vec<&ReportedFinding>> {
-    grouped(findings, ReportedFinding::says_the_same)
-}
-
-fn grouped(
-    findings: &[ReportedFinding],
-    is_same: impl Fn(&ReportedFinding, &ReportedFinding) -> bool,
-) -> Vec<Vec<&ReportedFinding>> {
     let mut groups: Vec<Vec<&ReportedFinding>> = Vec::new();
     for finding in by_severity(findings) {
-        match groups.iter_mut().find(|group| is_same(group[0], finding)) {
+        let is_same = |group: &&mut Vec<&ReportedFinding>| {
+            (group[0].severity, group[0].code) == (finding.severity, finding.code)
+        };
+        match groups.iter_mut().find(is_same) {
             Some(group) => group.push(finding),
             None => groups.push(vec![finding]),
         }
     }
     groups
+}
+
+/// The findings that say the same together, in the order of [`by_severity`].
+pub fn by_statement(findings: &[ReportedFinding]) -> Vec<Vec<&ReportedFinding>> {
+    let of = |numbers: Vec<usize>| numbers.into_iter().map(|number| &findings[number]).collect();
+    statements(findings).into_iter().map(of).collect()
 }

@@ -3,7 +3,7 @@
 use darboux_check::{ReportedFinding, Severity};
 use darboux_io::words::Count;
 
-use super::super::groups::by_kind;
+use super::super::groups::by_statement;
 use super::super::report::CheckedFile;
 use super::super::text;
 use super::pictures::{Pair, Pictures};
@@ -42,7 +42,7 @@ pub fn section(number: usize, file: &CheckedFile, pictures: Pictures) -> String 
     }
     html += &of_pictures(pictures);
     let (notes, severe): (Vec<_>, Vec<_>) =
-        by_kind(&file.findings).into_iter().partition(|group| group[0].severity <= Severity::Info);
+        by_statement(&file.findings).into_iter().partition(|group| group[0].severity <= Severity::Info);
     html.extend(severe.iter().map(|group| card(group)));
     if !notes.is_empty() {
         let count = notes.iter().map(Vec::len).sum();
