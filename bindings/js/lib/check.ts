@@ -34,7 +34,7 @@ export interface CheckOptions {
 
 /** Options of {@link fix}. */
 export interface FixOptions extends CheckOptions {
-  /** The codes that are repaired. Default: all, but tangents of another method than MikkTSpace are left, because the map may have been baked with them: `['tangent-other-recipe']` computes them again. */
+  /** The codes that are repaired. Default: all, but tangents of another method than MikkTSpace are left (of no known method unless many point to wrong directions), because the map may have been baked with them: `['tangent-other-recipe']` computes them again. */
   only?: readonly string[] | null;
 }
 

@@ -132,8 +132,9 @@ fn check_options(convention: &str, maps: bool, assume: Option<&str>) -> PyResult
 /// method : str
 ///     How tangents are made again: as the normal map was baked, so nearly always 'mikktspace'.
 /// only : iterable of str, optional
-///     The codes that are repaired. By default all, but tangents of another method than MikkTSpace are left,
-///     because the map may have been baked with them: only=['tangent-other-recipe'] computes them again.
+///     The codes that are repaired. By default all, but tangents of another method than MikkTSpace are left
+///     (of no known method unless many point to wrong directions), because the map may have been baked with
+///     them: only=['tangent-other-recipe'] or another `method` computes them again.
 ///
 /// Returns
 /// -------

@@ -213,10 +213,11 @@ codes! {
          importer (glTF-Blender-IO 2226)."
         "Keep them if the map was baked with them (`--allow tangent-other-recipe` accepts them); otherwise \
          compute them again: `darboux check FILE --fix --only tangent-other-recipe`."
-        Repair "single tangents that differ are computed as the others were; all are computed again by \
-             MikkTSpace, or by the method that `--method` names, where most are MikkTSpace's or many point to \
-             wrong directions; others may be those that the map was baked with, and are computed again only \
-             where `--only tangent-other-recipe` or another method asks for it"
+        Repair "single tangents that no method makes are computed as the others were; all are computed \
+             again by MikkTSpace, or by the method that `--method` names, where most, but not all, are \
+             MikkTSpace's, or no known method made them and many point to wrong directions; others may be those \
+             that the map was baked with, and are computed again only where `--only tangent-other-recipe` or \
+             another method asks for it"
     }
     TangentMissing "tangent-missing" Info {
         "The material has a normal map and the primitive has no tangents."

@@ -113,6 +113,11 @@ pub fn needs_new_tangents(defect: &Defect) -> bool {
     matches!(&defect.fault, Fault::Tangent(fault) if !fault.is_about_single_tangents())
 }
 
+/// Whether the repair of a defect would also repair flipped signs of a part of the surface.
+pub fn would_repair_signs(defect: &Defect) -> bool {
+    needs_new_tangents(defect) || defect.code() == Code::TangentSignMixed
+}
+
 /// The largest severity of flipped signs, and of a map that they cancel. `damaged`: the part that looks
 /// wrong, of all surfaces with that map, in percent of the model's area.
 pub fn most_severe(damaged: f64) -> Severity {
@@ -255,8 +260,7 @@ pub fn leave_unidentified(
     }
     for surface in surfaces {
         if surface.iter().any(|defect| are_partly_flipped(defect)) {
-            let is_mixed = |defect: &Defect| defect.code() == Code::TangentSignMixed;
-            for defect in surface.iter_mut().filter(|defect| needs_new_tangents(defect) || is_mixed(defect)) {
+            for defect in surface.iter_mut().filter(|defect| would_repair_signs(defect)) {
                 defect.leave(Obstacle::SignsAreLeft);
             }
         }
@@ -316,15 +320,20 @@ mod tests {
             };
             Defect { damaged_percent: Some(damaged), ..Defect::new(TangentFault::Differs(difference)) }
         };
-        let severities = |mut defects: Vec<Defect>| {
+        // After them comes a surface with right signs.
+        let beside = |mut defects: Vec<Defect>, right_area: f64| {
             let mut surfaces: Vec<Vec<&mut Defect>> = defects.iter_mut().map(|defect| vec![defect]).collect();
+            surfaces.push(Vec::new());
             let options = CheckOptions::default();
             let witness = MapWitness::of_unread(&options);
             let context = MapContext::alone(&options);
-            leave_unidentified(&mut [], &witness, &mut surfaces, &|_| 0.0, &context);
+            leave_unidentified(&mut [], &witness, &mut surfaces, &|_| right_area, &context);
             defects.iter().map(|defect| defect.severity).collect::<Vec<Severity>>()
         };
+        let severities = |defects: Vec<Defect>| beside(defects, 0.0);
         let [error, warning] = [Severity::Error, Severity::Warning];
+        assert_eq!(beside(vec![flipped(100.0, 40.0)], 0.4), [warning]);
+        assert_eq!(beside(vec![flipped(100.0, 40.0)], 60.0), [error]);
         assert_eq!(severities(vec![flipped(50.0, 0.1); 4]), [warning; 4]);
         assert_eq!(severities(vec![flipped(50.0, 0.1); 5]), [error; 5]);
         // The first is right under an inverted map, the second under another one.

@@ -36,10 +36,12 @@ impl ModelArea {
         let first = first_with_same_data(document);
         for corners in document.corners()? {
             let Some(positions) = corners.used_vectors::<3>("POSITION")? else { continue };
-            let at = |vertex: u32| positions[vertex as usize];
+            let position = |vertex: u32| positions[vertex as usize];
             let triangles = corners.used_indices().as_chunks::<3>().0.iter();
-            let own: f64 =
-                triangles.map(|triangle| area_of(triangle.map(at))).filter(|area| area.is_finite()).sum();
+            let own: f64 = triangles
+                .map(|triangle| area_of(triangle.map(position)))
+                .filter(|area| area.is_finite())
+                .sum();
             let (own, at) = (own * area.scale(corners.name().mesh), key(corners.name()));
             area.total += own;
             area.with_maps += if needing.contains(&at) { own } else { 0.0 };

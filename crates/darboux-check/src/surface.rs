@@ -190,6 +190,33 @@ impl Surface {
     }
 }
 
+#[cfg(test)]
+impl Surface {
+    /// Triangles without normals, tangents and UVs.
+    pub fn of_triangles(positions: Vec<[f32; 3]>, vertex_of_corner: Vec<u32>) -> Self {
+        Self {
+            place: Place::default(),
+            needs_tangents: true,
+            ineligible: None,
+            moves_normals: false,
+            uv_set: 0,
+            vertices_in_file: None,
+            vertices_of_file: positions.len(),
+            has_no_votes: OnceLock::new(),
+            smooth_seams: OncePer::default(),
+            face_of_triangle: OncePer::default(),
+            keeps_tilts: false,
+            tilts: OncePer::default(),
+            vertex_of_corner,
+            positions,
+            normals: None,
+            tangents: None,
+            tangent_size: 0,
+            uv_sets: BTreeMap::new(),
+        }
+    }
+}
+
 /// The values of an attribute at the vertices of a primitive. Errors: invalid data; an index of a corner that
 /// is out of range.
 fn vertices<const N: usize>(

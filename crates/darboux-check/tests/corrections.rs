@@ -190,11 +190,33 @@ fn small_differences_to_a_known_method_are_told_and_left() {
     let found = findings.iter().find(|finding| finding.code == Code::TangentOtherRecipe);
     let found = found.expect("the finding");
     assert!(found.text.contains("(Maya), but some differ") && !found.is_fixable(), "{found:#?}");
-    let largest = found.evidence.iter().find(|evidence| evidence.what == "largest angle to it");
+    let largest = found.evidence.iter().find(|evidence| evidence.what == "largest angle to that method");
     assert!(largest.is_some_and(|largest| (largest.value - 15.0).abs() < 0.2), "{largest:?}");
     let options = FixOptions::default().with_check(without_maps());
     fix_document(&mut document, findings, &options).expect("a repair");
     assert!(!document.is_changed());
+}
+
+/// The map may have been baked with tangents of no known method, unless many of them point to wrong
+/// directions; what other parts of the model look like does not decide that.
+#[test]
+fn tangents_of_no_known_method_are_left_unless_many_are_far() {
+    let options = FixOptions::default().with_check(without_maps());
+    for (degrees, severity) in [(17.0, Severity::Warning), (60.0, Severity::Error)] {
+        let mut model = named("large wavy grid");
+        for vertex in 0..model.positions.len() {
+            turn(&mut model, vertex, degrees * (vertex as f32).sin());
+        }
+        let mut document = model.document();
+        let findings = check_document(&document, &options.check).expect("a valid document");
+        let found = findings.iter().find(|finding| finding.code == Code::TangentOtherRecipe);
+        let found = found.expect("the finding");
+        let is_repaired = severity == Severity::Error;
+        assert_eq!((found.severity, found.is_fixable()), (severity, is_repaired), "{found:#?}");
+        assert_eq!(found.cure.starts_with("Keep them"), !is_repaired, "{}", found.cure);
+        fix_document(&mut document, findings, &options).expect("a repair");
+        assert_eq!(document.is_changed(), is_repaired);
+    }
 }
 
 /// Tangents of a method that were written through an index list are those of the method again.

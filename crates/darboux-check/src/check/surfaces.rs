@@ -8,7 +8,7 @@ use darboux_io::gltf::{Document, PrimitiveInfo, PrimitiveName, inspect};
 
 use crate::code::{Code, Family};
 use crate::damage::damaged_area;
-use crate::defect::{Defect, Fault, Obstacle, TangentFault};
+use crate::defect::{Defect, Fault, TangentFault};
 use crate::facts::SurfaceFacts;
 use crate::instances::{Key, distinct, key};
 use crate::measure::texture_axes::followed;
@@ -87,17 +87,6 @@ pub fn weigh(defects: &mut [Defect]) {
             };
             defects[index].severity = defects[index].severity.min(most);
         }
-    }
-    defects.iter_mut().for_each(leave_what_the_map_may_fit);
-}
-
-/// Leaves tangents of no known method that look wrong on too small a part to be an error: the map may have
-/// been baked with them.
-fn leave_what_the_map_may_fit(defect: &mut Defect) {
-    let Fault::Tangent(TangentFault::OtherRecipe { recognised, .. }) = &defect.fault else { return };
-    let is_free = defect.obstacle.is_none() && !recognised.are_most_of_mikktspace();
-    if is_free && defect.severity < Severity::Error {
-        defect.leave(Obstacle::MapMayFitTangents);
     }
 }
 

@@ -86,8 +86,11 @@ pub enum Obstacle {
     OtherImageFormat,
     /// A mistake elsewhere cancels it, and is left.
     PairIsLeft(&'static Pair),
-    /// Flipped signs of a part of the surface are left, and new tangents would have the right ones.
+    /// Flipped signs of a part of the surface are left, because a map may cancel them, and the repair would
+    /// repair them, too.
     SignsAreLeft,
+    /// The same where the code of the signs is not among those to repair.
+    SignsAreNotChosen,
     NotChosen,
     OtherMethodWanted,
     /// The rest needs all tangents computed again, and their recipe is kept.

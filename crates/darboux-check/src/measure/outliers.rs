@@ -63,10 +63,18 @@ impl Outliers {
         let are_many = near >= MIN_NEAR * judged
             && far > MIN_FAR * judged
             && judged - near - far <= MAX_BETWEEN * judged;
+        let old = surface.tangents.as_ref()?;
+        let tangent_of = |vertex: usize| match facts.fits.iter().any(|fit| fit.is_negated(vertex)) {
+            true => xyz(old[vertex]).map(|x| -x),
+            false => xyz(old[vertex]),
+        };
         let far = surface.used(indices_where(&angles, |angle| angle.is_some_and(|angle| angle > FAR)));
         let vertices = match are_many {
             true => far,
-            false if is_other_method(best) => beside_u_directions(surface, far, FAR),
+            // The triangles of quads may have been other ones.
+            false if is_other_method(best) && !best.recipe.from_quads => {
+                beside_u_directions(surface, far, tangent_of, FAR)
+            }
             false => return None,
         };
         if vertices.is_empty() {

@@ -4,14 +4,18 @@ use darboux::{Mesh, Recipe, RecipeMatch, recognise_recipe};
 
 use crate::facts::SurfaceFacts;
 use crate::measure::closeness::{
-    IS_MIKKTSPACE, are_most_of_mikktspace, close, is_mikktspace, is_other_method,
+    MIN_MIKKTSPACE, are_most_of_mikktspace, close_percent, is_mikktspace, is_other_method,
 };
 use crate::measure::expected::is_measured;
 use crate::measure::fit::{Difference, Fit};
 use crate::measure::outliers::{FAR, Outliers, tangents_without_other_mistakes};
 use crate::measure::values::{has_length, is_unit};
 use crate::model_area::area_of;
+use crate::severity::MIN_DAMAGED;
 use crate::surface::{Surface, cross, dot, length, xyz};
+
+/// The share of corners far from MikkTSpace, in percent, above which they are many.
+const MAX_PERCENT_FAR: f64 = 1.0;
 
 /// The best recipe and the best one of MikkTSpace on the triangles as they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,13 +33,15 @@ pub struct Far {
     pub percent: f64,
     /// Their area by the angle, in the units of the positions: a right angle counts whole.
     pub damaged_area: f64,
+    /// That area in percent of the area of all corners.
+    pub damaged_percent: f64,
 }
 
 impl Far {
-    /// Whether there are so many that tangents of no known method are an error where they damage enough of
-    /// the model.
+    /// Whether there are so many, by number and by area, that tangents of no known method are an error where
+    /// the surface is enough of the model.
     pub fn are_many(&self) -> bool {
-        self.percent > 1.0
+        self.percent > MAX_PERCENT_FAR && self.damaged_percent >= MIN_DAMAGED
     }
 }
 
@@ -99,24 +105,26 @@ impl Recipes {
             dot(cross(normals[vertex], expected), tangent).atan2(dot(expected, tangent)).to_degrees().abs()
         };
         let is_counted = |vertex: usize| has_length(tangents[vertex]) && !is_other[vertex];
-        let (mut corners, mut far, mut damaged_area) = (0usize, 0usize, 0.0);
+        let (mut corners, mut far, mut all_area, mut damaged_area) = (0usize, 0usize, 0.0, 0.0);
         for (triangle, expected) in surface.triangles().zip(expected.as_chunks::<3>().0) {
             if !is_measured(surface, uvs, triangle) {
                 continue;
             }
+            let area = area_of(triangle.map(|vertex| surface.positions[vertex])) / 3.0;
             for (vertex, &expected) in
                 triangle.into_iter().zip(expected).filter(|(vertex, _)| is_counted(*vertex))
             {
-                corners += 1;
+                (corners, all_area) = (corners + 1, all_area + area);
                 let angle = angle(vertex, xyz(expected));
                 if angle > FAR {
                     far += 1;
-                    let area = area_of(triangle.map(|vertex| surface.positions[vertex]));
-                    damaged_area += area / 3.0 * (angle / 90.0).min(1.0);
+                    damaged_area += area * (angle / 90.0).min(1.0);
                 }
             }
         }
-        Far { percent: 100.0 * far as f64 / corners.max(1) as f64, damaged_area }
+        let percent = 100.0 * far as f64 / corners.max(1) as f64;
+        let damaged_percent = if far > 0 { 100.0 * damaged_area / all_area } else { 0.0 };
+        Far { percent, damaged_area, damaged_percent }
     }
 }
 
@@ -135,14 +143,14 @@ impl Recognised {
         // Where MikkTSpace explains all corners, nothing shows that another recipe was used, though it may
         // have more bits in common.
         let is_explained = self.mikktspace.close == self.mikktspace.corners;
-        is_explained || is_mikktspace(&self.best) && close(&self.best) >= IS_MIKKTSPACE
+        is_explained || is_mikktspace(&self.best) && close_percent(&self.best) >= MIN_MIKKTSPACE
     }
 }
 
 /// None where no recipe can be computed. `tangents`: of corners.
 fn recognise(surface: &Surface, tangents: &[[f32; 4]]) -> Option<Recognised> {
     let as_they_are = recognise_on(&surface.mesh(surface.uv_set)?, tangents)?;
-    if close(&as_they_are.best) >= IS_MIKKTSPACE {
+    if close_percent(&as_they_are.best) >= MIN_MIKKTSPACE {
         return Some(as_they_are);
     }
     // Normals that were scaled after the tangents were computed hide how they were.

@@ -119,12 +119,7 @@ fn median(faces: &[Face], value: fn(&Face) -> f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeMap;
-    use std::sync::OnceLock;
-
     use super::*;
-    use crate::once_per::OncePer;
-    use crate::place::Place;
 
     /// Squares of side 1 beside each other, each with the sides of its UVs.
     fn squares(sides: &[[f32; 2]]) -> (Surface, Vec<[f32; 2]>) {
@@ -137,26 +132,7 @@ mod tests {
             }
             indices.extend([0, 1, 2, 0, 2, 3].map(|corner| first + corner));
         }
-        let surface = Surface {
-            place: Place::default(),
-            needs_tangents: true,
-            ineligible: None,
-            moves_normals: false,
-            uv_set: 0,
-            vertices_in_file: None,
-            vertices_of_file: 0,
-            has_no_votes: OnceLock::new(),
-            smooth_seams: OncePer::default(),
-            face_of_triangle: OncePer::default(),
-            keeps_tilts: false,
-            tilts: OncePer::default(),
-            vertex_of_corner: indices,
-            positions,
-            normals: None,
-            tangents: None,
-            tangent_size: 0,
-            uv_sets: BTreeMap::new(),
-        };
+        let surface = Surface::of_triangles(positions, indices);
         (surface, uvs)
     }
 

@@ -11,7 +11,7 @@ use super::options::FixOptions;
 use crate::cancelling::{is_part, pair_of};
 use crate::code::Code;
 use crate::defect::{Cancelled, Defect, Obstacle, PAIRS, Pair, Unseen};
-use crate::hypotheses::{are_partly_flipped, is_about_green, is_about_signs, needs_new_tangents};
+use crate::hypotheses::{are_partly_flipped, is_about_green, is_about_signs, would_repair_signs};
 use crate::instances::{Key, key};
 use crate::severity::Severity;
 
@@ -130,12 +130,12 @@ impl LeftPairs {
     }
 }
 
-/// The defects, with the reason where they need new tangents and flipped signs of a part of their primitive
-/// are left, which new tangents would not have.
+/// The defects, with the reason where flipped signs of a part of their primitive are left, which their repair
+/// would repair, too.
 fn with_signs_that_are_left(mut defects: Vec<Defect>) -> Vec<Defect> {
     let is_left = |defect: &&Defect| defect.obstacle.is_some() && are_partly_flipped(defect);
     let keep_signs: BTreeSet<Key> = defects.iter().filter(is_left).filter_map(primitive_of).collect();
-    for defect in defects.iter_mut().filter(|defect| needs_new_tangents(defect)) {
+    for defect in defects.iter_mut().filter(|defect| would_repair_signs(defect)) {
         if primitive_of(defect).is_some_and(|key| keep_signs.contains(&key)) {
             defect.leave(Obstacle::SignsAreLeft);
         }

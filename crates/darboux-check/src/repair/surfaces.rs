@@ -59,7 +59,7 @@ struct Repair {
     /// The primitives whose tangents were corrected, and are not all made again to repair the rest.
     kept: BTreeSet<Key>,
     /// The primitives whose repair failed while tangents were kept with which the map may have been baked.
-    without_method: BTreeSet<Key>,
+    given_up: BTreeSet<Key>,
 }
 
 /// What one attempt at a round came to.
@@ -102,7 +102,7 @@ impl Work<'_> {
     /// anything was changed.
     fn round(&self, document: &mut Document, repair: &mut Repair) -> Result<bool, Error> {
         let mut refused = BTreeMap::new();
-        // Every turn gives up the method of one more primitive at least, or refuses its repair.
+        // Every turn gives up the tangents of one more primitive at least, or refuses its repair.
         loop {
             let checkpoint = document.checkpoint();
             let attempt = self.attempt(document, repair, &refused)?;
@@ -118,8 +118,8 @@ impl Work<'_> {
                 repair.after = attempt.after;
                 return Ok(!attempt.edited.is_empty());
             }
-            let keeping = keeping_tangents(&repair.after);
-            let mut gives_up = |at: &Key| keeping.contains(at) && repair.without_method.insert(*at);
+            let keeping = keeping_tangents(repair.after.iter().chain(&attempt.after));
+            let mut gives_up = |at: &Key| keeping.contains(at) && repair.given_up.insert(*at);
             refused.extend(failed.into_iter().filter(|(at, _)| !gives_up(at)));
             document.roll_back(checkpoint);
         }
@@ -134,10 +134,10 @@ impl Work<'_> {
     ) -> Result<Attempt, Error> {
         let mut stages: BTreeMap<Key, Stage> = refused.keys().map(|at| (*at, Stage::Refused)).collect();
         let mut attempt = Attempt { after: repair.after.clone(), ..Attempt::default() };
-        let gives_up_method = |at: Key| repair.without_method.contains(&at) && !refused.contains_key(&at);
+        let gives_up_tangents = |at: Key| repair.given_up.contains(&at) && !refused.contains_key(&at);
         loop {
             for defect in &mut attempt.after {
-                if is_of_kept_tangents(defect) && place_of(defect).is_some_and(gives_up_method) {
+                if is_of_kept_tangents(defect) && place_of(defect).is_some_and(gives_up_tangents) {
                     defect.obstacle = None;
                 }
             }
@@ -251,7 +251,7 @@ impl Work<'_> {
                 return FixedFinding::left(defect, Obstacle::RecipeIsKept);
             }
             if needs_new_tangents(&defect) && leaves_some_signs(of_place, self.options) {
-                return FixedFinding::left(defect, Obstacle::SignsAreLeft);
+                return FixedFinding::left(defect, Obstacle::SignsAreNotChosen);
             }
         }
         let is_about_tangents = defect.family() == Family::Tangents;
@@ -268,8 +268,8 @@ fn is_of_kept_tangents(defect: &Defect) -> bool {
 }
 
 /// The primitives with such tangents.
-fn keeping_tangents(defects: &[Defect]) -> BTreeSet<Key> {
-    defects.iter().filter(|defect| is_of_kept_tangents(defect)).filter_map(place_of).collect()
+fn keeping_tangents<'a>(defects: impl Iterator<Item = &'a Defect>) -> BTreeSet<Key> {
+    defects.filter(|defect| is_of_kept_tangents(defect)).filter_map(place_of).collect()
 }
 
 /// The defects by their primitives; other defects have none.

@@ -1,7 +1,5 @@
 //! The rule about how tangents were computed.
 
-use darboux::Recipe;
-
 use super::rule::SurfaceRule;
 use crate::defect::Obstacle;
 use crate::defect::{Defect, TangentFault};
@@ -42,7 +40,7 @@ fn of_all(facts: &SurfaceFacts<'_>, recipes: &Recipes) -> Option<Defect> {
     let severity = if rounding.is_some() { severity.min(Severity::Warning) } else { severity };
     let defect = Defect::new(TangentFault::OtherRecipe { recognised, far }).with_severity(severity);
     let rounding = rounding.map(|rounding| Obstacle::UvsWereRounded { steps: rounding.steps });
-    Some(defect.with_obstacle(rounding.or_else(|| obstacle(&recognised, severity))))
+    Some(defect.with_obstacle(rounding.or_else(|| obstacle(&recognised, far, severity))))
 }
 
 /// Tangents of no known method may be older than the rounding of UVs, and right.
@@ -50,14 +48,14 @@ fn rounding_of_uvs(surface: &Surface) -> Option<UvRounding> {
     UvRounding::of(surface, surface.uv_sets.get(&surface.uv_set)?)
 }
 
-/// Why tangents are left: nobody sees the difference, or the map may have been baked with their method.
-fn obstacle(recognised: &Recognised, severity: Severity) -> Option<Obstacle> {
-    let of_method = |recipe: Recipe| match recipe.from_quads {
-        true => Obstacle::BakedOnQuads,
-        false => Obstacle::MapMayFitTangents,
-    };
-    match severity {
-        Severity::Info => Some(Obstacle::DifferenceIsInvisible),
-        _ => recognised.other_method().map(of_method),
+/// Why tangents are left: nobody sees the difference, or the map may have been baked with them. Where most are
+/// MikkTSpace's, or many point to wrong directions, they are repaired.
+fn obstacle(recognised: &Recognised, far: Far, severity: Severity) -> Option<Obstacle> {
+    match recognised.other_method() {
+        _ if severity == Severity::Info => Some(Obstacle::DifferenceIsInvisible),
+        Some(recipe) if recipe.from_quads => Some(Obstacle::BakedOnQuads),
+        Some(_) => Some(Obstacle::MapMayFitTangents),
+        None if far.are_many() || recognised.are_most_of_mikktspace() => None,
+        None => Some(Obstacle::MapMayFitTangents),
     }
 }

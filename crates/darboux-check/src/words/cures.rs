@@ -2,17 +2,21 @@
 
 use darboux::BitangentDirection;
 
+use crate::code::Code;
 use crate::defect::{Defect, Fault, MapFault, NormalFault, Obstacle, TangentFault};
-
-/// Tangents that are left because the map may have been baked with them.
-const OF_OTHER_TANGENTS: &str = "Keep them if the map was baked with them (`--allow tangent-other-recipe` accepts \
-     them); otherwise `darboux check FILE --fix --only tangent-other-recipe`.";
 
 /// The cure of a defect that a repair leaves; none where the usual one fits.
 pub fn of_left(defect: &Defect) -> Option<&'static str> {
+    let is_recipe = matches!(defect.fault, Fault::Tangent(TangentFault::OtherRecipe { .. }));
     match defect.obstacle.as_ref()? {
-        Obstacle::MapMayFitTangents | Obstacle::BakedOnQuads => Some(OF_OTHER_TANGENTS),
         Obstacle::DifferenceIsInvisible => Some("None needed."),
+        Obstacle::MapHasOtherLayout { .. } => {
+            Some("Put back the UVs that the map was made for, and check again.")
+        }
+        obstacle if is_recipe && obstacle.yields_to_choice() => Some(Code::TangentOtherRecipe.cure()),
+        _ if is_recipe => {
+            Some("Keep them if the map was baked with them; otherwise `darboux tangents --overwrite`.")
+        }
         obstacle if obstacle.depends_on_options() => None,
         _ => other_cure(&defect.fault),
     }

@@ -97,8 +97,12 @@ pub fn reason(obstacle: &Obstacle) -> String {
         Obstacle::FlatShadingMayBeWanted => "flat shading may be wanted; `darboux normals` makes smooth ones",
         Obstacle::MorphTargetsMoveNormals => "morph targets move these normals",
         Obstacle::SignsAreLeft => {
-            "flipped signs w of a part of these tangents are left, and computing the tangents again would \
-             repair those, too: repair the signs first, or both together"
+            "flipped signs w of a part of these tangents are left, because the map may cancel them, and this \
+             repair would repair them, too: say first what the map is, with `--assume`"
+        }
+        Obstacle::SignsAreNotChosen => {
+            "flipped signs w of a part of these tangents are not among the findings to repair, and computing \
+             the tangents again would repair them, too: name their code as well"
         }
         Obstacle::NormalsInOtherAxes => {
             "the normals of the primitive are in other axes, which has to be repaired first"
@@ -116,8 +120,8 @@ pub fn reason(obstacle: &Obstacle) -> String {
              tangent-other-recipe` computes them again"
         }
         Obstacle::MapMayFitTangents => {
-            "they are right if the map was baked with them; if it was not, `--only tangent-other-recipe` \
-             computes them again"
+            "these tangents are right if the map was baked with them; if it was not, `--only \
+             tangent-other-recipe` computes them again"
         }
         Obstacle::EncodedAndInverted => {
             "invert the channel near 67 of the map again first: `darboux convert --from directx --to opengl` \

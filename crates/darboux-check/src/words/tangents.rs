@@ -6,7 +6,9 @@ use super::counts::counted;
 use super::said::Said;
 use crate::defect::{TangentDifference, TangentFault};
 use crate::indices::Part;
-use crate::measure::closeness::{IS_KNOWN, IS_MIKKTSPACE, are_most_of_mikktspace, close, is_mikktspace};
+use crate::measure::closeness::{
+    MIN_KNOWN, MIN_MIKKTSPACE, are_most_of_mikktspace, close_percent, is_mikktspace,
+};
 use crate::measure::fit::Difference;
 use crate::measure::outliers::FAR;
 use crate::measure::recipe::{Far, Recognised};
@@ -140,13 +142,15 @@ fn other_recipe(recognised: &Recognised, far: Far, severity: Severity) -> Said {
     }
     let said = said
         .with_cure("Compute the tangents again: `darboux tangents --overwrite`.")
-        .with("corners within 0.1 degrees (1 with 8 bits) of MikkTSpace", close(mikktspace), "%")
+        .with("corners within 0.1 degrees (1 with 8 bits) of MikkTSpace", close_percent(mikktspace), "%")
         .with("largest angle to MikkTSpace", mikktspace.worst, "degrees");
     match nearest {
-        Some(what) if close(best) < 100.0 => {
-            said.with(what, close(best), "%").with("largest angle to it", best.worst, "degrees")
-        }
-        Some(what) => said.with(what, close(best), "%"),
+        Some(what) if close_percent(best) < 100.0 => said.with(what, close_percent(best), "%").with(
+            "largest angle to that method",
+            best.worst,
+            "degrees",
+        ),
+        Some(what) => said.with(what, close_percent(best), "%"),
         None => said,
     }
 }
@@ -158,8 +162,8 @@ fn description(best: &RecipeMatch) -> (String, Option<&'static str>) {
     if are_most_of_mikktspace(best) {
         let corners = counted(best.corners - best.close, "corner differs", "corners differ");
         (format!("most tangents are those of MikkTSpace, but {corners}"), None)
-    } else if close(best) >= IS_KNOWN {
-        let differ = if close(best) < IS_MIKKTSPACE { ", but some differ" } else { "" };
+    } else if close_percent(best) >= MIN_KNOWN {
+        let differ = if close_percent(best) < MIN_MIKKTSPACE { ", but some differ" } else { "" };
         let text = format!("the tangents were computed by {}{differ}", name(&best.recipe));
         (text, Some("corners within 0.1 degrees (1 with 8 bits) of this method"))
     } else {

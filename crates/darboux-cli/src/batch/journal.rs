@@ -102,7 +102,7 @@ impl Journal {
         // Before the first temporary file of this run, so that a later run recognises it.
         journal.append(&RunStart { run: run.to_string() })?;
         if superseded_lines > journal.history.records.len() {
-            // A journal that stays long is as good.
+            // If this fails, the journal only stays long.
             let _ = journal.compact(&path);
         }
         Ok(journal)

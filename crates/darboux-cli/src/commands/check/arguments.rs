@@ -121,13 +121,13 @@ pub struct CheckArguments {
     /// Repair what is found, and write the result
     ///
     /// Wrong tangents are corrected in the way that the others were computed, all are made again where all
-    /// are wrong (those of another method than MikkTSpace, known or not, are left, because the map may have
-    /// been baked with them, unless --only tangent-other-recipe or --method asks for new ones, or many point
-    /// to wrong directions), vertices split, normals made or
-    /// flipped, and the texels of PNG maps rewritten at their bit depth; a palette becomes RGB, and a
-    /// JPEG map a PNG. Only the findings that are reported are repaired (--only, --allow). Everything
-    /// else in the file is kept, byte for byte; a compressed model is written without compression if
-    /// anything is repaired.
+    /// are wrong, vertices split, normals made or flipped, and the texels of PNG maps rewritten at their
+    /// bit depth; a palette becomes RGB, and a JPEG map a PNG. Tangents of a known method other than
+    /// MikkTSpace are left, and those of no known method unless many point to wrong directions, because the
+    /// map may have been baked with them: --only tangent-other-recipe or another --method computes them
+    /// again. Only the findings that are reported are repaired (--only, --allow). Everything else in the
+    /// file is kept, byte for byte; a compressed model is written without compression if anything is
+    /// repaired.
     #[arg(long, help_heading = "Repair")]
     pub fix: bool,
 
