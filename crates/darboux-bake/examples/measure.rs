@@ -1,14 +1,14 @@
 //! Measures a bake: a wavy sphere of about two million triangles onto one of twenty thousand.
 //!
-//! `cargo run --release --package darboux-bake --all-features --example measure -- SIZE THREADS CELLS` prints
-//! wall and processor time, rays per second and the peak of memory (Linux). The sphere has 2 * CELLS * CELLS
-//! triangles.
+//! `cargo run --release --package darboux-bake --all-features --example measure -- SIZE THREADS CELLS LOW` prints
+//! wall and processor time, rays per second, the peak of memory (Linux) and a checksum of the map, which tells
+//! whether a change keeps its bits. The high sphere has 2 * CELLS * CELLS triangles, the low one 2 * LOW * LOW.
 
 use std::f64::consts::{PI, TAU};
 use std::time::Instant;
 
 use darboux::{Context, Mesh, TangentOptions, generate_tangents};
-use darboux_bake::{BakeOptions, HighSurface, LowSurface, bake};
+use darboux_bake::{BakeOptions, HighSurface, Images, LowSurface, MapKind, bake};
 
 type Arrays = (Vec<[f32; 3]>, Vec<[f32; 2]>, Vec<u32>);
 
@@ -43,11 +43,18 @@ fn usage() -> (f64, u64) {
     (ticks / 100.0, peak.unwrap_or(0) << 10)
 }
 
+/// FNV-1a over the bits of the normal map.
+fn checksum(images: &Images) -> u64 {
+    let numbers = images.numbers(MapKind::Normal).unwrap_or_default();
+    let start = 0xcbf2_9ce4_8422_2325;
+    numbers.iter().fold(start, |sum, x| (sum ^ u64::from(x.to_bits())).wrapping_mul(0x100_0000_01b3))
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let numbers: Vec<usize> = std::env::args().skip(1).filter_map(|word| word.parse().ok()).collect();
     let number = |at: usize, default| numbers.get(at).copied().unwrap_or(default);
     let (size, threads, cells) = (number(0, 4096) as u32, number(1, 2), number(2, 1000));
-    let (low, high) = (sphere(100, 0.0), sphere(cells, 0.01));
+    let (low, high) = (sphere(number(3, 100), 0.0), sphere(cells, 0.01));
     let mesh = Mesh::triangles(&low.0, &low.0, &low.1, &low.2)?;
     let tangents = generate_tangents(&mesh, &TangentOptions::default()).corners;
     let surfaces = [LowSurface::new(mesh, tangents.per_corner())?];
@@ -72,5 +79,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{rays:.2} million rays per second of processor time, all that follows the first row included");
     let above = after.1.saturating_sub(before.1).saturating_sub(images);
     println!("{} bytes per high triangle besides images and meshes", above / triangles);
+    println!("checksum of the map {:016x}", checksum(&baked.images));
     Ok(())
 }

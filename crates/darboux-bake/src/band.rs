@@ -3,15 +3,15 @@
 use crate::bvh::{Hit, PreparedRay, Shaft, Sides, Stack};
 use crate::charts::Charts;
 use crate::coverage::{Coverage, TEXELS};
-use crate::face::Face;
-use crate::found::{Found, LowSample};
+use crate::face::{Face, Faces};
+use crate::found::{Found, LowRay, LowSample};
 use crate::frame::ShadingFrame;
 use crate::high::HighGroup;
 use crate::images::Band;
 use crate::layout::{BLOCK, Layout};
 use crate::maps::{MapList, Units};
 use crate::point::SurfacePoint;
-use crate::rays::{SampleRay, point_at, ray_of};
+use crate::rays::{point_at, ray_of};
 use crate::samples::STEPS;
 use crate::texel::TexelSums;
 use crate::vector::{Vector, scale};
@@ -33,8 +33,9 @@ pub struct Bake<'a> {
 }
 
 /// The memory of one band.
-pub struct Scratch {
+pub struct Scratch<'a> {
     pub coverage: Coverage,
+    pub faces: Faces<'a>,
     pub sums: Vec<TexelSums>,
     /// The numbers of all maps, texel after texel.
     pub numbers: Vec<f64>,
@@ -53,19 +54,17 @@ const TILES: usize = BLOCK / TILE;
 struct TexelRay {
     /// Its place in the block.
     texel: usize,
-    point: SurfacePoint,
-    ray: SampleRay,
+    low: LowRay,
     prepared: PreparedRay,
     group: usize,
-    /// The sides of the sample's area on the low surface.
-    sides: [Vector; 2],
 }
 
-impl Bake<'_> {
+impl<'a> Bake<'a> {
     /// Bakes a band; returns the counts of its texels.
     pub fn band(&self, band: &mut Band<'_>) -> BakeReport {
         let mut scratch = Scratch {
             coverage: Coverage::new(),
+            faces: Faces::new(),
             sums: vec![TexelSums::default(); TEXELS],
             numbers: vec![0.0; TEXELS * self.maps.len],
             stack: Stack::new(),
@@ -98,7 +97,7 @@ impl Bake<'_> {
     }
 
     /// Stages 3 to 5: follows the rays of a block's samples, tile by tile.
-    fn sample(&self, first: [usize; 2], sample: [i64; 2], scratch: &mut Scratch) {
+    fn sample(&self, first: [usize; 2], sample: [i64; 2], scratch: &mut Scratch<'a>) {
         for tile in 0..TILES * TILES {
             let from = [tile % TILES * TILE, tile / TILES * TILE];
             self.find_rays(first, from, sample, scratch);
@@ -108,37 +107,33 @@ impl Bake<'_> {
 
     /// Stage 3: the rays of the samples of a tile. `first`: the upper left texel of the block; `from`: that
     /// of the tile in the block.
-    fn find_rays(&self, first: [usize; 2], from: [usize; 2], sample: [i64; 2], scratch: &mut Scratch) {
-        scratch.rays_of_tile.clear();
-        let mut last: Option<Face> = None;
+    fn find_rays(&self, first: [usize; 2], from: [usize; 2], sample: [i64; 2], scratch: &mut Scratch<'a>) {
+        let Scratch { coverage, faces, sums, numbers, rays, rays_of_tile, .. } = scratch;
+        rays_of_tile.clear();
         for at_tile in 0..TILE * TILE {
             let in_block = [from[0] + at_tile % TILE, from[1] + at_tile / TILE];
             let texel = in_block[1] * BLOCK + in_block[0];
-            let Some(triangle) = scratch.coverage.owners[texel] else { continue };
-            if last.as_ref().is_none_or(|face| face.triangle != triangle) {
-                last = Some(Face::new(self.layout, self.low, triangle));
-            }
-            let Some(face) = &last else { continue };
-            let sums = &mut scratch.sums[texel];
+            let Some(triangle) = coverage.owners[texel] else { continue };
+            let face = faces.get(self.layout, self.low, triangle);
+            let sums = &mut sums[texel];
             sums.charted += 1;
-            sums.is_overlapped |= scratch.coverage.overlaps[texel];
+            sums.is_overlapped |= coverage.overlaps[texel];
             let place = [0, 1].map(|i| (first[i] + in_block[i]) as f64 + sample[i] as f64 / STEPS as f64);
             let point = face.point(place);
             if self.maps.has_low() {
                 let sample =
                     LowSample { face, point: &point, place, charts: &self.charts, options: self.options };
-                self.add_low(&sample, texel, &mut scratch.numbers);
+                self.add_low(&sample, texel, numbers);
             }
-            let Some(ray) = ray_of(&point, self.options.distance) else { continue };
-            let prepared = self.groups[face.group].bvh.prepare(&ray.ray);
-            let sides = self.sides_of_sample(face);
-            scratch.rays_of_tile.push(TexelRay { texel, point, ray, prepared, group: face.group, sides });
+            let Some(low) = self.low_ray(face, &point) else { continue };
+            let prepared = self.groups[face.group].bvh.prepare(&low.ray.ray);
+            rays_of_tile.push(TexelRay { texel, low, prepared, group: face.group });
         }
-        scratch.rays += scratch.rays_of_tile.len() as u64;
+        *rays += rays_of_tile.len() as u64;
     }
 
     /// Stages 4 and 5: the hits of a tile's rays. All rays begin at the cut of their shaft.
-    fn follow_rays(&self, first: [usize; 2], sample: [i64; 2], scratch: &mut Scratch) {
+    fn follow_rays(&self, first: [usize; 2], sample: [i64; 2], scratch: &mut Scratch<'a>) {
         let Scratch { rays_of_tile, sums, numbers, stack, .. } = scratch;
         for rays in rays_of_tile.chunk_by(|a, b| a.group == b.group) {
             let group = &self.groups[rays[0].group];
@@ -150,8 +145,7 @@ impl Bake<'_> {
                 match group.bvh.nearest_of_cut(&cut, prepared, sides, stack) {
                     Some(hit) => {
                         let at = [first[0] + ray.texel % BLOCK, first[1] + ray.texel / BLOCK];
-                        let sample_ray = LowRay { point: &ray.point, ray: &ray.ray, sides: ray.sides };
-                        if let Some(found) = self.found(group, &sample_ray, &hit, self.seed(at, sample)) {
+                        if let Some(found) = self.found(group, &ray.low, &hit, self.seed(at, sample)) {
                             sums.add(&found.sample(false));
                             self.add_high(&found, ray.texel, numbers, stack);
                         }
@@ -172,8 +166,18 @@ impl Bake<'_> {
         ((texel * STEPS + sample[1]) * STEPS + sample[0]) as u64
     }
 
+    /// The ray of a sample at a point of a triangle; none where nothing gives a direction.
+    pub fn low_ray(&self, face: &Face<'_>, point: &SurfacePoint) -> Option<LowRay> {
+        Some(LowRay {
+            ray: ray_of(point, self.options.distance)?,
+            position: point.position,
+            frame: ShadingFrame::new(point, self.options.bitangent),
+            sides: self.sides_of_sample(face),
+        })
+    }
+
     /// The sides of a sample's area on a triangle; zeros where no map needs them.
-    pub fn sides_of_sample(&self, face: &Face<'_>) -> [Vector; 2] {
+    fn sides_of_sample(&self, face: &Face<'_>) -> [Vector; 2] {
         if !self.maps.needs_sides {
             return [[0.0; 3]; 2];
         }
@@ -185,22 +189,19 @@ impl Bake<'_> {
     pub fn found<'f>(
         &'f self,
         group: &'f HighGroup<'f>,
-        low: &LowRay<'f>,
+        low: &'f LowRay,
         hit: &'f Hit,
         seed: u64,
     ) -> Option<Found<'f>> {
         let high = group.point(hit)?;
-        let frame = ShadingFrame::new(low.point, self.options.bitangent);
         Some(Found {
-            point: low.point,
+            low,
             group,
             hit,
             high,
             position: point_at(&low.ray.ray, hit.distance),
             height: low.ray.surface - f64::from(hit.distance),
-            frame,
-            normal: frame.to_tangent_space(high.normal),
-            sides: low.sides,
+            normal: low.frame.to_tangent_space(high.normal),
             options: self.options,
             seed,
         })
@@ -208,18 +209,16 @@ impl Bake<'_> {
 
     /// Adds what the maps of the high surfaces show at a hit to a texel of a block.
     pub fn add_high(&self, found: &Found<'_>, texel: usize, numbers: &mut [f64], stack: &mut Stack) {
-        let of_sample = self.maps.find(found, stack);
-        self.maps.add(&mut numbers[self.maps.len * texel..][..self.maps.len], &of_sample, false);
+        self.maps.add_high(found, stack, &mut numbers[self.maps.len * texel..][..self.maps.len]);
     }
 
     /// Adds what the maps of the low surface show at a sample to a texel of a block.
     pub fn add_low(&self, sample: &LowSample<'_>, texel: usize, numbers: &mut [f64]) {
-        let of_sample = self.maps.find_low(sample);
-        self.maps.add(&mut numbers[self.maps.len * texel..][..self.maps.len], &of_sample, true);
+        self.maps.add_low(sample, &mut numbers[self.maps.len * texel..][..self.maps.len]);
     }
 
     /// Stage 6: stores the texels of a block.
-    fn store(&self, first: usize, scratch: &Scratch, band: &mut Band<'_>, report: &mut BakeReport) {
+    fn store(&self, first: usize, scratch: &Scratch<'_>, band: &mut Band<'_>, report: &mut BakeReport) {
         let width = self.layout.size[0];
         let rows = band.states.len() / width;
         for row in 0..rows.min(BLOCK) {
@@ -234,14 +233,6 @@ impl Bake<'_> {
             }
         }
     }
-}
-
-/// A sample's ray from the low surface.
-pub struct LowRay<'a> {
-    pub point: &'a SurfacePoint,
-    pub ray: &'a SampleRay,
-    /// The sides of the sample's area.
-    pub sides: [Vector; 2],
 }
 
 fn count(sums: &TexelSums, report: &mut BakeReport) {

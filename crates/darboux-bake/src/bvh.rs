@@ -10,6 +10,7 @@
 //! "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 
 mod build;
+mod compare;
 mod leaf;
 mod node;
 mod ray;

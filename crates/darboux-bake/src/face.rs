@@ -2,20 +2,20 @@
 
 use crate::layout::{Layout, TileTriangle};
 use crate::point::SurfacePoint;
-use crate::vector::{Vector, cross, scale, sub, unit, weighted, wide};
+use crate::vector::{Vector, cross, mixture, narrow, scale, sub, unit, wide};
 use crate::{LowSurface, SkewCorrection};
 
 /// A triangle of a low surface.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Face<'a> {
     pub triangle: TileTriangle,
     pub group: usize,
-    positions: [[f32; 3]; 3],
-    normals: [[f32; 3]; 3],
-    tangents: [[f32; 4]; 3],
+    positions: [Vector; 3],
+    normals: [Vector; 3],
+    tangents: [[f64; 4]; 3],
     /// w * cross(N, T) at the corners.
-    bitangents: [[f32; 3]; 3],
-    cage: Option<[[f32; 3]; 3]>,
+    bitangents: [Vector; 3],
+    cage: Option<[Vector; 3]>,
     texels: [[f64; 2]; 3],
     /// Twice the signed area in texels.
     area: f64,
@@ -26,16 +26,40 @@ pub struct Face<'a> {
     size: [f64; 2],
 }
 
+/// The faces that samples met last, each at a place that its triangle's number chooses.
+#[derive(Debug)]
+pub struct Faces<'a> {
+    faces: Vec<Option<Face<'a>>>,
+}
+
+impl<'a> Faces<'a> {
+    /// Around a tile of texels there are seldom more triangles.
+    const PLACES: usize = 16;
+
+    pub fn new() -> Self {
+        Self { faces: vec![None; Self::PLACES] }
+    }
+
+    /// The face of a triangle.
+    pub fn get(&mut self, layout: &Layout, low: &[LowSurface<'a>], triangle: TileTriangle) -> &Face<'a> {
+        let place = &mut self.faces[triangle.index as usize % Self::PLACES];
+        if place.as_ref().is_some_and(|face| face.triangle != triangle) {
+            *place = None;
+        }
+        place.get_or_insert_with(|| Face::new(layout, low, triangle))
+    }
+}
+
 impl<'a> Face<'a> {
     pub fn new(layout: &Layout, surfaces: &[LowSurface<'a>], triangle: TileTriangle) -> Self {
         let low = &surfaces[triangle.surface as usize];
         let corners = [0, 1, 2].map(|corner| 3 * triangle.index as usize + corner);
         let vertices = corners.map(|corner| low.mesh.vertex_of_corner(corner));
-        let normals = vertices.map(|vertex| low.mesh.normals().get(vertex));
-        let tangents = corners.map(|corner| low.tangents[corner]);
-        let positions = vertices.map(|vertex| low.space.position(low.mesh.positions().get(vertex)));
+        let normals = vertices.map(|vertex| wide(low.mesh.normals().get(vertex)));
+        let tangents = corners.map(|corner| low.tangents[corner].map(f64::from));
+        let positions = vertices.map(|vertex| wide(low.space.position(low.mesh.positions().get(vertex))));
         let texels = layout.texels(low, &triangle);
-        let [a, b, c] = positions.map(wide);
+        let [a, b, c] = positions;
         Self {
             triangle,
             group: low.group,
@@ -43,7 +67,7 @@ impl<'a> Face<'a> {
             normals,
             tangents,
             bitangents: [0, 1, 2].map(|i| bitangent(normals[i], tangents[i])),
-            cage: low.cage.map(|cage| vertices.map(|vertex| low.space.position(cage.get(vertex)))),
+            cage: low.cage.map(|cage| vertices.map(|vertex| wide(low.space.position(cage.get(vertex))))),
             texels,
             area: area(texels),
             face_normal: unit(cross(sub(b, a), sub(c, a))).unwrap_or_default(),
@@ -63,7 +87,7 @@ impl<'a> Face<'a> {
             let sign = if i == 0 { 1.0 } else { -1.0 };
             let other = 1 - i;
             let weights = [b[other] - c[other], c[other] - a[other], a[other] - b[other]];
-            weighted(weights.map(|weight| sign * weight / self.area), self.positions)
+            mixture(weights.map(|weight| sign * weight / self.area), self.positions)
         };
         [of_axis(0), of_axis(1)]
     }
@@ -93,14 +117,14 @@ impl<'a> Face<'a> {
     }
 
     fn mixed(&self, weights: [f64; 3], at: [f64; 2]) -> SurfacePoint {
-        let [x, y, z, sign] = weighted(weights, self.tangents);
+        let [x, y, z, sign] = mixture(weights, self.tangents);
         SurfacePoint {
-            position: weighted(weights, self.positions),
-            normal: weighted(weights, self.normals),
+            position: mixture(weights, self.positions),
+            normal: mixture(weights, self.normals),
             tangent: [x, y, z],
             sign,
-            bitangent: weighted(weights, self.bitangents),
-            cage: self.cage.map(|cage| weighted(weights, cage)),
+            bitangent: mixture(weights, self.bitangents),
+            cage: self.cage.map(|cage| mixture(weights, cage)),
             face_normal: self.face_normal,
             skew: self.skew_at(at),
         }
@@ -128,6 +152,6 @@ fn area([a, b, c]: [[f64; 2]; 3]) -> f64 {
 }
 
 /// w * cross(N, T).
-fn bitangent(normal: [f32; 3], [x, y, z, w]: [f32; 4]) -> [f32; 3] {
-    scale(f64::from(w), cross(wide(normal), wide([x, y, z]))).map(|x| x as f32)
+fn bitangent(normal: Vector, [x, y, z, w]: [f64; 4]) -> Vector {
+    wide(narrow(scale(w, cross(normal, [x, y, z]))))
 }

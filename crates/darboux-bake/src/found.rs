@@ -7,12 +7,26 @@ use crate::face::Face;
 use crate::frame::ShadingFrame;
 use crate::high::{HighGroup, HighPoint};
 use crate::point::SurfacePoint;
+use crate::rays::SampleRay;
 use crate::texel::Sample;
 use crate::vector::Vector;
 
+/// A sample's ray, and what the maps need of the low surface.
+#[derive(Clone, Copy, Debug)]
+pub struct LowRay {
+    pub ray: SampleRay,
+    /// The place on the low surface.
+    pub position: Vector,
+    /// The frame of the low surface.
+    pub frame: ShadingFrame,
+    /// The sides of the sample's area on the low surface; zeros unless
+    /// [`MapList::needs_sides`](crate::maps::MapList::needs_sides).
+    pub sides: [Vector; 2],
+}
+
 /// What a sample's ray has found.
 pub struct Found<'a> {
-    pub point: &'a SurfacePoint,
+    pub low: &'a LowRay,
     pub group: &'a HighGroup<'a>,
     pub hit: &'a Hit,
     pub high: HighPoint,
@@ -20,13 +34,8 @@ pub struct Found<'a> {
     pub position: Vector,
     /// The distance of the high surface from the low one, positive outside.
     pub height: f64,
-    /// The frame of the low surface.
-    pub frame: ShadingFrame,
-    /// The normal in this frame; none where it is degenerate.
+    /// The normal in the frame of the low surface; none where the frame is degenerate.
     pub normal: Option<Vector>,
-    /// The sides of the sample's area on the low surface; zeros unless
-    /// [`MapList::needs_sides`](crate::maps::MapList::needs_sides).
-    pub sides: [Vector; 2],
     pub options: &'a BakeOptions,
     /// For random choices.
     pub seed: u64,

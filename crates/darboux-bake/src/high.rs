@@ -49,7 +49,7 @@ impl<'a> HighGroup<'a> {
         }
         let corners = |triangle: u32| {
             let (surface, triangle) = find(&starts, triangle);
-            surfaces[surface].corners(triangle)
+            surfaces[surface].corners(surfaces[surface].vertices(triangle))
         };
         let bvh = Bvh::build(count as u32, &corners, context)?;
         let non_finite = count as usize - bvh.triangle_count();
@@ -60,7 +60,8 @@ impl<'a> HighGroup<'a> {
     pub fn point(&self, hit: &Hit) -> Option<HighPoint> {
         let (place, triangle) = find(&self.starts, hit.triangle);
         let surface = &self.surfaces[place];
-        let [a, b, c] = surface.corners(triangle).map(wide);
+        let vertices = surface.vertices(triangle);
+        let [a, b, c] = surface.corners(vertices).map(wide);
         let side = if hit.is_front { 1.0 } else { -1.0 };
         let plane = cross(sub(b, a), sub(c, a));
         let square = dot(plane, plane);
@@ -68,7 +69,7 @@ impl<'a> HighGroup<'a> {
             return None;
         }
         let weights = hit.weights.map(f64::from);
-        let interpolated = weighted(weights, surface.normals(triangle));
+        let interpolated = weighted(weights, surface.normals(vertices));
         let (outwards, smooth) = match unit(interpolated) {
             Some(unit) => (interpolated, unit),
             None => (unit(plane)?, unit(plane)?),

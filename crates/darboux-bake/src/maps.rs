@@ -1,7 +1,8 @@
 //! What each kind of map has at a sample, and how samples become texels: one file per kind.
 //!
-//! All maps of a run share the rays of their samples. [`MapKind`] has the list of kinds; [`MapList::find`]
-//! and [`MapList::find_low`] compute the numbers of a sample, [`MapList::resolve`] the numbers of a texel.
+//! All maps of a run share the rays of their samples. [`MapKind`] has the list of kinds; [`MapList::add_high`]
+//! and [`MapList::add_low`] add the numbers of a sample to its texel, and [`MapList::resolve`] makes the
+//! texel's content of them.
 
 mod curvature;
 mod hemisphere;
@@ -16,18 +17,13 @@ mod world_direction;
 pub use hemisphere::turn_of;
 
 use darboux::Conversion;
+use hemisphere::Surroundings;
 
 use crate::bvh::Stack;
 use crate::common_box::CommonBox;
 use crate::found::{Found, LowSample};
 use crate::vector::{Vector, narrow, unit};
 use crate::{BakeOptions, IdSource, MapKind};
-
-/// The most numbers that a sample has.
-pub const MOST_NUMBERS: usize = 48;
-
-/// The numbers of a sample, of all maps one after the other.
-pub type Numbers = [f64; MOST_NUMBERS];
 
 /// The maps of a run, and where their numbers lie.
 #[derive(Clone, Debug)]
@@ -65,35 +61,13 @@ impl MapList {
         }
     }
 
-    /// The numbers of the maps of the high surfaces at a hit.
-    pub fn find(&self, found: &Found<'_>, stack: &mut Stack) -> Numbers {
-        let around = self.looks_around.then(|| hemisphere::look_around(found, stack));
-        let around = around.unwrap_or_default();
-        let mut numbers = [0.0; MOST_NUMBERS];
+    /// Adds the numbers of the maps of the high surfaces at a hit to those of its texel.
+    pub fn add_high(&self, found: &Found<'_>, stack: &mut Stack, sums: &mut [f64]) {
+        let around =
+            if self.looks_around { hemisphere::look_around(found, stack) } else { Surroundings::default() };
         for &(kind, first) in &self.maps {
-            let into = &mut numbers[first..];
-            match kind {
-                MapKind::Normal => put(into, normals::tangent(found)),
-                MapKind::ObjectNormal => put(into, found.high.normal),
-                MapKind::Height => put(into, [found.height]),
-                MapKind::Occlusion => put(into, [around.open]),
-                MapKind::Position => put(into, found.position),
-                MapKind::BentNormal => put(into, normals::bent(found, around.bent)),
-                MapKind::ObjectBentNormal => put(into, around.bent),
-                MapKind::Thickness => put(into, [thickness::mean(found, stack)]),
-                MapKind::Curvature => put(into, [curvature::mean(found, stack)]),
-                MapKind::Id => put(into, [id::label(found), 1.0]),
-                MapKind::VertexColor => put(into, vertex_color::color(found)),
-                MapKind::BaseColor => put(into, material::base_color(found)),
-                MapKind::Opacity => put(into, [material::opacity(found)]),
-                MapKind::Roughness => put(into, [material::roughness(found)]),
-                MapKind::Metalness => put(into, [material::metalness(found)]),
-                MapKind::Emission => put(into, material::emission(found)),
-                MapKind::Texture => put(into, material::texture(found)),
-                MapKind::WorldDirection | MapKind::UvIslands | MapKind::Wireframe => {}
-            }
+            add_high_map(kind, found, &around, stack, &mut sums[first..]);
         }
-        numbers
     }
 
     /// Whether some map shows the low surface.
@@ -101,33 +75,17 @@ impl MapList {
         self.maps.iter().any(|(kind, _)| kind.is_of_low_surface())
     }
 
-    /// The numbers of the maps of the low surface.
-    pub fn find_low(&self, sample: &LowSample<'_>) -> Numbers {
-        let mut numbers = [0.0; MOST_NUMBERS];
-        for &(kind, first) in self.maps.iter().filter(|(kind, _)| kind.is_of_low_surface()) {
-            let into = &mut numbers[first..];
+    /// Adds the numbers of the maps of the low surface at a sample to those of its texel.
+    pub fn add_low(&self, sample: &LowSample<'_>, sums: &mut [f64]) {
+        for &(kind, first) in &self.maps {
+            let into = &mut sums[first..];
             match kind {
-                MapKind::WorldDirection => put(into, world_direction::direction(sample)),
+                MapKind::WorldDirection => add(into, world_direction::direction(sample)),
                 MapKind::UvIslands => {
-                    put(into, [f64::from(sample.charts.of_triangle(&sample.face.triangle)), 1.0])
+                    vote(into, f64::from(sample.charts.of_triangle(&sample.face.triangle)));
                 }
-                MapKind::Wireframe => put(into, [wireframe::line(sample)]),
+                MapKind::Wireframe => add(into, [wireframe::line(sample)]),
                 _ => {}
-            }
-        }
-        numbers
-    }
-
-    /// Adds the numbers of a sample to its texel. Labels are counted: the most frequent one remains if it has
-    /// more samples than all others (R. Boyer, J. Moore, "MJRTY", 1991), and else one of the frequent ones.
-    pub fn add(&self, sums: &mut [f64], numbers: &Numbers, is_low: bool) {
-        for &(kind, first) in self.maps.iter().filter(|(kind, _)| kind.is_of_low_surface() == is_low) {
-            if is_label(kind) {
-                vote(&mut sums[first..first + 2], numbers[first]);
-                continue;
-            }
-            for i in first..first + numbers_of(kind) {
-                sums[i] += numbers[i];
             }
         }
     }
@@ -204,8 +162,40 @@ pub fn has_palette(kind: MapKind, options: &BakeOptions) -> bool {
     kind == MapKind::UvIslands || kind == MapKind::Id && options.id_source != IdSource::VertexColor
 }
 
-fn put<const N: usize>(into: &mut [f64], numbers: [f64; N]) {
-    into[..N].copy_from_slice(&numbers);
+/// Adds the numbers of a map of the high surfaces. It is a function of its own, because in the loop over maps the
+/// compiler prepares all of them before the first one, which takes longer than most of them.
+#[inline(never)]
+fn add_high_map(
+    kind: MapKind,
+    found: &Found<'_>,
+    around: &Surroundings,
+    stack: &mut Stack,
+    sums: &mut [f64],
+) {
+    match kind {
+        MapKind::Normal => add(sums, normals::tangent(found)),
+        MapKind::ObjectNormal => add(sums, found.high.normal),
+        MapKind::Height => add(sums, [found.height]),
+        MapKind::Occlusion => add(sums, [around.open]),
+        MapKind::Position => add(sums, found.position),
+        MapKind::BentNormal => add(sums, normals::bent(found, around.bent)),
+        MapKind::ObjectBentNormal => add(sums, around.bent),
+        MapKind::Thickness => add(sums, [thickness::mean(found, stack)]),
+        MapKind::Curvature => add(sums, [curvature::mean(found, stack)]),
+        MapKind::Id => vote(sums, id::label(found)),
+        MapKind::VertexColor => add(sums, vertex_color::color(found)),
+        MapKind::BaseColor => add(sums, material::base_color(found)),
+        MapKind::Opacity => add(sums, [material::opacity(found)]),
+        MapKind::Roughness => add(sums, [material::roughness(found)]),
+        MapKind::Metalness => add(sums, [material::metalness(found)]),
+        MapKind::Emission => add(sums, material::emission(found)),
+        MapKind::Texture => add(sums, material::texture(found)),
+        MapKind::WorldDirection | MapKind::UvIslands | MapKind::Wireframe => {}
+    }
+}
+
+fn add<const N: usize>(sums: &mut [f64], numbers: [f64; N]) {
+    sums[..N].iter_mut().zip(numbers).for_each(|(sum, number)| *sum += number);
 }
 
 fn store<const N: usize>(into: &mut [f32], numbers: [f32; N]) {
@@ -217,7 +207,8 @@ fn direction(sums: &[f64]) -> Vector {
     unit([sums[0], sums[1], sums[2]]).unwrap_or([0.0, 0.0, 1.0])
 }
 
-/// A vote for a label: `state` is the leading label and its lead.
+/// A vote for a label: `state` is the leading label and its lead. The most frequent label remains if it has
+/// more samples than all others (R. Boyer, J. Moore, "MJRTY", 1991), and else one of the frequent ones.
 fn vote(state: &mut [f64], label: f64) {
     if state[1] == 0.0 {
         (state[0], state[1]) = (label, 1.0);
@@ -230,16 +221,7 @@ fn vote(state: &mut [f64], label: f64) {
 
 #[cfg(test)]
 mod tests {
-    use darboux::Choice;
-
     use super::*;
-    use crate::MapSet;
-
-    #[test]
-    fn the_numbers_of_all_maps_have_room() {
-        let options = BakeOptions::new([1; 2], [1.0; 2]).with_maps(MapSet::of(MapKind::ALL));
-        assert!(MapList::new(&options).len <= MOST_NUMBERS);
-    }
 
     #[test]
     fn the_label_of_most_samples_remains() {

@@ -241,9 +241,8 @@ impl<'a> HighSurface<'a> {
         &self.mesh
     }
 
-    /// The corners of a triangle in the common box.
-    pub(crate) fn corners(&self, triangle: usize) -> [[f32; 3]; 3] {
-        let vertices = [0, 1, 2].map(|corner| self.mesh.vertex_of_corner(3 * triangle + corner));
+    /// The places of a triangle's vertices in the common box.
+    pub(crate) fn corners(&self, vertices: [usize; 3]) -> [[f32; 3]; 3] {
         vertices.map(|vertex| self.space.position(self.mesh.positions().get(vertex)))
     }
 
@@ -252,7 +251,7 @@ impl<'a> HighSurface<'a> {
         [0, 1, 2].map(|corner| self.mesh.vertex_of_corner(3 * triangle + corner))
     }
 
-    pub(crate) fn normals(&self, triangle: usize) -> [[f32; 3]; 3] {
-        [0, 1, 2].map(|corner| self.mesh.normals().get(self.mesh.vertex_of_corner(3 * triangle + corner)))
+    pub(crate) fn normals(&self, vertices: [usize; 3]) -> [[f32; 3]; 3] {
+        vertices.map(|vertex| self.mesh.normals().get(vertex))
     }
 }

@@ -51,7 +51,7 @@ impl TexelSums {
 
     /// Whether the mean of normals points below the surface.
     pub fn is_below_horizon(&self) -> bool {
-        unit(self.normal).is_some_and(|normal| normal[2] < 0.0)
+        self.normal[2] < 0.0 && unit(self.normal).is_some_and(|normal| normal[2] < 0.0)
     }
 
     /// 1 over the number of hits, and 1 over the number of samples on the low surface; none where there are

@@ -19,7 +19,11 @@ pub fn scale(factor: f64, v: Vector) -> Vector {
 
 /// The sum of three vectors with weights: a value at a point of a triangle from those at its corners.
 pub fn weighted<const N: usize>(weights: [f64; 3], corners: [[f32; N]; 3]) -> [f64; N] {
-    let [a, b, c] = corners.map(|corner| corner.map(f64::from));
+    mixture(weights, corners.map(|corner| corner.map(f64::from)))
+}
+
+/// As [`weighted`], of doubles.
+pub fn mixture<const N: usize>(weights: [f64; 3], [a, b, c]: [[f64; N]; 3]) -> [f64; N] {
     std::array::from_fn(|i| weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i])
 }
 

@@ -1,5 +1,6 @@
 //! Leaves: four triangles, tested at once.
 
+use super::compare::{greater, lesser};
 use super::ray::{Hit, PreparedRay, Sides};
 
 /// Triangles per leaf.
@@ -93,15 +94,4 @@ impl Leaf {
         }
         found
     }
-}
-
-/// One instruction, unlike `f32::min`, which has to choose what is no NaN.
-#[inline(always)]
-fn lesser(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
-#[inline(always)]
-fn greater(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
 }

@@ -1,5 +1,7 @@
 //! Rays and hits.
 
+use super::compare::greater;
+
 /// A segment of a ray: from `origin` to `origin + length * direction`.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
@@ -76,8 +78,10 @@ impl PreparedRay {
             std::mem::swap(&mut first, &mut second);
         }
         let scale = 1.0 / direction[last];
-        let farthest = |i: usize| bounds.iter().map(|end| (end[i] - ray.origin[i]).abs()).fold(0.0, f32::max);
-        let margin = MARGIN * farthest(0).max(farthest(1)).max(farthest(2));
+        let farthest = |i: usize| {
+            bounds.iter().map(|end| (end[i] - ray.origin[i]).abs()).fold(0.0, |most, x| greater(x, most))
+        };
+        let margin = MARGIN * greater(greater(farthest(0), farthest(1)), farthest(2));
         let moved =
             |i: usize, by: f32| ray.origin[i] + if direction[i].is_sign_negative() { -by } else { by };
         Self {

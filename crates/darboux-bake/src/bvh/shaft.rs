@@ -6,6 +6,7 @@
 //! ends of the intervals. Rounding is monotone, so a shaft enters every box that one of its rays enters, and
 //! hits are the same bit for bit.
 
+use super::compare::{greater, lesser};
 use super::node::{Child, FAR_FACTOR, Node};
 use super::ray::PreparedRay;
 use super::tree::Bvh;
@@ -79,10 +80,12 @@ impl Shaft {
     }
 }
 
+/// A NaN does not widen the interval: it has no ray that hits anything. One that is a NaN stays one, which culls
+/// nothing.
 fn widen(interval: &mut [[f32; 3]; 2], value: [f32; 3]) {
     for axis in 0..3 {
-        interval[0][axis] = interval[0][axis].min(value[axis]);
-        interval[1][axis] = interval[1][axis].max(value[axis]);
+        interval[0][axis] = lesser(value[axis], interval[0][axis]);
+        interval[1][axis] = greater(value[axis], interval[1][axis]);
     }
 }
 

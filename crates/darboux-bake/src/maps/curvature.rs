@@ -50,7 +50,7 @@ fn radius(found: &Found<'_>) -> f64 {
     match found.options.curvature_radius {
         CurvatureRadius::Distance(distance) => f64::from(distance),
         CurvatureRadius::Texels(texels) => {
-            let [a, b] = found.sides;
+            let [a, b] = found.low.sides;
             let per_axis = f64::from(found.options.samples_per_axis);
             f64::from(texels) * per_axis * length(cross(a, b)).sqrt()
         }

@@ -50,11 +50,11 @@ pub fn texture(found: &Found<'_>) -> Color {
 
 fn mean(found: &Found<'_>, property: MaterialProperty) -> Color {
     let surface = found.group.surface(&found.high);
-    let triangle = found.high.triangle;
+    let vertices = surface.vertices(found.high.triangle);
     let place = TrianglePlace {
-        vertices: surface.vertices(triangle),
+        vertices,
         weights: found.hit.weights.map(f64::from),
-        changes: changes(surface.corners(triangle).map(wide), found),
+        changes: changes(surface.corners(vertices).map(wide), found),
     };
     surface.material.mean(property, &place)
 }
@@ -63,9 +63,9 @@ fn mean(found: &Found<'_>, property: MaterialProperty) -> Color {
 fn changes([a, b, c]: [Vector; 3], found: &Found<'_>) -> [[f64; 3]; 2] {
     let plane = cross(sub(b, a), sub(c, a));
     let square = dot(plane, plane);
-    let direction = unit(sub(found.position, found.point.position));
+    let direction = unit(sub(found.position, found.low.position));
     let direction = direction.filter(|direction| dot(*direction, plane).abs() > LEAST_COSINE * length(plane));
-    found.sides.map(|side| {
+    found.low.sides.map(|side| {
         let moved = match direction {
             Some(direction) => add_scaled(side, -dot(side, plane) / dot(direction, plane), direction),
             None => add_scaled(side, -dot(side, plane) / square, plane),

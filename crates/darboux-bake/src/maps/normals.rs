@@ -10,5 +10,5 @@ pub fn tangent(found: &Found<'_>) -> Vector {
 
 /// A bent normal in the frame of the low surface, of the same length.
 pub fn bent(found: &Found<'_>, bent: Vector) -> Vector {
-    found.frame.to_tangent_space(bent).map_or([0.0, 0.0, 1.0], |direction| scale(length(bent), direction))
+    found.low.frame.to_tangent_space(bent).map_or([0.0, 0.0, 1.0], |direction| scale(length(bent), direction))
 }

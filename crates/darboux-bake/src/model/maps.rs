@@ -72,6 +72,16 @@ impl Textures {
         };
         let Some(material) = materials.get(index).cloned() else { return Ok(None) };
         let Some(used) = &material.normal_texture else { return Ok(None) };
+        let colors = document.texture_of_material(index, "pbrMetallicRoughness.baseColorTexture")?;
+        let is_colors = |colors: &TextureUse| ImageKey::of(document, colors) == ImageKey::of(document, used);
+        if used.image.is_some() && colors.as_ref().is_some_and(is_colors) {
+            self.warnings.push(format!(
+                "{}: materials[{index}] shows one image as base colour and as normal map, of which one is wrong; \
+                 export the model again with each image in a file of its own, or bake without the normal \
+                 maps of high models",
+                document.name()
+            ));
+        }
         let texture = self.decoded.entry(ImageKey::of(document, used)).or_insert_with(|| {
             let (size, codes) = decode(document, used, decoded)?;
             NormalTexture::of_codes(size, codes).map_err(|error| error.to_string())
