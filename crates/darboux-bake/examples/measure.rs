@@ -1,8 +1,9 @@
 //! Measures a bake: a wavy sphere of about two million triangles onto one of twenty thousand.
 //!
-//! `cargo run --release --package darboux-bake --all-features --example measure -- SIZE THREADS CELLS LOW` prints
-//! wall and processor time, rays per second, the peak of memory (Linux) and a checksum of the map, which tells
-//! whether a change keeps its bits. The high sphere has 2 * CELLS * CELLS triangles, the low one 2 * LOW * LOW.
+//! `cargo run --release --package darboux-bake --all-features --example measure -- SIZE THREADS CELLS LOW`
+//! prints wall and processor time, rays per second, the peak of memory (Linux) and a checksum of the map,
+//! which tells whether a change keeps its bits. The high sphere has 2 * CELLS * CELLS triangles, the low one
+//! 2 * LOW * LOW.
 
 use std::f64::consts::{PI, TAU};
 use std::time::Instant;

@@ -1,8 +1,8 @@
 //! What each kind of map has at a sample, and how samples become texels: one file per kind.
 //!
-//! All maps of a run share the rays of their samples. [`MapKind`] has the list of kinds; [`MapList::add_high`]
-//! and [`MapList::add_low`] add the numbers of a sample to its texel, and [`MapList::resolve`] makes the
-//! texel's content of them.
+//! All maps of a run share the rays of their samples. [`MapKind`] has the list of kinds;
+//! [`MapList::add_high`] and [`MapList::add_low`] add the numbers of a sample to its texel, and
+//! [`MapList::resolve`] makes the texel's content of them.
 
 mod curvature;
 mod hemisphere;
@@ -162,8 +162,8 @@ pub fn has_palette(kind: MapKind, options: &BakeOptions) -> bool {
     kind == MapKind::UvIslands || kind == MapKind::Id && options.id_source != IdSource::VertexColor
 }
 
-/// Adds the numbers of a map of the high surfaces. It is a function of its own, because in the loop over maps the
-/// compiler prepares all of them before the first one, which takes longer than most of them.
+/// Adds the numbers of a map of the high surfaces. It is a function of its own, because in the loop over maps
+/// the compiler prepares all of them before the first one, which takes longer than most of them.
 #[inline(never)]
 fn add_high_map(
     kind: MapKind,

@@ -80,8 +80,8 @@ impl Shaft {
     }
 }
 
-/// A NaN does not widen the interval: it has no ray that hits anything. One that is a NaN stays one, which culls
-/// nothing.
+/// A NaN does not widen the interval: it has no ray that hits anything. One that is a NaN stays one, which
+/// culls nothing.
 fn widen(interval: &mut [[f32; 3]; 2], value: [f32; 3]) {
     for axis in 0..3 {
         interval[0][axis] = lesser(value[axis], interval[0][axis]);

@@ -181,9 +181,9 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
         }
         'darboux;bake' {
             [CompletionResult]::new('--high', '--high', [CompletionResultType]::ParameterName, 'The high models (.gltf, .glb, .vrm, .obj, .ply, .stl, .fbx), which have the detail; their materials count, with normal maps and textures')
-            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png, and %UDIM% becomes the number of each tile')
-            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png, and %UDIM% becomes the number of each tile')
-            [CompletionResult]::new('--map', '--map', [CompletionResultType]::ParameterName, 'The maps to bake; several at once share their rays')
+            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png, and %UDIM% becomes the number of each tile. Without it the PNG named as the model of --write-model')
+            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png, and %UDIM% becomes the number of each tile. Without it the PNG named as the model of --write-model')
+            [CompletionResult]::new('--map', '--map', [CompletionResultType]::ParameterName, 'The maps to bake; several at once share their rays. Without it normal, or material if --write-model stands without -o')
             [CompletionResult]::new('--size', '--size', [CompletionResultType]::ParameterName, 'Texels per side, or width and height')
             [CompletionResult]::new('--bits', '--bits', [CompletionResultType]::ParameterName, 'Bits per channel: 8 or 16 (PNG), 16 or 32 (EXR, TIFF); by default the more for heights, positions and thickness, the fewer for the others')
             [CompletionResult]::new('--dither', '--dither', [CompletionResultType]::ParameterName, 'Round to 8 bits with blue noise, so that smooth surfaces show no bands; SEED moves the noise')

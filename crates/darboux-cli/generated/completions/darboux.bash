@@ -95,7 +95,7 @@ _darboux() {
                     return 0
                     ;;
                 --map)
-                    COMPREPLY=($(compgen -W "normal object-normal height ao position bent-normal object-bent-normal thickness curvature id vertex-color base-color opacity roughness metalness emission texture world-direction uv-islands wireframe" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "normal object-normal height ao position bent-normal object-bent-normal thickness curvature id vertex-color base-color opacity roughness metalness emission texture world-direction uv-islands wireframe material" -- "${cur}"))
                     return 0
                     ;;
                 --size)

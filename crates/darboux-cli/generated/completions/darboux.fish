@@ -485,8 +485,8 @@ complete -c darboux -n "__fish_darboux_using_subcommand report" -l allow-outside
 complete -c darboux -n "__fish_darboux_using_subcommand report" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand report" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l high -d 'The high models (.gltf, .glb, .vrm, .obj, .ply, .stl, .fbx), which have the detail; their materials count, with normal maps and textures' -r -F
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -s o -l output -d 'The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png, and %UDIM% becomes the number of each tile' -r -F
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l map -d 'The maps to bake; several at once share their rays' -r -f -a "normal\t'Normals in tangent space'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -s o -l output -d 'The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in crate.ao.png, and %UDIM% becomes the number of each tile. Without it the PNG named as the model of --write-model' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l map -d 'The maps to bake; several at once share their rays. Without it normal, or material if --write-model stands without -o' -r -f -a "normal\t'Normals in tangent space'
 object-normal\t'Normals in the space of the scene'
 height\t'The distance of the high surface from the low one; half grey is none'
 ao\t'Ambient occlusion: white is open'
@@ -505,7 +505,8 @@ emission\t'The light that the high models emit'
 texture\t'The texture that --texture names, of the high models\' materials'
 world-direction\t'The direction of --world-direction, in tangent space'
 uv-islands\t'A colour for each UV chart of the low model'
-wireframe\t'White along the edges of the low model\'s triangles'"
+wireframe\t'White along the edges of the low model\'s triangles'
+material\t'The maps of a glTF material: normal, ao, base-color, roughness, metalness and emission'"
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l size -d 'Texels per side, or width and height' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l bits -d 'Bits per channel: 8 or 16 (PNG), 16 or 32 (EXR, TIFF); by default the more for heights, positions and thickness, the fewer for the others' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l dither -d 'Round to 8 bits with blue noise, so that smooth surfaces show no bands; SEED moves the noise' -r

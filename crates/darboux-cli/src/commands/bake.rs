@@ -10,6 +10,7 @@ mod failure;
 mod files;
 pub mod job;
 mod legend;
+pub mod map_choice;
 mod model;
 mod open;
 mod outputs;

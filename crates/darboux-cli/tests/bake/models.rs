@@ -304,3 +304,70 @@ fn materials_are_transferred_and_put_where_gltf_wants_them() {
         assert_eq!(first.expect("a map"), second.expect("a map"), "{map}");
     }
 }
+
+/// From two models to one with textures: no name of an image, and no list of maps.
+#[test]
+fn a_model_alone_gets_the_maps_of_a_material() {
+    let pair = Pair::new();
+    painted_high(&pair);
+    let [low, high, model, job] =
+        ["low.glb", "high.glb", "crate.glb", "job.toml"].map(|name| pair.path(name));
+    let bake = |more: &[&str]| {
+        let all = ["bake", text(&low), "--high", text(&high), "--size", "16", "--cage-offset", "1"];
+        darboux(&[&all, more].concat())
+    };
+    let names = |report: &Value| -> Vec<String> {
+        let maps = report["maps"].as_array().expect("maps").iter();
+        maps.map(|map| map["map"].as_str().expect("a name").to_owned()).collect()
+    };
+    let of_material = ["normal", "ao", "base-color", "roughness", "metalness", "emission"];
+    let report = bake(&["--write-model", text(&model), "--json"]).exits(0).json();
+    assert_eq!(names(&report), of_material);
+    assert_eq!(pair.texel("crate.base-color.png").0, [1.0, 188.0 / 255.0, 0.0]);
+    let material = &json_of(&model)["materials"][0];
+    for place in
+        ["/normalTexture", "/occlusionTexture", "/emissiveTexture", "/pbrMetallicRoughness/baseColorTexture"]
+    {
+        assert!(material.pointer(place).is_some(), "{place}: {material}");
+    }
+    // The same as a name, once each, and in a job; an image's name leaves the normal map alone.
+    let named = pair.bake(&["--map", "material,height,normal", "--json"]).exits(0).json();
+    assert_eq!(names(&named), [&of_material[..], &["height"]].concat());
+    fs::write(&job, "[[bake]]\nlow = \"low.glb\"\nhigh = \"high.glb\"\nsize = 16\ncage-offset = 1\nwrite-model = \"other.glb\"\n")
+        .expect("a job");
+    darboux(&["bake", text(&job)]).exits(0);
+    assert_eq!(pair.texel("other.roughness.png").0, [64.0 / 255.0]);
+    let one = bake(&["-o", text(&pair.path("n.png")), "--write-model", text(&model), "--force", "--json"]);
+    assert_eq!(names(&one.exits(0).json()), ["normal"]);
+    for (more, words) in [
+        (&["-o", text(&model)][..], "--write-model writes a model with its maps"),
+        (&[], "name the map with -o, or a model with its maps with --write-model"),
+    ] {
+        let refused = bake(more).exits(2).stderr;
+        assert!(refused.contains(words), "{refused}");
+    }
+}
+
+/// Exporters that lose the names of images give all textures of a material the first one.
+#[test]
+fn one_image_as_colours_and_as_normals_is_named() {
+    let pair = Pair::new();
+    pair.bake(&[]).exits(0);
+    for name in ["first.png", "second.png"] {
+        fs::copy(pair.path("map.png"), pair.path(name)).expect("an image");
+    }
+    let says = |colors: usize, more: &[&str]| {
+        let high = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+            json["meshes"][0]["primitives"][0]["material"] = 0.into();
+            json["images"] = json!([{"uri": "first.png"}, {"uri": "second.png"}]);
+            json["textures"] = json!([{"source": 0}, {"source": 1}, {"source": 0}]);
+            let colors = json!({"baseColorTexture": {"index": colors}});
+            json["materials"] = json!([{"normalTexture": {"index": 0}, "pbrMetallicRoughness": colors}]);
+        });
+        fs::write(pair.path("high.glb"), high).expect("a file");
+        let run = pair.bake(&[&["--force"], more].concat()).exits(0);
+        run.stderr.contains("materials[0] shows one image as base colour and as normal map")
+    };
+    assert_eq!([0, 1, 2].map(|colors| says(colors, &[])), [true, false, true]);
+    assert!(!says(0, &["--no-high-maps"]));
+}

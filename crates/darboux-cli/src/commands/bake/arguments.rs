@@ -11,6 +11,7 @@ use darboux_bake::{
 };
 use darboux_io::SaveOptions;
 
+use super::map_choice::{MapChoice, map_choice};
 use super::skew::{SkewChoice, skew};
 use crate::file_id::FileId;
 use crate::heat_scale::HeatRange;
@@ -54,7 +55,7 @@ Examples:
   darboux bake models --suffixes --map normal,ao --size 2048          each NAME_low from NAME_high
   darboux bake job.toml --resume                                      what has changed since the last run
   darboux bake low.glb --high high.glb -o crate.png --pack orm=ao,roughness,metalness
-  darboux bake low.glb --high high.glb -o crate.png --map normal,ao,base-color,roughness,metalness --write-model crate.glb";
+  darboux bake low.fbx --high high.fbx --write-model crate.glb         a model with all its textures";
 
 /// What is baked, and how.
 #[derive(Args, Clone, Debug)]
@@ -72,20 +73,15 @@ pub struct BakeArguments {
     pub high: Vec<PathBuf>,
 
     /// The map (.png, .exr, .tif), in an existing folder; with several maps the name of each is added, as in
-    /// crate.ao.png, and %UDIM% becomes the number of each tile
+    /// crate.ao.png, and %UDIM% becomes the number of each tile. Without it the PNG named as the model of
+    /// --write-model
     #[arg(short, long, value_name = "IMAGE", default_value = "", hide_default_value = true, value_parser = any_path())]
     pub output: PathBuf,
 
-    /// The maps to bake; several at once share their rays
-    #[arg(
-        long,
-        value_parser = choice::<MapKind>(),
-        value_name = "MAPS",
-        value_delimiter = ',',
-        default_value = "normal",
-        help_heading = "Maps"
-    )]
-    pub map: Vec<MapKind>,
+    /// The maps to bake; several at once share their rays. Without it normal, or material if --write-model
+    /// stands without -o
+    #[arg(long, value_parser = map_choice(), value_name = "MAPS", value_delimiter = ',', help_heading = "Maps")]
+    pub map: Vec<MapChoice>,
 
     /// Texels per side, or width and height
     #[arg(long, value_name = "N|WxH", default_value = "1024", value_parser = size, help_heading = "Maps")]
@@ -368,10 +364,43 @@ pub enum MatchChoice {
 pub struct SamplesPerAxis(pub u32);
 
 impl BakeArguments {
+    /// These arguments with the image and the maps that they leave out.
+    pub fn completed(self) -> Self {
+        let output = match &self.write_model {
+            Some(model) if self.names_model_only() => model.with_extension("png"),
+            _ => self.output.clone(),
+        };
+        Self { output, map: self.completed_map(), ..self }
+    }
+
+    /// `--map`, or what it is where it is left out.
+    pub fn completed_map(&self) -> Vec<MapChoice> {
+        match &self.map[..] {
+            [] if self.names_model_only() => vec![MapChoice::Material],
+            [] => vec![MapChoice::Map(MapKind::Normal)],
+            given => given.to_vec(),
+        }
+    }
+
+    fn names_model_only(&self) -> bool {
+        self.write_model.is_some() && self.output.as_os_str().is_empty()
+    }
+
+    /// The maps of `--map`, each once.
+    pub fn maps(&self) -> Vec<MapKind> {
+        let mut maps: Vec<MapKind> = Vec::new();
+        for &map in self.map.iter().flat_map(MapChoice::maps) {
+            if !maps.contains(&map) {
+                maps.push(map);
+            }
+        }
+        maps
+    }
+
     /// The maps that are baked: the maps of `--map` and the packed ones.
     pub fn baked_maps(&self) -> MapSet {
-        let packed = self.pack.iter().flat_map(|pack| &pack.maps);
-        MapSet::of(&self.map.iter().chain(packed).copied().collect::<Vec<_>>())
+        let packed = self.pack.iter().flat_map(|pack| &pack.maps).copied();
+        MapSet::of(&self.maps().into_iter().chain(packed).collect::<Vec<_>>())
     }
 
     /// Whether images of the high models are decoded.

@@ -15,12 +15,7 @@ use crate::paths::{is_png, refuse_missing_folder};
 
 /// The chosen maps, each once, with their files.
 pub fn maps_of(arguments: &BakeArguments) -> Vec<(MapKind, PathBuf)> {
-    let mut maps: Vec<MapKind> = Vec::new();
-    for &map in &arguments.map {
-        if !maps.contains(&map) {
-            maps.push(map);
-        }
-    }
+    let maps = arguments.maps();
     match maps[..] {
         [map] if arguments.pack.is_empty() => vec![(map, arguments.output.clone())],
         _ => maps.iter().map(|&map| (map, named(arguments, map.name()))).collect(),
@@ -44,8 +39,11 @@ pub fn refuse_outputs(arguments: &BakeArguments) -> Result<(), String> {
         all_outputs(arguments).iter().try_for_each(|path| refuse_missing_folder(path))?;
     }
     let shown = arguments.output.display();
-    let kind = FileKind::of(&arguments.output)
-        .ok_or_else(|| format!("{shown}: the map is an image; its name must end in .png, .exr or .tif"))?;
+    let kind = FileKind::of(&arguments.output).ok_or_else(|| {
+        let hint =
+            if is_glb(&arguments.output) { "; --write-model writes a model with its maps" } else { "" };
+        format!("{shown}: the map is an image; its name must end in .png, .exr or .tif{hint}")
+    })?;
     if let Some(bits) = arguments.bits.filter(|bits| !kind.bits().contains(bits)) {
         let [few, many] = kind.bits();
         return Err(format!("{shown}: cannot have {bits} bits per channel; choose {few} or {many}"));
@@ -96,7 +94,8 @@ fn refuse_irreplaceable(path: &Path) -> Result<(), String> {
 
 /// Refuses a model and a heat map that cannot be what was asked for.
 fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
-    let BakeArguments { map, write_model, heat_map, heat_model, verify, .. } = arguments;
+    let BakeArguments { write_model, heat_map, heat_model, verify, .. } = arguments;
+    let map = arguments.maps();
     if *verify && !map.contains(&MapKind::Normal) {
         return Err("--verify needs a normal map; add normal to --map".to_owned());
     }

@@ -11,7 +11,7 @@ use crate::terminal::Messages;
 pub fn run(arguments: &BakeArguments) -> u8 {
     let messages = Messages::new(arguments.messages.quiet);
     match job::work_of(arguments) {
-        Ok(Work::Single) => single::run(arguments, &messages),
+        Ok(Work::Single) => single::run(&arguments.clone().completed(), &messages),
         Ok(Work::Job(job)) => {
             interrupt::wait_for_writes();
             job::run(arguments, job, &messages)

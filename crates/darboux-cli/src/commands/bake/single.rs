@@ -62,7 +62,8 @@ pub fn check_usage(arguments: &BakeArguments) -> Result<(), String> {
         return Err("there is no high model; name it with --high".to_owned());
     }
     if arguments.output.as_os_str().is_empty() {
-        return Err("there is no output; name the map with -o".to_owned());
+        return Err("there is no output; name the map with -o, or a model with its maps with --write-model"
+            .to_owned());
     }
     let mut inputs = arguments.high.iter().chain([&arguments.low]).chain(&arguments.cage);
     if inputs.any(|path| path == Path::new("-")) {

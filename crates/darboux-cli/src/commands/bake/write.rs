@@ -93,8 +93,8 @@ pub fn stage_maps(
         let range = encodings.iter().flat_map(|(_, encoding)| encoding.range.clone()).collect();
         stage_file(&path, &pack.name, bits, &Channels::packed(&encodings, images), range)?;
     }
-    let BakeArguments { map, verify, write_model, report, .. } = arguments;
-    if map.contains(&MapKind::Normal) && (*verify || write_model.is_some() || report.is_some()) {
+    let BakeArguments { verify, write_model, report, .. } = arguments;
+    if arguments.maps().contains(&MapKind::Normal) && (*verify || write_model.is_some() || report.is_some()) {
         let encoding = encoding(MapKind::Normal);
         let channels = Channels::of_map(MapKind::Normal, &encoding, images);
         let bits = if kind == FileKind::Png { arguments.bits.unwrap_or(8) } else { 16 };

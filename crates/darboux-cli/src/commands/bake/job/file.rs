@@ -139,7 +139,7 @@ fn read(keys: &Keys, values: &Values<'_>, at: usize, folder: &Path, place: Strin
         let at = key_of(&error).and_then(|key| values.get(key.as_str())).map_or(at, |(at, _)| *at);
         Problem { at, what: first_line(&error.to_string()) }
     })?;
-    Ok(Entry { arguments: parsed.arguments, options: line.join("\u{1f}"), place: Some(place) })
+    Ok(Entry { arguments: parsed.arguments.completed(), options: line.join("\u{1f}"), place: Some(place) })
 }
 
 /// Whether a value of `skew` is an image: unless it is an amount.

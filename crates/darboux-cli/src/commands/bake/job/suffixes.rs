@@ -99,6 +99,7 @@ fn entry(job: &BakeArguments, name: &str, pair: Pair) -> Result<Entry, String> {
     arguments.low = pair.low.into_iter().next().unwrap_or_default();
     arguments.high = pair.high;
     arguments.makes_folders = true;
+    arguments.map = job.completed_map();
     arguments.output = image(job, name)?;
     let folder = arguments.output.parent().unwrap_or(Path::new("")).to_owned();
     for (path, ending) in [
