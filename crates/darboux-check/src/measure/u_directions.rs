@@ -1,8 +1,8 @@
 //! The u directions of triangles: where the position goes as u grows.
 //!
-//! The methods that follow UVs sum the u directions of the triangles around a vertex with positive weights, so
-//! that the sum lies between them. A tangent that is far from all of them, on the same side, is wrong, whatever
-//! the method.
+//! The methods that follow UVs sum the u directions of the triangles around a vertex with positive weights,
+//! so that the sum lies between them. A tangent that is far from all of them, on the same side, is wrong,
+//! whatever the method.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -66,10 +66,10 @@ struct Angles {
     greatest: f64,
 }
 
-/// Of some vertices, ascending, those whose tangents are more than `degrees` from all u directions around them,
-/// on the same side. `tangent_of`: the direction of a vertex's tangent. Vertices at one place with one normal
-/// count as one, as methods and exporters weld them. Left out are vertices of triangles that are thin or have
-/// no area in UV space, and those of a place with more than [`MAX_AT_ONE_PLACE`] of the vertices.
+/// Of some vertices, ascending, those whose tangents are more than `degrees` from all u directions around
+/// them, on the same side. `tangent_of`: the direction of a vertex's tangent. Vertices at one place with one
+/// normal count as one, as methods and exporters weld them. Left out are vertices of triangles that are thin
+/// or have no area in UV space, and those of a place with more than [`MAX_AT_ONE_PLACE`] of the vertices.
 pub fn beside_u_directions(
     surface: &Surface,
     mut vertices: Vec<usize>,
@@ -116,8 +116,9 @@ mod tests {
 
     use super::*;
 
-    /// Triangles around the origin. The u directions are along x where x is positive, and turned by -45 degrees
-    /// where it is negative. `further`: the positions and UVs of the other corners of one more triangle.
+    /// Triangles around the origin. The u directions are along x where x is positive, and turned by -45
+    /// degrees where it is negative. `further`: the positions and UVs of the other corners of one more
+    /// triangle.
     fn fan(further: Option<[([f32; 3], [f32; 2]); 2]>) -> Surface {
         let ring = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
         let uv = |[x, y]: [f32; 2]| [x, y + x.min(0.0)];

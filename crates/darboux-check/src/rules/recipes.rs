@@ -48,8 +48,8 @@ fn rounding_of_uvs(surface: &Surface) -> Option<UvRounding> {
     UvRounding::of(surface, surface.uv_sets.get(&surface.uv_set)?)
 }
 
-/// Why tangents are left: nobody sees the difference, or the map may have been baked with them. Where most are
-/// MikkTSpace's, or many point to wrong directions, they are repaired.
+/// Why tangents are left: nobody sees the difference, or the map may have been baked with them. Where most
+/// are MikkTSpace's, or many point to wrong directions, they are repaired.
 fn obstacle(recognised: &Recognised, far: Far, severity: Severity) -> Option<Obstacle> {
     match recognised.other_method() {
         _ if severity == Severity::Info => Some(Obstacle::DifferenceIsInvisible),
