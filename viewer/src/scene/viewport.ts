@@ -377,8 +377,10 @@ export class Viewport {
   private prepare(): void {
     const { renderer, canvas, camera } = this;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-    renderer.setPixelRatio(devicePixelRatio);
-    renderer.setSize(width, height, false);
+    // Setting a size allocates the picture anew.
+    if (renderer.getPixelRatio() !== devicePixelRatio) renderer.setPixelRatio(devicePixelRatio);
+    const size = renderer.getSize(new Vector2());
+    if (size.x !== width || size.y !== height) renderer.setSize(width, height, false);
     camera.aspect = width / height;
     camera.setViewOffset(width, height, 0, (this.bands.bottom - this.bands.top) / 2, width, height);
   }
@@ -403,7 +405,8 @@ export class Viewport {
     if (this.isCoarse() || !this.sides.length || this.isMeasured) return;
     if (!this.isWarm) {
       this.isWarm = true;
-      this.draw();
+      // The first picture is on screen before it is drawn again.
+      setTimeout(() => this.draw(), REST);
       return;
     }
     const gl = this.renderer.getContext();
