@@ -3,7 +3,7 @@
     python3 benches/bake/compare_maps.py LOW.glb HIGH.glb FOLDER [--size 1024] [--offset 0.02] [--rays 64] [--truth 1024]
 
 Needs Python 3.11 with bpy 4.5 (pip), and a darboux with the feature bake. Both have the same cage, which darboux writes, and two threads. Texels that are not wholly inside the charts
-and what no ray of darboux hits are left out. FOLDER gets the maps of both and pictures of their differences, amplified. Without models, `--sphere CELLS` makes a
+are left out. FOLDER gets the maps of both and pictures of their differences, amplified. Without models, `--sphere CELLS` makes a
 wavy sphere of 2 * CELLS * CELLS triangles and a smooth one of 20,000.
 
 The truth of occlusion is that of darboux with --truth rays, so that the noise of both can be told from what they compute differently.
@@ -13,7 +13,7 @@ import argparse
 import resource
 import subprocess
 from pathlib import Path
-from typing import Callable, Dict, Iterable, List, Optional, Tuple
+from typing import Callable, Dict, Iterable, List, Tuple
 
 import bpy
 import numpy as np
@@ -75,6 +75,9 @@ def write_spheres(cells: int, folder: Path) -> Tuple[Path, Path]:
         mesh.uv_layers.new().data.foreach_set("uv", np.stack([u, 1 - v], 1)[triangles.ravel()].astype(np.float32).ravel())
         mesh.update(calc_edges=True)
         mesh.shade_smooth()
+        material = bpy.data.materials.new("plain")
+        material.use_nodes = True
+        mesh.materials.append(material)
         item = bpy.data.objects.new(name, mesh)
         bpy.context.scene.collection.objects.link(item)
         paths.append(folder / f"{name}.glb")
