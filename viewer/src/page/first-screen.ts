@@ -148,7 +148,8 @@ export class FirstScreen {
     const found = this.bestView();
     if (chosenPaint() !== 'shaded' || found.seen.share >= PLAIN_TO_SEE) return found;
     this.paint('plain');
-    const plain = this.bestView();
+    const [same, other] = [this.look(found.view, found.isOutlined), this.bestView()];
+    const plain = same.seen.share > other.seen.share ? same : other;
     this.isPlain = plain.seen.share > Math.max(ALIKE, BETTER * found.seen.share);
     if (this.isPlain) return plain;
     this.paint('shaded');
@@ -171,25 +172,27 @@ export class FirstScreen {
   private bestView(): Found {
     const { viewport } = this;
     const start = performance.now();
-    const look = (view: View, isOutlined = false): Found => {
-      viewport.lightFrom(lightAround(view), numberOf('light-above'));
-      return { view, seen: viewport.differenceFrom(view), isOutlined };
-    };
-    const place = this.hasFault() ? look(this.viewOfFault(), true) : null;
+    const place = this.hasFault() ? this.look(this.viewOfFault(), true) : null;
     if (place && place.seen.share >= ALIKE) return place;
     const [first, ...others] = viewport.viewsAround();
-    let best = look(first);
+    let best = this.look(first);
     for (const view of others) {
       if (performance.now() - start > SEARCH_TIME) break;
-      const other = look(view);
+      const other = this.look(view);
       if (other.seen.share > BETTER * best.seen.share) best = other;
     }
     for (const radius of CLOSER) {
       const view = best.seen.share < PLAIN_TO_SEE ? this.closer(best, radius) : null;
-      const near = view && look(view);
+      const near = view && this.look(view);
       if (near && near.seen.share > BETTER * best.seen.share) best = near;
     }
     return place && best.seen.share < ALIKE ? place : best;
+  }
+
+  /** What differs in a view, with the light beside the camera. */
+  private look(view: View, isOutlined = false): Found {
+    this.viewport.lightFrom(lightAround(view), numberOf('light-above'));
+    return { view, seen: this.viewport.differenceFrom(view), isOutlined };
   }
 
   /** The view from nearby of where the sides differ most; null where that is not on the model. */
