@@ -1,4 +1,4 @@
-// Baking in the page: a pair of models, the effect of the distance, misses, the end of a bake, and the saved map.
+// Baking in the page: a pair of models, the effect of the distance, misses, the end of a bake, and the saved maps.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -109,6 +109,66 @@ test('the saved map is the command\'s', { skip: !DARBOUX && 'DARBOUX names no co
   assert.deepEqual([ours.width, ours.height], [theirs.width, theirs.height]);
   assert.ok(ours.data.equals(theirs.data), 'the same texels');
   assert.ok(ours.share((r, g, b) => r !== 128 || g !== 128 || b !== 255) > 0.9, 'with content');
+});
+
+/** The further maps that are listed. */
+const listed = () => viewer.page.locator('#bake-maps figure:not([hidden]) button').allTextContents();
+
+test('further maps share a bake with the normal map: they are listed, saved, and shown on the model', async () => {
+  const high = JSON.parse(gltf(plate(96, 0.02 * Math.SQRT2)));
+  high.materials = [{ pbrMetallicRoughness: { baseColorFactor: [1, 0, 0, 1] } }];
+  high.meshes[0].primitives[0].material = 0;
+  writeFileSync(path('red_high.gltf'), JSON.stringify(high));
+  await viewer.give('files', [path('red_high.gltf'), path('plate_low.gltf')]);
+  await viewer.pick('#bake-size', '128');
+  await viewer.pick('#bake-samples', '1');
+  await viewer.slide('bake-distance', 0.8);
+  const redRight = async () => (await viewer.picture()).share((r, g, b) => r > 2 * g && r > 2 * b, 0.51);
+  assert.deepEqual([await listed(), await redRight()], [[], 0]);
+  for (const kind of ['ao', 'base-color']) await viewer.click(`#bake-kind-${kind}`);
+  assert.deepEqual(await listed(), ['Save ao', 'Save base-color']);
+  assert.ok((await redRight()) > 0.1, `${await redRight()} red`);
+  assert.deepEqual(await viewer.violations(), []);
+  const saved = {};
+  for (const kind of await listed()) {
+    const { name, bytes } = await viewer.download(`#bake-maps button:text-is("${kind}")`);
+    assert.equal(bytes.subarray(0, 8).toString('latin1'), '\x89PNG\r\n\x1a\n');
+    saved[name] = await Picture.decode(viewer.page, bytes);
+  }
+  assert.deepEqual(Object.entries(saved).map(([name, { width, height }]) => [name, width, height]), [['plate_low.ao.png', 128, 128], ['plate_low.base-color.png', 128, 128]]);
+  assert.equal(saved['plate_low.base-color.png'].share((r, g, b) => r === 255 && g === 0 && b === 0), 1);
+  assert.ok(saved['plate_low.ao.png'].share((r, g, b) => r === g && g === b && r < 250) > 0.1, 'the valleys are occluded');
+});
+
+test('the further maps are the command\'s', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {
+  const kinds = ['ao', 'base-color', 'curvature', 'thickness', 'height', 'position', 'object-normal', 'id'];
+  for (const kind of kinds) await viewer.page.setChecked(`#bake-kind-${kind}`, true);
+  await viewer.settled();
+  const offset = String((10 ** 0.8 / 100) * Math.SQRT2);
+  const options = ['--size', '128', '--bits', '8', '--cage-offset', offset, '--quiet', '--map', kinds.join(',')];
+  execFileSync(DARBOUX, ['bake', path('plate_low.gltf'), '--high', path('red_high.gltf'), '-o', path('maps.png'), ...options]);
+  const apart = {};
+  for (const kind of kinds) {
+    const { bytes } = await viewer.download(`#bake-figure-${kind} button`);
+    const [ours, theirs] = [await Picture.decode(viewer.page, bytes), await Picture.decode(viewer.page, readFileSync(path(`maps.${kind}.png`)))];
+    apart[kind] = ours.data.reduce((most, x, at) => Math.max(most, Math.abs(x - theirs.data[at])), 0);
+  }
+  for (const kind of kinds) await viewer.page.setChecked(`#bake-kind-${kind}`, ['ao', 'base-color'].includes(kind));
+  await viewer.settled();
+  // The command rounds in single precision before it rounds to codes.
+  assert.ok(Object.values(apart).every((codes) => codes <= 1), JSON.stringify(apart));
+});
+
+test('a link carries the chosen maps, plain grey leaves them out, and Reset takes them away', async () => {
+  await viewer.page.waitForFunction(() => /bake-kind-ao=1&bake-kind-base-color=1/.test(location.hash));
+  await viewer.click('input[name=paint][value=plain]');
+  assert.equal((await viewer.picture()).share((r, g, b) => r > 2 * g && r > 2 * b), 0);
+  await viewer.click('#bake-kind-ao');
+  assert.deepEqual(await listed(), ['Save base-color']);
+  await viewer.click('#reset');
+  assert.deepEqual(await listed(), []);
+  await openPair();
+  await viewer.slide('bake-distance', 1);
 });
 
 test('a bake can be ended, and the next change starts another one', async () => {

@@ -3,13 +3,19 @@
 import { PreparedModels, ready, TEXEL_STATES, type BakeModelsOptions, type BakeReport } from 'darboux/bake';
 
 import { answer, tellProgress } from '../worker/calls';
+import { furtherMap, normalTexels, type FurtherKind, type FurtherMap } from './map-texels';
 
-/** A baked map as the page shows it: 4 bytes per texel, the top row first. */
+/** The options of a bake. `maps`: those beside the normal map, which is always baked. */
+export type BakerOptions = Omit<BakeModelsOptions, 'maps' | 'onProgress'> & { maps: FurtherKind[] };
+
+/** Baked maps as the page shows them: 4 bytes per texel, the top row first. */
 export interface ShownBake {
   width: number;
   height: number;
   /** The normal map with 8 bits per channel. */
   normals: Uint8ClampedArray<ArrayBuffer>;
+  /** The other maps that were chosen. */
+  further: FurtherMap[];
   /** Red where no ray hit, orange where rays met triangles from behind, transparent elsewhere. */
   misses: Uint8ClampedArray<ArrayBuffer>;
   /** The index of the only material that was baked; null: all were. */
@@ -28,8 +34,8 @@ const MISS_COLORS: Partial<Record<(typeof TEXEL_STATES)[number], readonly [numbe
 
 let files: { low: Uint8Array; high: Uint8Array[] } = { low: new Uint8Array(), high: [] };
 
-/** The models of the last bake, with the material that it was prepared for: all other options may change without reading them again. */
-let prepared: { models: PreparedModels; material: number | null } | null = null;
+/** The models of the last bake, with the material and the maps that they were prepared for: all other options may change without reading them again. */
+let prepared: { models: PreparedModels; shared: string } | null = null;
 
 /** The functions that the page can call. */
 const functions = {
@@ -38,32 +44,25 @@ const functions = {
     [files, prepared] = [{ low, high }, null];
   },
 
-  /** Bakes the normal map of the low model. */
-  bake({ material = null, ...options }: Omit<BakeModelsOptions, 'maps' | 'onProgress'>): ShownBake {
+  /** Bakes the normal map of the low model and the chosen maps, from the same rays. */
+  bake({ material = null, maps, ...options }: BakerOptions): ShownBake {
     const start = performance.now();
-    const kept = prepared?.material === material ? prepared.models : null;
+    const shared = JSON.stringify({ material, maps });
+    const kept = prepared?.shared === shared ? prepared.models : null;
     // Other models are freed before new ones are made. Models on which a bake failed for want of memory are lost.
     prepared = null;
-    const models = kept ?? new PreparedModels(files.low, files.high, { material });
+    const models = kept ?? new PreparedModels(files.low, files.high, { material, maps: ['normal', ...maps] });
     const baked = models.bake({ ...options, onProgress: tellProgress });
-    prepared = { models, material };
+    prepared = { models, shared };
     const seconds = (performance.now() - start) / 1000;
     const [width, height] = baked.size;
     const { report, warnings } = baked;
-    return { width, height, normals: texels(baked.normal!), misses: missesOf(baked.states), material, report, warnings, seconds };
+    const further = maps.map((kind) => furtherMap(kind, baked));
+    return { width, height, normals: normalTexels(baked.normal!), further, misses: missesOf(baked.states), material, report, warnings, seconds };
   },
 };
 
 export type BakerFunctions = typeof functions;
-
-/** Vectors with 8 bits per component. */
-function texels(normals: Float32Array): Uint8ClampedArray<ArrayBuffer> {
-  const out = new Uint8ClampedArray((normals.length / 3) * 4).fill(255);
-  for (let texel = 0; texel < normals.length / 3; texel++) {
-    for (let i = 0; i < 3; i++) out[texel * 4 + i] = 127.5 + 127.5 * normals[texel * 3 + i];
-  }
-  return out;
-}
 
 function missesOf(states: Uint8Array): Uint8ClampedArray<ArrayBuffer> {
   const out = new Uint8ClampedArray(states.length * 4);

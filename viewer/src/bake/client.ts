@@ -1,9 +1,7 @@
 // The page's side of the thread that bakes: one bake at a time, the latest request last, and an end at any time.
 
-import type { BakeModelsOptions } from 'darboux/bake';
-
 import { callerOf, type Caller } from '../worker/client';
-import type { BakerFunctions, ShownBake } from './baker';
+import type { BakerFunctions, BakerOptions, ShownBake } from './baker';
 
 /** The models of a bake, as self-contained GLBs. */
 export interface BakedModels {
@@ -20,7 +18,7 @@ export class Baker {
   constructor(private readonly progress: (done: number) => void) {}
 
   /** Bakes the models, which are sent to the thread only when they changed. */
-  async bake(models: BakedModels, options: BakeModelsOptions): Promise<ShownBake> {
+  async bake(models: BakedModels, options: BakerOptions): Promise<ShownBake> {
     this.worker ??= new Worker(new URL('./baker.ts', import.meta.url), { type: 'module' });
     this.call ??= callerOf<BakerFunctions>(this.worker, this.progress);
     if (this.opened !== models) await this.call('open', models.low, models.high);

@@ -1,12 +1,11 @@
 // The controls of a bake: every change of a slider bakes again, and the result is shown at once.
 
-import type { BakeModelsOptions } from 'darboux/bake';
-
-import type { ShownBake } from '../bake/baker';
+import type { BakerOptions, ShownBake } from '../bake/baker';
 import { Baker, type BakedModels } from '../bake/client';
 import { fromList, type FileBundle } from '../files/file-bundle';
 import { nameLike, save } from './download';
 import { element, isOn, numberOf } from './elements';
+import { chosenKinds, connectFurtherMaps, showFurtherMaps } from './further-maps';
 
 /** What the application does for the panel. */
 export interface BakeHost {
@@ -41,6 +40,7 @@ export class BakePanel {
       if (bundle.size) host.openHigh(bundle);
     });
     for (const id of OPTIONS) element(id).addEventListener('input', () => this.changed());
+    connectFurtherMaps(() => this.changed(), () => this.name);
     element('bake-misses').addEventListener('change', () => this.baked && this.show(this.baked));
     element('bake-cancel').addEventListener('click', () => this.cancel());
     element('bake-save').addEventListener('click', () => this.save());
@@ -58,6 +58,7 @@ export class BakePanel {
     Object.assign(this, { models, name, diagonal });
     element<HTMLButtonElement>('bake-save').disabled = true;
     element('bake-figure').hidden = true;
+    showFurtherMaps(null);
     element('bake-result').textContent = '';
     element('bake-controls').hidden = false;
     this.changed();
@@ -114,13 +115,14 @@ export class BakePanel {
     element('bake-running').hidden = !isRunning;
   }
 
-  private options(): BakeModelsOptions {
+  private options(): BakerOptions {
     const side = numberOf('bake-size');
     const [outwards, inwards] = ['bake-distance', 'bake-inwards'].map((id) => shareOf(id) * this.diagonal);
     const isCage = element<HTMLSelectElement>('bake-rays').value === 'cage';
     const rays = isCage ? { cageOffset: outwards } : { distance: [outwards, inwards] as const };
     const chosen = element<HTMLSelectElement>('bake-material').value;
-    return { material: chosen === '' ? null : Number(chosen), size: [side, side], samples: numberOf('bake-samples'), backFaces: isOn('bake-back-faces'), ...rays };
+    const material = chosen === '' ? null : Number(chosen);
+    return { material, maps: chosenKinds(), size: [side, side], samples: numberOf('bake-samples'), backFaces: isOn('bake-back-faces'), ...rays };
   }
 
   private fail(error: Error): void {
@@ -128,6 +130,7 @@ export class BakePanel {
     this.host.show(null);
     element<HTMLButtonElement>('bake-save').disabled = true;
     element('bake-figure').hidden = true;
+    showFurtherMaps(null);
     element('bake-result').textContent = `There is no map: ${error.message}.`;
   }
 
@@ -135,6 +138,7 @@ export class BakePanel {
     this.baked = bake;
     element<HTMLButtonElement>('bake-save').disabled = false;
     drawMap(bake, isOn('bake-misses'));
+    showFurtherMaps(bake);
     element('bake-result').textContent = [sentence(bake), ...bake.warnings].join('. ');
     this.host.show(bake);
   }

@@ -1,15 +1,26 @@
-// A baked normal map as textures, for the materials of the low model.
+// Baked maps as textures, for the materials of the low model.
 
-import { DataTexture, LinearFilter, LinearMipmapLinearFilter, MeshBasicMaterial, type MeshStandardMaterial, NearestFilter, RepeatWrapping, type Texture } from 'three';
+import { DataTexture, LinearFilter, LinearMipmapLinearFilter, MeshBasicMaterial, type MeshStandardMaterial, NearestFilter, RepeatWrapping, SRGBColorSpace, type Texture } from 'three';
 
 import type { ShownBake } from '../bake/baker';
+import { type FurtherKind, isLight } from '../bake/map-texels';
 import type { Part } from './model-parts';
 
-/** The map as textures with one UV set and transform. */
+/** The maps as textures with one UV set and transform. */
 interface MapTextures {
   normals: Texture;
   misses: Texture;
+  further: Map<FurtherKind, Texture>;
 }
+
+/** How a material shows a further map, where it can. `white`: the value of a white texel. */
+const SHOW: Partial<Record<FurtherKind, (material: MeshStandardMaterial, map: Texture, white: number) => void>> = {
+  'ao': (material, aoMap) => Object.assign(material, { aoMap, aoMapIntensity: 1 }),
+  'roughness': (material, roughnessMap) => Object.assign(material, { roughnessMap, roughness: 1 }),
+  'metalness': (material, metalnessMap) => Object.assign(material, { metalnessMap, metalness: 1 }),
+  'base-color': (material, map, white) => Object.assign(material, { map }).color.setScalar(white),
+  'emission': (material, emissiveMap, white) => Object.assign(material, { emissiveMap, emissiveIntensity: 1 }).emissive.setScalar(white),
+};
 
 export class BakedMap {
   /** By the file's own normal map, whose UV set and transform the bake has used; by null where there is none. */
@@ -32,7 +43,13 @@ export class BakedMap {
     material.normalScale.set(1, 1);
   }
 
-  /** The map as a texture, where a part shows it. */
+  /** Sets the further maps of the bake that a material has a place for. */
+  applyFurtherTo(material: MeshStandardMaterial, part: Part): void {
+    const { further } = this.texturesOf(part);
+    for (const { kind, ranges } of this.bake.further) SHOW[kind]?.(material, further.get(kind)!, ranges[0][1]);
+  }
+
+  /** The normal map as a texture, where a part shows it. */
   textureOf(part: Part): Texture {
     return this.texturesOf(part).normals;
   }
@@ -44,17 +61,24 @@ export class BakedMap {
   }
 
   dispose(): void {
-    for (const { normals, misses } of this.textures.values()) [normals, misses].forEach((texture) => texture.dispose());
+    for (const { normals, misses, further } of this.textures.values()) [normals, misses, ...further.values()].forEach((texture) => texture.dispose());
   }
 
   private texturesOf({ material }: Part): MapTextures {
     const own = material.normalMap;
     const found = this.textures.get(own);
     if (found) return found;
-    const { width, height, normals, misses } = this.bake;
-    const made = { normals: transformedLike(new DataTexture(normals, width, height), own), misses: transformedLike(new DataTexture(misses, width, height), own) };
-    Object.assign(made.normals, { magFilter: LinearFilter, minFilter: LinearMipmapLinearFilter, generateMipmaps: true, anisotropy: 8 });
+    const { width, height, normals, misses, further } = this.bake;
+    const textureOf = (texels: Uint8ClampedArray<ArrayBuffer>) => transformedLike(new DataTexture(texels, width, height), own);
+    const smooth = (texture: Texture) => Object.assign(texture, { magFilter: LinearFilter, minFilter: LinearMipmapLinearFilter, generateMipmaps: true, anisotropy: 8 });
+    const made: MapTextures = { normals: smooth(textureOf(normals)), misses: textureOf(misses), further: new Map() };
     Object.assign(made.misses, { magFilter: NearestFilter, minFilter: NearestFilter });
+    for (const { kind, texels } of further) {
+      if (!SHOW[kind]) continue;
+      const texture = smooth(textureOf(texels));
+      if (isLight(kind)) texture.colorSpace = SRGBColorSpace;
+      made.further.set(kind, texture);
+    }
     this.textures.set(own, made);
     return made;
   }

@@ -84,12 +84,13 @@ function plainOf({ normalMap, normalMapType, normalScale, side, flatShading, map
   return out;
 }
 
-/** Makes the material of a lit surface. `baked`: the map in place of the file's own, or null. */
+/** Makes the material of a lit surface. `baked`: the maps in place of the file's own, or null. */
 export function sideMaterial(part: Part, hasTangents: boolean, paint: Paint, mistakes: Mistakes, baked: BakedMap | null): MeshStandardMaterial {
   const material = paint === 'plain' ? plainOf(part.material) : part.material.clone();
   const isBumpy = paint === 'bumps' && takesBumps(part) && !baked;
   if (isBumpy) withBumps(material);
   baked?.applyTo(material, part);
+  if (paint !== 'plain') baked?.applyFurtherTo(material, part);
   // Without tangents, three.js takes green along the derivative by v. v points down the image, so green has to be negated.
   const isNegated = !hasTangents;
   const wasNegated = part.isGreenNegated && !isBumpy && !baked;
