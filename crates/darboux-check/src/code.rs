@@ -362,7 +362,7 @@ codes! {
         "A DirectX map was put into glTF, which wants OpenGL's (glTF-Sample-Models PR 336, \
          BabylonJS/Exporters 940, glTF-Blender-IO 2626)."
         "Export or bake the map with green up (OpenGL, +Y), or let `darboux check FILE --fix --assume \
-         map=directx -o FIXED` invert its green."
+         map=directx` invert its green."
         Repair "green is inverted"
     }
     MapDetailFlipped "map-detail-flipped" Warning {

@@ -19,7 +19,7 @@ pub use maps::{
 };
 pub use materials::MaterialFault;
 pub use normals::NormalFault;
-pub use obstacle::Obstacle;
+pub use obstacle::{Assumption, Obstacle};
 pub use pair::{Cancelled, PAIRS, Pair};
 pub use tangents::{TangentDifference, TangentFault};
 pub use uvs::UvFault;

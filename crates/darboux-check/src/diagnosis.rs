@@ -146,7 +146,7 @@ fn to_do(findings: &[&ReportedFinding], options: &CheckOptions) -> String {
     let first_left = findings.iter().find(|finding| finding.left_because.is_some());
     match first_left.and_then(|finding| finding.suggested_assumption) {
         Some(assumed) => format!(
-            "Nothing in the file decides which of two repairs is right: look, and if it is so, type `darboux \
+            "The file does not say for certain which of two repairs is right: look, and if it is so, type `darboux \
              check FILE{option} --fix --assume map={}`.",
             assumed.name()
         ),

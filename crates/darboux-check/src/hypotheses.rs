@@ -18,7 +18,7 @@ use darboux::BitangentDirection;
 
 use crate::check_options::CheckOptions;
 use crate::code::Code;
-use crate::defect::{Defect, Fault, MapFault, Obstacle, TangentDifference, TangentFault};
+use crate::defect::{Assumption, Defect, Fault, MapFault, Obstacle, TangentDifference, TangentFault};
 use crate::inverted::{ALL, Inverted, relative};
 use crate::measure::fit::Difference;
 use crate::severity::{MIN_DAMAGED, Severity};
@@ -82,6 +82,16 @@ impl MapWitness {
             members.iter().for_each(|&index| weights[index] *= probability / sum);
         }
         weights
+    }
+
+    /// What becomes of the assumption beside flipped signs.
+    fn assumption(&self) -> Assumption {
+        match self.assumed {
+            None => Assumption::None,
+            Some(assumed) if !self.permits(assumed) => Assumption::Contradicted,
+            Some(Inverted::Green) => Assumption::GreenInverted,
+            Some(_) => Assumption::OtherInverted,
+        }
     }
 
     /// Whether the derivatives do not contradict an assumption.
@@ -255,7 +265,9 @@ pub fn leave_unidentified(
     // Where the map is right after all, flipped signs are a mistake; where it is not, they cancel it.
     let most = most_severe(damaged_either_way(surfaces, area));
     for defect in surfaces.iter_mut().flatten().filter(|defect| is_about_signs(defect)) {
-        defect.leave(Obstacle::MapMayCancel { image, is_from_sketchfab, wanted });
+        let right = witness.odd.map(|_| posterior[0]);
+        let assumption = witness.assumption();
+        defect.leave(Obstacle::MapMayCancel { image, is_from_sketchfab, right, assumption, wanted });
         defect.severity = defect.severity.min(most);
     }
     for surface in surfaces {

@@ -50,6 +50,12 @@ fn flipped_signs_under_a_map_of_unknown_convention_are_left() {
         let mut document = model.document();
         let fixed = fix_document(&mut document, findings, &FixOptions::default()).expect("a repair");
         assert!(!fixed.is_changed && !document.is_changed(), "{fixed:?}");
+        // The user says that green is inverted, which nothing can repair: the two cancel.
+        let inverted = CheckOptions::default().with_assumed_map(Some(AssumedMap::DirectX));
+        let findings = check_document(&document, &inverted).expect("a valid document");
+        let flipped = findings.iter().find(|finding| finding.code == Code::TangentSignFlipped);
+        let reason = flipped.and_then(|flipped| flipped.left_because.as_deref()).unwrap_or_default();
+        assert!(reason.contains("as was assumed") && !reason.contains("--assume"), "{reason}");
         // The user says that they are right.
         let assumed = CheckOptions::default().with_assumed_map(Some(AssumedMap::OpenGl));
         let options = FixOptions::default().with_check(assumed);
@@ -347,6 +353,8 @@ fn maps_of_models_from_sketchfab_are_said_to_cancel_mostly() {
         // The same map on the model, from a file of its own.
         let on_model = check_model_of_maps(&document).expect("a valid document");
         let on_model = check_map_on_model(AVIF, &on_model, &CheckOptions::default()).findings;
+        // The repair of an image changes no model.
+        assert!(on_model.iter().all(|finding| !finding.is_fixable()), "{on_model:#?}");
         [findings, on_model].map(|findings| {
             let flipped = findings.iter().find(|finding| finding.code == Code::TangentSignFlipped);
             flipped.and_then(|flipped| flipped.left_because.clone()).expect("a reason")
@@ -391,15 +399,18 @@ fn the_method_of_tangents_that_a_map_cancels_is_no_further_warning() {
         // The pair is repaired, and the tangents are made again only where the user names their code.
         let repair = |document: &mut Document, options: &FixOptions| {
             let findings = check_document(document, &options.check).expect("a valid document");
-            fix_document(document, findings, options).expect("a repair");
-            check_document(document, &options.check).expect("a valid document")
+            let fixed = fix_document(document, findings, options).expect("a repair");
+            (fixed, check_document(document, &options.check).expect("a valid document"))
         };
         let (mut document, options) = (model.document(), FixOptions::default());
-        let left = repair(&mut document, &options);
+        let (fixed, left) = repair(&mut document, &options);
+        // Once nothing cancels, the repair calls it what the next check does.
+        let recipe = fixed.findings.iter().find(|fixed| fixed.finding.code == Code::TangentOtherRecipe);
+        assert!(recipe.is_some_and(|left| left.finding.severity == Severity::Warning), "{fixed:#?}");
         let severe: Vec<&Finding> = left.iter().filter(|finding| finding.severity > Severity::Info).collect();
         assert!(severe.len() == 1 && severe[0].code == Code::TangentOtherRecipe, "{left:#?}");
         assert_eq!(tangents(&document), by_area);
-        let left = repair(&mut document, &options.with_codes([Code::TangentOtherRecipe]));
+        let (_, left) = repair(&mut document, &options.with_codes([Code::TangentOtherRecipe]));
         assert!(left.iter().all(|finding| finding.severity <= Severity::Info), "{left:#?}");
         assert_eq!(tangents(&document), healthy.tangents.clone().expect("tangents"));
     }

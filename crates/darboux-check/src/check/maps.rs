@@ -166,7 +166,11 @@ pub fn check_model_of_maps(document: &Document) -> Result<ModelOfMaps, Error> {
 /// the model's tangents are flipped, too, so that both mistakes cancel.
 pub fn check_map_on_model(file: &[u8], model: &ModelOfMaps, options: &CheckOptions) -> CheckedMap {
     let (mut checked, on_model) = model.with_map(file, options);
-    checked.defects.extend(on_model);
+    let in_model = |mut defect: Defect| {
+        defect.leave(Obstacle::InTheModel);
+        defect
+    };
+    checked.defects.extend(on_model.into_iter().map(in_model));
     checked.into()
 }
 

@@ -73,6 +73,10 @@ pub enum Obstacle {
         image: Option<usize>,
         /// Whether the file is from Sketchfab, most of whose maps do.
         is_from_sketchfab: bool,
+        /// The probability that the map is right, where its texels tell.
+        right: Option<f64>,
+        /// What became of the user's assumption.
+        assumption: Assumption,
         wanted: BitangentDirection,
     },
     /// The map was made for another UV layout, which the tangents may fit.
@@ -91,6 +95,8 @@ pub enum Obstacle {
     SignsAreLeft,
     /// The same where the code of the signs is not among those to repair.
     SignsAreNotChosen,
+    /// It is one of the model on which an image is checked, and the image is what is repaired.
+    InTheModel,
     NotChosen,
     OtherMethodWanted,
     /// The rest needs all tangents computed again, and their recipe is kept.
@@ -101,6 +107,17 @@ pub enum Obstacle {
     OnlyInvertedRedIsCertain,
     /// The sentence of the error that stopped the repair.
     Failed(String),
+}
+
+/// What becomes of what the user says of a map whose convention is not certain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Assumption {
+    None,
+    /// The texels show otherwise.
+    Contradicted,
+    /// Green is inverted, or other channels, which the texels do not show.
+    GreenInverted,
+    OtherInverted,
 }
 
 impl Obstacle {
@@ -126,15 +143,18 @@ impl Obstacle {
         )
     }
 
-    /// What the user may say of the map to overcome it, where it is the likeliest: that green is inverted.
+    /// What the user may say of the map where the picture looks as the finding says, so that it is repaired:
+    /// that green is inverted, or beside flipped signs that the map is right.
     pub fn suggested_assumption(&self) -> Option<AssumedMap> {
-        let wanted = match self {
-            Self::NotIdentified { wanted, .. } | Self::MapMayCancel { wanted, .. } => *wanted,
-            Self::FacesLeanToRed(wanted)
+        match self {
+            Self::MapMayCancel {
+                assumption: Assumption::None | Assumption::Contradicted, wanted, ..
+            } => Some(assumption(Inverted::None, *wanted)),
+            Self::NotIdentified { wanted, .. }
+            | Self::FacesLeanToRed(wanted)
             | Self::OnlyTheModelTells(wanted)
-            | Self::ExchangedAndInverted(wanted) => *wanted,
-            _ => return None,
-        };
-        Some(assumption(Inverted::Green, wanted))
+            | Self::ExchangedAndInverted(wanted) => Some(assumption(Inverted::Green, *wanted)),
+            _ => None,
+        }
     }
 }

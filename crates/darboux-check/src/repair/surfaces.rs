@@ -240,8 +240,9 @@ impl Work<'_> {
         repair: &Repair,
         after: &BTreeMap<Option<Key>, Vec<&Defect>>,
     ) -> FixedFinding {
-        let at = place_of(&defect).filter(|_| self.options.repairs(&defect));
         let of_place = after.get(&place_of(&defect)).map_or(&[][..], Vec::as_slice);
+        let defect = as_bad_as_it_is(defect, of_place);
+        let at = place_of(&defect).filter(|_| self.options.repairs(&defect));
         let remains = of_place.iter().any(|left| left.is_same(&defect));
         if let Some(at) = at.filter(|_| remains) {
             if let Some(Some(reason)) = repair.refused.get(&at) {
@@ -260,6 +261,15 @@ impl Work<'_> {
         let fixed = outcome(defect, of_place.iter().copied(), self.options);
         FixedFinding { change: change.filter(|_| fixed.repaired), ..fixed }
     }
+}
+
+/// The defect with its severity after the repair, where that is higher: what cancelled it, or made it small, may
+/// be gone. `after`: the defects of its place.
+fn as_bad_as_it_is(defect: Defect, after: &[&Defect]) -> Defect {
+    let is_cancelled = after.iter().any(|left| left.cancelled.is_some());
+    let same = after.iter().find(|left| !is_cancelled && left.is_same(&defect));
+    let severity = same.map_or(defect.severity, |same| defect.severity.max(same.severity));
+    defect.with_severity(severity)
 }
 
 /// Whether a defect is about tangents that are kept because the map may have been baked with them.

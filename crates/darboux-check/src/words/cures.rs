@@ -3,13 +3,25 @@
 use darboux::BitangentDirection;
 
 use crate::code::Code;
-use crate::defect::{Defect, Fault, MapFault, NormalFault, Obstacle, TangentFault};
+use crate::defect::{Assumption, Defect, Fault, MapFault, NormalFault, Obstacle, TangentFault};
 
 /// The cure of a defect that a repair leaves; none where the usual one fits.
 pub fn of_left(defect: &Defect) -> Option<&'static str> {
     let is_recipe = matches!(defect.fault, Fault::Tangent(TangentFault::OtherRecipe { .. }));
     match defect.obstacle.as_ref()? {
+        Obstacle::InTheModel => Some("Repair the model by itself: `darboux check MODEL --fix`."),
         Obstacle::DifferenceIsInvisible => Some("None needed."),
+        Obstacle::MapMayCancel { assumption: Assumption::GreenInverted, .. } => {
+            Some("None needed if the map is as was assumed: bumps look right.")
+        }
+        Obstacle::MapMayCancel { wanted: BitangentDirection::Up, .. } => Some(
+            "Look at a bump with a light above it; if it looks inverted: `darboux check FILE --fix --assume \
+             map=opengl`.",
+        ),
+        Obstacle::MapMayCancel { wanted: BitangentDirection::Down, .. } => Some(
+            "Look at a bump with a light above it; if it looks inverted: `darboux check FILE --convention \
+             directx --fix --assume map=directx`.",
+        ),
         Obstacle::MapHasOtherLayout { .. } => {
             Some("Put back the UVs that the map was made for, and check again.")
         }

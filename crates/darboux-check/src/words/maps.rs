@@ -328,7 +328,7 @@ fn green_flipped(wanted: BitangentDirection, doubt: RedDoubt, evidence: &Directi
         BitangentDirection::Down => (
             "OpenGL (green up) instead of DirectX (green down)",
             "Export or bake the map with green down (DirectX, -Y), or let `darboux check FILE --convention \
-             directx --fix --assume map=opengl -o FIXED` invert its green.",
+             directx --fix --assume map=opengl` invert its green.",
         ),
     };
     let doubt = match doubt {

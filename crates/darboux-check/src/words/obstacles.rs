@@ -4,8 +4,7 @@ use darboux::{BitangentDirection, Choice};
 
 use super::counts::Sure;
 use crate::code::Code;
-use crate::defect::Obstacle;
-use crate::defect::Pair;
+use crate::defect::{Assumption, Obstacle, Pair};
 use crate::inverted::{Inverted, assumption};
 use crate::measure::reversal::Undecided;
 
@@ -50,18 +49,42 @@ pub fn reason(obstacle: &Obstacle) -> String {
         Obstacle::RedLikelier { image } => {
             return format!("red may be inverted instead of green, as in images[{image}]");
         }
-        Obstacle::MapMayCancel { image, is_from_sketchfab, wanted } => {
-            let [green, _, right] = assumptions(*wanted);
+        Obstacle::MapMayCancel { assumption: Assumption::GreenInverted, image, .. } => {
+            return format!(
+                "the green of {} is inverted, as was assumed, which its texels do not show: it cancels the \
+                 flipped signs, and neither is repaired",
+                map_in(*image)
+            );
+        }
+        Obstacle::MapMayCancel { assumption: Assumption::OtherInverted, image, .. } => {
+            return format!(
+                "channels of {} are inverted, as was assumed, which its texels do not show, so that neither \
+                 they nor the signs are repaired",
+                map_in(*image)
+            );
+        }
+        Obstacle::MapMayCancel { image, is_from_sketchfab, right, assumption, wanted } => {
+            let [_, _, is_right] = assumptions(*wanted);
+            let map = map_in(*image);
+            let known = right.map_or_else(
+                || format!("the convention of {map} is not known"),
+                |right| format!("it is only {} sure that {map} is right", Sure(right)),
+            );
             let prior = if *is_from_sketchfab {
                 ", as in 20 of 24 maps of other models from Sketchfab, where this one is from"
             } else {
                 ""
             };
+            let refused = match assumption {
+                Assumption::Contradicted => {
+                    "; what was assumed is not applied, because the texels show otherwise"
+                }
+                _ => "",
+            };
             return format!(
-                "the convention of {} is not known, and inverted green there would cancel the flipped \
-                 signs{prior}; `--assume map={right}` says that the map is right, `--assume map={green}` that \
-                 its green is inverted",
-                map_in(*image)
+                "{known}, and inverted green there would cancel the flipped signs{prior}: look at a bump with \
+                 a light above it, and if it looks inverted, the map is right, and `--assume map={is_right}` \
+                 has the signs repaired{refused}"
             );
         }
         Obstacle::MapHasOtherLayout { image } => {
@@ -170,6 +193,7 @@ pub fn reason(obstacle: &Obstacle) -> String {
             "PNG, JPEG and TGA images are rewritten, and no others, because only PNG files are written; save \
              it as a PNG first, or export the model with PNG images"
         }
+        Obstacle::InTheModel => "it is in the model, and the repair of an image changes no model",
         Obstacle::NotChosen => "its code is not among those to repair",
         Obstacle::OtherMethodWanted => "another method than MikkTSpace was asked for",
         Obstacle::RecipeIsKept => {

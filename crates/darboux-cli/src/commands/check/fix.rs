@@ -4,7 +4,7 @@ use std::path::Path;
 
 use darboux::TangentOptions;
 use darboux_check::{
-    Change, Finding, FixOptions, FixedFinding, ReportedFinding, Severity, check_document, diagnosis,
+    Change, Code, Finding, FixOptions, FixedFinding, ReportedFinding, Severity, check_document, diagnosis,
     fix_document, plan_repair,
 };
 use darboux_io::gltf::Document;
@@ -200,7 +200,7 @@ fn line(finding: &ReportedFinding, drops_tangents: bool) -> Option<String> {
             "{place}: gone {code}: {text}; an OBJ has no tangents, and an importer computes its own"
         )),
         (Some(repair), _) if outcome.repaired => {
-            let done = done(finding.change, repair);
+            let done = done(*code, finding.change, repair);
             Some(format!("{place}: repaired {code}: {text}; {done}"))
         }
         (None, _) if outcome.repaired => {
@@ -214,15 +214,17 @@ fn line(finding: &ReportedFinding, drops_tangents: bool) -> Option<String> {
 }
 
 /// What was done, as a clause. `repair`: what is usually done for the code.
-fn done(change: Option<Change>, repair: &str) -> String {
-    match change {
+fn done(code: Code, change: Option<Change>, repair: &str) -> String {
+    let of_tangents = match change {
         Some(Change::RecomputedTangents) => "all tangents of the primitive were computed again".to_owned(),
         Some(Change::CorrectedTangents { count }) => {
             let corrected = counted(count, "tangent was corrected", "tangents were corrected");
             format!("{corrected}, and the others kept")
         }
-        _ => repair.to_owned(),
-    }
+        _ => return repair.to_owned(),
+    };
+    // The map was repaired, too.
+    if code == Code::ConventionsCancel { format!("{repair}: {of_tangents}") } else { of_tangents }
 }
 
 /// An error that was not repaired, in one line.
