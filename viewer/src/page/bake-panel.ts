@@ -76,7 +76,7 @@ export class BakePanel {
     element('bake-inwards-label').hidden = isCage;
     element('bake-distance-name').textContent = isCage ? 'Cage offset' : 'Outwards';
     for (const [id, shown] of [['bake-distance', 'bake-distance-value'], ['bake-inwards', 'bake-inwards-value']]) {
-      const text = `${(100 * shareOf(id)).toPrecision(2)} %`;
+      const text = `${Number((100 * shareOf(id)).toPrecision(2))} %`;
       element(id).ariaValueText = `${text} of the model's diagonal`;
       element(shown).textContent = text;
     }
@@ -177,7 +177,7 @@ function drawMap({ width, height, normals, misses }: ShownBake, hasMisses: boole
 /** What the bake counted. */
 function sentence({ report, seconds }: ShownBake): string {
   const { chartedTexels, missedTexels, backFacingTexels, overlappingTexels } = report;
-  const share = (texels: number) => `${((100 * texels) / Math.max(chartedTexels, 1)).toPrecision(2)} %`;
+  const share = (texels: number) => `${Number(((100 * texels) / Math.max(chartedTexels, 1)).toPrecision(2))} %`;
   const missed = missedTexels
     ? `Rays of ${share(missedTexels)} of the texels (${missedTexels.toLocaleString('en')}) hit nothing`
     : `Rays of all ${chartedTexels.toLocaleString('en')} texels hit the high model`;
