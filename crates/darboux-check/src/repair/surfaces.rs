@@ -263,8 +263,8 @@ impl Work<'_> {
     }
 }
 
-/// The defect with its severity after the repair, where that is higher: what cancelled it, or made it small, may
-/// be gone. `after`: the defects of its place.
+/// The defect with its severity after the repair, where that is higher: what cancelled it, or made it small,
+/// may be gone. `after`: the defects of its place.
 fn as_bad_as_it_is(defect: Defect, after: &[&Defect]) -> Defect {
     let is_cancelled = after.iter().any(|left| left.cancelled.is_some());
     let same = after.iter().find(|left| !is_cancelled && left.is_same(&defect));
