@@ -1,7 +1,7 @@
 // The options of `darboux/bake` as the JSON that its module reads.
 
 import { checkType, choice } from './core/checks.js';
-import { BITANGENTS, ID_SOURCES, MAP_KINDS, OCCLUSION_FALLOFFS, OCCLUSION_WEIGHTS } from './core/choices.js';
+import { BITANGENTS, ID_SOURCES, MAP_KINDS, OCCLUSION_FALLOFFS, OCCLUSION_WEIGHTS, PART_MATCHES } from './core/choices.js';
 import type { BakeModelsOptions, BakeOptions, PreparedModelsOptions } from './bake-types.js';
 import type { Convention } from './types.js';
 
@@ -102,7 +102,7 @@ export function optionsText(options: BakeModelsOptions, { meshConvention, source
     backFaces: Boolean(options.backFaces),
     material: material ?? null,
     uvSet: uvSet ?? null,
-    matchesNames: choice('match', options.match, ['nearest', 'name'], 'nearest') === 1,
+    match: named('match', options.match, PART_MATCHES, 'nearest'),
     highMaps: options.highMaps ?? true,
     aoRays: whole.aoRays,
     aoDistance: aoDistance ?? null,

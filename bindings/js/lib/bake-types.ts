@@ -1,6 +1,6 @@
 // The meshes, options and results of `darboux/bake`.
 
-import type { BITANGENTS, ID_SOURCES, MAP_KINDS, OCCLUSION_FALLOFFS, OCCLUSION_WEIGHTS } from './core/choices.js';
+import type { BITANGENTS, ID_SOURCES, MAP_KINDS, OCCLUSION_FALLOFFS, OCCLUSION_WEIGHTS, PART_MATCHES } from './core/choices.js';
 import type { Convention, Indices } from './types.js';
 
 /** A kind of image. `darboux bake --help` says what each is. */
@@ -83,7 +83,7 @@ export interface BakeModelsOptions extends Omit<BakeOptions, 'meshConvention'> {
   /** The n of `TEXCOORD_n`. Default: the set that the normal map of each material uses. */
   uvSet?: number | null;
   /** 'name': the part `crate_low` is baked from `crate_high` and `crate_high_bolts` only. Default: 'nearest'. */
-  match?: 'nearest' | 'name' | null;
+  match?: (typeof PART_MATCHES)[number] | null;
   /** Whether the normal maps of the high models count. Default: true. */
   highMaps?: boolean | null;
   /** Whether parts of the high models are occluded by themselves only. Default: false. */

@@ -3,7 +3,7 @@
 use darboux::Convention;
 use darboux_bake::{
     BakeOptions, Bitangent, CurvatureRadius, IdSource, MapKind, MapSet, OcclusionFalloff, OcclusionWeights,
-    PreparedSurfaces, Udim, default_cage_offset,
+    PartMatch, PreparedSurfaces, Udim, default_cage_offset,
 };
 use serde::Deserialize;
 
@@ -30,7 +30,8 @@ pub struct Options {
     back_faces: bool,
     pub material: Option<usize>,
     pub uv_set: Option<usize>,
-    pub matches_names: bool,
+    #[serde(rename = "match")]
+    pub part_match: Named<PartMatch>,
     pub high_maps: bool,
     ao_rays: u32,
     ao_distance: Option<f32>,

@@ -3,8 +3,8 @@
 
 use darboux::Context;
 use darboux_bake::{
-    HighModel, HighModelOptions, LowModel, LowModelOptions, LowSurface, PreparedSurfaces, group_by_name,
-    inflated_cage,
+    HighModel, HighModelOptions, LowModel, LowModelOptions, LowSurface, ModelSurfaces, Models,
+    PreparedSurfaces, inflated_cages, with_cages,
 };
 use darboux_io::gltf::{Document, PrimitiveCorners};
 use self_cell::self_cell;
@@ -13,11 +13,6 @@ use crate::bake_settings::{Options, Setup, Surfaces, bake_settings, chosen_maps,
 use crate::reading::load_options;
 
 type Corners<'a> = Vec<Vec<PrimitiveCorners<'a>>>;
-
-struct Models<'a> {
-    low: LowModel<'a>,
-    highs: Vec<HighModel<'a>>,
-}
 
 struct Prepared<'a> {
     /// Without cages, which depend on the distance of rays.
@@ -63,10 +58,10 @@ impl PreparedModels {
         let read = ReadFiles::try_new(open_all(files)?, |documents| {
             documents.iter().map(Document::corners).collect::<Result<_, _>>().map_err(sentence)
         })?;
-        let models = ReadModels::try_new(read, |read| Models::read(read, options))?;
+        let models = ReadModels::try_new(read, |read| read_models(read, options))?;
         let mut warnings = models.borrow_dependent().warnings();
         let surfaces = ReadSurfaces::try_new(models, |models| {
-            models.borrow_dependent().prepare(options, &mut warnings, context)
+            prepare(models.borrow_dependent(), options, &mut warnings, context)
         })?;
         Ok(Self { surfaces, warnings })
     }
@@ -93,67 +88,37 @@ impl PreparedModels {
         if !setup.has_cage {
             return Ok((work(Surfaces { prepared: surfaces, settings }, context)?, setup));
         }
-        let cages = cages(without_cage, setup.distance[0])?;
-        let caged = without_cage.iter().zip(&cages).map(|(surface, cage)| surface.with_cage(cage));
-        let caged: Vec<_> = caged.collect::<Result<_, _>>().map_err(text)?;
+        let cages = inflated_cages(without_cage, setup.distance[0]).map_err(text)?;
+        let caged = with_cages(without_cage, &cages).map_err(text)?;
         let surfaces = &surfaces.with_low(&caged, context).map_err(text)?;
         Ok((work(Surfaces { prepared: surfaces, settings }, context)?, setup))
     }
 }
 
-impl<'a> Models<'a> {
-    fn read(files: &'a ReadFiles, options: &Options) -> Result<Self, String> {
-        let no_model = || "there is no model to bake";
-        let (low, highs) = files.borrow_owner().split_first().ok_or_else(no_model)?;
-        let (low_corners, high_corners) = files.borrow_dependent().split_first().ok_or_else(no_model)?;
-        let high_options = HighModelOptions::default()
-            .with_normal_maps(options.high_maps)
-            .with_maps(chosen_maps(options))
-            .with_texture(options.texture.clone());
-        let low = LowModel::read(low, low_corners, &low_options(options)).map_err(sentence)?;
-        let highs = HighModel::read_all(highs, high_corners, &high_options).map_err(sentence)?;
-        Ok(Self { low, highs })
-    }
+fn read_models<'a>(files: &'a ReadFiles, options: &Options) -> Result<Models<'a>, String> {
+    let no_model = || "there is no model to bake";
+    let (low, highs) = files.borrow_owner().split_first().ok_or_else(no_model)?;
+    let (low_corners, high_corners) = files.borrow_dependent().split_first().ok_or_else(no_model)?;
+    let high_options = HighModelOptions::default()
+        .with_normal_maps(options.high_maps)
+        .with_maps(chosen_maps(options))
+        .with_texture(options.texture.clone());
+    Models::read((low, low_corners), (highs, high_corners), &low_options(options), &high_options)
+        .map_err(sentence)
+}
 
-    /// Groups parts by name if that was chosen; `warnings` receives those without a partner.
-    fn prepare(
-        &'a self,
-        options: &Options,
-        warnings: &mut Vec<String>,
-        context: &Context,
-    ) -> Result<Prepared<'a>, String> {
-        let mut low = self.low.surfaces().map_err(sentence)?;
-        let mut highs = HighModel::surfaces_of_all(&self.highs).map_err(sentence)?;
-        if options.matches_names {
-            let unpaired = group_by_name((&self.low, &mut low), (&self.highs, &mut highs)).warnings();
-            if highs.is_empty() {
-                return Err(unpaired.join("; "));
-            }
-            warnings.extend(unpaired);
-        }
-        let surfaces = PreparedSurfaces::new(&low, &highs, None, context).map_err(text)?;
-        Ok(Prepared { low, surfaces })
-    }
-
-    /// What was left out.
-    fn warnings(&self) -> Vec<String> {
-        let Self { low, highs } = self;
-        let mut warnings: Vec<String> = highs.iter().flat_map(HighModel::warnings).cloned().collect();
-        if low.without_uvs > 0 {
-            warnings.push(format!(
-                "{} primitives of the low model have no UVs and are not baked",
-                low.without_uvs
-            ));
-        }
-        if low.materials.len() > 1 {
-            let count = low.materials.len();
-            warnings.push(format!(
-                "the {count} materials of the low model share one map; where their charts \
-                 overlap, the first triangle wins"
-            ));
-        }
-        warnings
-    }
+/// Groups parts by name if that was chosen; `warnings` receives those without a partner.
+fn prepare<'a>(
+    models: &'a Models<'a>,
+    options: &Options,
+    warnings: &mut Vec<String>,
+    context: &Context,
+) -> Result<Prepared<'a>, String> {
+    let surfaces = models.surfaces(options.part_match.0).map_err(|error| error.to_string())?;
+    let ModelSurfaces { low, highs, warnings: of_names } = surfaces;
+    warnings.extend(of_names);
+    let surfaces = PreparedSurfaces::new(&low, &highs, None, context).map_err(text)?;
+    Ok(Prepared { low, surfaces })
 }
 
 /// Reads the low model and works on its surfaces. Errors: one sentence.
@@ -170,10 +135,6 @@ pub fn with_low_model<T>(
 
 fn low_options(options: &Options) -> LowModelOptions {
     LowModelOptions::default().with_uv_set(options.uv_set).with_material(options.material)
-}
-
-fn cages(low: &[LowSurface<'_>], offset: f32) -> Result<Vec<Vec<[f32; 3]>>, String> {
-    low.iter().map(|surface| inflated_cage(surface.mesh(), offset).map_err(text)).collect()
 }
 
 fn open_all(files: Vec<Vec<u8>>) -> Result<Vec<Document>, String> {

@@ -2,31 +2,23 @@
 
 use std::collections::HashMap;
 
-use darboux::{Cancel, Choice, Context, Convention};
+use darboux::{Cancel, Context};
 use darboux_bake::{
-    BakeError, BakeOptions, BakeReport, Baked, ColorTexture, CurvatureRadius, HighSurface, LowSurface,
-    MapKind, MapSet, MaterialProperty, SkewCorrection, Udim, bake as bake_surfaces, inflated_cage,
+    BakeError, ColorTexture, HighSurface, LowSurface, MaterialProperty, SkewCorrection,
+    bake as bake_surfaces, inflated_cage,
 };
-use darboux_io::memory_of_process;
-use numpy::prelude::*;
-use numpy::{PyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 
 use crate::arrays::Rows;
-use crate::choices::{choice, named_choice};
+use crate::bake_result::{Setup, baked_maps};
+use crate::bake_settings::BakeSettings;
+use crate::choices::choice;
 use crate::convention::convention;
 use crate::mesh::{IndexArray, MeshArrays};
 use crate::numbers::{Natural, Threads, natural};
-use crate::results::named;
 use crate::threads::run_interruptibly;
-
-/// Makes a radius of a number in some unit.
-type RadiusOf = fn(f32) -> CurvatureRadius;
-
-const UNITS: &[(&str, RadiusOf)] =
-    &[("texels", CurvatureRadius::Texels), ("distance", CurvatureRadius::Distance)];
 
 /// The textures of the high mesh, and whether they are in sRGB.
 const TEXTURES: &[(&str, (MaterialProperty, bool))] = &[
@@ -161,24 +153,25 @@ pub fn bake<'py>(
     high_textures: Option<HashMap<String, PyReadonlyArray3<'py, u8>>>,
     threads: Option<Threads>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let kinds = maps.iter().map(|name| named_choice(name)).collect::<PyResult<Vec<_>>>()?;
-    let conventions: [Convention; 2] = [convention("source", source)?, convention("target", target)?];
-    let options = BakeOptions::new([size.0.0, size.1.0], distance.into())
-        .with_maps(MapSet::of(&kinds))
-        .with_samples_per_axis(samples)
-        .with_surface_convention(conventions[0])
-        .with_map_convention(conventions[1])
-        .with_bitangent(named_choice(bitangent)?)
-        .with_padding(padding.map(|Natural(texels)| texels))
-        .with_back_faces(back_faces)
-        .with_occlusion(ao_rays, ao_distance)
-        .with_occlusion_falloff(named_choice(ao_falloff)?)
-        .with_occlusion_weights(named_choice(ao_weights)?)
-        .with_thickness_distance(thickness_distance)
-        .with_curvature_radius(choice("curvature_unit", curvature_unit, UNITS)?(curvature_radius))
-        .with_world_direction(world_direction.into())
-        .with_udim(tile(udim)?)
-        .with_memory_limit(memory_of_process());
+    let settings = BakeSettings {
+        size,
+        maps: &maps,
+        samples,
+        target,
+        bitangent,
+        padding,
+        back_faces,
+        ao_rays,
+        ao_distance,
+        ao_falloff,
+        ao_weights,
+        thickness_distance,
+        curvature_radius,
+        curvature_unit,
+        world_direction,
+        udim,
+    };
+    let options = settings.options(distance.into())?.with_surface_convention(convention("source", source)?);
     let low = MeshArrays::new(positions, normals, uvs, indices, None)?;
     let tangents = Rows::<4>::new("tangents", "C", tangents)?;
     let tangents = tangents.packed()?;
@@ -207,7 +200,8 @@ pub fn bake<'py>(
         bake_surfaces(&[surface], &high, &options, &mut context, &mut |_| {})
     };
     let baked = run_interruptibly(py, Threads::or_all(threads), work, |()| Ok(()), || cancel.cancel())?;
-    result(py, baked.map_err(bake_error)?)
+    let setup = Setup { distance: options.distance, ..Setup::default() };
+    baked_maps(py, baked.map_err(bake_error)?, setup)
 }
 
 /// Positions of a cage.
@@ -272,16 +266,6 @@ impl Skew {
     }
 }
 
-/// The tile of a UDIM number. Errors: a number that no tile has.
-pub fn tile(number: Option<Natural>) -> PyResult<Option<Udim>> {
-    let known = |Natural(number)| {
-        Udim::from_number(number).ok_or_else(|| {
-            PyValueError::new_err(format!("udim is {number}; it must be a number of a tile, 1001 to 9990"))
-        })
-    };
-    number.map(known).transpose()
-}
-
 pub fn bake_error(error: BakeError) -> PyErr {
     match error {
         BakeError::Memory { .. } => PyMemoryError::new_err(error.to_string()),
@@ -328,51 +312,4 @@ fn shown<'a>(
         high = high.with_property(*property, [1.0; 4], Some((texture, uvs.view()?))).map_err(bake_error)?;
     }
     Ok(high)
-}
-
-/// The images as arrays, and the counts.
-fn result(py: Python<'_>, baked: Baked) -> PyResult<Bound<'_, PyAny>> {
-    let mut images = baked.images;
-    let [width, height] = images.size.map(|side| side as usize);
-    let mut image = |kind: MapKind| -> PyResult<Option<Bound<'_, PyAny>>> {
-        let Some(numbers) = images.take(kind) else { return Ok(None) };
-        let array = PyArray1::from_vec(py, numbers);
-        Ok(Some(match kind.channels() {
-            1 => array.reshape([height, width])?.into_any(),
-            channels => array.reshape([height, width, channels])?.into_any(),
-        }))
-    };
-    let mut fields = Vec::new();
-    for &kind in MapKind::ALL {
-        fields.push(image(kind)?);
-    }
-    let states: Vec<u8> = images.states.iter().map(|state| state.number()).collect();
-    let states = PyArray1::from_vec(py, states).reshape([height, width])?.into_any();
-    let later = fields.split_off(FIRST_MAPS);
-    fields.push(Some(states));
-    fields.push(Some(report(py, &baked.report)?));
-    fields.extend(later);
-    named(py, "BakedMaps", PyTuple::new(py, fields)?)
-}
-
-/// The maps before the states and the counts, in BakedMaps; the others stand behind.
-const FIRST_MAPS: usize = 5;
-
-fn report<'py>(py: Python<'py>, report: &BakeReport) -> PyResult<Bound<'py, PyAny>> {
-    let fields = [
-        report.charted_texels,
-        report.missed_texels,
-        report.back_facing_texels,
-        report.overlapping_texels,
-        report.chart_area,
-        report.inverted_texels,
-        report.frameless_texels,
-        report.below_horizon_texels,
-        report.rays,
-        report.degenerate_triangles,
-        report.oversized_triangles,
-        report.non_finite_low_triangles,
-        report.non_finite_triangles,
-    ];
-    named(py, "BakeReport", PyTuple::new(py, fields)?)
 }

@@ -14,7 +14,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::arrays::{Rows, array_of, shape_text};
-use crate::bake::{Cage, Skew, bake_error, tile};
+use crate::bake::{Cage, Skew, bake_error};
+use crate::bake_settings::tile;
 use crate::choices::{choice, named_choice};
 use crate::convention::convention;
 use crate::mesh::{IndexArray, MeshArrays};

@@ -7,7 +7,7 @@ use std::sync::mpsc::Sender;
 use darboux::{Cancel, Context};
 use darboux_io::gltf::{self, AddNormalsOptions, AddTangentsOptions, IndexList, Progress, TangentEncoding};
 use darboux_io::{LoadOptions, MemoryLimit, OptionNames, SaveOptions, memory_of_process};
-use pyo3::exceptions::{PyIndexError, PyOSError, PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyIndexError, PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use serde::Serialize;
@@ -18,7 +18,7 @@ use crate::convention::convention;
 use crate::normals::normal_options;
 use crate::numbers::{Natural, degrees, place};
 use crate::results::python_of;
-use crate::threads::run_interruptibly;
+use crate::threads::{check_progress, run_interruptibly};
 
 /// A glTF document in memory: read by load, edited by its methods, written by save. Everything that no method
 /// changes stays as it was.
@@ -406,10 +406,7 @@ impl Document {
         ) -> Result<S, darboux_io::Error>
         + Send,
     ) -> PyResult<Bound<'py, PyAny>> {
-        if let Some(progress) = progress.filter(|progress| !progress.is_callable()) {
-            let kind = progress.get_type().name()?;
-            return Err(PyTypeError::new_err(format!("progress must be callable, not {kind}")));
-        }
+        check_progress(progress)?;
         self.whole()?;
         // An edit that was cancelled or failed leaves some primitives changed, and others not.
         self.is_half_done = true;

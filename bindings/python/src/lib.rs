@@ -6,6 +6,9 @@
 mod arrays;
 mod bake;
 mod bake_maps;
+mod bake_models;
+mod bake_result;
+mod bake_settings;
 mod check;
 mod choices;
 mod command;
@@ -35,6 +38,8 @@ mod _darboux {
     use crate::bake::bake;
     #[pymodule_export]
     use crate::bake_maps::{auto_cage, convert_space, udim_tiles, verify};
+    #[pymodule_export]
+    use crate::bake_models::bake_models;
     #[pymodule_export]
     use crate::check::{check, fix, judge_normal_map, recognise_recipe};
     #[pymodule_export]

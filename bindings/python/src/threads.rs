@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use darboux::{Cancel, Context};
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyRuntimeError, PyTypeError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -80,6 +80,17 @@ pub fn cancellable<R: Send>(
     let work = |_: &Sender<()>| work(context);
     run_interruptibly(py, Threads::or_all(threads), work, |()| Ok(()), || cancel.cancel())?
         .map_err(value_error)
+}
+
+/// Refuses a receiver of progress that cannot be called.
+pub fn check_progress(progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+    match progress {
+        Some(progress) if !progress.is_callable() => {
+            let kind = progress.get_type().name()?;
+            Err(PyTypeError::new_err(format!("progress must be callable, not {kind}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The interval between checks for Ctrl-C while another thread works.

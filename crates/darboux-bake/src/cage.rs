@@ -2,9 +2,9 @@
 
 use darboux::{Faces, Mesh, NormalOptions, generate_normals};
 
-use crate::BakeError;
 use crate::common_box::CommonBox;
 use crate::vector::{Vector, add_scaled, narrow, wide};
+use crate::{BakeError, LowSurface};
 
 /// How far a cage lies outside a model without another choice: 2 % of the diagonal of the model's box, in the
 /// same unit.
@@ -19,6 +19,19 @@ pub fn default_cage_offset(diagonal: f64) -> f32 {
 /// Errors: faces that are not triangles.
 pub fn inflated_cage(mesh: &Mesh<'_>, offset: f32) -> Result<Vec<[f32; 3]>, BakeError> {
     inflated_cage_by(mesh, &vec![offset; mesh.vertex_count()])
+}
+
+/// The cages of several surfaces, as of [`inflated_cage`].
+pub fn inflated_cages(low: &[LowSurface<'_>], offset: f32) -> Result<Vec<Vec<[f32; 3]>>, BakeError> {
+    low.iter().map(|surface| inflated_cage(surface.mesh(), offset)).collect()
+}
+
+/// Surfaces with their cages, one for each. Errors: a cage of another number of vertices.
+pub fn with_cages<'a>(
+    low: &[LowSurface<'a>],
+    cages: &'a [Vec<[f32; 3]>],
+) -> Result<Vec<LowSurface<'a>>, BakeError> {
+    low.iter().zip(cages).map(|(surface, cage)| surface.with_cage(cage)).collect()
 }
 
 /// As [`inflated_cage`], each vertex by its own offset.

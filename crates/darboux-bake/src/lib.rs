@@ -64,7 +64,7 @@ mod verify;
 
 pub use auto_cage::{AutoCage, AutoCageOptions, auto_cage};
 pub use bake::{BakeProgress, Baked, bake};
-pub use cage::{default_cage_offset, inflated_cage, inflated_cage_by};
+pub use cage::{default_cage_offset, inflated_cage, inflated_cage_by, inflated_cages, with_cages};
 pub use color_texture::ColorTexture;
 pub use covered_tiles::udims_of;
 pub use crossing::crossing_triangles;
@@ -73,7 +73,8 @@ pub use images::{Images, TexelState};
 pub use map_kind::{MapContent, MapKind, MapSet};
 pub use material::MaterialProperty;
 pub use model::{
-    HighModel, HighModelOptions, LowModel, LowModelOptions, UnpairedParts, group_by_name, is_color_texture,
+    HighModel, HighModelOptions, LowModel, LowModelOptions, ModelSurfaces, Models, ModelsError, PartMatch,
+    UnpairedParts, group_by_name, is_color_texture,
 };
 pub use name_match::{NameMatch, match_names};
 pub use normal_texture::NormalTexture;

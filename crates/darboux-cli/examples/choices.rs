@@ -10,7 +10,7 @@ use std::path::Path;
 
 use darboux::encode::Encoding;
 use darboux::{Choice, Convention, Method, Mode, NormalWeight, Shading, SmoothingSeams};
-use darboux_bake::{Bitangent, IdSource, MapKind, OcclusionFalloff, OcclusionWeights};
+use darboux_bake::{Bitangent, IdSource, MapKind, OcclusionFalloff, OcclusionWeights, PartMatch};
 use darboux_check::{AssumedMap, MapConvention};
 use darboux_io::gltf::TangentEncoding;
 
@@ -49,6 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         List::of::<OcclusionFalloff>("OcclusionFalloff", "OCCLUSION_FALLOFFS"),
         List::of::<OcclusionWeights>("OcclusionWeights", "OCCLUSION_WEIGHTS"),
         List::of::<IdSource>("IdSource", "ID_SOURCES"),
+        List::of::<PartMatch>("PartMatch", "PART_MATCHES"),
         List {
             singular: "ConventionName",
             plural: "CONVENTIONS",

@@ -149,7 +149,7 @@ pub const GROUPS: &[(&str, &[Row])] = &[
             "describe": ["darboux_io::gltf::inspect"]; []; []; ["Document.inspect"]; []; ["darboux inspect"],
             "many files": []; []; []; ["batch", "process", "bake_job"]; []; ["darboux tangents"],
             "bake surfaces": ["darboux_bake::bake"]; []; []; ["bake"]; ["bake:bake"]; [],
-            "bake models": ["darboux_bake::LowModel::surfaces", "darboux_bake::HighModel::surfaces"]; []; []; [];
+            "bake models": ["darboux_bake::Models::surfaces"]; []; []; ["bake_models"];
                 ["bake:bakeModels"]; ["darboux bake"],
             "several bakes of the same models": ["darboux_bake::PreparedSurfaces::new"]; []; []; [];
                 ["bake:PreparedModels"]; [],

@@ -421,6 +421,19 @@ class AutoCage(NamedTuple):
     """How far inside the low mesh rays have to end."""
 
 
+class LegendEntry(NamedTuple):
+    """A colour of a map, and what it stands for."""
+
+    id: int
+    """The number of the material, mesh, part or chart."""
+    name: Optional[str]
+    """Its name; None where it has none."""
+    color: Tuple[int, int, int]
+    """Red, green and blue from 0 to 255."""
+    texels: int
+    """The number of texels."""
+
+
 class BakedMaps(NamedTuple):
     """The images of a bake, the top row first; None for what was not chosen. H: rows, W: texels per row."""
 
@@ -468,3 +481,9 @@ class BakedMaps(NamedTuple):
     """(H, W, 3): one colour for each UV chart of the low mesh."""
     wireframe: Optional[Floats] = None
     """(H, W): 1 along the edges of the low mesh's triangles, 0 elsewhere."""
+    legends: Dict[str, List[LegendEntry]] = {}
+    """By the names of the maps 'id' and 'uv-islands', if they were chosen: what their colours stand for."""
+    distance: Tuple[float, float] = (0.0, 0.0)
+    """How far outside rays began and how far inside they ended, in units of the positions."""
+    warnings: List[str] = []
+    """What bake_models left out, one sentence each; empty for bake."""

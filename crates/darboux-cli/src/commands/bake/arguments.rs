@@ -4,10 +4,10 @@ use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
 use clap::builder::{OsStringValueParser, TypedValueParser};
-use clap::{ArgGroup, Args, ValueEnum};
+use clap::{ArgGroup, Args};
 use darboux::{Choice, Convention, Method};
 use darboux_bake::{
-    Bitangent, CurvatureRadius, IdSource, MapKind, MapSet, OcclusionFalloff, OcclusionWeights,
+    Bitangent, CurvatureRadius, IdSource, MapKind, MapSet, OcclusionFalloff, OcclusionWeights, PartMatch,
 };
 use darboux_io::SaveOptions;
 
@@ -168,8 +168,8 @@ pub struct BakeArguments {
     pub write_cage: Option<PathBuf>,
 
     /// Which high parts the rays of a low part can hit
-    #[arg(long = "match", value_enum, value_name = "HOW", default_value_t, help_heading = "Rays")]
-    pub matching: MatchChoice,
+    #[arg(long = "match", value_parser = choice::<PartMatch>(), value_name = "HOW", default_value = "nearest", help_heading = "Rays")]
+    pub part_match: PartMatch,
 
     /// Let rays hit triangles from behind
     ///
@@ -347,17 +347,6 @@ pub struct Pack {
 /// A direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Direction(pub [f32; 3]);
-
-/// `--match`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum MatchChoice {
-    /// All of them: the first that a ray meets
-    #[default]
-    Nearest,
-    /// Those of the same name: crate_low gets the detail of crate_high and crate_high_bolts. The names of
-    /// nodes count, or else of meshes
-    Name,
-}
 
 /// `--samples`, as samples per axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use darboux::Context;
 use darboux_bake::{
     AutoCageOptions, BakeError, HighModelOptions, LowModel, LowSurface, PreparedSurfaces, auto_cage,
-    default_cage_offset, inflated_cage, inflated_cage_by,
+    default_cage_offset, inflated_cage, inflated_cage_by, with_cages,
 };
 use darboux_io::gltf::Document;
 use serde::Serialize;
@@ -151,7 +151,7 @@ impl Cages {
         if self.0.is_empty() {
             return Ok(low);
         }
-        low.into_iter().zip(&self.0).map(|(surface, cage)| surface.with_cage(cage)).collect()
+        with_cages(&low, &self.0)
     }
 }
 

@@ -5,13 +5,13 @@ use std::path::Path;
 
 use darboux::Context;
 use darboux_bake::{
-    BakeOptions, BakeProgress, HighModel, HighModelOptions, HighSurface, LowModel, LowModelOptions,
-    LowSurface, PreparedSurfaces, check_verification, group_by_name,
+    BakeOptions, BakeProgress, HighModelOptions, LowModelOptions, ModelSurfaces, Models, PreparedSurfaces,
+    check_verification,
 };
 use darboux_io::gltf::{Document, PrimitiveCorners};
 use darboux_io::{Outputs, RunId};
 
-use super::arguments::{BakeArguments, MatchChoice};
+use super::arguments::BakeArguments;
 use super::cage::{Cages, Rays};
 use super::cage_file::stage_cage;
 use super::conflicts::{InputFile, all_inputs, files_of, outputs_of, refuse_twice};
@@ -86,14 +86,15 @@ pub fn bake_files(
     let (mut clock, mut warnings) = (Clock::start(), Vec::new());
     let documents = Documents::open(arguments, &mut warnings)?;
     let corners = documents.corners()?;
-    let models = Models::read(arguments, &documents, &corners)?;
+    let models = read_models(arguments, &documents, &corners)?;
     let skew = Skew::read(arguments.skew.as_ref(), &arguments.reading)?;
     warnings.extend(advice::of_models(&models.low, documents.low.name(), &models.highs));
     refuse_model(arguments, &models.low)?;
 
     let mut rays = Rays::choose(arguments, &models.low);
-    let mut surfaces = models.low.surfaces().map_err(sentence)?;
-    let high_surfaces = models.high_surfaces(arguments, &mut surfaces, &mut warnings)?;
+    let surfaces = models.surfaces(arguments.part_match).map_err(|error| error.to_string())?;
+    let ModelSurfaces { low: surfaces, highs: high_surfaces, warnings: of_names } = surfaces;
+    warnings.extend(of_names);
     let tiles = tiles_of(arguments, &surfaces, &documents.inputs, memory_limit)?;
     if arguments.verify {
         let check = check_verification(&surfaces, &high_surfaces, &options(arguments, &rays, memory_limit));
@@ -283,44 +284,18 @@ impl Documents {
     }
 }
 
-/// The low model and the high ones.
-struct Models<'a> {
-    low: LowModel<'a>,
-    highs: Vec<HighModel<'a>>,
-}
-
-impl<'a> Models<'a> {
-    fn read(
-        arguments: &BakeArguments,
-        documents: &'a Documents,
-        corners: &'a Corners<'a>,
-    ) -> Result<Self, String> {
-        let low = LowModel::read(&documents.low, &corners.low, &low_options(arguments)).map_err(sentence)?;
-        let high_options = HighModelOptions::default()
-            .with_normal_maps(!arguments.no_high_maps)
-            .with_maps(arguments.baked_maps())
-            .with_texture(arguments.content.texture.clone());
-        let highs = HighModel::read_all(&documents.highs, &corners.highs, &high_options);
-        Ok(Self { low, highs: highs.map_err(sentence)? })
-    }
-
-    /// The surfaces of the high models, in groups where names decide. Errors: no names match.
-    fn high_surfaces(
-        &self,
-        arguments: &BakeArguments,
-        low: &mut [LowSurface<'_>],
-        warnings: &mut Vec<String>,
-    ) -> Result<Vec<HighSurface<'_>>, String> {
-        let mut surfaces = HighModel::surfaces_of_all(&self.highs).map_err(sentence)?;
-        if arguments.matching == MatchChoice::Name {
-            let unpaired = group_by_name((&self.low, low), (&self.highs, &mut surfaces)).warnings();
-            if surfaces.is_empty() {
-                return Err(unpaired.join("; "));
-            }
-            warnings.extend(unpaired);
-        }
-        Ok(surfaces)
-    }
+fn read_models<'a>(
+    arguments: &BakeArguments,
+    documents: &'a Documents,
+    corners: &'a Corners<'a>,
+) -> Result<Models<'a>, String> {
+    let high_options = HighModelOptions::default()
+        .with_normal_maps(!arguments.no_high_maps)
+        .with_maps(arguments.baked_maps())
+        .with_texture(arguments.content.texture.clone());
+    let low = (&documents.low, &corners.low[..]);
+    let highs = (&documents.highs[..], &corners.highs[..]);
+    Models::read(low, highs, &low_options(arguments), &high_options).map_err(sentence)
 }
 
 fn sentence(error: darboux_io::Error) -> String {

@@ -1,10 +1,10 @@
 //! What was set, what was counted, and where the time went.
 
 use darboux::Choice;
-use darboux_bake::BakeReport as Counts;
+use darboux_bake::{BakeReport as Counts, PartMatch};
 use darboux_io::words::Count;
 
-use super::super::arguments::{BakeArguments, MatchChoice};
+use super::super::arguments::BakeArguments;
 use super::super::report::BakeReport;
 use super::shared::figure;
 use crate::html_page::escaped;
@@ -40,9 +40,9 @@ fn settings(arguments: &BakeArguments, report: &BakeReport) -> Vec<(&'static str
     let [width, height] = report.size;
     let bitangent = format!("per {}", arguments.bitangent.name());
     let method = arguments.method.map_or("those of the file, or mikktspace", |method| method.name());
-    let parts = match arguments.matching {
-        MatchChoice::Nearest => "all, the nearest",
-        MatchChoice::Name => "those of the same name",
+    let parts = match arguments.part_match {
+        PartMatch::Name => "those of the same name",
+        _ => "all, the nearest",
     };
     vec![
         ("size", format!("{width} x {height}")),
