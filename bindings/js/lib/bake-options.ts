@@ -17,6 +17,7 @@ interface OtherOptions {
 const IS_SHARED: { [Option in keyof Required<BakeModelsOptions>]: Option extends keyof PreparedModelsOptions ? true : false } = {
   size: false,
   cageOffset: false,
+  autoCage: false,
   distance: false,
   maps: true,
   samples: false,
@@ -72,7 +73,7 @@ function named<V extends string>(option: string, value: V | null | undefined, va
 
 /** The options as the JSON that the module reads. Errors: numbers that JSON or the module does not have. */
 export function optionsText(options: BakeModelsOptions, { meshConvention, sourceConvention, toObject }: OtherOptions = {}): string {
-  const { cageOffset, distance, maps, samples, padding, material, uvSet, udim, aoRays, aoDistance } = options;
+  const { cageOffset, autoCage, distance, maps, samples, padding, material, uvSet, udim, aoRays, aoDistance } = options;
   checkPair('size', options.size);
   checkPair('distance', distance);
   if (maps != null) checkType('maps', maps, ['Array']);
@@ -82,13 +83,14 @@ export function optionsText(options: BakeModelsOptions, { meshConvention, source
   }
   const [x, y, z] = options.worldDirection ?? [0, 1, 0];
   const { thicknessDistance, curvatureRadius } = options;
-  const lengths = { cageOffset, aoDistance, thicknessDistance, curvatureRadius, 'worldDirection[0]': x, 'worldDirection[1]': y, 'worldDirection[2]': z, 'the first distance': distance?.[0], 'the second distance': distance?.[1] };
+  const lengths = { cageOffset, autoCage, aoDistance, thicknessDistance, curvatureRadius, 'worldDirection[0]': x, 'worldDirection[1]': y, 'worldDirection[2]': z, 'the first distance': distance?.[0], 'the second distance': distance?.[1] };
   for (const [name, value] of Object.entries(lengths)) {
     if (value != null && !Number.isFinite(value)) throw new RangeError(`${name} is ${value}; it must be a finite number`);
   }
   return JSON.stringify({
     size: sizeOf(options),
     cageOffset: cageOffset ?? null,
+    autoCage: autoCage ?? null,
     distance: distance ?? null,
     maps: (maps ?? ['normal']).map((kind) => named('maps', kind, MAP_KINDS)),
     samples: whole.samples,

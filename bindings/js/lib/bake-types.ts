@@ -38,6 +38,11 @@ export interface BakeOptions {
   size?: readonly [number, number] | null;
   /** Rays begin on a copy of the low model, inflated by this distance, and end as far inside. Default: 2 % of the model's diagonal. */
   cageOffset?: number | null;
+  /**
+   * Rays begin on a cage that is made for the models: at every vertex as close as all but this share of the rays around allows, such as 0.001. Detail that
+   * stands on the surface lies inside it, and what stands over it behind a gap outside. It is at most `cageOffset` away; default for that: 10 % of the diagonal.
+   */
+  autoCage?: number | null;
   /** In place of a cage: how far outside rays begin along the normals, and how far inside they end, in units of the positions. */
   distance?: readonly [number, number] | null;
   /** The images that are made; they share rays. Default: ['normal']. */
@@ -208,7 +213,7 @@ export interface BakeReport {
 export type NormalTexels = Uint8Array | Uint16Array | Float32Array;
 
 /** Options of `verify`: those of the bake that count. */
-export interface VerifyOptions extends Pick<BakeOptions, 'cageOffset' | 'distance' | 'bitangent' | 'convention' | 'backFaces' | 'udim' | 'meshConvention' | 'onProgress'> {
+export interface VerifyOptions extends Pick<BakeOptions, 'cageOffset' | 'autoCage' | 'distance' | 'bitangent' | 'convention' | 'backFaces' | 'udim' | 'meshConvention' | 'onProgress'> {
   /** The map as it is in its file. Default: the map of the bake. */
   written?: NormalTexels | null;
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::arena::with_arena;
 use crate::bake_arrays::BakeArrays;
-use crate::bake_settings::{Setup, Surfaces, bake_settings, distance, read_options, text};
+use crate::bake_settings::{Setup, Surfaces, bake_settings, read_options, text};
 use crate::inputs::resized;
 use crate::options::choice;
 use crate::prepared_models::PreparedModels;
@@ -76,7 +76,6 @@ pub struct Report {
     pub counts: BakeReport,
     pub diagonal: f64,
     pub distance: [f32; 2],
-    pub has_cage: bool,
     pub warnings: Vec<String>,
     /// What the colours of maps stand for, by the names of the maps.
     pub legends: BTreeMap<&'static str, Vec<LegendEntry>>,
@@ -93,9 +92,9 @@ pub struct LegendEntry {
 
 impl Report {
     pub fn new(baked: &Baked, setup: Setup) -> Self {
-        let Setup { diagonal, distance, has_cage, warnings, id_names, .. } = setup;
+        let Setup { diagonal, distance, warnings, id_names, .. } = setup;
         let legends = legends(baked, &id_names);
-        Self { counts: baked.report, diagonal, distance, has_cage, warnings, legends }
+        Self { counts: baked.report, diagonal, distance, warnings, legends }
     }
 }
 
@@ -200,6 +199,6 @@ pub fn with_models<T>(
 ) -> Result<(T, Setup), String> {
     let options = read_options(options)?;
     // Wrong options are told before the work on the models. Any diagonal gives a valid distance.
-    bake_settings(&options, distance(&options, 1.0))?.check().map_err(text)?;
+    bake_settings(&options, options.ray_origin()?.distance(1.0))?.check().map_err(text)?;
     PreparedModels::read(files, &options, context)?.with_surfaces(&options, context, work)
 }

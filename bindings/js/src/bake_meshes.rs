@@ -3,12 +3,12 @@
 //! The low mesh lies in the arena as the meshes of other functions do.
 
 use darboux::{Context, Indices, Mesh, Strided, TangentOptions, write_tangents};
-use darboux_bake::{HighSurface, LowSurface, PreparedSurfaces, inflated_cage};
+use darboux_bake::{Cages, HighSurface, LowSurface, PreparedSurfaces, with_cages};
 
 use crate::arena::{Arena, with_arena};
 use crate::bake::{bake_surfaces, put_baked};
 use crate::bake_arrays::BakeArrays;
-use crate::bake_settings::{Setup, Surfaces, bake_settings, distance, read_options, text};
+use crate::bake_settings::{Setup, Surfaces, bake_settings, read_options, text};
 use crate::inputs::resized;
 use crate::mesh_arrays::{Surface, Vertices, rows};
 
@@ -61,24 +61,22 @@ pub fn with_meshes<T>(
 ) -> Result<(T, Setup), String> {
     let options = read_options(&arrays.options)?;
     with_low_mesh(low, arrays, context, |low, context| {
-        let distance = distance(&options, low.diagonal());
-        let inflated = match (&arrays.cage, options.distance) {
-            (None, None) => Some(inflated_cage(low.mesh(), distance[0]).map_err(text)?),
-            _ => None,
-        };
-        let cage = arrays.cage.as_deref().map(rows).or(inflated.as_deref());
-        let caged = cage.map_or(Ok(low), |cage| low.with_cage(cage)).map_err(text)?;
+        let (origin, diagonal) = (options.ray_origin()?, low.diagonal());
         let high = high_surface(arrays)?;
-        let settings = bake_settings(&options, distance)?;
-        let prepared = &PreparedSurfaces::new(&[caged], &[high], None, context).map_err(text)?;
-        let done = work(Surfaces { prepared, settings: &settings }, context)?;
-        let setup = Setup {
-            diagonal: low.diagonal(),
-            distance,
-            has_cage: cage.is_some(),
-            part_names: vec![String::new()],
-            ..Setup::default()
+        let prepared = PreparedSurfaces::new(&[low], &[high], None, context).map_err(text)?;
+        let cages = match arrays.cage.as_deref() {
+            Some(given) => {
+                Cages { positions: vec![rows(given).to_vec()], distance: origin.distance(diagonal) }
+            }
+            None => origin.cages(diagonal, &[low], &prepared, context).map_err(text)?,
         };
+        let distance = cages.distance;
+        let caged = with_cages(&[low], &cages.positions).map_err(text)?;
+        let settings = bake_settings(&options, distance)?;
+        let prepared = &prepared.with_low(&caged, context).map_err(text)?;
+        let done = work(Surfaces { prepared, settings: &settings }, context)?;
+        let setup =
+            Setup { diagonal: low.diagonal(), distance, part_names: vec![String::new()], ..Setup::default() };
         Ok((done, setup))
     })
 }

@@ -3,7 +3,7 @@
 use darboux::Convention;
 use darboux_bake::{
     BakeOptions, Bitangent, CurvatureRadius, IdSource, MapKind, MapSet, OcclusionFalloff, OcclusionWeights,
-    PartMatch, PreparedSurfaces, Udim, default_cage_offset,
+    PartMatch, PreparedSurfaces, RayOrigin, Udim,
 };
 use serde::Deserialize;
 
@@ -15,7 +15,8 @@ use crate::options::Named;
 pub struct Options {
     pub size: [u32; 2],
     cage_offset: Option<f32>,
-    pub distance: Option<[f32; 2]>,
+    auto_cage: Option<f32>,
+    distance: Option<[f32; 2]>,
     maps: Vec<Named<MapKind>>,
     samples: u32,
     pub bitangent: Named<Bitangent>,
@@ -59,6 +60,18 @@ impl Options {
         self.mesh_convention.parse().map_err(|error| format!("meshConvention: {error}"))
     }
 
+    /// Where rays begin. Errors: two options say so.
+    pub fn ray_origin(&self) -> Result<RayOrigin, String> {
+        match (self.distance, self.auto_cage) {
+            (Some(_), Some(_)) => {
+                Err("distance and autoCage both say where rays begin; leave one of them out".to_owned())
+            }
+            (Some(distance), None) => Ok(RayOrigin::Normals(distance)),
+            (None, Some(share)) => Ok(RayOrigin::AutoCage { share, reach: self.cage_offset }),
+            (None, None) => Ok(RayOrigin::InflatedCage(self.cage_offset)),
+        }
+    }
+
     /// The tile that is worked on; none for all.
     pub fn udim(&self) -> Result<Option<Udim>, String> {
         let known = |number| {
@@ -74,7 +87,6 @@ impl Options {
 pub struct Setup {
     pub diagonal: f64,
     pub distance: [f32; 2],
-    pub has_cage: bool,
     pub warnings: Vec<String>,
     /// Of what the colours of [`MapKind::Id`] stand for.
     pub id_names: Vec<String>,
@@ -118,11 +130,6 @@ pub fn bake_settings(options: &Options, distance: [f32; 2]) -> Result<BakeOption
         })
         .with_id_source(options.id_from.0)
         .with_world_direction(options.world_direction))
-}
-
-/// How far rays begin outside and end inside: the options', or a share of the model's diagonal.
-pub fn distance(options: &Options, diagonal: f64) -> [f32; 2] {
-    options.distance.unwrap_or([options.cage_offset.unwrap_or(default_cage_offset(diagonal)); 2])
 }
 
 pub fn sentence(error: darboux_io::Error) -> String {

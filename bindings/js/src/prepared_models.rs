@@ -4,12 +4,12 @@
 use darboux::Context;
 use darboux_bake::{
     HighModel, HighModelOptions, LowModel, LowModelOptions, LowSurface, ModelSurfaces, Models,
-    PreparedSurfaces, inflated_cages, with_cages,
+    PreparedSurfaces, with_cages,
 };
 use darboux_io::gltf::{Document, PrimitiveCorners};
 use self_cell::self_cell;
 
-use crate::bake_settings::{Options, Setup, Surfaces, bake_settings, chosen_maps, distance, sentence, text};
+use crate::bake_settings::{Options, Setup, Surfaces, bake_settings, chosen_maps, sentence, text};
 use crate::reading::load_options;
 
 type Corners<'a> = Vec<Vec<PrimitiveCorners<'a>>>;
@@ -76,20 +76,18 @@ impl PreparedModels {
         let Models { low, highs } = self.surfaces.borrow_owner().borrow_dependent();
         let Prepared { low: without_cage, surfaces } = self.surfaces.borrow_dependent();
         let id_names = HighModel::names_of_all(highs, options.id_from.0);
+        let origin = options.ray_origin()?;
+        bake_settings(options, origin.distance(low.diagonal()))?.check().map_err(text)?;
+        let cages = origin.cages(low.diagonal(), without_cage, surfaces, context).map_err(text)?;
         let setup = Setup {
             diagonal: low.diagonal(),
-            distance: distance(options, low.diagonal()),
-            has_cage: options.distance.is_none(),
+            distance: cages.distance,
             warnings: self.warnings.clone(),
             id_names: id_names.into_iter().map(str::to_owned).collect(),
             part_names: low.names().map(str::to_owned).collect(),
         };
         let settings = &bake_settings(options, setup.distance)?;
-        if !setup.has_cage {
-            return Ok((work(Surfaces { prepared: surfaces, settings }, context)?, setup));
-        }
-        let cages = inflated_cages(without_cage, setup.distance[0]).map_err(text)?;
-        let caged = with_cages(without_cage, &cages).map_err(text)?;
+        let caged = with_cages(without_cage, &cages.positions).map_err(text)?;
         let surfaces = &surfaces.with_low(&caged, context).map_err(text)?;
         Ok((work(Surfaces { prepared: surfaces, settings }, context)?, setup))
     }

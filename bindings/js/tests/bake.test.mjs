@@ -70,6 +70,19 @@ for (const [name, { bake, bakeModels, PreparedModels, TEXEL_STATES, verify, veri
     assert.deepEqual(prepared.bake(all[0]), bakeModels(shield, shield, { ...shared, ...all[0] }), 'not those of the other object');
   });
 
+  test(`${name}: a cage is made, for models, prepared models and arrays alike`, () => {
+    const options = { size: [8, 4], maps: ['height'], autoCage: 0.001 };
+    const high = bytes(0.5);
+    const made = bakeModels(bytes(0), high, { ...options, cageOffset: 2 });
+    assert.equal(made.report.missedTexels, 0);
+    assert.ok(made.distance[0] === 0 && made.distance[1] > 0 && made.distance[1] < 0.1, `${made.distance}`);
+    assert.deepEqual(new PreparedModels(bytes(0), high, { maps: ['height'] }).bake({ size: [8, 4], autoCage: 0.001, cageOffset: 2 }), made);
+    assert.deepEqual(bake(squareMesh(0), squareMesh(0.5), { ...options, cageOffset: 2 }).height, made.height);
+    assert.ok(bakeModels(bytes(0), high, options).report.missedTexels > 0, 'the slope is higher than 10 % of the diagonal');
+    assert.throws(() => bakeModels(bytes(0), high, { ...options, distance: [1, 1] }), { message: 'distance and autoCage both say where rays begin; leave one of them out' });
+    assert.throws(() => bakeModels(bytes(0), high, { ...options, autoCage: 2 }), /share/);
+  });
+
   test(`${name}: prepared models refuse what a bake of models refuses, and stay usable`, () => {
     assert.throws(() => new PreparedModels(bytes(0, { hasUvs: false }), bytes(0)), /UVs|TEXCOORD_0/);
     assert.throws(() => new PreparedModels(Uint8Array.of(1, 2, 3), bytes(0)), /the low model/);

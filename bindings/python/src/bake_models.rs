@@ -6,7 +6,7 @@ use std::sync::mpsc::Sender;
 use darboux::{Cancel, Context};
 use darboux_bake::{
     BakeOptions, BakeProgress, Baked, HighModel, HighModelOptions, LowModelOptions, ModelSurfaces, Models,
-    ModelsError, PartMatch, bake as bake_surfaces, default_cage_offset, inflated_cages, with_cages,
+    ModelsError, PartMatch, PreparedSurfaces, RayOrigin, with_cages,
 };
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
@@ -40,6 +40,9 @@ use crate::threads::{check_progress, run_interruptibly};
 /// cage_offset : float, optional
 ///     Rays begin on a copy of the low model, inflated by this distance, and end as far inside. Without, it
 ///     is 2 % of the model's diagonal.
+/// auto_cage : float, optional
+///     Rays begin on a cage that is made for the models: at every vertex as close as all but this share of the
+///     rays around allows, such as 0.001. It is at most `cage_offset` away, by default 10 % of the diagonal.
 /// distance : (float, float), optional
 ///     In place of a cage: how far outside rays begin along the normals, and how far inside they end, in units
 ///     of the positions.
@@ -84,7 +87,7 @@ use crate::threads::{check_progress, run_interruptibly};
 ///     Images and models need more memory than there is.
 #[pyfunction]
 #[pyo3(signature = (
-    low, high, *, size=(Natural(1024), Natural(1024)), cage_offset=None, distance=None, maps=vec!["normal".to_owned()],
+    low, high, *, size=(Natural(1024), Natural(1024)), cage_offset=None, auto_cage=None, distance=None, maps=vec!["normal".to_owned()],
     samples=1, target="gltf", bitangent="pixel", padding=None, back_faces=false, ao_rays=64,
     ao_distance=f32::INFINITY, ao_falloff="none", ao_weights="cosine", thickness_distance=f32::INFINITY,
     curvature_radius=4.0, curvature_unit="texels", world_direction=(0.0, 1.0, 0.0), udim=None, material=None,
@@ -98,6 +101,7 @@ pub fn bake_models<'py>(
     high: &Bound<'py, PyAny>,
     size: (Natural, Natural),
     cage_offset: Option<f32>,
+    auto_cage: Option<f32>,
     distance: Option<(f32, f32)>,
     maps: Vec<String>,
     #[pyo3(from_py_with = natural)] samples: u32,
@@ -145,10 +149,10 @@ pub fn bake_models<'py>(
         world_direction,
         udim,
     };
-    let rays = Rays::new(cage_offset, distance)?;
+    let origin = ray_origin(cage_offset, auto_cage, distance)?;
     // Any diagonal gives a valid distance; wrong options are told before files are read.
     let options = settings
-        .options(rays.distance(1.0))?
+        .options(origin.distance(1.0))?
         .with_own_part_only(ao_own_part)
         .with_id_source(named_choice(id_from)?);
     options.check().map_err(bake_error)?;
@@ -165,7 +169,7 @@ pub fn bake_models<'py>(
             .with_maps(options.maps)
             .with_texture(texture),
         part_match: named_choice(r#match)?,
-        rays,
+        origin,
         options,
     };
     let cancel = &Cancel::new();
@@ -183,33 +187,24 @@ pub fn bake_models<'py>(
     baked_maps(py, baked, setup)
 }
 
-/// From where to where rays pass.
-#[derive(Clone, Copy)]
-enum Rays {
-    /// From an inflated copy of the low model, as far inside. None: a share of the model's size.
-    Cage(Option<f32>),
-    /// Along the normals.
-    Normals([f32; 2]),
-}
-
-impl Rays {
-    /// Errors: both were given.
-    fn new(cage_offset: Option<f32>, distance: Option<(f32, f32)>) -> PyResult<Self> {
-        match (cage_offset, distance) {
-            (Some(_), Some(_)) => Err(PyValueError::new_err(
-                "cage_offset and distance both say where rays begin; leave one of them out",
-            )),
-            (offset, None) => Ok(Self::Cage(offset)),
-            (None, Some(distance)) => Ok(Self::Normals(distance.into())),
-        }
-    }
-
-    /// How far rays begin outside and end inside a model.
-    fn distance(self, diagonal: f64) -> [f32; 2] {
-        match self {
-            Self::Cage(offset) => [offset.unwrap_or(default_cage_offset(diagonal)); 2],
-            Self::Normals(distance) => distance,
-        }
+/// Where rays begin. Errors: two options say so.
+fn ray_origin(
+    cage_offset: Option<f32>,
+    auto_cage: Option<f32>,
+    distance: Option<(f32, f32)>,
+) -> PyResult<RayOrigin> {
+    let Some(distance) = distance else {
+        return Ok(match auto_cage {
+            Some(share) => RayOrigin::AutoCage { share, reach: cage_offset },
+            None => RayOrigin::InflatedCage(cage_offset),
+        });
+    };
+    let others = [("cage_offset", cage_offset.is_some()), ("auto_cage", auto_cage.is_some())];
+    match others.into_iter().find(|(_, is_given)| *is_given) {
+        Some((other, _)) => Err(PyValueError::new_err(format!(
+            "{other} and distance both say where rays begin; leave one of them out"
+        ))),
+        None => Ok(RayOrigin::Normals(distance.into())),
     }
 }
 
@@ -268,7 +263,7 @@ struct Job {
     low_options: LowModelOptions,
     high_options: HighModelOptions,
     part_match: PartMatch,
-    rays: Rays,
+    origin: RayOrigin,
     /// But for the distance.
     options: BakeOptions,
 }
@@ -288,13 +283,17 @@ impl Job {
         let (of_low, of_highs) = ((&low, &low_corners[..]), (&highs[..], &high_corners[..]));
         let models = Models::read(of_low, of_highs, &self.low_options, &self.high_options)?;
 
-        let surfaces = models.surfaces(self.part_match)?;
+        let ModelSurfaces { low: surfaces, highs: high_surfaces, warnings: of_names } =
+            models.surfaces(self.part_match)?;
         let mut options = self.options;
-        options.distance = self.rays.distance(models.low.diagonal());
-        let baked = with_rays(&surfaces, self.rays, &options, context, progress)?;
+        let prepared = PreparedSurfaces::new(&surfaces, &high_surfaces, options.memory_limit, context)?;
+        let cages = self.origin.cages(models.low.diagonal(), &surfaces, &prepared, context)?;
+        options.distance = cages.distance;
+        let prepared = prepared.with_low(&with_cages(&surfaces, &cages.positions)?, context)?;
+        let baked = prepared.bake(&options, context, progress)?;
 
         let of_files = highs.iter().chain([&low]).flat_map(Document::warnings).cloned();
-        let warnings = of_files.chain(models.warnings()).chain(surfaces.warnings);
+        let warnings = of_files.chain(models.warnings()).chain(of_names);
         let id_names = HighModel::names_of_all(&models.highs, options.id_source);
         let setup = Setup {
             distance: options.distance,
@@ -303,25 +302,6 @@ impl Job {
         };
         Ok((baked, setup))
     }
-}
-
-/// Bakes surfaces, from cages if rays begin on them.
-fn with_rays(
-    surfaces: &ModelSurfaces<'_>,
-    rays: Rays,
-    options: &BakeOptions,
-    context: &mut Context,
-    progress: &mut (dyn FnMut(BakeProgress) + Send),
-) -> Result<Baked, ModelsError> {
-    let ModelSurfaces { low, highs, .. } = surfaces;
-    let baked = match rays {
-        Rays::Normals(_) => bake_surfaces(low, highs, options, context, progress)?,
-        Rays::Cage(_) => {
-            let cages = inflated_cages(low, options.distance[0])?;
-            bake_surfaces(&with_cages(low, &cages)?, highs, options, context, progress)?
-        }
-    };
-    Ok(baked)
 }
 
 /// An OSError for errors of the operating system, a MemoryError for a bake that needs too much, otherwise a

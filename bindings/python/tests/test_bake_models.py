@@ -155,6 +155,20 @@ def test_the_size_and_the_cage_have_the_defaults_of_other_languages() -> None:
     assert np.allclose(baked.distance, 0.02 * np.sqrt(2))
 
 
+def test_a_cage_is_made_for_models() -> None:
+    low, high = model(part(PLATE)), model(part(ROOF))
+    tangents = darboux.generate_tangents(PLATE, NORMALS, UVS, INDICES)
+    arrays = (PLATE, NORMALS, UVS, INDICES, tangents, ROOF, INDICES, NORMALS)
+    cage = darboux.auto_cage(*arrays, reach=2)
+    expected = darboux.bake(*arrays, size=(8, 4), cage=cage.positions, distance=(0, cage.inwards), maps=["height"])
+    baked = darboux.bake_models(low, high, size=(8, 4), auto_cage=0.001, cage_offset=2, maps=["height"])
+    assert baked.height is not None and expected.height is not None
+    assert baked.height.tobytes() == expected.height.tobytes()
+    assert (baked.distance, baked.report.missed_texels) == ((0, cage.inwards), 0)
+    # The roof is higher than 10 % of the diagonal, but lower than the cage can be.
+    assert darboux.bake_models(low, high, size=(8, 4), auto_cage=0.001).report.missed_texels > 0
+
+
 def test_bad_models_are_told_in_one_sentence(tmp_path: Path) -> None:
     plate, missing = model(part(PLATE)), tmp_path / "missing.glb"
     with pytest.raises(FileNotFoundError, match="missing.glb"):
@@ -173,6 +187,8 @@ def test_bad_models_are_told_in_one_sentence(tmp_path: Path) -> None:
         darboux.bake_models(missing, missing, size=(0, 4))
     with pytest.raises(ValueError, match="cage_offset and distance both say where rays begin"):
         darboux.bake_models(plate, plate, cage_offset=1, distance=(1, 1))
+    with pytest.raises(ValueError, match="auto_cage and distance both say where rays begin"):
+        darboux.bake_models(plate, plate, auto_cage=0.001, distance=(1, 1))
     with pytest.raises(ValueError, match="match is 'near'; it must be one of 'nearest', 'name'"):
         darboux.bake_models(plate, plate, match="near")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="high is empty; give one model or several"):

@@ -12,6 +12,12 @@ pub fn default_cage_offset(diagonal: f64) -> f32 {
     (0.02 * diagonal).max(f64::from(f32::MIN_POSITIVE)) as f32
 }
 
+/// How far a cage that is made lies outside a model at most, without another choice: five times
+/// [`default_cage_offset`], 10 % of the diagonal.
+pub fn default_cage_reach(diagonal: f64) -> f32 {
+    5.0 * default_cage_offset(diagonal)
+}
+
 /// The vertices of a mesh, moved outwards by `offset`: a cage without gaps.
 ///
 /// Vertices at equal positions move in the same direction, the mean of the normals of their faces weighted by
@@ -21,16 +27,15 @@ pub fn inflated_cage(mesh: &Mesh<'_>, offset: f32) -> Result<Vec<[f32; 3]>, Bake
     inflated_cage_by(mesh, &vec![offset; mesh.vertex_count()])
 }
 
-/// The cages of several surfaces, as of [`inflated_cage`].
-pub fn inflated_cages(low: &[LowSurface<'_>], offset: f32) -> Result<Vec<Vec<[f32; 3]>>, BakeError> {
-    low.iter().map(|surface| inflated_cage(surface.mesh(), offset)).collect()
-}
-
-/// Surfaces with their cages, one for each. Errors: a cage of another number of vertices.
+/// Surfaces with their cages, one for each; as they are where there is none. Errors: a cage of another number
+/// of vertices.
 pub fn with_cages<'a>(
     low: &[LowSurface<'a>],
     cages: &'a [Vec<[f32; 3]>],
 ) -> Result<Vec<LowSurface<'a>>, BakeError> {
+    if cages.is_empty() {
+        return Ok(low.to_vec());
+    }
     low.iter().zip(cages).map(|(surface, cage)| surface.with_cage(cage)).collect()
 }
 

@@ -155,7 +155,7 @@ pub const GROUPS: &[(&str, &[Row])] = &[
                 ["bake:PreparedModels"]; [],
             "errors of a baked map in degrees": ["darboux_bake::verify"]; []; []; ["verify"];
                 ["bake:verify", "bake:verifyModels"]; ["darboux bake"],
-            "a cage that is made": ["darboux_bake::auto_cage"]; []; []; ["auto_cage"]; []; ["darboux bake"],
+            "a cage that is made": ["darboux_bake::auto_cage", "darboux_bake::RayOrigin::cages"]; []; []; ["auto_cage", "bake_models"]; ["bake:bakeModels"]; ["darboux bake"],
             "UDIM tiles": ["darboux_bake::udims_of"]; []; []; ["udim_tiles"];
                 ["bake:udimTiles", "bake:udimTilesOfModel"]; ["darboux bake"],
             "object-space maps to tangent space, and back": ["darboux_bake::convert_space"]; []; [];

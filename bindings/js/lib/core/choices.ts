@@ -14,6 +14,7 @@ export const BITANGENTS = ['pixel', 'vertex'] as const;
 export const OCCLUSION_FALLOFFS = ['none', 'linear', 'quadratic'] as const;
 export const OCCLUSION_WEIGHTS = ['cosine', 'uniform'] as const;
 export const ID_SOURCES = ['material', 'mesh', 'part', 'vertex-color'] as const;
+export const PART_MATCHES = ['nearest', 'name'] as const;
 export const CONVENTIONS = ['gltf', 'opengl', 'directx', 'blender', 'unity', 'unreal', 'godot', 'threejs', 'maya', '3dsmax'] as const;
 
 /** Numbers per texel of each of {@link MAP_KINDS}. */

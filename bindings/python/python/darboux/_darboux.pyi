@@ -364,6 +364,7 @@ def bake_models(
     *,
     size: Tuple[int, int] = ...,
     cage_offset: Optional[float] = None,
+    auto_cage: Optional[float] = None,
     distance: Optional[Tuple[float, float]] = None,
     maps: Sequence[MapKind] = ...,
     samples: int = 1,

@@ -3,7 +3,7 @@
 use darboux::Context;
 use darboux_bake::{
     AutoCageOptions, BakeError, HighModelOptions, LowModel, LowSurface, PreparedSurfaces, auto_cage,
-    default_cage_offset, inflated_cage, inflated_cage_by, with_cages,
+    default_cage_offset, default_cage_reach, inflated_cage, inflated_cage_by, with_cages,
 };
 use darboux_io::gltf::Document;
 use serde::Serialize;
@@ -36,15 +36,12 @@ pub enum Rays {
     },
 }
 
-/// The largest offset of automatic cages, in default offsets: 10 % of the diagonal.
-const REACH: f32 = 5.0;
-
 impl Rays {
     /// The choice of the command line; a distance from the model's size without one.
     pub fn choose(arguments: &BakeArguments, low: &LowModel<'_>) -> Self {
         let by_size = default_cage_offset(low.diagonal());
         if let Some(share) = arguments.auto_cage {
-            let reach = arguments.cage_offset.unwrap_or(REACH * by_size);
+            let reach = arguments.cage_offset.unwrap_or(default_cage_reach(low.diagonal()));
             return Self::AutoCage { share, reach, least: 0.0, most: reach, inwards: reach };
         }
         match (arguments.distance, arguments.cage_offset, &arguments.cage) {
@@ -148,9 +145,6 @@ impl Cages {
 
     /// The surfaces with their cages.
     pub fn around<'a>(&'a self, low: Vec<LowSurface<'a>>) -> Result<Vec<LowSurface<'a>>, BakeError> {
-        if self.0.is_empty() {
-            return Ok(low);
-        }
         with_cages(&low, &self.0)
     }
 }
