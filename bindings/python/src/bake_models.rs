@@ -41,11 +41,12 @@ use crate::threads::{check_progress, run_interruptibly};
 ///     Rays begin on a copy of the low model, inflated by this distance, and end as far inside. Without, it
 ///     is 2 % of the model's diagonal.
 /// auto_cage : float, optional
-///     Rays begin on a cage that is made for the models: at every vertex as close as all but this share of the
-///     rays around allows, such as 0.001. It is at most `cage_offset` away, by default 10 % of the diagonal.
+///     Rays begin on a cage that is made for the models: at every vertex as close as all but this share of
+///     the rays around allows, such as 0.001. It is at most `cage_offset` away, by default 10 % of the
+///     diagonal.
 /// distance : (float, float), optional
-///     In place of a cage: how far outside rays begin along the normals, and how far inside they end, in units
-///     of the positions.
+///     In place of a cage: how far outside rays begin along the normals, and how far inside they end, in
+///     units of the positions.
 /// maps, samples, target, bitangent, padding, back_faces, ao_rays, ao_distance, ao_falloff, ao_weights
 ///     As for bake.
 /// thickness_distance, curvature_radius, curvature_unit, world_direction, udim
@@ -87,8 +88,8 @@ use crate::threads::{check_progress, run_interruptibly};
 ///     Images and models need more memory than there is.
 #[pyfunction]
 #[pyo3(signature = (
-    low, high, *, size=(Natural(1024), Natural(1024)), cage_offset=None, auto_cage=None, distance=None, maps=vec!["normal".to_owned()],
-    samples=1, target="gltf", bitangent="pixel", padding=None, back_faces=false, ao_rays=64,
+    low, high, *, size=(Natural(1024), Natural(1024)), cage_offset=None, auto_cage=None, distance=None,
+    maps=vec!["normal".to_owned()], samples=1, target="gltf", bitangent="pixel", padding=None, back_faces=false, ao_rays=64,
     ao_distance=f32::INFINITY, ao_falloff="none", ao_weights="cosine", thickness_distance=f32::INFINITY,
     curvature_radius=4.0, curvature_unit="texels", world_direction=(0.0, 1.0, 0.0), udim=None, material=None,
     uv_set=None, r#match="nearest", high_maps=true, ao_own_part=false, id_from="material", texture=None,

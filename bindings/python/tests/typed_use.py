@@ -26,3 +26,5 @@ maps: darboux.BakedMaps = darboux.bake(
     positions, positions, positions[:, :2], [0, 1, 2], tangents, positions, size=(4, 4), distance=(1, 1), maps=["normal"]
 )
 missed: int = maps.report.missed_texels
+of_models: darboux.BakedMaps = darboux.bake_models(Path("low.glb"), ["high.glb", b"glTF"], maps=["id"], match="name")
+what: List[darboux.LegendEntry] = of_models.legends["id"]
