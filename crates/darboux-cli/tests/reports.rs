@@ -2,9 +2,12 @@
 
 mod common;
 
+use std::fs;
 use std::process::{Command, Stdio};
 
 use common::{asset, darboux, folder_with, text};
+use darboux_io::LoadOptions;
+use darboux_io::gltf::{Document, PrimitiveName};
 use serde_json::Value;
 
 const SEAM: &str = "made/skinned-morphed-mirrored.gltf";
@@ -168,6 +171,18 @@ fn inspect_names_the_method_that_made_the_tangents() {
         assert_eq!(made_by["method"].as_str(), line.split([' ', ',', ':']).nth(3), "{made_by}");
         assert!(made_by["close"] == made_by["corners"] && made_by["corners"].as_u64() > Some(0), "{made_by}");
     }
+    // Flipped signs do not hide it, as in `darboux check`.
+    let output = folder.path().join("out.glb");
+    let file = fs::read(&output).expect("a model");
+    let mut document = Document::from_bytes("out.glb", file, None, &LoadOptions::default()).expect("a model");
+    let accessor = document.meshes()[0].primitives[0].attributes["TANGENT"];
+    let flip = |&[x, y, z, w]: &[f32; 4]| [x, y, z, -w];
+    let flipped: Vec<_> = document.vectors::<4>(accessor).expect("tangents").iter().map(flip).collect();
+    let name = PrimitiveName::new(0, &document.meshes()[0], 0);
+    document.set_tangents(&[name], &flipped).expect("as many tangents");
+    fs::write(&output, document.to_glb().expect("a model")).expect("a file");
+    let table = String::from_utf8(darboux(&["inspect", text(&output)]).exits(0).stdout).expect("UTF-8");
+    assert!(table.contains("mikktspace, mode repaired, all signs w flipped"), "{table}");
     let report = darboux(&["inspect", text(&asset(SEAM)), "--json"]).exits(0).json();
     assert_eq!(report["files"][0]["primitives"][0]["made_by"], Value::Null);
 }

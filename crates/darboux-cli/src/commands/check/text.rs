@@ -100,7 +100,7 @@ fn head(file: &CheckedFile) -> String {
 }
 
 /// Words with the file's name in the commands that they tell, so that these can be typed as they stand.
-fn with_file_name(words: &str, file: &CheckedFile) -> String {
+pub fn with_file_name(words: &str, file: &CheckedFile) -> String {
     words.replace("darboux check FILE", &format!("darboux check {}", shell_word(&file.input)))
 }
 

@@ -56,21 +56,37 @@ pub fn recipes(document: &Document, infos: &[PrimitiveInfo]) -> Result<Vec<Optio
         };
         let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
         let tangents: Vec<[f32; 4]> = tangents.iter().map(|&tangent| to_generated.tangent(tangent)).collect();
-        let matches = Mesh::triangles(&*positions, &*normals, &*uvs, corners.used_indices())
-            .and_then(|mesh| recognise_recipe(&mesh, &tangents));
-        found[place] = matches.ok().and_then(|matches| matches.first().map(MadeBy::new));
+        let mesh = Mesh::triangles(&*positions, &*normals, &*uvs, corners.used_indices());
+        found[place] = mesh.ok().and_then(|mesh| MadeBy::nearest(&mesh, &tangents));
     }
     Ok(found)
 }
 
 impl MadeBy {
-    fn new(found: &RecipeMatch) -> Self {
+    /// The nearest way, also for tangents whose signs w are all flipped.
+    fn nearest(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Option<Self> {
+        let of = |tangents: &[[f32; 4]]| recognise_recipe(mesh, tangents).ok()?.first().copied();
+        let as_they_are = of(tangents)?;
+        if Self::is_known(&as_they_are) {
+            return Some(Self::new(&as_they_are, false));
+        }
+        let flipped: Vec<[f32; 4]> = tangents.iter().map(|&[x, y, z, w]| [x, y, z, -w]).collect();
+        let with_flipped = of(&flipped).filter(|found| Self::is_known(found));
+        Some(with_flipped.map_or_else(|| Self::new(&as_they_are, false), |found| Self::new(&found, true)))
+    }
+
+    fn is_known(found: &RecipeMatch) -> bool {
+        found.close as f64 >= IS_KNOWN * found.corners as f64
+    }
+
+    fn new(found: &RecipeMatch, are_signs_flipped: bool) -> Self {
         let recipe = &found.recipe;
         let mode = match recipe.method {
             Method::MikkTSpace(options) => Some(options.mode),
             _ => None,
         };
         let details = [
+            (are_signs_flipped, "all signs w flipped"),
             (recipe.flips_v, "computed with v turned"),
             (recipe.from_quads, "computed before quads were cut into triangles"),
             (recipe.writing == RecipeWriting::LastCorner, "each vertex has the tangent of its last corner"),

@@ -35,7 +35,12 @@ pub fn section(number: usize, file: &CheckedFile, pictures: Pictures) -> String 
     );
     match &file.error {
         Some(error) => html += &format!("<p class=\"diagnosis\">{}</p>\n", escaped(error)),
-        None => html += &format!("<p class=\"diagnosis\">{}</p>\n", with_code(&file.diagnosis)),
+        None => {
+            html += &format!(
+                "<p class=\"diagnosis\">{}</p>\n",
+                with_code(&text::with_file_name(&file.diagnosis, file))
+            )
+        }
     }
     if let Some(map) = &file.map {
         html += &format!("<p>The map: {}.</p>\n", escaped(&text::verdict(map)));
@@ -43,10 +48,10 @@ pub fn section(number: usize, file: &CheckedFile, pictures: Pictures) -> String 
     html += &of_pictures(pictures);
     let (notes, severe): (Vec<_>, Vec<_>) =
         by_statement(&file.findings).into_iter().partition(|group| group[0].severity <= Severity::Info);
-    html.extend(severe.iter().map(|group| card(group)));
+    html.extend(severe.iter().map(|group| card(group, file)));
     if !notes.is_empty() {
         let count = notes.iter().map(Vec::len).sum();
-        let cards: String = notes.iter().map(|group| card(group)).collect();
+        let cards: String = notes.iter().map(|group| card(group, file)).collect();
         let summary = counted(count, "thing worth knowing", "things worth knowing");
         html += &format!("<details><summary>{summary}</summary>\n{cards}</details>\n");
     }
@@ -87,7 +92,7 @@ fn pair(Pair { caption, before, after, size: [width, height], split }: &Pair) ->
 }
 
 /// One kind of finding with all its places.
-fn card(group: &[&ReportedFinding]) -> String {
+fn card(group: &[&ReportedFinding], file: &CheckedFile) -> String {
     let ReportedFinding { code, severity, looks_like, .. } = group[0];
     let (class, word) = match severity {
         Severity::Error => ("error", "✕ Error"),
@@ -102,7 +107,8 @@ fn card(group: &[&ReportedFinding]) -> String {
     if *severity > Severity::Info {
         html += &format!("<p><b>Looks like:</b> {}</p>\n", escaped(looks_like));
     }
-    html += &format!("<p><b>Cure:</b> {}</p>\n<p>{}</p>\n", with_code(&group[0].cure), with_fix(group));
+    let cure = with_code(&text::with_file_name(&group[0].cure, file));
+    html += &format!("<p><b>Cure:</b> {cure}</p>\n<p>{}</p>\n", with_fix(group));
     if group.len() > 1 {
         let more: String = group[1..].iter().take(PLACES).map(|finding| place(finding)).collect();
         let rest = match group.len().saturating_sub(1 + PLACES) {
