@@ -190,8 +190,8 @@ pub fn reason(obstacle: &Obstacle) -> String {
             "the tangents of the model have to be repaired with it; put the map on the model and repair that"
         }
         Obstacle::OtherImageFormat => {
-            "PNG, JPEG and TGA images are rewritten, and no others, because only PNG files are written; save \
-             it as a PNG first, or export the model with PNG images"
+            "of images only PNG, JPEG and TGA are repaired, and become PNG; save this one as a PNG first, or \
+             export the model with PNG images"
         }
         Obstacle::InTheModel => "it is in the model, and the repair of an image changes no model",
         Obstacle::NotChosen => "its code is not among those to repair",

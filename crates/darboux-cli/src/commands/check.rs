@@ -89,7 +89,7 @@ pub fn run(arguments: &CheckArguments) -> u8 {
             let mut text: String = good.map(describe).collect();
             let lists_some = !text.is_empty();
             if !is_quiet && report.files.len() > 1 {
-                text += &text::total(&report.totals);
+                text += &text::total(&report);
             }
             if !is_quiet && is_brief && !arguments.files.verbose && lists_some {
                 text += text::HOW_TO_SEE_MORE;

@@ -47,7 +47,7 @@ fn more_than_ten_files_have_one_line_each_and_healthy_models_none() {
     assert_eq!(lines[0], expected, "{brief}");
     assert_eq!(lines[1], format!("{}: all its texels have one colour", text(&map)), "{brief}");
     assert_eq!(lines[2], "12 files: 1 with errors, 0 with warnings only, 11 without", "{brief}");
-    assert_eq!(lines[3], "  error       tangent-shared-across-mirror 1", "{brief}");
+    assert_eq!(lines[3], "  error       tangent-shared-across-mirror 1 in 1 file", "{brief}");
     assert!(brief.ends_with("  -v prints what each of these means, what it looks like and what to type\n"));
     let verbose = run(&["-v"]);
     assert!(verbose.contains("healthy3.gltf\n  Nothing is wrong."), "{verbose}");

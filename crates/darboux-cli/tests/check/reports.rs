@@ -72,7 +72,7 @@ fn several_files_have_a_total() {
     let printed = String::from_utf8_lossy(&printed);
     let total = printed.lines().position(|line| line.starts_with("2 files: 1 with errors")).expect("a total");
     let errors: Vec<&str> = printed.lines().skip(total + 1).take(1).collect();
-    assert_eq!(errors, ["  error       tangent-shared-across-mirror 1"], "{printed}");
+    assert_eq!(errors, ["  error       tangent-shared-across-mirror 1 in 1 file"], "{printed}");
     let alone = darboux(&["check", text(&shield)]).exits(1).stdout;
     let alone = String::from_utf8_lossy(&alone);
     assert!(!alone.contains("1 file:"), "{alone}");

@@ -7,7 +7,7 @@ use darboux_io::words::{Count, Sure, listed};
 
 use super::arguments::FailOn;
 use super::groups::{by_kind, by_severity, by_statement};
-use super::report::{CheckTotals, CheckedFile, DirectionsByModel, ReportedMap};
+use super::report::{CheckReport, CheckTotals, CheckedFile, DirectionsByModel, ReportedMap};
 use crate::text::{counted, printable, shell_word};
 
 /// The findings in a file, each at its place.
@@ -118,8 +118,8 @@ fn counts(file: &CheckedFile) -> String {
 }
 
 /// What was found in all files, by code.
-pub fn total(totals: &CheckTotals) -> String {
-    let CheckTotals { files, failed, with_errors, with_warnings, healthy, .. } = totals;
+pub fn total(report: &CheckReport) -> String {
+    let CheckTotals { files, failed, with_errors, with_warnings, healthy, .. } = &report.totals;
     let mut text = format!(
         "{}: {with_errors} with errors, {with_warnings} with warnings only, {healthy} without",
         counted(*files, "file", "files")
@@ -127,14 +127,21 @@ pub fn total(totals: &CheckTotals) -> String {
     if *failed > 0 {
         text += &format!(", {} that cannot be read", Count(failed));
     }
-    let of_severities =
-        [("error", &totals.errors), ("warning", &totals.warnings), ("not-checked", &totals.not_checked)];
-    for (severity, codes) in of_severities {
+    let CheckTotals { errors, warnings, not_checked, .. } = &report.totals;
+    let of_severities = [
+        (Severity::Error, "error", errors),
+        (Severity::Warning, "warning", warnings),
+        (Severity::NotChecked, "not-checked", not_checked),
+    ];
+    for (severity, name, codes) in of_severities {
         let mut codes: Vec<_> = codes.iter().collect();
         codes.sort_by_key(|(_, count)| Reverse(**count));
-        text.extend(
-            codes.into_iter().map(|(code, count)| format!("\n  {severity:11} {code} {}", Count(count))),
-        );
+        text.extend(codes.into_iter().map(|(code, count)| {
+            let has = |finding: &ReportedFinding| (finding.severity, finding.code) == (severity, *code);
+            let files = report.files.iter().filter(|file| file.findings.iter().any(has)).count();
+            let files = counted(files, "file", "files");
+            format!("\n  {name:11} {code} {} in {files}", Count(count))
+        }));
     }
     text + "\n"
 }
