@@ -71,7 +71,7 @@ impl MadeBy {
             return Some(Self::new(&as_they_are, false));
         }
         let flipped: Vec<[f32; 4]> = tangents.iter().map(|&[x, y, z, w]| [x, y, z, -w]).collect();
-        let with_flipped = of(&flipped).filter(|found| Self::is_known(found));
+        let with_flipped = of(&flipped).filter(Self::is_known);
         Some(with_flipped.map_or_else(|| Self::new(&as_they_are, false), |found| Self::new(&found, true)))
     }
 
