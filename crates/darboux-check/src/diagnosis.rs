@@ -36,7 +36,7 @@ fn of_findings(findings: &[ReportedFinding], options: &CheckOptions) -> String {
     let others = of_severity.len() - of_main.len();
     let happened = happened(main, &of_main, others, worst, options.green);
     let first = of_main[0];
-    format!("{happened} {} {}", first.looks_like, to_do(&of_severity, options))
+    format!("{happened} {} {}", first.looks_like, to_do(first, &of_severity, options))
 }
 
 /// The code that most findings have; of several, the first one, as causes come before what follows from them.
@@ -125,8 +125,8 @@ fn lower_case(sentence: &str) -> String {
     }
 }
 
-/// What to do about findings.
-fn to_do(findings: &[&ReportedFinding], options: &CheckOptions) -> String {
+/// What to do about findings, of which one was told.
+fn to_do(told: &ReportedFinding, findings: &[&ReportedFinding], options: &CheckOptions) -> String {
     let option = match options.green {
         BitangentDirection::Up => "",
         BitangentDirection::Down => " --convention directx",
@@ -143,14 +143,13 @@ fn to_do(findings: &[&ReportedFinding], options: &CheckOptions) -> String {
             "`darboux check FILE{option}{assumed} --fix` repairs {fixable} of these {all}; the others say why not."
         );
     }
-    let first_left = findings.iter().find(|finding| finding.left_because.is_some());
-    match first_left.and_then(|finding| finding.suggested_assumption) {
+    match told.suggested_assumption {
         Some(assumed) => format!(
             "The file does not say for certain which of two repairs is right: look, and if it is so, type `darboux \
              check FILE{option} --fix --assume map={}`.",
             assumed.name()
         ),
-        None => findings[0].cure.clone(),
+        None => told.cure.clone(),
     }
 }
 
