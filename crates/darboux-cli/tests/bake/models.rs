@@ -309,13 +309,25 @@ fn materials_are_transferred_and_put_where_gltf_wants_them() {
 #[test]
 fn a_model_alone_gets_the_maps_of_a_material() {
     let pair = Pair::new();
-    painted_high(&pair);
     let [low, high, model, job] =
         ["low.glb", "high.glb", "crate.glb", "job.toml"].map(|name| pair.path(name));
     let bake = |more: &[&str]| {
         let all = ["bake", text(&low), "--high", text(&high), "--size", "16", "--cage-offset", "1"];
         darboux(&[&all, more].concat())
     };
+    // What makes the colours of the model others than those of the high one is told.
+    let healthy = fs::read(&low).expect("a model");
+    let colored = edited(&healthy, |json| {
+        let attributes = &mut json["meshes"][0]["primitives"][0]["attributes"];
+        attributes["COLOR_0"] = attributes["NORMAL"].clone();
+    });
+    fs::write(&low, colored).expect("a file");
+    let told = bake(&["--write-model", text(&pair.path("plain.glb"))]).exits(0).stderr;
+    assert!(told.contains("white metal") && told.contains("low.glb: has vertex colours"), "{told}");
+    fs::write(&low, healthy).expect("a file");
+    painted_high(&pair);
+    let told = bake(&["--write-model", text(&pair.path("painted.glb"))]).exits(0).stderr;
+    assert!(!told.contains("white metal") && !told.contains("vertex colours"), "{told}");
     let names = |report: &Value| -> Vec<String> {
         let maps = report["maps"].as_array().expect("maps").iter();
         maps.map(|map| map["map"].as_str().expect("a name").to_owned()).collect()

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use darboux_bake::{Images, LowModel, MapKind};
 use darboux_io::Outputs;
+use darboux_io::gltf::schema::Primitive;
 use darboux_io::gltf::{AddTangentsOptions, Document, MaterialTexture, add_tangents};
 use darboux_io::image::{PngImage, linear_to_srgb};
 
@@ -22,6 +23,33 @@ pub fn refuse_model(arguments: &BakeArguments, low: &LowModel<'_>) -> Result<(),
         ));
     }
     Ok(())
+}
+
+/// What the materials and colours of the models make of the model that is written, one warning each.
+pub fn warn_of_materials(arguments: &BakeArguments, low: &Document, highs: &[Document]) -> Vec<String> {
+    let maps = arguments.maps();
+    let of_material = [MapKind::BaseColor, MapKind::Roughness, MapKind::Metalness];
+    let any = |document: &Document, is: fn(&Primitive) -> bool| {
+        document.meshes().iter().flat_map(|mesh| &mesh.primitives).any(is)
+    };
+    let mut warnings = Vec::new();
+    let writes =
+        |wanted: &[MapKind]| arguments.write_model.is_some() && maps.iter().any(|map| wanted.contains(map));
+    if writes(&of_material) && !highs.iter().any(|high| any(high, |primitive| primitive.material.is_some())) {
+        warnings.push(
+            "the high models have no materials, and glTF's own is white metal; --map normal,ao leaves the \
+             colours of the low model"
+                .to_owned(),
+        );
+    }
+    if writes(&of_material[..1]) && any(low, |primitive| primitive.attributes.contains_key("COLOR_0")) {
+        warnings.push(format!(
+            "{}: has vertex colours, by which renderers multiply the baked base colour; remove them from the \
+             low model",
+            low.name()
+        ));
+    }
+    warnings
 }
 
 /// Whether some primitives were baked with the tangents of the file and others, which have some too, with

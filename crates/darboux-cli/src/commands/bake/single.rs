@@ -17,7 +17,7 @@ use super::cage_file::stage_cage;
 use super::conflicts::{InputFile, all_inputs, files_of, outputs_of, refuse_twice};
 use super::failure::BakeFailure;
 use super::legend::stage_legends;
-use super::model::{refuse_model, stage_model};
+use super::model::{refuse_model, stage_model, warn_of_materials};
 use super::open::open_low;
 use super::outputs::refuse_outputs;
 use super::page::PageContent;
@@ -89,6 +89,7 @@ pub fn bake_files(
     let models = read_models(arguments, &documents, &corners)?;
     let skew = Skew::read(arguments.skew.as_ref(), &arguments.reading)?;
     warnings.extend(advice::of_models(&models.low, documents.low.name(), &models.highs));
+    warnings.extend(warn_of_materials(arguments, &documents.low, &documents.highs));
     refuse_model(arguments, &models.low)?;
 
     let mut rays = Rays::choose(arguments, &models.low);
