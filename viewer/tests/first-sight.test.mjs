@@ -27,6 +27,8 @@ async function opened(use, options = {}) {
 
 async function give(viewer, name, buffer) {
   await viewer.page.setInputFiles('#files', { name, mimeType: 'model/gltf-binary', buffer });
+  // Until the page has begun with this file, it is at rest with the one before.
+  await viewer.page.waitForFunction((name) => document.getElementById('name').textContent === name, name);
   await viewer.settled();
 }
 
