@@ -150,9 +150,9 @@ fn turn(model: &mut Model, vertex: usize, degrees: f32) {
     model.tangents()[vertex] = turned;
 }
 
-/// No method makes a tangent that is beside all u directions around it, and one such tangent is enough.
+/// No method makes a tangent outside the range of the u directions around it, and one such tangent is enough.
 #[test]
-fn single_rotated_tangents_beside_a_known_method_are_those_of_the_method_again() {
+fn single_rotated_tangents_among_those_of_a_known_method_are_computed_by_it_again() {
     let options = FixOptions::default().with_check(without_maps());
     for method in [Method::Area, Method::AngleEdge, Method::Lengyel, Method::Average] {
         let healthy = named("large wavy grid");

@@ -87,9 +87,10 @@ fn verify(sources: &Sources, seeds: impl Iterator<Item = u64>) {
     );
 }
 
+/// The surface of the last one has no area.
 #[test]
 fn repairs_of_damaged_models_are_final() {
-    verify(&sources(), 0..300);
+    verify(&sources(), (0..300).chain([993]));
 }
 
 #[test]

@@ -95,7 +95,7 @@ pub enum Obstacle {
     SignsAreLeft,
     /// The same where the code of the signs is not among those to repair.
     SignsAreNotChosen,
-    /// It is one of the model on which an image is checked, and the image is what is repaired.
+    /// It is a defect of the model with which an image was checked; a repair of the image does not change it.
     InTheModel,
     NotChosen,
     OtherMethodWanted,

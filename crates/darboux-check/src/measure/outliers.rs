@@ -2,8 +2,8 @@
 //! overwritten.
 //!
 //! Such damage leaves two kinds of tangents: tangents of the method, and tangents that have nothing to do
-//! with it. Where many lie between the two, the method is not known. A few, beside a known method, are
-//! outliers where no method can have made them.
+//! with it. Where many lie between the two, the method is not known. Where the method is known, a
+//! few are outliers, too, if no method can have made them.
 
 use std::borrow::Cow;
 
@@ -15,7 +15,7 @@ use crate::measure::closeness::is_other_method;
 use crate::measure::expected::{is_measured, rounding};
 use crate::measure::fit::{Difference, Fit};
 use crate::measure::leaning::{in_plane, leaning};
-use crate::measure::u_directions::beside_u_directions;
+use crate::measure::u_directions::outside_u_directions;
 use crate::measure::values::{has_length, is_sign};
 use crate::surface::{Surface, indices_where, length, xyz};
 
@@ -73,7 +73,7 @@ impl Outliers {
             true => far,
             // The triangles of quads may have been other ones.
             false if is_other_method(best) && !best.recipe.from_quads => {
-                beside_u_directions(surface, far, tangent_of, FAR)
+                outside_u_directions(surface, far, tangent_of, FAR)
             }
             false => return None,
         };

@@ -123,8 +123,9 @@ impl Recipes {
             }
         }
         let percent = 100.0 * far as f64 / corners.max(1) as f64;
-        let damaged_percent = if far > 0 { 100.0 * damaged_area / all_area } else { 0.0 };
-        Far { percent, damaged_area, damaged_percent }
+        // Without an area there is nothing to see.
+        let damaged_percent = Some(100.0 * damaged_area / all_area).filter(|percent| percent.is_finite());
+        Far { percent, damaged_area, damaged_percent: damaged_percent.unwrap_or(0.0) }
     }
 }
 

@@ -1,8 +1,7 @@
 //! The u directions of triangles: where the position goes as u grows.
 //!
 //! The methods that follow UVs sum the u directions of the triangles around a vertex with positive weights,
-//! so that the sum lies between them. A tangent that is far from all of them, on the same side, is wrong,
-//! whatever the method.
+//! so that the sum lies between them. A tangent far outside their range is wrong, whatever the method.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -66,11 +65,11 @@ struct Angles {
     greatest: f64,
 }
 
-/// Of some vertices, ascending, those whose tangents are more than `degrees` from all u directions around
-/// them, on the same side. `tangent_of`: the direction of a vertex's tangent. Vertices at one place with one
+/// Of some vertices, ascending, those whose tangents lie more than `degrees` outside the range of the u
+/// directions around them. `tangent_of`: the direction of a vertex's tangent. Vertices at one place with one
 /// normal count as one, as methods and exporters weld them. Left out are vertices of triangles that are thin
 /// or have no area in UV space, and those of a place with more than [`MAX_AT_ONE_PLACE`] of the vertices.
-pub fn beside_u_directions(
+pub fn outside_u_directions(
     surface: &Surface,
     mut vertices: Vec<usize>,
     tangent_of: impl Fn(usize) -> [f32; 3],
@@ -99,8 +98,8 @@ pub fn beside_u_directions(
             (angles.least, angles.greatest) = (angles.least.min(angle), angles.greatest.max(angle));
         }
     }
-    let is_beside = |angles: &Angles| angles.least > degrees || angles.greatest < -degrees;
-    vertices.retain(|vertex| !in_doubt.contains(vertex) && around.get(vertex).is_some_and(is_beside));
+    let is_outside = |angles: &Angles| angles.least > degrees || angles.greatest < -degrees;
+    vertices.retain(|vertex| !in_doubt.contains(vertex) && around.get(vertex).is_some_and(is_outside));
     vertices
 }
 
@@ -138,20 +137,20 @@ mod tests {
         surface
     }
 
-    /// Whether a tangent of the vertex at the origin is beside all u directions by more than 20 degrees.
-    fn is_beside(surface: &Surface, degrees: f32) -> bool {
+    /// Whether a tangent of the vertex at the origin lies more than 20 degrees outside the range.
+    fn is_outside(surface: &Surface, degrees: f32) -> bool {
         let (sin, cos) = degrees.to_radians().sin_cos();
-        !beside_u_directions(surface, vec![0], |_| [cos, sin, 0.0], 20.0).is_empty()
+        !outside_u_directions(surface, vec![0], |_| [cos, sin, 0.0], 20.0).is_empty()
     }
 
     #[test]
-    fn only_tangents_that_no_sum_of_u_directions_gives_are_beside_them() {
+    fn only_tangents_that_no_sum_of_u_directions_gives_are_outside_their_range() {
         let surface = fan(None);
         for degrees in [0.0, 15.0, -20.0, -45.0, -60.0, 170.0] {
-            assert!(!is_beside(&surface, degrees), "{degrees}");
+            assert!(!is_outside(&surface, degrees), "{degrees}");
         }
         for degrees in [25.0, 90.0, -70.0, -130.0] {
-            assert!(is_beside(&surface, degrees), "{degrees}");
+            assert!(is_outside(&surface, degrees), "{degrees}");
         }
     }
 
@@ -163,9 +162,9 @@ mod tests {
             [("thin", [[0.5, 0.2], [0.2501, 0.1]]), ("no area in UV space", [[0.5, 0.2], [0.25, 0.1]])]
         {
             let surface = fan(Some([(corners[0], uvs[0]), (corners[1], uvs[1])]));
-            assert!(!is_beside(&surface, 90.0), "{case}");
+            assert!(!is_outside(&surface, 90.0), "{case}");
         }
         let surface = fan(Some([(corners[0], [0.5, 0.2]), (corners[1], [0.5, 0.3])]));
-        assert!(is_beside(&surface, 90.0), "neither");
+        assert!(is_outside(&surface, 90.0), "neither");
     }
 }

@@ -58,8 +58,9 @@ struct Repair {
     refused: BTreeMap<Key, Option<Obstacle>>,
     /// The primitives whose tangents were corrected, and are not all made again to repair the rest.
     kept: BTreeSet<Key>,
-    /// The primitives whose repair failed while tangents were kept with which the map may have been baked.
-    given_up: BTreeSet<Key>,
+    /// The primitives whose tangents may be computed again although the map may have been baked with them:
+    /// the repair failed while they were kept.
+    remade: BTreeSet<Key>,
 }
 
 /// What one attempt at a round came to.
@@ -102,7 +103,7 @@ impl Work<'_> {
     /// anything was changed.
     fn round(&self, document: &mut Document, repair: &mut Repair) -> Result<bool, Error> {
         let mut refused = BTreeMap::new();
-        // Every turn gives up the tangents of one more primitive at least, or refuses its repair.
+        // Every turn no longer keeps the tangents of one more primitive at least, or refuses its repair.
         loop {
             let checkpoint = document.checkpoint();
             let attempt = self.attempt(document, repair, &refused)?;
@@ -118,9 +119,9 @@ impl Work<'_> {
                 repair.after = attempt.after;
                 return Ok(!attempt.edited.is_empty());
             }
-            let keeping = keeping_tangents(repair.after.iter().chain(&attempt.after));
-            let mut gives_up = |at: &Key| keeping.contains(at) && repair.given_up.insert(*at);
-            refused.extend(failed.into_iter().filter(|(at, _)| !gives_up(at)));
+            let kept = with_kept_tangents(repair.after.iter().chain(&attempt.after));
+            let mut becomes_remade = |at: &Key| kept.contains(at) && repair.remade.insert(*at);
+            refused.extend(failed.into_iter().filter(|(at, _)| !becomes_remade(at)));
             document.roll_back(checkpoint);
         }
     }
@@ -134,10 +135,10 @@ impl Work<'_> {
     ) -> Result<Attempt, Error> {
         let mut stages: BTreeMap<Key, Stage> = refused.keys().map(|at| (*at, Stage::Refused)).collect();
         let mut attempt = Attempt { after: repair.after.clone(), ..Attempt::default() };
-        let gives_up_tangents = |at: Key| repair.given_up.contains(&at) && !refused.contains_key(&at);
+        let is_remade = |at: Key| repair.remade.contains(&at) && !refused.contains_key(&at);
         loop {
             for defect in &mut attempt.after {
-                if is_of_kept_tangents(defect) && place_of(defect).is_some_and(gives_up_tangents) {
+                if is_of_kept_tangents(defect) && place_of(defect).is_some_and(is_remade) {
                     defect.obstacle = None;
                 }
             }
@@ -241,7 +242,7 @@ impl Work<'_> {
         after: &BTreeMap<Option<Key>, Vec<&Defect>>,
     ) -> FixedFinding {
         let of_place = after.get(&place_of(&defect)).map_or(&[][..], Vec::as_slice);
-        let defect = as_bad_as_it_is(defect, of_place);
+        let defect = with_later_severity(defect, of_place);
         let at = place_of(&defect).filter(|_| self.options.repairs(&defect));
         let remains = of_place.iter().any(|left| left.is_same(&defect));
         if let Some(at) = at.filter(|_| remains) {
@@ -265,7 +266,7 @@ impl Work<'_> {
 
 /// The defect with its severity after the repair, where that is higher: what cancelled it, or made it small,
 /// may be gone. `after`: the defects of its place.
-fn as_bad_as_it_is(defect: Defect, after: &[&Defect]) -> Defect {
+fn with_later_severity(defect: Defect, after: &[&Defect]) -> Defect {
     let is_cancelled = after.iter().any(|left| left.cancelled.is_some());
     let same = after.iter().find(|left| !is_cancelled && left.is_same(&defect));
     let severity = same.map_or(defect.severity, |same| defect.severity.max(same.severity));
@@ -278,7 +279,7 @@ fn is_of_kept_tangents(defect: &Defect) -> bool {
 }
 
 /// The primitives with such tangents.
-fn keeping_tangents<'a>(defects: impl Iterator<Item = &'a Defect>) -> BTreeSet<Key> {
+fn with_kept_tangents<'a>(defects: impl Iterator<Item = &'a Defect>) -> BTreeSet<Key> {
     defects.filter(|defect| is_of_kept_tangents(defect)).filter_map(place_of).collect()
 }
 
