@@ -306,6 +306,8 @@ fn bad_arguments_are_usage() {
         (&["--against", "lengyel"], "--against needs --view angle or --split"),
         (&["--split", "50"], "--split needs --against or --mistakes"),
         (&["--view", "angle", "--against", "lengyel", "--split", "50"], "remove --split"),
+        (&["--ground", "--view", "sign"], "--ground stands below a lit model"),
+        (&["--ground", "--layout", "alone"], "--ground stands below a lit model"),
         (&["--split", "101"], "expected a number from 0 to 100"),
         (&["--length", "NaN"], "expected a number from 0 to 100"),
         (&["--length", "3"], "--lines <VECTORS>"),

@@ -21,9 +21,11 @@
 //! pose, model, derivatives, heat    from a document to triangles with tangents and colours
 //! mistakes                          tangents as wrong code computes them
 //! camera, mirrored_edges, lines     what is in view, and lines over the surface
+//! ground                            the shadow below the model
 //! studio, uniforms, textures, material_textures, pipelines
-//!                                   data for the shaders surface.wgsl, studio.wgsl and lines.wgsl
-//! drawing, painter, target          one pass over a picture or a UV layout, and reading it back
+//!                                   data for the shaders surface.wgsl, studio.wgsl, lines.wgsl and ground.wgsl
+//! drawing, painter, ground_painter, resources, target
+//!                                   one pass over a picture or a UV layout, and reading it back
 //! render, uv_inset                  the entry: the model, and the UV layout in a corner
 //! ```
 
@@ -32,6 +34,8 @@ mod camera;
 mod derivatives;
 mod drawing;
 mod error;
+mod ground;
+mod ground_painter;
 mod heat;
 mod lines;
 mod material_textures;
@@ -45,6 +49,7 @@ mod part;
 mod pipelines;
 mod pose;
 mod render;
+mod resources;
 mod studio;
 mod subject;
 mod target;

@@ -145,6 +145,9 @@ pub struct RenderOptions {
     pub lines: Lines,
     /// Whether mirrored edges are drawn: edges between triangles whose tangents have different signs.
     pub seams: bool,
+    /// Whether a lit model stands on the ground, which shows its shadow and is not seen from below. Models
+    /// that are too large for a ground have none, with a warning.
+    pub ground: bool,
     /// Where the UV layout is drawn, if it is. It has the colours of the view, or of [`View::Sign`] if the
     /// view is lit.
     pub layout: Option<LayoutPlacement>,
@@ -161,7 +164,8 @@ pub struct RenderOptions {
 }
 
 impl RenderOptions {
-    /// A view of the model from the default camera over black, without lines, mirrored edges or UV layout.
+    /// A view of the model from the default camera over black, without lines, mirrored edges, ground or UV
+    /// layout.
     ///
     /// `size`: the width and height in pixels. `heat`: the colours of [`View::Angle`].
     pub fn new(view: View, size: [u32; 2], heat: HeatScale) -> Self {
@@ -169,6 +173,7 @@ impl RenderOptions {
             view,
             lines: Lines::default(),
             seams: false,
+            ground: false,
             layout: None,
             size,
             camera: Camera::default(),
@@ -194,6 +199,12 @@ impl RenderOptions {
     #[must_use]
     pub fn with_seams(self, seams: bool) -> Self {
         Self { seams, ..self }
+    }
+
+    /// These options with a ground below lit models, or not.
+    #[must_use]
+    pub fn with_ground(self, ground: bool) -> Self {
+        Self { ground, ..self }
     }
 
     /// These options with the UV layout at another place, or without it.

@@ -2,22 +2,21 @@
 
 use std::iter;
 
-use bytemuck::Pod;
 use darboux_gpu::{AdapterKind, Gpu};
 use darboux_io::gltf::Material;
-use darboux_io::image::srgb_to_linear;
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{
-    BindGroup, BindGroupDescriptor, BindGroupEntry, BindingResource, Buffer, BufferUsages, CommandEncoder,
-    LoadOp, RenderPass, RenderPipeline, StoreOp, TextureFormat,
+    BindGroup, BindingResource, Buffer, BufferUsages, CommandEncoder, LoadOp, RenderPass, RenderPipeline,
+    StoreOp, TextureFormat,
 };
 
 use crate::drawing::{Drawing, Side};
 use crate::error::RenderError;
+use crate::ground_painter::GroundPainter;
 use crate::lines::{MAX_SEGMENTS, segments};
 use crate::material_textures::{NORMAL, textures_of};
 use crate::part::{Part, layout_position};
 use crate::pipelines::{line_pipeline, surface_pipeline};
+use crate::resources::{buffer, color_in, group, uniform};
 use crate::subject::Subject;
 use crate::target::Target;
 use crate::textures::{Textures, sampler};
@@ -91,7 +90,11 @@ pub fn paint(
     let target = Target::new(gpu, drawing.size, format);
     let sides: Vec<SideResources> =
         sides.iter().map(|(side, columns)| painter.side(side, *columns, warnings)).collect();
-    let draw = |pass: &mut RenderPass<'_>| sides.iter().for_each(|side| painter.draw(pass, side));
+    let ground = GroundPainter::of(gpu, drawing, format, warnings);
+    let draw = |pass: &mut RenderPass<'_>| {
+        ground.iter().for_each(|ground| ground.draw(pass));
+        sides.iter().for_each(|side| painter.draw(pass, side));
+    };
     let [r, g, b] = color_in(drawing.options.background, format);
     let clear = wgpu::Color { r, g, b, a: 1.0 };
     Ok(target.read(|encoder| record(encoder, &target, clear, draw))?)
@@ -122,17 +125,6 @@ fn record(
         ..Default::default()
     });
     draw(&mut pass);
-}
-
-/// An sRGB colour in the target's format.
-fn color_in(color: [u8; 3], format: TextureFormat) -> [f64; 3] {
-    color.map(|channel| {
-        let channel = f64::from(channel) / 255.0;
-        match format {
-            TextureFormat::Rgba8Unorm => channel,
-            _ => srgb_to_linear(channel),
-        }
-    })
 }
 
 /// The pipelines, and the drawing that they are for.
@@ -187,10 +179,10 @@ impl Painter<'_> {
                 warnings.push(warning);
             }
         }
-        let picture = self.uniform(&PictureUniforms::of(self.drawing, side));
+        let picture = uniform(self.gpu, &PictureUniforms::of(self.drawing, side));
         SideResources {
             columns,
-            picture: self.group(&self.surfaces, 0, &[picture.as_entire_binding()]),
+            picture: group(self.gpu, &self.surfaces, 0, &[picture.as_entire_binding()]),
             chunks: model.parts.iter().flat_map(|part| self.chunks(part)).collect(),
             materials,
             default_material,
@@ -207,10 +199,10 @@ impl Painter<'_> {
         let color = |color| color_in(color, self.format).map(|channel| channel as f32);
         let (lines, are_all) =
             segments(&side.model.parts, side.mistakes, transform, options, MAX_SEGMENTS, color);
-        let uniforms = self.uniform(&LineUniforms::of(transform, *size));
+        let uniforms = uniform(self.gpu, &LineUniforms::of(transform, *size));
         let resources = (!lines.is_empty()).then(|| LineResources {
-            uniforms: self.group(&self.lines, 0, &[uniforms.as_entire_binding()]),
-            segments: self.buffer(bytemuck::cast_slice(&lines), BufferUsages::VERTEX),
+            uniforms: group(self.gpu, &self.lines, 0, &[uniforms.as_entire_binding()]),
+            segments: buffer(self.gpu, bytemuck::cast_slice(&lines), BufferUsages::VERTEX),
             count: lines.len() as u32,
         });
         let warning = (!are_all).then(|| {
@@ -222,25 +214,6 @@ impl Painter<'_> {
         (resources, warning)
     }
 
-    fn uniform(&self, value: &impl Pod) -> Buffer {
-        self.buffer(bytemuck::bytes_of(value), BufferUsages::UNIFORM)
-    }
-
-    fn buffer(&self, contents: &[u8], usage: BufferUsages) -> Buffer {
-        self.gpu.device.create_buffer_init(&BufferInitDescriptor { label: None, contents, usage })
-    }
-
-    fn group(&self, pipeline: &RenderPipeline, index: u32, resources: &[BindingResource<'_>]) -> BindGroup {
-        let entries = (0..).zip(resources.iter().cloned());
-        let entries: Vec<_> =
-            entries.map(|(binding, resource)| BindGroupEntry { binding, resource }).collect();
-        self.gpu.device.create_bind_group(&BindGroupDescriptor {
-            label: None,
-            layout: &pipeline.get_bind_group_layout(index),
-            entries: &entries,
-        })
-    }
-
     fn material(&self, material: &Material, textures: &mut Textures<'_>) -> BindGroup {
         let uses = textures_of(material);
         let views = uses.map(|(used, kind)| textures.view(used, kind));
@@ -250,12 +223,12 @@ impl Painter<'_> {
             .map(|(view, (_, kind))| view.unwrap_or_else(|| textures.neutral(kind)))
             .collect();
         let uniforms =
-            self.uniform(&MaterialUniforms::of(material, has_normal_map, self.drawing.options.view));
+            uniform(self.gpu, &MaterialUniforms::of(material, has_normal_map, self.drawing.options.view));
         let images = views.iter().zip(&samplers).flat_map(|(view, sampler)| {
             [BindingResource::TextureView(view), BindingResource::Sampler(sampler)]
         });
         let resources: Vec<_> = iter::once(uniforms.as_entire_binding()).chain(images).collect();
-        self.group(&self.surfaces, 1, &resources)
+        group(self.gpu, &self.surfaces, 1, &resources)
     }
 
     fn chunks(&self, part: &Part) -> Vec<Chunk> {
@@ -269,9 +242,9 @@ impl Painter<'_> {
             .take(if is_layout { 1 } else { usize::MAX })
             .map(|matrix| Instance::of(matrix, &self.drawing.transform, self.drawing.subject))
             .collect();
-        let instance_buffer = self.buffer(bytemuck::cast_slice(&instances), BufferUsages::VERTEX);
+        let instance_buffer = buffer(self.gpu, bytemuck::cast_slice(&instances), BufferUsages::VERTEX);
         let chunk = |corners: &[SurfaceVertex]| Chunk {
-            corners: self.buffer(bytemuck::cast_slice(corners), BufferUsages::VERTEX),
+            corners: buffer(self.gpu, bytemuck::cast_slice(corners), BufferUsages::VERTEX),
             corner_count: corners.len() as u32,
             instances: instance_buffer.clone(),
             instance_count: instances.len() as u32,

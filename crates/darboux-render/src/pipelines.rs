@@ -1,8 +1,8 @@
-//! The render pipelines of surfaces and lines.
+//! The render pipelines of surfaces, lines and the ground.
 
 use darboux_gpu::Gpu;
 use wgpu::{
-    BlendState, ColorTargetState, CompareFunction, PrimitiveTopology, RenderPipeline, TextureFormat,
+    BlendState, ColorTargetState, CompareFunction, Face, PrimitiveTopology, RenderPipeline, TextureFormat,
     VertexAttribute, VertexBufferLayout, VertexStepMode, vertex_attr_array,
 };
 
@@ -21,6 +21,7 @@ const SURFACES: &str = concat!(
     include_str!("studio.wgsl"),
 );
 const LINES: &str = include_str!("lines.wgsl");
+const GROUND: &str = include_str!("ground.wgsl");
 
 /// The differences between the pipelines.
 struct PipelineOptions<'a> {
@@ -29,8 +30,11 @@ struct PipelineOptions<'a> {
     entries: [&'static str; 2],
     buffers: &'a [Option<VertexBufferLayout<'a>>],
     topology: PrimitiveTopology,
-    /// Whether there is a depth test. Without it, surfaces are blended by alpha.
     has_depth: bool,
+    /// Whether colours are blended by alpha.
+    has_blending: bool,
+    /// The faces that are not drawn.
+    cull_mode: Option<Face>,
     /// Whether alpha determines the coverage of samples.
     alpha_to_coverage: bool,
 }
@@ -50,6 +54,8 @@ pub fn surface_pipeline(gpu: &Gpu, subject: Subject, view: View, format: Texture
         ],
         topology: PrimitiveTopology::TriangleList,
         has_depth: subject == Subject::Surface,
+        has_blending: subject == Subject::UvLayout,
+        cull_mode: None,
         alpha_to_coverage: view.is_lit(),
     };
     pipeline(gpu, &options, format)
@@ -64,6 +70,23 @@ pub fn line_pipeline(gpu: &Gpu, format: TextureFormat) -> RenderPipeline {
         buffers: &[layout(size_of::<Segment>(), VertexStepMode::Instance, &attributes)],
         topology: PrimitiveTopology::TriangleStrip,
         has_depth: true,
+        has_blending: false,
+        cull_mode: None,
+        alpha_to_coverage: false,
+    };
+    pipeline(gpu, &options, format)
+}
+
+/// The pipeline for the ground, a strip of two triangles that is seen from above only.
+pub fn ground_pipeline(gpu: &Gpu, format: TextureFormat) -> RenderPipeline {
+    let options = PipelineOptions {
+        shader: GROUND,
+        entries: ["transform_ground", "shade_ground"],
+        buffers: &[],
+        topology: PrimitiveTopology::TriangleStrip,
+        has_depth: false,
+        has_blending: false,
+        cull_mode: Some(Face::Front),
         alpha_to_coverage: false,
     };
     pipeline(gpu, &options, format)
@@ -81,7 +104,7 @@ fn pipeline(gpu: &Gpu, options: &PipelineOptions<'_>, format: TextureFormat) -> 
     let source = wgpu::ShaderSource::Wgsl(options.shader.into());
     let label = Some(options.entries[0]);
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label, source });
-    let blend = (!options.has_depth).then_some(BlendState::ALPHA_BLENDING);
+    let blend = options.has_blending.then_some(BlendState::ALPHA_BLENDING);
     let compare = if options.has_depth { CompareFunction::Less } else { CompareFunction::Always };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label,
@@ -92,7 +115,11 @@ fn pipeline(gpu: &Gpu, options: &PipelineOptions<'_>, format: TextureFormat) -> 
             compilation_options: Default::default(),
             buffers: options.buffers,
         },
-        primitive: wgpu::PrimitiveState { topology: options.topology, ..Default::default() },
+        primitive: wgpu::PrimitiveState {
+            topology: options.topology,
+            cull_mode: options.cull_mode,
+            ..Default::default()
+        },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,
             depth_write_enabled: Some(options.has_depth),

@@ -20,6 +20,30 @@ pub struct Studio {
     /// The yaw in degrees of the camera that the directions are for. The studio turns with cameras at other
     /// sides of the model.
     pub camera_yaw: f64,
+    pub ground: GroundLook,
+}
+
+/// The look of the ground. Lengths are fractions of half the diagonal of the model's box.
+#[derive(Deserialize)]
+pub struct GroundLook {
+    /// The side of the shadow picture in texels.
+    pub texels: usize,
+    /// The width of the ground around the model.
+    pub margin: f64,
+    pub shadows: [Shadow; 2],
+    /// The most samples of the surface. A model that needs more has no ground.
+    pub most_steps: u64,
+}
+
+/// A shadow below the surface of a model.
+#[derive(Deserialize)]
+pub struct Shadow {
+    /// The height above the ground from which the surface casts no shadow.
+    pub reach: f64,
+    /// The standard deviation of the blur, at most a third of the ground's margin.
+    pub blur: f64,
+    /// The part of the light that a surface on the ground takes.
+    pub darkness: f64,
 }
 
 /// Lamps, which a rough surface sees blurred.

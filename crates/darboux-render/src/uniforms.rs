@@ -1,4 +1,4 @@
-//! The uniforms and the per-instance data of both shaders, in their memory layout.
+//! The uniforms and the per-instance data of the shaders, in their memory layout.
 
 use bytemuck::{Pod, Zeroable};
 use darboux_io::gltf::{Alpha, Material, TextureUse};
@@ -6,6 +6,7 @@ use darboux_io::gltf::{Alpha, Material, TextureUse};
 use crate::algebra::{IDENTITY, Matrix, direction_columns};
 use crate::camera::ViewTransform;
 use crate::drawing::{Drawing, Side};
+use crate::ground::Ground;
 use crate::heat::HeatScale;
 use crate::material_textures::{TEXTURES, textures_of};
 use crate::options::{SIGN_COLORS, View};
@@ -51,6 +52,15 @@ pub struct LineUniforms {
     pixel: [f32; 2],
     distance: f32,
     half_width: f32,
+}
+
+/// `Ground` of ground.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub struct GroundUniforms {
+    projection: [[f32; 4]; 4],
+    corners: [[f32; 4]; 4],
+    background: [f32; 4],
 }
 
 /// `Material` of surface.wgsl.
@@ -133,6 +143,20 @@ impl LineUniforms {
             distance: transform.distance as f32,
             half_width: 0.5 * (width.min(height) / PICTURE_PIXELS_PER_LINE_PIXEL).max(1.0),
         }
+    }
+}
+
+impl GroundUniforms {
+    /// `background`: the linear colour behind the model.
+    pub fn of(ground: &Ground, transform: &ViewTransform, background: [f64; 3]) -> Self {
+        let Ground { middle: [x, height, z], half_side, .. } = *ground;
+        let square = [[half_side, 0.0, 0.0, 0.0], [0.0; 4], [0.0, 0.0, half_side, 0.0], [x, height, z, 1.0]];
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]].map(|[x, z]| {
+            let [x, y, z] = transform.point(&square, [x, 0.0, z]).map(|x| x as f32);
+            [x, y, z, 1.0]
+        });
+        let [r, g, b] = background.map(|channel| channel as f32);
+        Self { projection: transform.projection, corners, background: [r, g, b, 1.0] }
     }
 }
 

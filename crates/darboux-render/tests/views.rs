@@ -4,7 +4,7 @@
 mod common;
 
 use common::{BACKGROUND, Quad, document, has_adapter_or_says_so};
-use darboux_render::{LINE_COLORS, Lines, Mistakes, Model, RenderOptions, SEAM_COLOR, Side, View};
+use darboux_render::{Camera, LINE_COLORS, Lines, Mistakes, Model, RenderOptions, SEAM_COLOR, Side, View};
 
 /// The width and height of the pictures.
 const SIZE: usize = 64;
@@ -228,5 +228,43 @@ fn models_are_centred_whatever_the_direction_of_the_camera() {
             let (before, after) = (first, size - 1 - last);
             assert!((before - after).abs() <= 2, "{yaw}, {pitch}, axis {axis}: margins {before} and {after}");
         }
+    }
+}
+
+/// Whether a pixel and its neighbours pass a test. Pixels at the edge of the picture have too few.
+fn all_around(at: usize, test: impl Fn(usize) -> bool) -> bool {
+    let [column, row] = [at % SIZE, at / SIZE];
+    (1..SIZE - 1).contains(&column)
+        && (1..SIZE - 1).contains(&row)
+        && [-1, 0, 1].iter().all(|dy: &isize| {
+            [-1, 0, 1].iter().all(|dx: &isize| test((at as isize + dy * SIZE as isize + dx) as usize))
+        })
+}
+
+#[test]
+fn the_ground_darkens_what_is_behind_the_model_and_nothing_else() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    let seen = |view, pitch, ground| {
+        let camera = Camera { yaw: 30.0, pitch, zoom: 0.7 };
+        let options = common::options(view).with_camera(camera).with_background([200; 3]);
+        common::drawn(&Quad::default(), &options.with_ground(ground)).pixels
+    };
+    for view in [View::Shaded, View::TestBumps] {
+        let [with, without] = [true, false].map(|ground| seen(view, 25.0, ground));
+        let is_model = |at: usize| without[at] != [200; 3];
+        let changed = (0..SIZE * SIZE).filter(|&at| with[at] != without[at]);
+        let changed: Vec<usize> = changed.collect();
+        assert!(changed.len() > SIZE * SIZE / 60, "{} pixels are darker", changed.len());
+        for at in changed {
+            assert!(light(with[at]) < light(without[at]), "a pixel is brighter");
+            assert!(!all_around(at, is_model), "a pixel inside the model changed");
+        }
+        assert_eq!(with[0], [200; 3], "the ground fades to nothing");
+        assert!(seen(view, -25.0, true) == seen(view, -25.0, false), "it is not seen from below");
+    }
+    for view in [View::Tangent, View::Bitangent, View::Normal, View::Sign, View::Angle] {
+        assert!(seen(view, 25.0, true) == seen(view, 25.0, false), "{view:?} has no ground");
     }
 }

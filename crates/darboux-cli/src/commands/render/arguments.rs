@@ -31,6 +31,7 @@ Examples:
   darboux render model.glb -o lines.png --lines tangent,normal --seams --layout corner
   darboux render model.glb -o split.png --tangents mikktspace --against derivatives --split 50
   darboux render model.glb -o green.png --split 50 --mistakes green
+  darboux render model.glb -o ground.png --ground --camera 30,25
   darboux render model.glb -o shield.png --mesh Shield
   darboux render model.glb -o same.png --look 1.2,0.8,3,0,0,0
   darboux render model.glb -o back.png --camera 180,10,1.5 --size 1920x1080";
@@ -76,6 +77,10 @@ pub struct RenderArguments {
     /// Draw mirrored seams: the edges across which the sign w changes
     #[arg(long)]
     pub seams: bool,
+
+    /// Stand the lit model on a ground that shows its shadow, as the viewer does
+    #[arg(long)]
+    pub ground: bool,
 
     /// Draw the UV layout in the colours of the surface (in those of the sign for the shaded view), v down
     #[arg(long, value_enum, value_name = "PLACE")]

@@ -81,6 +81,12 @@ fn refuse_contradictions(arguments: &RenderArguments) -> Result<(), String> {
     if split.is_some() && against.is_none() && mistakes.is_empty() {
         return Err("--split needs --against or --mistakes; without them both sides are the same".to_owned());
     }
+    let is_lit = matches!(view, ViewChoice::Shaded | ViewChoice::Bumps);
+    if arguments.ground && (!is_lit || arguments.layout == Some(LayoutPlacement::Alone)) {
+        return Err("--ground stands below a lit model; remove it, or draw the model with --view shaded or \
+                    --view bumps"
+            .to_owned());
+    }
     Ok(())
 }
 
@@ -286,6 +292,7 @@ fn options(arguments: &RenderArguments) -> RenderOptions {
     RenderOptions::new(view, arguments.size, heat)
         .with_lines(lines)
         .with_seams(arguments.seams)
+        .with_ground(arguments.ground)
         .with_layout(layout)
         .with_camera(Camera { yaw, pitch, zoom })
         .with_look(arguments.look)
