@@ -55,6 +55,24 @@ impl AutoCageOptions {
     pub fn new(share: f32, reach: f32) -> Self {
         Self { share, reach }
     }
+
+    /// Refuses options with which no cage can be made, as [`auto_cage`] does.
+    ///
+    /// # Errors
+    ///
+    /// [`BakeError::Option`].
+    pub fn check(&self) -> Result<(), BakeError> {
+        let Self { share, reach } = *self;
+        if !(0.0..1.0).contains(&share) {
+            let (what, expected) = ("the share of rays that may change their hit", "from 0 on and below 1");
+            return Err(BakeError::Option { what, expected, found: share });
+        }
+        if !(reach > 0.0 && reach.is_finite()) {
+            let (what, expected) = ("the largest offset of a cage", "finite and above 0");
+            return Err(BakeError::Option { what, expected, found: reach });
+        }
+        Ok(())
+    }
 }
 
 /// The result of [`auto_cage`].
@@ -78,15 +96,8 @@ pub fn auto_cage(
     options: &AutoCageOptions,
     context: &mut Context,
 ) -> Result<AutoCage, BakeError> {
+    options.check()?;
     let AutoCageOptions { share, reach } = *options;
-    if !(0.0..1.0).contains(&share) {
-        let (what, expected) = ("the share of rays that may change their hit", "from 0 on and below 1");
-        return Err(BakeError::Option { what, expected, found: share });
-    }
-    if !(reach > 0.0 && reach.is_finite()) {
-        let (what, expected) = ("the largest offset of a cage", "finite and above 0");
-        return Err(BakeError::Option { what, expected, found: reach });
-    }
     let total_area: f64 = surfaces.low.iter().map(|low| areas(low).sum::<f64>()).sum();
     let in_box = f64::from(surfaces.space.distance(reach));
     let mut cage = AutoCage { offsets: [f32::INFINITY, 0.0], ..AutoCage::default() };

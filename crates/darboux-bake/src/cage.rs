@@ -4,7 +4,7 @@ use darboux::{Faces, Mesh, NormalOptions, generate_normals};
 
 use crate::common_box::CommonBox;
 use crate::vector::{Vector, add_scaled, narrow, wide};
-use crate::{BakeError, LowSurface};
+use crate::{BakeError, LowSurface, SkewCorrection};
 
 /// How far a cage lies outside a model without another choice: 2 % of the diagonal of the model's box, in the
 /// same unit.
@@ -37,6 +37,15 @@ pub fn with_cages<'a>(
         return Ok(low.to_vec());
     }
     low.iter().zip(cages).map(|(surface, cage)| surface.with_cage(cage)).collect()
+}
+
+/// Surfaces whose rays turn towards the normals of triangles. Errors: as of
+/// [`LowSurface::with_skew_correction`].
+pub fn with_skew<'a>(
+    low: &[LowSurface<'a>],
+    correction: SkewCorrection<'a>,
+) -> Result<Vec<LowSurface<'a>>, BakeError> {
+    low.iter().map(|surface| surface.with_skew_correction(correction)).collect()
 }
 
 /// As [`inflated_cage`], each vertex by its own offset.

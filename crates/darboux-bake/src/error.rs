@@ -54,6 +54,11 @@ pub enum BakeError {
     },
     /// The set of maps is empty.
     NoMaps,
+    /// The map texture was chosen without the place of a texture, or the place without the map.
+    Texture {
+        /// Whether the map was chosen.
+        is_chosen: bool,
+    },
     /// A map has another number of texels than its size says, or none.
     Texels {
         /// The number of texels of its size.
@@ -120,6 +125,13 @@ impl fmt::Display for BakeError {
             ),
             Self::Option { what, expected, found } => write!(f, "{what} is {found}; it must be {expected}"),
             Self::NoMaps => f.write_str("no map was chosen; choose at least one"),
+            Self::Texture { is_chosen: true } => f.write_str(
+                "the map texture needs the option texture: the place of a texture in the high models' \
+                 materials, such as occlusionTexture",
+            ),
+            Self::Texture { is_chosen: false } => f.write_str(
+                "the option texture is for the map texture, which was not chosen; add it to the maps",
+            ),
             Self::Texels { expected, found } => write!(
                 f,
                 "the map has {found} texels but its size needs {expected}; give one vector per texel, and at \

@@ -65,19 +65,21 @@ mod verify;
 
 pub use auto_cage::{AutoCage, AutoCageOptions, auto_cage};
 pub use bake::{BakeProgress, Baked, bake};
-pub use cage::{default_cage_offset, default_cage_reach, inflated_cage, inflated_cage_by, with_cages};
+pub use cage::{
+    default_cage_offset, default_cage_reach, inflated_cage, inflated_cage_by, with_cages, with_skew,
+};
 pub use color_texture::ColorTexture;
 pub use covered_tiles::udims_of;
 pub use crossing::crossing_triangles;
 pub use error::BakeError;
 pub use images::{Images, TexelState};
 pub use map_kind::{MapContent, MapKind, MapSet};
-pub use material::MaterialProperty;
+pub use material::{AlphaMode, MaterialProperty};
 pub use model::{
     HighModel, HighModelOptions, LowModel, LowModelOptions, ModelSurfaces, Models, ModelsError, PartMatch,
-    UnpairedParts, group_by_name, is_color_texture,
+    UnpairedParts, cage_of, group_by_name, is_color_texture,
 };
-pub use name_match::{NameMatch, match_names};
+pub use name_match::{NameMatch, match_names, suffix_start};
 pub use normal_texture::NormalTexture;
 pub use options::{BakeOptions, Bitangent, CurvatureRadius, IdSource, OcclusionFalloff, OcclusionWeights};
 pub use palette::IdColor;

@@ -30,7 +30,8 @@ pub enum MapKind {
     VertexColor,
     /// The base colour of the high surface's material, times the colour of its vertices, in linear light.
     BaseColor,
-    /// The alpha of the same.
+    /// The opacity: 1 where the material's alpha mode is opaque, 1 or 0 where it is a mask, and elsewhere the
+    /// alpha of the same.
     Opacity,
     /// The roughness of the high surface's material.
     Roughness,
@@ -80,7 +81,7 @@ choice! { MapKind, "maps",
     ObjectNormal => "object-normal", "Normals in the space of the scene";
     Height => "height", "The distance of the high surface from the low one; half grey is none";
     Occlusion => "ao", "Ambient occlusion: white is open";
-    Position => "position", "Positions, from 0 to 1 in the box around the high model";
+    Position => "position", "Positions, from 0 to 1 in the box around the high models";
     BentNormal => "bent-normal", "The mean of the open directions, in tangent space";
     ObjectBentNormal => "object-bent-normal", "The mean of the open directions, in the space of the scene";
     Thickness => "thickness", "The mean distance to the other side: black is thin";
@@ -89,7 +90,7 @@ choice! { MapKind, "maps",
     Id => "id", "A colour for each material, mesh or part of the high models";
     VertexColor => "vertex-color", "The colours of the high model's vertices";
     BaseColor => "base-color", "The base colours that the high models show";
-    Opacity => "opacity", "The alpha of the base colour";
+    Opacity => "opacity", "The alpha of the base colour, as the alpha mode of the material says";
     Roughness => "roughness", "The roughness of the high models' materials";
     Metalness => "metalness", "The metalness of the high models' materials";
     Emission => "emission", "The light that the high models emit";

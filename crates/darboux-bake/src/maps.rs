@@ -186,8 +186,8 @@ fn add_high_map(
         MapKind::VertexColor => add(sums, vertex_color::color(found)),
         MapKind::BaseColor => add(sums, material::base_color(found)),
         MapKind::Opacity => add(sums, [material::opacity(found)]),
-        MapKind::Roughness => add(sums, [material::roughness(found)]),
-        MapKind::Metalness => add(sums, [material::metalness(found)]),
+        MapKind::Roughness => add(sums, [material::roughness_and_metalness(found)[0]]),
+        MapKind::Metalness => add(sums, [material::roughness_and_metalness(found)[1]]),
         MapKind::Emission => add(sums, material::emission(found)),
         MapKind::Texture => add(sums, material::texture(found)),
         MapKind::WorldDirection | MapKind::UvIslands | MapKind::Wireframe => {}

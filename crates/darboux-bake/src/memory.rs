@@ -1,10 +1,22 @@
 //! How many bytes runs need, estimated before anything large is allocated.
 
+use crate::budget::Budget;
 use crate::images::TexelState;
-use crate::{BakeOptions, HighSurface, bvh, padding};
+use crate::{BakeError, BakeOptions, HighSurface, bvh, padding};
 
 /// The bytes per texel of the two normal maps that a verification compares.
 const BYTES_PER_COMPARED_TEXEL: u64 = 24;
+
+impl BakeOptions {
+    /// Refuses images that do not fit into the memory limit, whatever the models are.
+    ///
+    /// # Errors
+    ///
+    /// [`BakeError::Memory`].
+    pub fn check_memory(&self) -> Result<(), BakeError> {
+        Budget::new(self.memory_limit).add(of_bake(&[], self))
+    }
+}
 
 /// The bytes of the images, of what filling them needs, and of the hierarchies over the high surfaces.
 pub fn of_bake(high: &[HighSurface<'_>], options: &BakeOptions) -> u64 {

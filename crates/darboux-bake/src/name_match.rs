@@ -13,8 +13,8 @@ pub struct NameMatch {
 
 /// Pairs parts by their names: `crate_low` with `crate_high`, `crate_high_bolts` and so on.
 ///
-/// What precedes the last `_low` or `_high` counts, in upper or lower case; of other names all but a number
-/// after a point, as in `crate.001`. Low parts of the same name share a group.
+/// What precedes the last `_low` or `_high` (see [`suffix_start`]) counts, in upper or lower case; of other
+/// names all but a number after a point, as in `crate.001`. Low parts of the same name share a group.
 pub fn match_names(low: &[&str], high: &[&str]) -> NameMatch {
     let mut bases: Vec<String> = Vec::new();
     let mut group = |name: &&str| {
@@ -35,10 +35,19 @@ pub fn match_names(low: &[&str], high: &[&str]) -> NameMatch {
     NameMatch { group_of_low, group_of_high, low_without_high }
 }
 
+/// Where the last `suffix` of a name starts after which the name ends or goes on with a digit or one of
+/// `_`, `.`, `-` and a space: `lamp_high_bolts` and `lamp_high2` have `_high`, `lamp_highlight` does not.
+pub fn suffix_start(name: &str, suffix: &str) -> Option<usize> {
+    let ends_word = |next: char| next.is_ascii_digit() || "_.- ".contains(next);
+    let is_suffix =
+        |&(start, _): &(usize, &str)| name[start + suffix.len()..].chars().next().is_none_or(ends_word);
+    name.rmatch_indices(suffix).find(is_suffix).map(|(start, _)| start)
+}
+
 /// What of a name counts.
 fn base_name(name: &str) -> String {
     let name = name.to_lowercase();
-    let end = ["_low", "_high"].iter().filter_map(|suffix| name.rfind(suffix)).max();
+    let end = ["_low", "_high"].iter().filter_map(|suffix| suffix_start(&name, suffix)).max();
     match (end, name.rsplit_once('.')) {
         (Some(end), _) => name[..end].to_owned(),
         (None, Some((base, number))) if number.bytes().all(|digit| digit.is_ascii_digit()) => base.to_owned(),
@@ -58,6 +67,16 @@ mod tests {
         assert_eq!(found.group_of_low, [0, 1, 2, 3]);
         assert_eq!(found.group_of_high, [Some(0), Some(0), Some(1), Some(2), None]);
         assert_eq!(found.low_without_high, [3]);
+    }
+
+    #[test]
+    fn a_suffix_is_a_word() {
+        let low = ["lamp_low", "lamp_highlight_low", "lamp_lower"];
+        let high =
+            ["lamp_high2", "lamp_highlight", "Lamp_High-bolts", "lamp_high_highlight", "lamp_lower_high"];
+        let found = match_names(&low, &high);
+        assert_eq!(found.group_of_low, [0, 1, 2]);
+        assert_eq!(found.group_of_high, [Some(0), Some(1), Some(0), Some(0), Some(2)]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use darboux::Context;
 
 use crate::{
-    AutoCageOptions, BakeError, LowSurface, PreparedSurfaces, auto_cage, default_cage_offset,
+    AutoCageOptions, BakeError, BakeOptions, LowSurface, PreparedSurfaces, auto_cage, default_cage_offset,
     default_cage_reach, inflated_cage,
 };
 
@@ -43,6 +43,20 @@ impl RayOrigin {
             Self::Normals(distance) => distance,
             Self::InflatedCage(offset) => [offset.unwrap_or(default_cage_offset(diagonal)); 2],
             Self::AutoCage { reach, .. } => [0.0, reach.unwrap_or(default_cage_reach(diagonal))],
+        }
+    }
+
+    /// Refuses distances and shares out of range, before models are read.
+    ///
+    /// # Errors
+    ///
+    /// As of [`BakeOptions::check`] and [`AutoCageOptions::check`].
+    pub fn check(self) -> Result<(), BakeError> {
+        // Any diagonal gives a valid distance where none was chosen.
+        let distance = self.distance(1.0);
+        match self {
+            Self::AutoCage { share, .. } => AutoCageOptions::new(share, distance[1]).check(),
+            Self::Normals(_) | Self::InflatedCage(_) => BakeOptions::new([1; 2], distance).check(),
         }
     }
 

@@ -64,6 +64,16 @@ impl BakeReport {
         }
     }
 
+    /// A warning where the rays of more than a hundredth of the texels hit nothing. `misfit`: as of
+    /// [`Models::misfit`](crate::Models::misfit).
+    pub fn warning_of_misses(&self, misfit: Option<&str>) -> Option<String> {
+        let share = self.missed_texels as f64 / self.charted_texels.max(1) as f64;
+        let cause =
+            misfit.unwrap_or("begin rays farther outside, and check that the models lie on each other");
+        (share > 0.01)
+            .then(|| format!("the rays of {:.1} % of the texels hit nothing: {cause}", 100.0 * share))
+    }
+
     /// The sums of both.
     pub(crate) fn plus(self, other: Self) -> Self {
         Self {

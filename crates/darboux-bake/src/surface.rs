@@ -6,7 +6,7 @@ use crate::common_box::CommonBox;
 use crate::frame::ShadingFrame;
 use crate::material::{Property, SurfaceMaterial};
 use crate::vector::{Vector, box_diagonal, weighted};
-use crate::{BakeError, ColorTexture, MaterialProperty, NormalTexture, SkewCorrection};
+use crate::{AlphaMode, BakeError, ColorTexture, MaterialProperty, NormalTexture, SkewCorrection};
 
 /// A surface that receives the detail: triangles with normals, UVs and tangents.
 #[derive(Clone, Copy, Debug)]
@@ -197,6 +197,16 @@ impl<'a> HighSurface<'a> {
         let mut surface = self;
         surface.material.set(property, Property { factor, texture });
         Ok(surface)
+    }
+
+    /// This surface with a meaning of its material's alpha. By default, it is the opacity.
+    ///
+    /// `cutoff`: the least alpha of a mask that is opaque.
+    #[must_use]
+    pub fn with_alpha_mode(self, mode: AlphaMode, cutoff: f32) -> Self {
+        let mut surface = self;
+        surface.material.set_alpha_mode(mode, cutoff);
+        surface
     }
 
     /// This surface with the numbers of its material, mesh and part.

@@ -36,6 +36,13 @@ pub fn box_diagonal(positions: impl Iterator<Item = [f32; 3]>) -> f64 {
 /// The extents of the box around positions along the axes. Coordinates that are not finite do not count;
 /// without any, they are 0.
 pub fn box_extents(positions: impl Iterator<Item = [f32; 3]>) -> Vector {
+    let [low, high] = box_corners(positions);
+    sub(high, low)
+}
+
+/// The low and the high corner of the box around positions. Coordinates that are not finite do not count;
+/// without any along an axis, both are 0 there.
+pub fn box_corners(positions: impl Iterator<Item = [f32; 3]>) -> [Vector; 2] {
     let empty = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     let [low, high] = positions.fold(empty, |[mut low, mut high], position| {
         for (axis, x) in wide(position).into_iter().enumerate().filter(|(_, x)| x.is_finite()) {
@@ -44,7 +51,9 @@ pub fn box_extents(positions: impl Iterator<Item = [f32; 3]>) -> Vector {
         }
         [low, high]
     });
-    [0, 1, 2].map(|axis| (high[axis] - low[axis]).max(0.0))
+    let filled =
+        |corner: Vector| [0, 1, 2].map(|axis| if low[axis] <= high[axis] { corner[axis] } else { 0.0 });
+    [filled(low), filled(high)]
 }
 
 /// Two unit vectors that with the unit `normal` make a right-handed frame (T. Duff et al., "Building an

@@ -5,8 +5,8 @@ mod support;
 
 use darboux::{Choice, Context, Mesh};
 use darboux_bake::{
-    BakeOptions, Baked, ColorTexture, HighSurface, IdSource, LowSurface, MapKind, MapSet, MaterialProperty,
-    SurfaceLabels, TexelState, bake,
+    AlphaMode, BakeOptions, Baked, ColorTexture, HighSurface, IdSource, LowSurface, MapKind, MapSet,
+    MaterialProperty, SurfaceLabels, TexelState, bake,
 };
 use darboux_dice::Dice;
 use darboux_io::image::srgb_to_linear;
@@ -109,6 +109,35 @@ fn textures_arrive_texel_by_texel_in_the_same_layout() {
         assert!(near(numbers(MapKind::Roughness)[texel], 0.5 * code(1)));
         assert!(near(numbers(MapKind::Metalness)[texel], code(2)));
     }
+}
+
+/// A mask decides at each sample, and the texel has their mean.
+#[test]
+fn opacity_follows_the_mode_of_alpha() {
+    let shape = strip(0.0, 1.0);
+    let (texture, texels) = random_texture(true, SIZE);
+    let colored = vec![[1.0, 1.0, 1.0, 0.5]; 4];
+    let high = shape
+        .high()
+        .with_property(MaterialProperty::BaseColor, [1.0; 4], Some((&texture, (&shape.uvs).into())))
+        .and_then(|high| high.with_colors(&colored))
+        .expect("one per vertex");
+    let opacity = |mode, size: u32| {
+        let options = BakeOptions::new([size; 2], [0.1, 0.1])
+            .with_maps(MapSet::of(&[MapKind::Opacity]))
+            .with_samples_per_axis(SIZE / size);
+        let baked = bake_onto(&shape, &[high.with_alpha_mode(mode, 0.25)], &options);
+        baked.images.numbers(MapKind::Opacity).expect("chosen").to_vec()
+    };
+    assert!(opacity(AlphaMode::Opaque, SIZE).iter().all(|x| *x == 1.0));
+    let [mask, blend] = [AlphaMode::Mask, AlphaMode::Blend].map(|mode| opacity(mode, SIZE));
+    for (texel, [.., alpha]) in texels.iter().enumerate() {
+        assert_eq!(mask[texel], f32::from(u8::from(*alpha >= 128)), "{alpha}");
+        assert!((blend[texel] - f32::from(*alpha) / 510.0).abs() < 1e-4);
+    }
+    let of_four = opacity(AlphaMode::Mask, SIZE / 2);
+    assert!(of_four.iter().all(|share| (4.0 * share).fract() == 0.0));
+    assert!(of_four.iter().any(|share| share.fract() != 0.0));
 }
 
 #[test]

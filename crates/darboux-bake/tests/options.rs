@@ -4,8 +4,8 @@ mod support;
 
 use darboux::{Cancel, Choice, Context, Convention, Mesh};
 use darboux_bake::{
-    BakeError, BakeOptions, Bitangent, HighSurface, LowSurface, MapKind, MapSet, TexelState, bake,
-    inflated_cage,
+    BakeError, BakeOptions, Bitangent, HighModelOptions, HighSurface, LowSurface, MapKind, MapSet, RayOrigin,
+    TexelState, bake, inflated_cage,
 };
 use support::{PAIRS, Shape, baked};
 
@@ -358,6 +358,10 @@ fn wrong_options_and_surfaces_are_refused() {
     assert!(
         error.to_string().contains("needs 21505 MiB of memory, which is more than the limit of 1024 MiB")
     );
+    // The same without models, before they are read.
+    let of_images = BakeError::Memory { needed: 21 << 30, limit: Some(1 << 30) };
+    assert_eq!(large.check_memory(), Err(of_images));
+    assert_eq!(large.with_memory_limit(None).check_memory(), Ok(()));
     let none = Shape::default();
     let tiled = plate(16.0);
     let surface_of_tiles = LowSurface::new(tiled.mesh(), &tangents).expect("one tangent per corner");
@@ -400,4 +404,34 @@ fn a_run_can_be_cancelled_and_tells_its_progress() {
     });
     assert_eq!(result.expect_err("cancelled"), BakeError::Mesh(darboux::Error::Cancelled));
     assert_eq!(told, [(1, 8), (2, 8), (3, 8)]);
+}
+
+/// What is wrong is told before models are read.
+#[test]
+fn options_are_checked_without_models() {
+    for origin in [
+        RayOrigin::Normals([-1.0, 1.0]),
+        RayOrigin::InflatedCage(Some(0.0)),
+        RayOrigin::AutoCage { share: 1.0, reach: None },
+        RayOrigin::AutoCage { share: 0.001, reach: Some(f32::NAN) },
+    ] {
+        assert!(
+            matches!(origin.check(), Err(BakeError::Distance { .. } | BakeError::Option { .. })),
+            "{origin:?}"
+        );
+    }
+    for origin in [
+        RayOrigin::Normals([1.0, 0.0]),
+        RayOrigin::InflatedCage(None),
+        RayOrigin::AutoCage { share: 0.0, reach: None },
+    ] {
+        assert_eq!(origin.check(), Ok(()));
+    }
+    let place = || Some("occlusionTexture".to_owned());
+    let high = HighModelOptions::default().with_maps(MapSet::of(&[MapKind::Normal]));
+    assert_eq!(high.check(), Ok(()));
+    assert_eq!(high.clone().with_texture(place()).check(), Err(BakeError::Texture { is_chosen: false }));
+    let texture = high.with_maps(MapSet::of(&[MapKind::Texture]));
+    assert_eq!(texture.check(), Err(BakeError::Texture { is_chosen: true }));
+    assert_eq!(texture.with_texture(place()).check(), Ok(()));
 }

@@ -54,7 +54,7 @@ pub fn listed(names: &[&str]) -> String {
 }
 
 /// As [`counted`]; none for none.
-pub(crate) fn counted_if_any(count: usize, one: &str, several: &str) -> Option<String> {
+pub fn counted_if_any(count: usize, one: &str, several: &str) -> Option<String> {
     (count > 0).then(|| counted(count, one, several))
 }
 

@@ -1,5 +1,5 @@
-//! What the materials of the high surface show, as glTF 2.0 defines it (3.9.2, 3.9.3), over the footprint of
-//! the sample.
+//! What the materials of the high surface show, as glTF 2.0 defines it (3.9.2 to 3.9.4), over the footprint
+//! of the sample.
 //!
 //! The sides of the sample's area on the low surface are moved along the ray into the plane of the high
 //! triangle. There they change the weights of its corners, and with them the UVs: the footprint in the
@@ -22,19 +22,15 @@ pub fn base_color(found: &Found<'_>) -> Vector {
     [0, 1, 2].map(|i| shown[i] * vertex[i])
 }
 
-/// Alpha, times the vertices' alpha.
+/// What alpha, times the vertices' alpha, means for the material.
 pub fn opacity(found: &Found<'_>) -> f64 {
-    mean(found, MaterialProperty::BaseColor)[3] * vertex_color::color(found)[3]
+    let alpha = mean(found, MaterialProperty::BaseColor)[3] * vertex_color::color(found)[3];
+    found.group.surface(&found.high).material.opacity(alpha)
 }
 
-/// The green channel.
-pub fn roughness(found: &Found<'_>) -> f64 {
-    mean(found, MaterialProperty::MetallicRoughness)[1]
-}
-
-/// The blue channel.
-pub fn metalness(found: &Found<'_>) -> f64 {
-    mean(found, MaterialProperty::MetallicRoughness)[2]
+/// The roughness, and the metalness.
+pub fn roughness_and_metalness(found: &Found<'_>) -> [f64; 2] {
+    found.group.surface(&found.high).material.roughness_and_metalness(&place(found))
 }
 
 /// Red, green and blue.
@@ -49,14 +45,17 @@ pub fn texture(found: &Found<'_>) -> Color {
 }
 
 fn mean(found: &Found<'_>, property: MaterialProperty) -> Color {
+    found.group.surface(&found.high).material.mean(property, &place(found))
+}
+
+fn place(found: &Found<'_>) -> TrianglePlace {
     let surface = found.group.surface(&found.high);
     let vertices = surface.vertices(found.high.triangle);
-    let place = TrianglePlace {
+    TrianglePlace {
         vertices,
         weights: found.hit.weights.map(f64::from),
         changes: changes(surface.corners(vertices).map(wide), found),
-    };
-    surface.material.mean(property, &place)
+    }
 }
 
 /// How the weights of a triangle's corners change along the sides of the sample's area.

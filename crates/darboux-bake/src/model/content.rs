@@ -10,13 +10,16 @@ use darboux_io::image::RgbaImage;
 
 use super::decoded_bytes::DecodedBytes;
 use super::image_key::ImageKey;
-use crate::{BakeError, ColorTexture, HighSurface, MapKind, MapSet, MaterialProperty};
+use super::stored_material::StoredMaterial;
+use crate::{AlphaMode, BakeError, ColorTexture, HighSurface, MapKind, MapSet, MaterialProperty};
 
 /// The colours and properties of a primitive.
 #[derive(Debug, Default)]
 pub struct PartContent<'a> {
     colors: Option<Cow<'a, [[f32; 4]]>>,
     properties: Vec<PartProperty<'a>>,
+    /// The mode of alpha, and the cutoff of a mask. A primitive without a material is opaque.
+    pub alpha: (AlphaMode, f32),
 }
 
 #[derive(Debug)]
@@ -52,7 +55,8 @@ pub fn is_color_texture(member: &str) -> bool {
 
 impl<'a> PartContent<'a> {
     /// Reads what maps need of a primitive. `texture`: the name of the texture of [`MapKind::Texture`] in the
-    /// material; `decoded`: the images of the document before. Errors: invalid data.
+    /// material; `decoded`: the images of the document before. Errors: invalid data; factors that are not
+    /// finite.
     pub fn read(
         document: &'a Document,
         corners: &'a PrimitiveCorners<'a>,
@@ -60,44 +64,32 @@ impl<'a> PartContent<'a> {
         textures: &mut ColorTextures,
         decoded: &mut DecodedBytes,
     ) -> Result<Self, Error> {
-        let has_any = |kinds: &[MapKind]| kinds.iter().any(|&kind| maps.has(kind));
         let mut content = Self::default();
-        if has_any(&[MapKind::VertexColor, MapKind::Id, MapKind::BaseColor, MapKind::Opacity]) {
+        let colored = [MapKind::VertexColor, MapKind::Id, MapKind::BaseColor, MapKind::Opacity];
+        if colored.iter().any(|&kind| maps.has(kind)) {
             content.colors = colors(document, corners)?;
         }
-        let Some(material) = corners.material() else { return Ok(content) };
-        let stored = Stored { document, corners, material };
-        let mut add = |property, factor, member: &str| -> Result<(), Error> {
-            let texture = stored.texture(member, textures, decoded)?;
+        let Some(index) = corners.material() else { return Ok(content) };
+        let material = StoredMaterial { document, index };
+        content.alpha = material.alpha()?;
+        for (property, factor, member) in material.properties(maps, texture)? {
+            let texture = match member {
+                Some(member) => texture_of(material, corners, member, textures, decoded)?,
+                None => None,
+            };
             content.properties.push(PartProperty { property, factor, texture });
-            Ok(())
-        };
-        if has_any(&[MapKind::BaseColor, MapKind::Opacity]) {
-            let factor = stored.numbers("pbrMetallicRoughness.baseColorFactor", [1.0; 4]);
-            add(MaterialProperty::BaseColor, factor, "pbrMetallicRoughness.baseColorTexture")?;
-        }
-        if has_any(&[MapKind::Roughness, MapKind::Metalness]) {
-            let [roughness] = stored.numbers("pbrMetallicRoughness.roughnessFactor", [1.0]);
-            let [metalness] = stored.numbers("pbrMetallicRoughness.metallicFactor", [1.0]);
-            let factor = [1.0, roughness, metalness, 1.0];
-            add(
-                MaterialProperty::MetallicRoughness,
-                factor,
-                "pbrMetallicRoughness.metallicRoughnessTexture",
-            )?;
-        }
-        if maps.has(MapKind::Emission) {
-            let [red, green, blue] = stored.numbers("emissiveFactor", [0.0; 3]);
-            let strength = "extensions.KHR_materials_emissive_strength.emissiveStrength";
-            let [strength] = stored.numbers(strength, [1.0]);
-            let factor = [strength * red, strength * green, strength * blue, 1.0];
-            add(MaterialProperty::Emission, factor, "emissiveTexture")?;
-        }
-        if let Some(member) = texture.filter(|_| maps.has(MapKind::Texture)) {
-            let has_it = document.texture_of_material(material, member)?.is_some();
-            add(MaterialProperty::Texture, [f32::from(u8::from(has_it)); 4], member)?;
         }
         Ok(content)
+    }
+
+    pub fn has_colors(&self) -> bool {
+        self.colors.is_some()
+    }
+
+    /// Whether there is a texture for [`MapKind::Texture`].
+    pub fn has_chosen_texture(&self) -> bool {
+        let is_chosen = |shown: &PartProperty<'_>| shown.property == MaterialProperty::Texture;
+        self.properties.iter().any(|shown| is_chosen(shown) && shown.texture.is_some())
     }
 
     /// A surface with this content.
@@ -106,7 +98,8 @@ impl<'a> PartContent<'a> {
         surface: HighSurface<'s>,
         textures: &'s ColorTextures,
     ) -> Result<HighSurface<'s>, BakeError> {
-        let mut surface = surface;
+        let (mode, cutoff) = self.alpha;
+        let mut surface = surface.with_alpha_mode(mode, cutoff);
         if let Some(colors) = &self.colors {
             surface = surface.with_colors(&**colors)?;
         }
@@ -118,44 +111,29 @@ impl<'a> PartContent<'a> {
     }
 }
 
-/// A material as the document has it.
-struct Stored<'a> {
-    document: &'a Document,
+/// The texture at a place in a material's JSON, and where the primitive reads it; none if it has none or it
+/// cannot be used.
+fn texture_of<'a>(
+    material: StoredMaterial<'a>,
     corners: &'a PrimitiveCorners<'a>,
-    material: usize,
-}
-
-impl<'a> Stored<'a> {
-    /// Numbers of the material at a place in its JSON: one, or an array of them.
-    fn numbers<const N: usize>(&self, member: &str, default: [f32; N]) -> [f32; N] {
-        let material = &self.document.json()["materials"][self.material];
-        let found = member.split('.').fold(material, |json, name| &json[name]);
-        let number = |i: usize| if found.is_array() { &found[i] } else { found };
-        std::array::from_fn(|i| number(i).as_f64().map_or(default[i], |x| x as f32))
-    }
-
-    /// The texture at a place in the material's JSON, and where the primitive reads it; none if it has none
-    /// or it cannot be used.
-    fn texture(
-        &self,
-        member: &str,
-        textures: &mut ColorTextures,
-        decoded: &mut DecodedBytes,
-    ) -> Result<Option<TextureWithUvs<'a>>, Error> {
-        let Some(used) = self.document.texture_of_material(self.material, member)? else { return Ok(None) };
-        let at = format!("{} of materials[{}]", member, self.material);
-        let set = format!("TEXCOORD_{}", used.uv_set);
-        let Some(mut uvs) = self.corners.used_vectors(&set)? else {
-            let path = self.corners.name().path();
-            textures.warn(self.document, format!("{at} is not used, because {path} has no {set}"));
-            return Ok(None);
-        };
-        let Some(index) = textures.index(self.document, &used, is_color_texture(member), &at, decoded) else {
-            return Ok(None);
-        };
-        uvs.to_mut().iter_mut().for_each(|uv| *uv = used.transform_uv(*uv));
-        Ok(Some((index, uvs)))
-    }
+    member: &str,
+    textures: &mut ColorTextures,
+    decoded: &mut DecodedBytes,
+) -> Result<Option<TextureWithUvs<'a>>, Error> {
+    let StoredMaterial { document, index } = material;
+    let Some(used) = document.texture_of_material(index, member)? else { return Ok(None) };
+    let at = format!("{member} of materials[{index}]");
+    let set = format!("TEXCOORD_{}", used.uv_set);
+    let Some(mut uvs) = corners.used_vectors(&set)? else {
+        let path = corners.name().path();
+        textures.warn(document, format!("{at} is not used, because {path} has no {set}"));
+        return Ok(None);
+    };
+    let Some(index) = textures.index(document, &used, is_color_texture(member), &at, decoded) else {
+        return Ok(None);
+    };
+    uvs.to_mut().iter_mut().for_each(|uv| *uv = used.transform_uv(*uv));
+    Ok(Some((index, uvs)))
 }
 
 impl ColorTextures {

@@ -9,7 +9,8 @@ use super::content::{ColorTextures, PartContent};
 use super::decoded_bytes::DecodedBytes;
 use super::instance::{PrimitiveInstance, instances_of_meshes};
 use super::maps::{MapOnPart, Textures};
-use crate::{BakeError, HighSurface, IdSource, MapSet, SurfaceLabels};
+use super::stored_material::warnings_of_materials;
+use crate::{AlphaMode, BakeError, HighSurface, IdSource, MapKind, MapSet, SurfaceLabels};
 
 /// How a high model is read.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +20,7 @@ pub struct HighModelOptions {
     pub normal_maps: bool,
     /// The maps whose colours and textures are read. Default: none.
     pub maps: MapSet,
-    /// The texture of [`MapKind::Texture`](crate::MapKind::Texture): its place in the JSON of the material,
+    /// The texture of [`MapKind::Texture`]: its place in the JSON of the material,
     /// such as `occlusionTexture` or `extensions.KHR_materials_clearcoat.clearcoatTexture`. Default:
     /// none.
     pub texture: Option<String>,
@@ -44,10 +45,20 @@ impl HighModelOptions {
         Self { maps, ..self }
     }
 
-    /// These options with the texture of [`MapKind::Texture`](crate::MapKind::Texture).
+    /// These options with the texture of [`MapKind::Texture`].
     #[must_use]
     pub fn with_texture(self, texture: Option<String>) -> Self {
         Self { texture, ..self }
+    }
+
+    /// Refuses [`MapKind::Texture`] without the place of its texture, and a place without this map.
+    ///
+    /// # Errors
+    ///
+    /// [`BakeError::Texture`].
+    pub fn check(&self) -> Result<(), BakeError> {
+        let is_chosen = self.maps.has(MapKind::Texture);
+        if is_chosen == self.texture.is_some() { Ok(()) } else { Err(BakeError::Texture { is_chosen }) }
     }
 }
 
@@ -59,6 +70,7 @@ pub struct HighModel<'a> {
     parts: Vec<HighPart<'a>>,
     textures: Textures,
     color_textures: ColorTextures,
+    warnings: Vec<String>,
     /// The names of the document's materials, with one for primitives without a material.
     material_names: Vec<Arc<str>>,
     mesh_names: Vec<Arc<str>>,
@@ -76,7 +88,8 @@ struct HighPart<'a> {
 }
 
 impl<'a> HighModel<'a> {
-    /// Reads the model. `corners`: [`Document::corners`] of the same document. Errors: invalid data.
+    /// Reads the model. `corners`: [`Document::corners`] of the same document. Errors: invalid data; factors
+    /// of materials that are not finite.
     ///
     /// A normal map that cannot be used is left out; [`HighModel::warnings`] says why.
     pub fn read(
@@ -117,10 +130,14 @@ impl<'a> HighModel<'a> {
                 parts.push(HighPart { name, primitive, map, content, labels });
             }
         }
-        textures.warnings.append(&mut color_textures.warnings);
+        let mut warnings = std::mem::take(&mut textures.warnings);
+        warnings.append(&mut color_textures.warnings);
+        let placed = corners.iter().filter(|corners| instance_count(corners) > 0 && !corners.is_empty());
+        warnings.extend(warnings_of_materials(document, placed, options.maps));
+        warnings.extend(warnings_of_content(document, &parts, options));
         let mesh_names = document.meshes().iter().map(|mesh| mesh.name.clone().unwrap_or_default()).collect();
         let file = document.name().to_owned();
-        Ok(Self { file, parts, textures, color_textures, material_names, mesh_names, part_names })
+        Ok(Self { file, parts, textures, color_textures, warnings, material_names, mesh_names, part_names })
     }
 
     /// Reads several models. `corners`: [`Document::corners`] of each document. Errors: as of
@@ -197,9 +214,16 @@ impl<'a> HighModel<'a> {
         self.parts.iter().filter(|part| part.map.is_some()).count()
     }
 
-    /// Why normal maps and textures were left out, one sentence each.
+    /// Why normal maps and textures were left out, and what maps do not show of the materials, one sentence
+    /// each.
     pub fn warnings(&self) -> &[String] {
-        &self.textures.warnings
+        &self.warnings
+    }
+
+    /// The last of the modes of alpha that materials in the scene have: what a material needs that shows
+    /// all of them. Primitives without a material are opaque.
+    pub fn alpha_mode(&self) -> AlphaMode {
+        self.parts.iter().map(|part| part.content.alpha.0).max().unwrap_or_default()
     }
 
     fn mesh_error(&self, name: &PrimitiveName, error: BakeError) -> Error {
@@ -215,10 +239,36 @@ impl<'a> HighModel<'a> {
         self.parts.iter().map(|part| &*part.primitive.part_name)
     }
 
+    pub(super) fn positions(&self) -> impl Iterator<Item = [f32; 3]> {
+        self.parts.iter().flat_map(|part| part.primitive.positions.iter().copied())
+    }
+
     /// The number of primitives without normals, whose triangles are flat.
     pub fn flat_count(&self) -> usize {
         self.parts.iter().filter(|part| part.primitive.normals.is_none()).count()
     }
+}
+
+/// What chosen maps show nothing of.
+fn warnings_of_content(
+    document: &Document,
+    parts: &[HighPart<'_>],
+    options: &HighModelOptions,
+) -> Vec<String> {
+    let file = document.name();
+    let mut warnings = Vec::new();
+    if options.maps.has(MapKind::VertexColor) && !parts.iter().any(|part| part.content.has_colors()) {
+        warnings.push(format!("{file}: has no vertex colours, so that vertex-color is white there"));
+    }
+    if let Some(place) = &options.texture
+        && !parts.iter().any(|part| part.content.has_chosen_texture())
+    {
+        warnings.push(format!(
+            "{file}: no material has a texture at {place}, so that the map texture is empty there; name the \
+             place as in the file's JSON, such as occlusionTexture"
+        ));
+    }
+    warnings
 }
 
 /// The names of a document's materials, and one for primitives without a material.

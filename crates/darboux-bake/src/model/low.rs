@@ -12,7 +12,7 @@ use super::instance::{PrimitiveInstance, instances_of_meshes};
 use super::stored::StoredPrimitive;
 use crate::LowSurface;
 use crate::text::listed;
-use crate::vector::{box_diagonal, box_extents};
+use crate::vector::box_diagonal;
 
 /// How the low model is read.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -51,6 +51,7 @@ impl LowModelOptions {
 /// which skinned meshes are stored.
 #[derive(Debug)]
 pub struct LowModel<'a> {
+    file: &'a str,
     parts: Vec<LowPart<'a>>,
     /// Meshes with more than one instance in the scene. The first one is baked.
     pub repeated_meshes: usize,
@@ -88,6 +89,7 @@ impl<'a> LowModel<'a> {
     ) -> Result<Self, Error> {
         let (instances, materials) = (instances_of_meshes(document)?, document.materials()?);
         let mut model = Self {
+            file: document.name(),
             parts: Vec::new(),
             repeated_meshes: 0,
             without_uvs: 0,
@@ -160,6 +162,12 @@ impl<'a> LowModel<'a> {
         Ok(surfaces)
     }
 
+    /// The number of baked primitives whose node, with those above it, mirrors them.
+    pub(crate) fn mirrored_count(&self) -> usize {
+        let transforms = self.parts.iter().filter_map(|part| part.primitive.transform.as_ref());
+        transforms.filter(|transform| transform.orientation() < 0.0).count()
+    }
+
     /// The baked primitives, and the UV set n of `TEXCOORD_n` of each.
     pub fn primitives(&self) -> impl Iterator<Item = (&PrimitiveName, usize)> {
         self.parts.iter().map(|part| (&part.name, part.uv_set))
@@ -175,31 +183,48 @@ impl<'a> LowModel<'a> {
         self.parts.iter().map(|part| part.colors.as_deref())
     }
 
+    /// The name of the document.
+    pub fn file(&self) -> &str {
+        self.file
+    }
+
+    /// Whether another model has the same surfaces, bit for bit, in the same primitives.
+    pub fn has_surfaces_of(&self, other: &LowModel<'_>) -> bool {
+        let parts = self.parts.iter().zip(&other.parts);
+        self.parts.len() == other.parts.len() && parts.into_iter().all(|(part, other)| part.is_equal(other))
+    }
+
     /// The diagonal of the box around the model, in units of its positions.
     pub fn diagonal(&self) -> f64 {
         box_diagonal(self.positions())
     }
 
-    /// The length of the box around the model over its width, the second largest of its extents; infinite for
-    /// a line, 1 for a point.
-    pub fn elongation(&self) -> f64 {
-        let mut extents = box_extents(self.positions());
-        extents.sort_by(f64::total_cmp);
-        let [_, width, length] = extents;
-        if length > 0.0 { length / width } else { 1.0 }
-    }
-
-    fn positions(&self) -> impl Iterator<Item = [f32; 3]> {
+    pub(super) fn positions(&self) -> impl Iterator<Item = [f32; 3]> {
         self.parts.iter().flat_map(|part| part.primitive.positions.iter().copied())
     }
 }
 
 impl LowPart<'_> {
+    fn is_equal(&self, other: &LowPart<'_>) -> bool {
+        let places = |part: &LowPart<'_>| (part.name.mesh, part.name.primitive, part.uv_set);
+        places(self) == places(other)
+            && self.primitive.indices == other.primitive.indices
+            && same_bits(&self.primitive.positions, &other.primitive.positions)
+            && same_bits(&self.normals, &other.normals)
+            && same_bits(&self.uvs, &other.uvs)
+            && same_bits(&self.tangents, &other.tangents)
+    }
+
     fn mesh(&self) -> Result<Mesh<'_>, Error> {
         let indices = Indices::U32(&self.primitive.indices);
         Mesh::triangles(&*self.primitive.positions, &*self.normals, &*self.uvs, indices)
             .map_err(|source| Error::Mesh { file: self.file.to_owned(), at: self.name.path(), source })
     }
+}
+
+fn same_bits<const N: usize>(a: &[[f32; N]], b: &[[f32; N]]) -> bool {
+    let [a, b] = [a, b].map(|rows| rows.as_flattened().iter().map(|x| x.to_bits()));
+    a.eq(b)
 }
 
 fn without_normals(document: &Document, name: &PrimitiveName) -> Error {

@@ -12,6 +12,7 @@ use super::decoded_bytes::DecodedBytes;
 use super::image_key::ImageKey;
 use super::instance::PrimitiveInstance;
 use super::stored::StoredPrimitive;
+use super::stored_material::not_finite;
 use crate::NormalTexture;
 
 /// A normal map on an instance of a primitive.
@@ -72,6 +73,9 @@ impl Textures {
         };
         let Some(material) = materials.get(index).cloned() else { return Ok(None) };
         let Some(used) = &material.normal_texture else { return Ok(None) };
+        if !material.normal_scale.is_finite() {
+            return Err(not_finite(document, index, "normalTexture.scale"));
+        }
         let colors = document.texture_of_material(index, "pbrMetallicRoughness.baseColorTexture")?;
         let is_colors = |colors: &TextureUse| ImageKey::of(document, colors) == ImageKey::of(document, used);
         if used.image.is_some() && colors.as_ref().is_some_and(is_colors) {

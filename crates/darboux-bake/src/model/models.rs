@@ -5,8 +5,11 @@ use std::fmt;
 use darboux::choice;
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners};
+use darboux_io::words::counted_if_any;
 
+use super::misfit;
 use super::{HighModel, HighModelOptions, LowModel, LowModelOptions, group_by_name};
+use crate::vector::box_corners;
 use crate::{BakeError, HighSurface, LowSurface};
 
 /// Which high parts the rays of a low part can hit.
@@ -85,24 +88,54 @@ impl<'a> Models<'a> {
         Ok(ModelSurfaces { low, highs, warnings })
     }
 
-    /// What was left out of the models, and what they share, one sentence each.
+    /// Why rays of the low model may miss the high ones, judged by the boxes around them, and what to do: a
+    /// clause; none where the boxes fit.
+    pub fn misfit(&self) -> Option<String> {
+        let high = self.highs.iter().flat_map(HighModel::positions);
+        misfit::of_boxes(box_corners(self.low.positions()), box_corners(high))
+    }
+
+    /// What was left out of the models, what they share, and what is flat, one sentence each.
     pub fn warnings(&self) -> Vec<String> {
         let Self { low, highs } = self;
-        let mut warnings: Vec<String> = highs.iter().flat_map(HighModel::warnings).cloned().collect();
-        if low.without_uvs > 0 {
-            warnings.push(format!(
-                "{} primitives of the low model have no UVs and are not baked",
-                low.without_uvs
-            ));
-        }
-        if low.materials.len() > 1 {
-            let count = low.materials.len();
-            warnings.push(format!(
-                "the {count} materials of the low model share one map; where their charts \
-                 overlap, the first triangle wins"
-            ));
-        }
-        warnings
+        let file = low.file();
+        let of_low = [
+            counted_if_any(
+                low.repeated_meshes,
+                "mesh is in the scene more than once; its first place is baked",
+                "meshes are in the scene more than once; their first places are baked",
+            ),
+            counted_if_any(
+                low.without_uvs,
+                "primitive has no UVs of the chosen set and is not baked",
+                "primitives have no UVs of the chosen set and are not baked",
+            ),
+            counted_if_any(
+                Some(low.materials.len()).filter(|count| *count > 1).unwrap_or_default(),
+                "material",
+                "materials share this map, which is right only where their charts lie beside each other; \
+                 choose one with the option material where each has a map of its own",
+            ),
+            counted_if_any(
+                low.mirrored_count(),
+                "part lies below a node that mirrors it, where some renderers turn the bitangent and others, \
+                 such as three.js, do not, so that its normal map is right in some of them only; apply the \
+                 scale of the node to the mesh",
+                "parts lie below nodes that mirror them, where some renderers turn the bitangent and others, \
+                 such as three.js, do not, so that their normal maps are right in some of them only; apply the \
+                 scales of the nodes to the meshes",
+            ),
+        ];
+        let of_low = of_low.into_iter().flatten().map(|sentence| format!("{file}: {sentence}"));
+        let flat: usize = highs.iter().map(HighModel::flat_count).sum();
+        let of_high = counted_if_any(
+            flat,
+            "primitive of the high models has no normals, so every triangle is flat, as glTF requires; \
+             darboux normals makes smooth ones",
+            "primitives of the high models have no normals, so every triangle is flat, as glTF requires; \
+             darboux normals makes smooth ones",
+        );
+        of_low.chain(of_high).chain(highs.iter().flat_map(HighModel::warnings).cloned()).collect()
     }
 }
 

@@ -546,7 +546,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__render)
-            opts="-o -q -h --output --view --tangents --against --split --lines --length --seams --layout --mistakes --mesh --size --camera --look --background --no-legend --force --allow-outside --memory-limit --polygons --json --quiet --help"
+            opts="-o -q -h --output --view --tangents --against --split --lines --length --seams --ground --layout --mistakes --mesh --size --camera --look --background --no-legend --force --allow-outside --memory-limit --polygons --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0

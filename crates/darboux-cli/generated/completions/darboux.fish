@@ -490,7 +490,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand bake" -l map -d 'The map
 object-normal\t'Normals in the space of the scene'
 height\t'The distance of the high surface from the low one; half grey is none'
 ao\t'Ambient occlusion: white is open'
-position\t'Positions, from 0 to 1 in the box around the high model'
+position\t'Positions, from 0 to 1 in the box around the high models'
 bent-normal\t'The mean of the open directions, in tangent space'
 object-bent-normal\t'The mean of the open directions, in the space of the scene'
 thickness\t'The mean distance to the other side: black is thin'
@@ -498,7 +498,7 @@ curvature\t'Convex is brighter than half grey, concave darker; white curves with
 id\t'A colour for each material, mesh or part of the high models'
 vertex-color\t'The colours of the high model\'s vertices'
 base-color\t'The base colours that the high models show'
-opacity\t'The alpha of the base colour'
+opacity\t'The alpha of the base colour, as the alpha mode of the material says'
 roughness\t'The roughness of the high models\' materials'
 metalness\t'The metalness of the high models\' materials'
 emission\t'The light that the high models emit'
@@ -540,7 +540,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand bake" -l texture -d 'The
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l world-direction -d 'The direction of the map world-direction, along the axes of glTF, where y is up' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l distance -d 'Rays along the interpolated normals: how far outside they begin, and how far inside they end' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l cage-offset -d 'Rays from a cage: the low model, moved outwards by this distance along smooth normals, so that hard edges leave no gaps; they end as far inside' -r
-complete -c darboux -n "__fish_darboux_using_subcommand bake" -l cage -d 'Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as --cage-offset would' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l cage -d 'Rays from a cage that is a file: the low model with its vertices moved; they end as far inside as --cage-offset says' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l auto-cage -d 'Rays from a cage that is made for the models: at every vertex as close as all but a SHARE of the rays around allows, 0.001 by default' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l skew -d 'Turn rays towards the normals of the low model\'s triangles: by an AMOUNT from 0 to 1, or by a painted IMAGE over its UVs, white where rays follow the triangle\'s normal and black where they follow the smooth one' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l max-misses -d 'Fail, and write nothing, if the rays of more than this SHARE of the texels hit nothing; without it they are a warning, unless all miss' -r
@@ -657,6 +657,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand render" -l polygons -d '
 fan\t'all triangles share the first corner; concave faces are cut into ears'
 ears\t'ears are cut off in the order of corners'"
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l seams -d 'Draw mirrored seams: the edges across which the sign w changes'
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l ground -d 'Stand the lit model on a ground that shows its shadow, as the viewer does'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l no-legend -d 'Draw no legend and no names of the two sides'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l force -d 'Replace a picture that exists'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'

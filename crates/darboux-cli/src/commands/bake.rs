@@ -16,6 +16,7 @@ mod open;
 mod outputs;
 mod page;
 mod pictures;
+mod ranges;
 mod report;
 mod run;
 mod seconds;

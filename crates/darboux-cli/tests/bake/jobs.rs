@@ -290,6 +290,28 @@ fn suffixes_and_tiles_go_together() {
     assert!(run(&out.join("all.%UDIM%.png"), &[]).exits(2).stderr.contains("write %NAME% in the name"));
 }
 
+/// A folder of pairs becomes one of textured models.
+#[test]
+fn models_of_pairs_lie_in_their_folder_with_their_images() {
+    let pair = Pair::new();
+    for (name, of) in [("crate_low.glb", "low.glb"), ("crate_high.glb", "high.glb")] {
+        fs::copy(pair.path(of), pair.path(name)).expect("a file");
+    }
+    let (folder, out) = (pair.folder.path(), pair.path("models"));
+    let run = |model: &Path| {
+        let all = ["bake", text(folder), "--suffixes", "--size", "8", "--cage-offset", "1", "--write-model"];
+        darboux(&[&all[..], &[text(model)]].concat())
+    };
+    let told = run(&out).exits(0).stderr;
+    let line = format!("{}, {}", text(&out.join("crate.baked.glb")), text(&out.join("crate.baked.*.png")));
+    assert!(told.contains(&line), "{told}");
+    assert_eq!(names_in(&out), ["crate.baked.ao.png", "crate.baked.glb", "crate.baked.normal.png"]);
+    let refused = run(&out.join("all.glb")).exits(2).stderr;
+    assert!(refused.contains("all pairs would write it"), "{refused}");
+    run(&out.join("%NAME%_textured.glb")).exits(0);
+    assert!(out.join("crate_textured.normal.png").exists());
+}
+
 #[test]
 fn a_folder_is_baked_by_suffixes() {
     let pair = Pair::new();
@@ -303,6 +325,7 @@ fn a_folder_is_baked_by_suffixes() {
         ("lid_high.glb", &high),
         ("lid_cage.glb", &cage),
         ("alone_low.glb", &low),
+        ("crate_highlight.glb", &high),
     ] {
         fs::write(pair.path(name), model).expect("a file");
     }

@@ -6,6 +6,7 @@ mod conflicts;
 mod interrupts;
 mod jobs;
 mod maps;
+mod materials;
 mod models;
 mod page;
 mod pair;

@@ -47,12 +47,8 @@ fn several_maps_share_a_run() {
     assert_eq!(pair.texel("map.ao.png").0, [1.0]);
     let [x, y, z] =
         [0, 1, 2].map(|axis| [0, 1].map(|end| maps[4]["range"][axis][end].as_f64().expect("a number")));
-    assert!(
-        near(&x, &[1.0 / 32.0, 31.0 / 32.0], 1e-6)
-            && near(&y, &x, 1e-6)
-            && near(&z, &[1.0 / 64.0, 31.0 / 64.0], 1e-6)
-    );
-    assert!(near(&pair.texel("map.position.png").0, &[0.0, 1.0, 0.0], 1e-4));
+    assert_eq!((x, y, z), ([0.0, 1.0], [0.0, 1.0], [0.0, 0.5]));
+    assert!(near(&pair.texel("map.position.png").0, &[1.0 / 32.0, 31.0 / 32.0, 1.0 / 32.0], 1e-4));
     assert_eq!((&report["counts"]["rays"], &report["counts"]["missed_texels"]), (&256.into(), &0.into()));
     assert_eq!(report["rays"], json!({"kind": "cage", "offset": 1.0, "is_default": false}));
 }
@@ -138,7 +134,8 @@ fn wrong_use_is_refused() {
     says(&["--samples", "5"], 2, "expected a square number");
     says(&["--bits", "12"], 2, "expected 8 or 16");
     says(&["--map", "curvy"], 2, "possible values");
-    says(&["--map", "texture"], 2, "--texture names the place");
+    says(&["--map", "texture"], 2, "the map texture needs the option texture: the place");
+    says(&["--texture", "occlusionTexture"], 2, "the option texture is for the map texture");
     says(&["--ao-falloff", "linear"], 2, "--ao-distance");
     says(&["--curvature-radius", "0texels"], 2, "texels such as 4texels");
     says(&["--uv-set", "3"], 1, "no triangles have TEXCOORD_3, onto which to bake; choose one of TEXCOORD_0");
@@ -318,4 +315,16 @@ fn each_udim_tile_gets_an_image() {
     assert_eq!((resumed(), resumed()), (json!(0), json!(1)));
     fs::remove_file(pair.path("j.1002.png")).expect("a map");
     assert_eq!(resumed(), 0);
+}
+
+/// A map of what no high model has is told.
+#[test]
+fn maps_of_nothing_are_told() {
+    let pair = Pair::new();
+    painted_high(&pair);
+    let told = |more: &[&str]| pair.bake(&[&["--force"], more].concat()).exits(0).stderr;
+    assert!(told(&["--map", "vertex-color"]).contains("high.glb: has no vertex colours"));
+    let none = told(&["--map", "texture", "--texture", "specular"]);
+    assert!(none.contains("high.glb: no material has a texture at specular"), "{none}");
+    assert!(!told(&["--map", "base-color"]).contains("vertex colours"));
 }

@@ -240,16 +240,31 @@ fn tangents_of_another_uv_set_are_computed() {
 #[test]
 fn a_model_that_is_low_and_high_is_warned_about_once() {
     let pair = Pair::new();
-    let broken = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
-        json["extensionsUsed"] = json!(["EXT_unheard_of"]);
-    });
-    fs::write(pair.path("low.glb"), broken).expect("a file");
-    let [low, map] = ["low.glb", "map.png"].map(|name| pair.path(name));
+    let plate =
+        "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n";
+    fs::write(pair.path("low.obj"), plate).expect("a file");
+    let [low, map] = ["low.obj", "map.png"].map(|name| pair.path(name));
     let line = ["bake", text(&low), "--high", text(&low), "-o", text(&map), "--size", "8", "--json"];
     let report = darboux(&line).exits(0).json();
-    let warnings: Vec<String> =
-        report["warnings"].as_array().expect("a list").iter().map(Value::to_string).collect();
-    assert_eq!(warnings.iter().collect::<std::collections::HashSet<_>>().len(), warnings.len());
+    let warnings = report["warnings"].as_array().expect("a list");
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    assert!(warnings[0].as_str().is_some_and(|warning| warning.contains("gone.mtl")), "{warnings:?}");
+}
+
+/// Renderers do not agree below a node that mirrors.
+#[test]
+fn low_parts_below_mirroring_nodes_are_warned_about() {
+    let pair = Pair::new();
+    let told = |scale: [i32; 3]| {
+        let low = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| json["nodes"][0]["scale"] = json!(scale));
+        fs::write(pair.path("low.glb"), low).expect("a file");
+        let high =
+            edited(&plate([0.0, 0.5], &["POSITION"], 1.0), |json| json["nodes"][0]["scale"] = json!(scale));
+        fs::write(pair.path("high.glb"), high).expect("a file");
+        let run = pair.bake(&["--force"]).exits(0);
+        run.stderr.contains("low.glb: 1 part lies below a node that mirrors it")
+    };
+    assert_eq!([[1, 1, 1], [-1, 1, 1], [-1, -1, 1], [1, 1, -1]].map(told), [false, true, false, true]);
 }
 
 #[test]
@@ -315,23 +330,7 @@ fn a_model_alone_gets_the_maps_of_a_material() {
         let all = ["bake", text(&low), "--high", text(&high), "--size", "16", "--cage-offset", "1"];
         darboux(&[&all, more].concat())
     };
-    // What makes the colours of the model others than those of the high one is told.
-    let healthy = fs::read(&low).expect("a model");
-    let colored = edited(&healthy, |json| {
-        let attributes = &mut json["meshes"][0]["primitives"][0]["attributes"];
-        attributes["COLOR_0"] = attributes["NORMAL"].clone();
-    });
-    fs::write(&low, colored).expect("a file");
-    let told = bake(&["--write-model", text(&pair.path("plain.glb"))]).exits(0).stderr;
-    assert!(told.contains("white metal") && told.contains("low.glb: has vertex colours"), "{told}");
-    fs::write(&low, healthy).expect("a file");
     painted_high(&pair);
-    let told = bake(&["--write-model", text(&pair.path("painted.glb"))]).exits(0).stderr;
-    assert!(!told.contains("white metal") && !told.contains("vertex colours"), "{told}");
-    let names = |report: &Value| -> Vec<String> {
-        let maps = report["maps"].as_array().expect("maps").iter();
-        maps.map(|map| map["map"].as_str().expect("a name").to_owned()).collect()
-    };
     let of_material = ["normal", "ao", "base-color", "roughness", "metalness", "emission"];
     let report = bake(&["--write-model", text(&model), "--json"]).exits(0).json();
     assert_eq!(names(&report), of_material);
@@ -353,11 +352,192 @@ fn a_model_alone_gets_the_maps_of_a_material() {
     assert_eq!(names(&one.exits(0).json()), ["normal"]);
     for (more, words) in [
         (&["-o", text(&model)][..], "--write-model writes a model with its maps"),
-        (&[], "name the map with -o, or a model with its maps with --write-model"),
+        (&[], "name the map with --output (-o), or a model with its maps with --write-model"),
     ] {
         let refused = bake(more).exits(2).stderr;
         assert!(refused.contains(words), "{refused}");
     }
+}
+
+/// The names of the maps of a report.
+fn names(report: &Value) -> Vec<String> {
+    let maps = report["maps"].as_array().expect("maps").iter();
+    maps.map(|map| map["map"].as_str().expect("a name").to_owned()).collect()
+}
+
+/// A plate with vertex colours.
+fn colored_plate(height: f32) -> Vec<u8> {
+    edited(&plate([0.0, 0.0], &FULL, height), |json| {
+        let attributes = &mut json["meshes"][0]["primitives"][0]["attributes"];
+        attributes["COLOR_0"] = attributes["NORMAL"].clone();
+    })
+}
+
+/// A sculpture has no material, and glTF's own is white metal, which would replace that of the low model.
+#[test]
+fn high_models_without_materials_leave_those_of_the_low_model() {
+    let pair = Pair::new();
+    fs::write(pair.path("low.glb"), colored_plate(1.0)).expect("a file");
+    let model = pair.path("model.glb");
+    let bake = |more: &[&str]| {
+        let line = [&["--force", "--json", "--write-model", text(&model)], more].concat();
+        let run = pair.bake(&line).exits(0);
+        let primitive = json_of(&model)["meshes"][0]["primitives"][0].clone();
+        (names(&run.json()), run.stderr, primitive["attributes"]["COLOR_0"].is_null())
+    };
+    let (maps, told, is_without_colors) = bake(&["--map", "material"]);
+    assert_eq!((maps, is_without_colors), (vec!["normal".to_owned(), "ao".to_owned()], false));
+    let left_out = "no materials, so base-color, roughness, metalness, emission are not baked";
+    assert!(told.contains(left_out) && !told.contains("white metal"), "{told}");
+    // What is named is baked.
+    let (maps, told, is_without_colors) = bake(&["--map", "base-color,roughness"]);
+    assert_eq!((maps, is_without_colors), (vec!["base-color".to_owned(), "roughness".to_owned()], true));
+    assert_eq!(told.matches("white metal").count(), 1, "{told}");
+    assert!(told.contains("low.glb: the written model is without its vertex colours"), "{told}");
+    // Vertex colours are colours.
+    fs::write(pair.path("high.glb"), colored_plate(1.0)).expect("a file");
+    assert_eq!(bake(&["--map", "material"]).0, ["normal", "ao", "base-color"]);
+}
+
+/// A texture whose other channels are not baked would lose them.
+#[test]
+fn channels_of_the_low_model_are_not_lost() {
+    let pair = Pair::new();
+    painted_high(&pair);
+    let model = pair.path("model.glb");
+    let bake = |maps: &str, material: Value| {
+        let low = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+            json["meshes"][0]["primitives"][0]["material"] = 0.into();
+            json["materials"] = json!([material]);
+            json["textures"] = json!([{}]);
+        });
+        fs::write(pair.path("low.glb"), low).expect("a file");
+        pair.bake(&["--force", "--map", maps, "--write-model", text(&model)])
+    };
+    let textured =
+        |name: &str, mode: &str| json!({"alphaMode": mode, "pbrMetallicRoughness": {name: {"index": 0}}});
+    for (maps, material, missing) in [
+        (
+            "roughness",
+            textured("metallicRoughnessTexture", "OPAQUE"),
+            "has metalness beside what is baked, which would be lost; add metalness to --map",
+        ),
+        ("metalness,ao", textured("metallicRoughnessTexture", "OPAQUE"), "add roughness to --map"),
+        (
+            "opacity",
+            textured("baseColorTexture", "BLEND"),
+            "has colours beside what is baked, which would be lost; add base-color",
+        ),
+        (
+            "base-color",
+            textured("baseColorTexture", "MASK"),
+            "has alpha beside what is baked, which would be lost; add opacity",
+        ),
+    ] {
+        let refused = bake(maps, material).exits(1).stderr;
+        assert!(refused.contains(missing), "{maps}: {refused}");
+    }
+    assert!(!model.exists());
+    bake("base-color", textured("baseColorTexture", "OPAQUE")).exits(0);
+    bake("roughness", json!({})).exits(0);
+    // A material that says otherwise does not keep baked alpha from showing.
+    bake(
+        "base-color,opacity",
+        json!({"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.25]}}),
+    )
+    .exits(0);
+    let material = &json_of(&model)["materials"][0];
+    assert!(material["alphaMode"].is_null(), "{material}");
+    assert_eq!(material["pbrMetallicRoughness"]["baseColorFactor"], json!([1, 1, 1, 1]));
+}
+
+/// A written model has the tangents of the map, and keeps those of other materials and of maps that stay.
+#[test]
+fn tangents_of_other_maps_stay() {
+    let pair = Pair::new();
+    let low = edited(&plate([0.0, 0.0], &["POSITION", "NORMAL", "TEXCOORD_0", "TANGENT"], 1.0), |json| {
+        let primitive = json["meshes"][0]["primitives"][0].clone();
+        json["meshes"][0]["primitives"] = json!([primitive, primitive]);
+        json["meshes"][0]["primitives"][0]["material"] = 0.into();
+        json["meshes"][0]["primitives"][1]["material"] = 1.into();
+        json["materials"] = json!([{}, {}]);
+    });
+    fs::write(pair.path("low.glb"), &low).expect("a file");
+    let model = pair.path("model.glb");
+    let tangents = |more: &[&str]| {
+        pair.bake(
+            &[&["--force", "--material", "0", "--method", "mikktspace", "--write-model", text(&model)], more]
+                .concat(),
+        )
+        .exits(0);
+        let json = json_of(&model);
+        [0, 1].map(|primitive| json["meshes"][0]["primitives"][primitive]["attributes"]["TANGENT"].as_u64())
+    };
+    let [of_first, of_second] = tangents(&[]);
+    assert!(of_first != of_second && of_second.is_some(), "{of_first:?} {of_second:?}");
+    let [of_first, of_second] = tangents(&["--map", "ao"]);
+    assert_eq!(of_first, of_second);
+}
+
+/// What the materials of the low model keep is told by name.
+#[test]
+fn what_a_written_model_keeps_is_told() {
+    let pair = Pair::new();
+    let low = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+        let extensions =
+            json!({"KHR_materials_unlit": {}, "KHR_materials_sheen": {}, "KHR_materials_ior": {}});
+        json["meshes"][0]["primitives"][0]["material"] = 0.into();
+        json["materials"] = json!([{"extensions": extensions}]);
+        json["extensionsUsed"] = json!(["KHR_materials_unlit", "KHR_materials_sheen", "KHR_materials_ior"]);
+    });
+    fs::write(pair.path("low.glb"), low).expect("a file");
+    let model = pair.path("model.glb");
+    let told = pair.bake(&["--write-model", text(&model)]).exits(0).stderr;
+    assert!(told.contains("is without KHR_materials_unlit, with which"), "{told}");
+    assert!(told.contains("keeps KHR_materials_sheen of its materials"), "{told}");
+    assert!(json_of(&model)["materials"][0]["extensions"]["KHR_materials_unlit"].is_null());
+    assert!(!pair.bake(&["--force"]).exits(0).stderr.contains("KHR_materials"));
+}
+
+/// The alpha of a written model counts as that of the high models.
+#[test]
+fn cut_outs_stay_cut_outs() {
+    let pair = Pair::new();
+    let model = pair.path("model.glb");
+    let mode = |material: Value| {
+        let high = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+            json["meshes"][0]["primitives"][0]["material"] = 0.into();
+            json["materials"] = json!([material]);
+        });
+        fs::write(pair.path("high.glb"), high).expect("a file");
+        pair.bake(&["--force", "--map", "base-color,opacity", "--write-model", text(&model)]).exits(0);
+        let material = &json_of(&model)["materials"][0];
+        (material["alphaMode"].as_str().map(str::to_owned), material["alphaCutoff"].as_f64())
+    };
+    let with = |mode: &str| json!({"alphaMode": mode, "alphaCutoff": 0.8, "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]}});
+    assert_eq!(mode(with("OPAQUE")), (None, None));
+    assert_eq!(mode(with("MASK")), (Some("MASK".to_owned()), Some(0.5)));
+    assert_eq!(mode(with("BLEND")), (Some("BLEND".to_owned()), None));
+}
+
+/// A black texture would be read for nothing, and a light of the old material must not go on.
+#[test]
+fn a_model_without_light_gets_no_texture_of_it() {
+    let pair = Pair::new();
+    let with_material = |path: &str, material: Value| {
+        let file = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+            json["meshes"][0]["primitives"][0]["material"] = 0.into();
+            json["materials"] = json!([material]);
+        });
+        fs::write(pair.path(path), file).expect("a file");
+    };
+    with_material("low.glb", json!({"emissiveFactor": [1, 0, 0]}));
+    with_material("high.glb", json!({}));
+    let model = pair.path("model.glb");
+    pair.bake(&["--map", "material", "--write-model", text(&model)]).exits(0);
+    let material = &json_of(&model)["materials"][0];
+    assert!(material["normalTexture"].is_object(), "{material}");
+    assert!(material["emissiveTexture"].is_null() && material["emissiveFactor"].is_null(), "{material}");
 }
 
 /// Exporters that lose the names of images give all textures of a material the first one.

@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::json;
 
 use crate::common::{asset, darboux, text};
-use crate::pair::{FULL, Pair, named_plate, near, plate, rgb};
+use crate::pair::{FULL, Pair, edited, named_plate, near, plate, rgb};
 
 #[test]
 fn the_default_distance_follows_the_size_of_the_model() {
@@ -213,9 +213,8 @@ fn rays_are_straightened_by_an_amount_or_a_painted_image() {
         let distance = ["--distance", "2,2", "--map", "position", "--bits", "16"];
         let output = pair.path(name);
         let all = ["bake", text(&low_path), "--high", text(&high_path), "--size", "16"];
-        let run =
-            darboux(&[&all[..], &["-o", text(&output), "--json"], &distance[..], skew].concat()).exits(0);
-        run.json()["maps"][0]["range"][0].clone()
+        darboux(&[&all[..], &["-o", text(&output)], &distance[..], skew].concat()).exits(0);
+        fs::read(&output).expect("a map")
     };
     let paint = |name: &str, code: u8| {
         let path = pair.path(name);
@@ -260,4 +259,69 @@ fn many_misses_are_a_warning_and_an_error_where_that_was_asked_for() {
     assert!(run.stderr.contains("low.glb: most of the map shows nothing"), "{}", run.stderr);
     fs::write(&job, format!("{entry}max-misses = 0.5\nforce = true\n")).expect("a file");
     darboux(&["bake", text(&job)]).exits(1);
+}
+
+/// Models of two programs often have other units, axes or places, for which no distance of rays is a cure.
+#[test]
+fn models_that_do_not_fit_are_told_apart() {
+    let pair = Pair::new();
+    let obj = |name: &str, corners: &[[f32; 3]]| {
+        let mut text: String = corners.iter().map(|[x, y, z]| format!("v {x} {y} {z}\n")).collect();
+        text += "f 1 2 3 4\n";
+        fs::write(pair.path(name), text).expect("a file");
+    };
+    let bake = |high: &str| {
+        let [low, high, map] = ["low.glb", high, "map.png"].map(|name| pair.path(name));
+        darboux(&["bake", text(&low), "--high", text(&high), "-o", text(&map), "--size", "8", "--force"])
+    };
+    let square = |by: f32, x: f32| {
+        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[u, v]| [x + by * u, by * v, 0.3])
+    };
+    obj("large.obj", &square(100.0, 0.0));
+    assert!(
+        bake("large.obj")
+            .exits(1)
+            .stderr
+            .contains("100 times as large as the low one; export both in one unit")
+    );
+    obj("beside.obj", &square(1.0, 20.0));
+    assert!(bake("beside.obj").exits(1).stderr.contains("lie beside the low one, 20.0 away"));
+    obj("turned.obj", &square(1.0, 0.0).map(|[x, y, _]| [x, 0.02, -y]));
+    assert!(bake("turned.obj").exits(1).stderr.contains("another axis up"));
+}
+
+/// A cage that was exported in another format often has its vertices in another order.
+#[test]
+fn a_cage_in_another_order_is_told() {
+    let pair = Pair::new();
+    let cage = plate([0.2, 0.2], &FULL, 1.0);
+    fs::write(pair.path("cage.glb"), &cage).expect("a file");
+    let [low, high, map, path] = ["low.glb", "high.glb", "map.png", "cage.glb"].map(|name| pair.path(name));
+    let bake = |more: &[&str]| {
+        let all = [
+            "bake",
+            text(&low),
+            "--high",
+            text(&high),
+            "-o",
+            text(&map),
+            "--size",
+            "8",
+            "--force",
+            "--cage",
+            text(&path),
+            "--json",
+        ];
+        darboux(&[&all[..], more].concat())
+    };
+    // The inner end of the rays can be chosen.
+    let run = bake(&["--cage-offset", "0.5"]).exits(0);
+    assert!(!run.stderr.contains("another order"), "{}", run.stderr);
+    let rays = run.json()["rays"].clone();
+    assert_eq!((&rays["kind"], rays["inwards"].as_f64()), (&json!("cage_file"), Some(0.5)));
+    assert!(bake(&["--distance", "1,1"]).exits(2).stderr.contains("cannot be used with"));
+    let turned = edited(&cage, |json| json["nodes"][0]["rotation"] = json!([0, 0, 1, 0]));
+    fs::write(pair.path("cage.glb"), turned).expect("a file");
+    let told = bake(&[]).stderr;
+    assert!(told.contains("are in another order: export both from one program in one format"), "{told}");
 }

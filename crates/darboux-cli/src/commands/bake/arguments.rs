@@ -3,11 +3,12 @@
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use clap::builder::{OsStringValueParser, TypedValueParser};
-use clap::{ArgGroup, Args};
 use darboux::{Choice, Convention, Method};
 use darboux_bake::{
-    Bitangent, CurvatureRadius, IdSource, MapKind, MapSet, OcclusionFalloff, OcclusionWeights, PartMatch,
+    Bitangent, CurvatureRadius, HighModelOptions, IdSource, LowModelOptions, MapKind, MapSet,
+    OcclusionFalloff, OcclusionWeights, PartMatch,
 };
 use darboux_io::SaveOptions;
 
@@ -59,7 +60,6 @@ Examples:
 
 /// What is baked, and how.
 #[derive(Args, Clone, Debug)]
-#[command(group = ArgGroup::new("rays").args(["distance", "cage_offset", "cage"]))]
 pub struct BakeArguments {
     #[command(flatten)]
     pub given: Given,
@@ -128,12 +128,12 @@ pub struct BakeArguments {
     ///
     /// Without any of these options the distance is 2 % of the diagonal of the low model's box, and is
     /// printed.
-    #[arg(long, value_name = "DISTANCE", value_parser = distance, help_heading = "Rays")]
+    #[arg(long, value_name = "DISTANCE", value_parser = distance, conflicts_with = "distance", help_heading = "Rays")]
     pub cage_offset: Option<f32>,
 
-    /// Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as
-    /// --cage-offset would
-    #[arg(long, value_name = "CAGE", help_heading = "Rays")]
+    /// Rays from a cage that is a file: the low model with its vertices moved; they end as far inside as
+    /// --cage-offset says
+    #[arg(long, value_name = "CAGE", conflicts_with = "distance", help_heading = "Rays")]
     pub cage: Option<PathBuf>,
 
     /// Rays from a cage that is made for the models: at every vertex as close as all but a SHARE of the rays
@@ -241,8 +241,9 @@ pub struct BakeArguments {
     /// Bake each NAME_low in the folder LOW from NAME_high, with the cage NAME_cage if there is one, into
     /// NAME.png in the folder of -o, or in LOW
     ///
-    /// An -o such as maps/%NAME%.%UDIM%.exr has another name for the images of each pair; so have
-    /// --write-model, --report and the others.
+    /// An -o such as maps/%NAME%.%UDIM%.exr has another name for the images of each pair. --write-model,
+    /// --report and the other results take a folder or such a name, too: --write-model models alone writes
+    /// models/NAME.baked.glb with all textures of a material, and their images beside it.
     #[arg(long, help_heading = "Jobs")]
     pub suffixes: bool,
 
@@ -390,6 +391,22 @@ impl BakeArguments {
     pub fn baked_maps(&self) -> MapSet {
         let packed = self.pack.iter().flat_map(|pack| &pack.maps).copied();
         MapSet::of(&self.maps().into_iter().chain(packed).collect::<Vec<_>>())
+    }
+
+    /// What is baked of the low model.
+    pub fn low_options(&self) -> LowModelOptions {
+        LowModelOptions::default()
+            .with_uv_set(self.uv_set)
+            .with_tangents(self.method.map(Into::into))
+            .with_material(self.material)
+    }
+
+    /// What counts on the high models.
+    pub fn high_options(&self) -> HighModelOptions {
+        HighModelOptions::default()
+            .with_normal_maps(!self.no_high_maps)
+            .with_maps(self.baked_maps())
+            .with_texture(self.content.texture.clone())
     }
 
     /// Whether images of the high models are decoded.

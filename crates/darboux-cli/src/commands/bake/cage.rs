@@ -2,7 +2,7 @@
 
 use darboux::Context;
 use darboux_bake::{
-    AutoCageOptions, BakeError, HighModelOptions, LowModel, LowSurface, PreparedSurfaces, auto_cage,
+    AutoCageOptions, BakeError, LowModel, LowSurface, PreparedSurfaces, auto_cage, cage_of,
     default_cage_offset, default_cage_reach, inflated_cage, inflated_cage_by, with_cages,
 };
 use darboux_io::gltf::Document;
@@ -44,11 +44,11 @@ impl Rays {
             let reach = arguments.cage_offset.unwrap_or(default_cage_reach(low.diagonal()));
             return Self::AutoCage { share, reach, least: 0.0, most: reach, inwards: reach };
         }
-        match (arguments.distance, arguments.cage_offset, &arguments.cage) {
-            (Some([outwards, inwards]), ..) => Self::Normals { outwards, inwards },
-            (_, Some(offset), _) => Self::Cage { offset, is_default: false },
-            (_, _, Some(_)) => Self::CageFile { inwards: by_size },
-            _ => Self::Cage { offset: by_size, is_default: true },
+        let offset = arguments.cage_offset.unwrap_or(by_size);
+        match (arguments.distance, &arguments.cage) {
+            (Some([outwards, inwards]), _) => Self::Normals { outwards, inwards },
+            (None, Some(_)) => Self::CageFile { inwards: offset },
+            (None, None) => Self::Cage { offset, is_default: arguments.cage_offset.is_none() },
         }
     }
 
@@ -90,9 +90,9 @@ fn rounded(distance: f32) -> f64 {
 }
 
 /// The positions of the cages of all surfaces; empty where rays follow normals.
-pub struct Cages(pub Vec<Vec<[f32; 3]>>);
+pub struct CagePositions(pub Vec<Vec<[f32; 3]>>);
 
-impl Cages {
+impl CagePositions {
     /// Makes or reads the cages; fills in what an automatic cage has found. `file`: of `--cage`; `low`: the
     /// low surfaces of `prepared`, without cages. Errors are one sentence each.
     pub fn read(
@@ -106,7 +106,9 @@ impl Cages {
     ) -> Result<Self, String> {
         match (rays, file) {
             (Rays::Normals { .. }, _) => Ok(Self(Vec::new())),
-            (Rays::CageFile { .. }, Some(document)) => of_document(document, low).map(Self),
+            (Rays::CageFile { .. }, Some(document)) => {
+                cage_of(document, low).map(Self).map_err(|error| error.to_string())
+            }
             (Rays::AutoCage { share, reach, least, most, inwards }, _) => {
                 let cage = auto_cage(prepared, &AutoCageOptions::new(*share, *reach), context);
                 let cage = cage.map_err(|error| error.to_string())?;
@@ -143,49 +145,30 @@ impl Cages {
         low.iter().zip(model.colors()).map(cage).collect::<Result<_, String>>().map(Self)
     }
 
+    /// A warning where a cage from a file lies far from the low model, as if its vertices were in another
+    /// order. `diagonal`: of the low model.
+    pub fn warning(&self, file: &Document, low: &[LowSurface<'_>], diagonal: f64) -> Option<String> {
+        let moves = low.iter().zip(&self.0).flat_map(|(surface, cage)| {
+            let positions = surface.mesh().positions();
+            cage.iter().enumerate().map(move |(vertex, moved)| {
+                let from = positions.get(vertex);
+                let square = |axis: usize| (f64::from(moved[axis]) - f64::from(from[axis])).powi(2);
+                square(0) + square(1) + square(2)
+            })
+        });
+        let farthest = moves.fold(0.0, f64::max).sqrt();
+        (farthest > 0.5 * diagonal).then(|| {
+            format!(
+                "{}: the cage moves vertices of the low model by up to {farthest:.4}, more than half of its \
+                 diagonal, {diagonal:.4}; if that is not meant, its vertices are in another order: export both \
+                 from one program in one format",
+                file.name()
+            )
+        })
+    }
+
     /// The surfaces with their cages.
     pub fn around<'a>(&'a self, low: Vec<LowSurface<'a>>) -> Result<Vec<LowSurface<'a>>, BakeError> {
         with_cages(&low, &self.0)
     }
-}
-
-/// The positions of the cage's primitives, which must have the vertices of the low model's, in the same
-/// order.
-fn of_document(document: &Document, low: &[LowSurface<'_>]) -> Result<Vec<Vec<[f32; 3]>>, String> {
-    let sentence = |error: darboux_io::Error| error.to_string();
-    let corners = document.corners().map_err(sentence)?;
-    let cage = darboux_bake::HighModel::read(
-        document,
-        &corners,
-        &HighModelOptions::default().with_normal_maps(false),
-    )
-    .map_err(sentence)?;
-    let surfaces = cage.surfaces().map_err(sentence)?;
-    if surfaces.len() != low.len() {
-        return Err(format!(
-            "{}: the cage has {} primitives but the low model has {}; make the cage by moving the vertices \
-             of the low model only",
-            document.name(),
-            surfaces.len(),
-            low.len()
-        ));
-    }
-    let pairs = surfaces.iter().zip(low).enumerate();
-    pairs
-        .map(|(index, (cage, low))| {
-            let [found, expected] = [cage.mesh(), low.mesh()].map(|mesh| mesh.vertex_count());
-            let [cage_corners, low_corners] = [cage.mesh(), low.mesh()].map(|mesh| mesh.corner_count());
-            if found != expected || cage_corners != low_corners {
-                return Err(format!(
-                    "{}: primitive {index} of the cage has {found} vertices and {} triangles but that of the \
-                     low model has {expected} and {}; make the cage by moving the vertices of the low model \
-                     only",
-                    document.name(),
-                    cage_corners / 3,
-                    low_corners / 3
-                ));
-            }
-            Ok((0..found).map(|vertex| cage.mesh().positions().get(vertex)).collect())
-        })
-        .collect()
 }

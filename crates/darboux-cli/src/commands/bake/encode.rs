@@ -36,6 +36,15 @@ impl FileKind {
         if self == Self::Png { [8, 16] } else { [16, 32] }
     }
 
+    /// Whether files with these bits have codes between black and white, and not the numbers themselves.
+    pub fn has_codes(self, bits: u8) -> bool {
+        match self {
+            Self::Png => true,
+            Self::Exr => false,
+            Self::Tiff => bits == 16,
+        }
+    }
+
     /// Bits per channel without `--bits`: few, but more for distances and places.
     pub fn default_bits(self, map: MapKind) -> u8 {
         self.bits()[usize::from(map.content() == MapContent::Lengths)]
@@ -52,14 +61,24 @@ pub struct Encoding {
 }
 
 impl Encoding {
-    /// `texture`: the name of the texture of [`MapKind::Texture`].
-    pub fn new(map: MapKind, images: &Images, options: &BakeOptions, texture: Option<&str>) -> Self {
+    /// `texture`: the name of the texture of [`MapKind::Texture`]; `positions`: the range of each axis.
+    pub fn new(
+        map: MapKind,
+        images: &Images,
+        options: &BakeOptions,
+        texture: Option<&str>,
+        positions: &[[f32; 2]],
+    ) -> Self {
         let is_color = map == MapKind::Texture && texture.is_some_and(is_color_texture);
         let content = if is_color { MapContent::Light } else { map.content() };
         let numbers = images.numbers(map).unwrap_or_default();
         let is_opaque = map.channels() == 4 && numbers.as_chunks::<4>().0.iter().all(|texel| texel[3] == 1.0);
         let channels = if is_opaque { 3 } else { map.channels() };
-        Self { content, channels, range: range(map, content, numbers, options) }
+        let range = match map {
+            MapKind::Position => positions.to_vec(),
+            _ => range(map, content, numbers, options),
+        };
+        Self { content, channels, range }
     }
 
     /// A number of a channel, from -1 (black) to 1 (white).
@@ -158,8 +177,8 @@ fn dithered(signed: f32, threshold: f32) -> f32 {
     code / 127.5 - 1.0
 }
 
-/// What black and white mean: heights from as far inside to as far outside as rays can reach, positions the
-/// box around all of them, thickness and light up to the largest.
+/// What black and white mean: heights from as far inside to as far outside as rays can reach, thickness and
+/// light up to the largest.
 fn range(map: MapKind, content: MapContent, numbers: &[f32], options: &BakeOptions) -> Vec<[f32; 2]> {
     let largest = numbers.iter().fold(0f32, |largest, x| largest.max(x.abs()));
     match (map, content) {
@@ -167,12 +186,6 @@ fn range(map: MapKind, content: MapContent, numbers: &[f32], options: &BakeOptio
             let reach = options.distance[0].max(options.distance[1]).max(largest);
             vec![[-reach, reach]]
         }
-        (MapKind::Position, _) => (0..3)
-            .map(|axis| {
-                let places = || numbers.iter().skip(axis).step_by(3).copied();
-                [places().fold(f32::INFINITY, f32::min), places().fold(f32::NEG_INFINITY, f32::max)]
-            })
-            .collect(),
         (_, MapContent::Lengths) => vec![[0.0, largest]],
         (_, MapContent::Light) => {
             let light = numbers.chunks_exact(map.channels()).flat_map(|texel| &texel[..3]);

@@ -67,13 +67,18 @@ fn rgb<T: Copy + Default>(numbers: &[T], count: usize) -> Vec<[T; 3]> {
     numbers.chunks_exact(count).map(texel).collect()
 }
 
+/// The largest number that an EXR of 16 bits holds.
+pub const LARGEST_HALF: f32 = 65504.0;
+
 fn exr(channels: &Channels<'_>, bits: u8, notes: &Notes) -> exr::error::Result<Vec<u8>> {
     let (count, numbers) = (channels.count(), channels.floats());
     let names = if count == 1 { &["Y"][..] } else { &["R", "G", "B", "A"] };
     let channel = |at: usize| {
         let of_channel = numbers.iter().skip(at).step_by(count).copied();
         let samples = match bits {
-            16 => FlatSamples::F16(of_channel.map(f16::from_f32).collect()),
+            16 => FlatSamples::F16(
+                of_channel.map(|x| f16::from_f32(x.clamp(-LARGEST_HALF, LARGEST_HALF))).collect(),
+            ),
             _ => FlatSamples::F32(of_channel.collect()),
         };
         AnyChannel::new(names[at], samples)

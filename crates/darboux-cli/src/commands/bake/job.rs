@@ -68,12 +68,21 @@ fn of_file(path: &Path, job: &BakeArguments) -> Result<Job, String> {
         ));
     }
     let mut entries = file::entries(path)?;
-    for Entry { arguments, .. } in &mut entries {
+    let limits: String = [
+        job.reading.memory_limit.map(|limit| format!("\u{1f}--memory-limit={limit:?}")),
+        job.reading.allow_outside.then(|| "\u{1f}--allow-outside".to_owned()),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    for Entry { arguments, options, .. } in &mut entries {
         arguments.makes_folders = true;
         arguments.jobs = job.jobs.or(arguments.jobs);
         arguments.reading.memory_limit = job.reading.memory_limit.or(arguments.reading.memory_limit);
         arguments.reading.allow_outside |= job.reading.allow_outside;
         arguments.force |= job.force;
+        // A texture that was left out for them may be read now.
+        *options += &limits;
     }
     Ok(Job { entries, warnings: Vec::new() })
 }

@@ -23,7 +23,7 @@ pub fn maps_of(arguments: &BakeArguments) -> Vec<(MapKind, PathBuf)> {
 }
 
 /// The output with a name before its ending.
-fn named(arguments: &BakeArguments, name: &str) -> PathBuf {
+pub fn named(arguments: &BakeArguments, name: &str) -> PathBuf {
     let ending = arguments.output.extension().unwrap_or_default().to_string_lossy();
     arguments.output.with_extension(format!("{name}.{ending}"))
 }
@@ -102,13 +102,7 @@ fn refuse_other_results(arguments: &BakeArguments) -> Result<(), String> {
     if write_model.is_some() && !arguments.baked_maps().kinds().any(is_of_gltf) {
         return Err("--write-model needs a map that materials have; add normal to --map".to_owned());
     }
-    if map.contains(&MapKind::Texture) != arguments.content.texture.is_some() {
-        return Err(
-            "the map texture and --texture go together: --texture names the place of a texture in the high \
-             models' materials, such as occlusionTexture"
-                .to_owned(),
-        );
-    }
+    arguments.high_options().check().map_err(|error| error.to_string())?;
     for model in write_model.iter().chain(heat_model) {
         if !is_glb(model) {
             return Err(format!("{}: the model is a GLB; its name must end in .glb", model.display()));

@@ -12,7 +12,7 @@ mod views;
 use std::path::Path;
 
 use darboux::Convention;
-use darboux_bake::{Baked, LowModel};
+use darboux_bake::{Baked, Models};
 use darboux_io::gltf::Document;
 use darboux_io::image::{Channels, PngImage, convert_normal_map};
 use darboux_io::{Error, LoadOptions, Outputs};
@@ -58,7 +58,7 @@ impl PageContent {
     pub fn add(
         &mut self,
         arguments: &BakeArguments,
-        low: &LowModel<'_>,
+        models: &Models<'_>,
         baked: &Baked,
         written: &mut WrittenMaps,
         legends: Vec<Legend>,
@@ -71,7 +71,7 @@ impl PageContent {
         self.tiles.push(TileContent { maps: std::mem::take(&mut written.pictures), misses, legends });
         self.low = Some(match is_tile {
             true => Err("materials of glTF cannot have UDIM tiles".to_owned()),
-            false => shown_model(arguments, low, baked, written),
+            false => shown_model(arguments, models, baked, written),
         });
     }
 
@@ -127,7 +127,7 @@ impl PageContent {
 /// The low model with the maps that materials of glTF have. Errors: a clause why there is none.
 fn shown_model(
     arguments: &BakeArguments,
-    low: &LowModel<'_>,
+    models: &Models<'_>,
     baked: &Baked,
     written: &WrittenMaps,
 ) -> Result<Document, String> {
@@ -136,14 +136,14 @@ fn shown_model(
             "none of the maps is one that materials of glTF have, such as normal or base-color".to_owned()
         );
     }
-    if has_mixed_tangents(low) {
+    if has_mixed_tangents(&models.low) {
         return Err(
             "some primitives were baked with their own tangents and others with computed ones".to_owned()
         );
     }
     let normal = written.normal.as_ref().map(|map| in_gltf_convention(arguments, map)).transpose();
     let normal = normal.map_err(|error| error.to_string())?;
-    baked_model(arguments, low, &baked.images, normal.as_ref(), "baked", &mut Vec::new())
+    baked_model(arguments, models, &baked.images, normal.as_ref(), "baked", &mut Vec::new())
 }
 
 /// A copy of a normal map as materials of glTF have it.

@@ -5,23 +5,25 @@ use std::path::Path;
 
 use darboux::Context;
 use darboux_bake::{
-    BakeOptions, BakeProgress, HighModelOptions, LowModelOptions, ModelSurfaces, Models, PreparedSurfaces,
-    check_verification,
+    BakeOptions, BakeProgress, MapKind, ModelSurfaces, Models, PreparedSurfaces, check_verification,
 };
 use darboux_io::gltf::{Document, PrimitiveCorners};
 use darboux_io::{Outputs, RunId};
 
 use super::arguments::BakeArguments;
-use super::cage::{Cages, Rays};
+use super::cage::{CagePositions, Rays};
 use super::cage_file::stage_cage;
 use super::conflicts::{InputFile, all_inputs, files_of, outputs_of, refuse_twice};
+use super::encode::FileKind;
 use super::failure::BakeFailure;
 use super::legend::stage_legends;
+use super::map_choice::choices_for;
 use super::model::{refuse_model, stage_model, warn_of_materials};
 use super::open::open_low;
 use super::outputs::refuse_outputs;
 use super::page::PageContent;
 use super::pictures;
+use super::ranges;
 use super::report::{BakeReport, TileReport, advice, summary};
 use super::seconds::{Clock, Seconds};
 use super::skew::Skew;
@@ -42,7 +44,7 @@ pub fn run(arguments: &BakeArguments, messages: &Messages) -> u8 {
     }
     interrupt::wait_for_writes();
     messages.start(progress_units(arguments));
-    let done = bake_files(arguments, None, memory::available(None), messages);
+    let done = bake_files(arguments, None, None, messages);
     messages.end_progress();
     let report = match done {
         Ok(report) => report,
@@ -62,7 +64,8 @@ pub fn check_usage(arguments: &BakeArguments) -> Result<(), String> {
         return Err("there is no high model; name it with --high".to_owned());
     }
     if arguments.output.as_os_str().is_empty() {
-        return Err("there is no output; name the map with -o, or a model with its maps with --write-model"
+        return Err("there is no output; name the map with --output (-o), or a model with its maps with \
+                    --write-model"
             .to_owned());
     }
     let mut inputs = arguments.high.iter().chain([&arguments.low]).chain(&arguments.cage);
@@ -75,22 +78,28 @@ pub fn check_usage(arguments: &BakeArguments) -> Result<(), String> {
 
 /// Reads, bakes and writes.
 ///
-/// `run`: the run of a job that the files belong to; `memory_limit`: the bytes that the bake may use beside
-/// the models.
+/// `run`: the run of a job that the files belong to; `share`: the bytes that the bake may use beside the
+/// models, if it works beside others.
 pub fn bake_files(
     arguments: &BakeArguments,
     run: Option<RunId>,
-    memory_limit: Option<u64>,
+    share: Option<u64>,
     messages: &Messages,
 ) -> Result<BakeReport, BakeFailure> {
     let (mut clock, mut warnings) = (Clock::start(), Vec::new());
+    options(arguments, [0.0; 2], memory::available(share)).check_memory()?;
     let documents = Documents::open(arguments, &mut warnings)?;
+    let (map, fewer) = choices_for(&arguments.map, &documents.highs, arguments.write_model.is_some());
+    let arguments = &BakeArguments { map, ..arguments.clone() };
+    warnings.extend(fewer);
     let corners = documents.corners()?;
     let models = read_models(arguments, &documents, &corners)?;
     let skew = Skew::read(arguments.skew.as_ref(), &arguments.reading)?;
-    warnings.extend(advice::of_models(&models.low, documents.low.name(), &models.highs));
-    warnings.extend(warn_of_materials(arguments, &documents.low, &documents.highs));
-    refuse_model(arguments, &models.low)?;
+    warnings.extend(models.warnings());
+    warnings.extend(warn_of_materials(arguments, &documents.low, &models.low));
+    refuse_model(arguments, &documents.low, &models.low)?;
+    // What the models take is no longer free.
+    let memory_limit = memory::available(share);
 
     let mut rays = Rays::choose(arguments, &models.low);
     let surfaces = models.surfaces(arguments.part_match).map_err(|error| error.to_string())?;
@@ -98,14 +107,17 @@ pub fn bake_files(
     warnings.extend(of_names);
     let tiles = tiles_of(arguments, &surfaces, &documents.inputs, memory_limit)?;
     if arguments.verify {
-        let check = check_verification(&surfaces, &high_surfaces, &options(arguments, &rays, memory_limit));
+        let check =
+            check_verification(&surfaces, &high_surfaces, &options(arguments, rays.distance(), memory_limit));
         check.map_err(|error| BakeFailure::from(error).after("--verify cannot follow the bake"))?;
     }
     let mut seconds = Seconds { reading: clock.lap(), ..Seconds::default() };
     let mut context = context(arguments);
     let prepared = PreparedSurfaces::new(&surfaces, &high_surfaces, memory_limit, &context)?;
     let cage = documents.cage.as_ref();
-    let cages = Cages::read(arguments, cage, &mut rays, &models.low, &surfaces, &prepared, &mut context)?;
+    let cages =
+        CagePositions::read(arguments, cage, &mut rays, &models.low, &surfaces, &prepared, &mut context)?;
+    warnings.extend(cage.and_then(|file| cages.warning(file, &surfaces, models.low.diagonal())));
     let mut surfaces = cages.around(surfaces)?;
     if let Some(skew) = &skew {
         surfaces = skew.on(surfaces)?;
@@ -117,8 +129,21 @@ pub fn bake_files(
 
     let outputs = Outputs::new(run);
     let page = PageContent::default();
-    let mut bake =
-        Run { models: &models, surfaces: &surfaces, context, messages, warnings, clock, page, outputs };
+    let positions = match arguments.baked_maps().has(MapKind::Position) {
+        true => ranges::of_positions(&high_surfaces, &options(arguments, rays.distance(), memory_limit)),
+        false => Vec::new(),
+    };
+    let mut bake = Run {
+        models: &models,
+        surfaces: &surfaces,
+        positions,
+        context,
+        messages,
+        warnings,
+        clock,
+        page,
+        outputs,
+    };
     let cage = stage_cage(arguments, surfaces.low(), models.low.names(), &cages.0, &mut bake.outputs)?;
     let mut report = BakeReport {
         command: "bake",
@@ -141,9 +166,15 @@ pub fn bake_files(
         warnings: Vec::new(),
     };
     for tile in &tiles {
-        bake.tile(tile, &options(arguments, &rays, memory_limit).with_udim(tile.udim), &mut report)?;
+        bake.tile(
+            tile,
+            &options(arguments, rays.distance(), memory_limit).with_udim(tile.udim),
+            &mut report,
+        )?;
     }
-    let Run { page, mut outputs, warnings, .. } = bake;
+    let Run { page, mut outputs, mut warnings, .. } = bake;
+    let kind = FileKind::of(&arguments.output).unwrap_or(FileKind::Png);
+    warnings.extend(ranges::warning_of_tiles(kind, &report.maps));
     report.warnings = distinct(warnings);
     // The pictures of the page need memory, too.
     drop(surfaces);
@@ -156,6 +187,8 @@ pub fn bake_files(
 struct Run<'a> {
     models: &'a Models<'a>,
     surfaces: &'a PreparedSurfaces<'a>,
+    /// The range of each axis of positions.
+    positions: Vec<[f32; 2]>,
     context: Context,
     messages: &'a Messages,
     warnings: Vec<String>,
@@ -179,16 +212,20 @@ impl Run<'_> {
         let baked = self.surfaces.bake(options, &mut self.context, &mut tell)?;
         drop(tell);
         report.seconds.rays += self.clock.lap();
-        if let Some(reason) = advice::failure(&baked.report, arguments, low.elongation()) {
+        let misfit = (baked.report.missed_texels > 0).then(|| self.models.misfit()).flatten();
+        let misfit = misfit.as_deref();
+        if let Some(reason) = advice::failure(&baked.report, arguments, misfit) {
             return Err(udim.map_or(reason.clone(), |udim| format!("tile {udim}: {reason}")).into());
         }
         let outputs = &mut self.outputs;
-        let mut written = stage_maps(arguments, &baked.images, options, outputs)?;
+        let mut written = stage_maps(arguments, &baked.images, options, &self.positions, outputs)?;
+        self.warnings.append(&mut written.warnings);
         let misses = pictures::misses(arguments, &baked, &mut self.warnings, outputs)?;
         let legends = stage_legends(arguments, &baked.legends, &self.models.highs, outputs)?;
         report.legends.extend(legends.iter().map(|legend| legend.file.clone()));
-        report.model = stage_model(arguments, low, &baked.images, &written, &mut self.warnings, outputs)?;
-        self.page.add(arguments, low, &baked, &mut written, legends, udim.is_some());
+        report.model =
+            stage_model(arguments, self.models, &baked.images, &written, &mut self.warnings, outputs)?;
+        self.page.add(arguments, self.models, &baked, &mut written, legends, udim.is_some());
         report.seconds.writing += self.clock.lap();
         let names: Vec<&str> = low.names().collect();
         let verification = match &written.normal {
@@ -210,7 +247,7 @@ impl Run<'_> {
             _ => None,
         };
         report.seconds.verifying += self.clock.lap();
-        let advice = advice::of_report(&baked.report, arguments, low.elongation(), misses.as_deref());
+        let advice = advice::of_report(&baked.report, arguments, misfit, misses.as_deref());
         let named = |warning: String| udim.map_or(warning.clone(), |udim| format!("tile {udim}: {warning}"));
         self.warnings.extend(advice.into_iter().map(named));
         report.maps.extend(written.maps);
@@ -290,31 +327,19 @@ fn read_models<'a>(
     documents: &'a Documents,
     corners: &'a Corners<'a>,
 ) -> Result<Models<'a>, String> {
-    let high_options = HighModelOptions::default()
-        .with_normal_maps(!arguments.no_high_maps)
-        .with_maps(arguments.baked_maps())
-        .with_texture(arguments.content.texture.clone());
     let low = (&documents.low, &corners.low[..]);
     let highs = (&documents.highs[..], &corners.highs[..]);
-    Models::read(low, highs, &low_options(arguments), &high_options).map_err(sentence)
+    Models::read(low, highs, &arguments.low_options(), &arguments.high_options()).map_err(sentence)
 }
 
 fn sentence(error: darboux_io::Error) -> String {
     error.to_string()
 }
 
-fn low_options(arguments: &BakeArguments) -> LowModelOptions {
-    let tangents = arguments.method.map(Into::into);
-    LowModelOptions::default()
-        .with_uv_set(arguments.uv_set)
-        .with_tangents(tangents)
-        .with_material(arguments.material)
-}
-
-fn options(arguments: &BakeArguments, rays: &Rays, memory_limit: Option<u64>) -> BakeOptions {
+fn options(arguments: &BakeArguments, distance: [f32; 2], memory_limit: Option<u64>) -> BakeOptions {
     let content = &arguments.content;
     let world_direction = content.world_direction.0;
-    BakeOptions::new(arguments.size, rays.distance())
+    BakeOptions::new(arguments.size, distance)
         .with_maps(arguments.baked_maps())
         .with_samples_per_axis(arguments.samples.0)
         .with_back_faces(arguments.back_faces)

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use darboux_bake::{BakeError, ColorTexture, LowSurface, SkewCorrection};
+use darboux_bake::{BakeError, ColorTexture, LowSurface, SkewCorrection, with_skew};
 use darboux_io::image::{DecodeLimits, RgbaImage};
 use darboux_io::read_regular;
 
@@ -47,7 +47,7 @@ impl Skew {
             Self::Amount(amount) => SkewCorrection::Everywhere(*amount),
             Self::Map(map) => SkewCorrection::Map(map),
         };
-        low.into_iter().map(|surface| surface.with_skew_correction(correction)).collect()
+        with_skew(&low, correction)
     }
 }
 

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::arguments::BakeArguments;
 use super::dither::BlueNoise;
 use super::encode::{Channels, Encoding, FileKind};
-use super::files::{Notes, file_bytes, png};
+use super::files::{LARGEST_HALF, Notes, file_bytes, png};
 use super::outputs::{maps_of, packs_of};
 use super::thumbnail::thumbnail;
 use crate::html_page::raster::Raster;
@@ -38,6 +38,8 @@ pub struct WrittenMaps {
     pub normal: Option<PngImage>,
     /// For `--report`: a picture of each map.
     pub pictures: Vec<Raster>,
+    /// About the numbers that files do not hold.
+    pub warnings: Vec<String>,
 }
 
 /// Stages an image and returns its path. Errors are one sentence each.
@@ -57,17 +59,20 @@ pub fn commit(outputs: Outputs) -> Result<(), String> {
     outputs.commit().map(drop).map_err(|error| error.to_string())
 }
 
-/// Stages all maps. Errors are one sentence each.
+/// Stages all maps. `positions`: the range of each axis of [`MapKind::Position`]. Errors are one sentence
+/// each.
 pub fn stage_maps(
     arguments: &BakeArguments,
     images: &Images,
     options: &BakeOptions,
+    positions: &[[f32; 2]],
     outputs: &mut Outputs,
 ) -> Result<WrittenMaps, String> {
     let mut written = WrittenMaps::default();
     let kind = FileKind::of(&arguments.output).unwrap_or(FileKind::Png);
     let noise = arguments.dither.map(BlueNoise::new);
-    let encoding = |map| Encoding::new(map, images, options, arguments.content.texture.as_deref());
+    let texture = arguments.content.texture.as_deref();
+    let encoding = |map| Encoding::new(map, images, options, texture, positions);
     let udim = options.udim.map(Udim::number);
     let mut stage_file =
         |path: &Path, name: &str, bits: u8, channels: &Channels<'_>, range: Vec<[f32; 2]>| {
@@ -77,6 +82,9 @@ pub fn stage_maps(
             let bytes = file_bytes(kind, &shown, channels, bits, &notes, noise)?;
             let save = arguments.save_options(path);
             outputs.stage_bytes(path, &bytes, &save).map_err(|error| error.to_string())?;
+            if kind == FileKind::Exr && bits == 16 {
+                written.warnings.extend(warning_of_halves(name, &shown, channels));
+            }
             written.pictures.extend(arguments.report.is_some().then(|| thumbnail(channels)));
             written.maps.push(WrittenMap { map: name.to_owned(), file: shown, udim, bits, range });
             Ok::<_, String>(())
@@ -102,6 +110,17 @@ pub fn stage_maps(
         written.normal = Some(png("the normal map", &channels, bits, &Vec::new(), noise)?);
     }
     Ok(written)
+}
+
+/// A warning where numbers of a map are too large for halves.
+fn warning_of_halves(name: &str, file: &str, channels: &Channels<'_>) -> Option<String> {
+    let is_too_large = channels.floats().iter().any(|x| x.abs() > LARGEST_HALF);
+    is_too_large.then(|| {
+        format!(
+            "{file}: {name} has numbers beyond {LARGEST_HALF}, the largest that 16 bits hold, which are clamped \
+             to it; add --bits 32"
+        )
+    })
 }
 
 /// What the file of a map says about its numbers: the values of black and white, where they are no shares.

@@ -2,12 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::json::{Value, object};
+use crate::json::{Map, Value, object, remove_extension};
 
 use crate::Error;
 use crate::error::ContentError;
 use crate::gltf::schema::{Material, Primitive};
-use crate::gltf::{Document, PrimitiveName};
+use crate::gltf::{Alpha, Document, PrimitiveName};
 
 /// A primitive that gets a map, and the UV set n of `TEXCOORD_n` that the map uses.
 type MappedPrimitive = (PrimitiveName, usize);
@@ -27,11 +27,11 @@ pub enum MaterialTexture {
         /// Whether the texture has metalness.
         metalness: bool,
     },
-    /// The base colour. Its factor becomes 1, but for alpha where the texture has none. A material without a
-    /// mode of alpha blends where it has.
+    /// The base colour. Its factor becomes 1, but for alpha without a mode. The primitives lose their vertex
+    /// colours, which multiply the base colour (glTF 2.0, 3.9.2).
     BaseColor {
-        /// Whether the texture has alpha.
-        alpha: bool,
+        /// How the alpha of the texture counts; none to keep the mode and the factor of the material.
+        alpha: Option<Alpha>,
     },
     /// The emitted light, times a strength (`KHR_materials_emissive_strength` where it is not 1).
     Emissive {
@@ -55,9 +55,10 @@ impl Document {
     /// Primitives without a material get a new one.
     ///
     /// The texture transform of the material's normal map is kept where the UV set stays. A material that
-    /// other primitives have, too, changes for all of them; primitives of one material with several UV
-    /// sets get a copy of it for each set after the first. Errors: a primitive that does not exist; a
-    /// material that cannot be edited.
+    /// other primitives have, too, stays as it is, and these get a copy of it; primitives of one material
+    /// with several UV sets get a copy for each set after the first. A material that was unlit, or had
+    /// specular and glossiness, loses the extension that says so where renderers would leave the texture
+    /// out with it. Errors: a primitive that does not exist; a material that cannot be edited.
     pub fn set_texture(
         &mut self,
         uses: &[MaterialTexture],
@@ -76,18 +77,43 @@ impl Document {
                 edited.map_err(|error| error.in_file(self.name()))?;
             }
         }
+        if uses.iter().any(|used| matches!(used, MaterialTexture::BaseColor { .. })) {
+            for (name, _) in primitives {
+                self.edit_primitive(name.mesh, name.primitive, remove_vertex_colors)?;
+            }
+        }
         Ok(())
     }
 
-    /// Gives primitives without a material a new one per UV set, and copies materials of several UV sets.
-    /// Returns the materials of all primitives, with their UV sets.
+    /// Takes the emitted light from the materials of primitives.
+    ///
+    /// A material that other primitives have, too, changes for all of them. Errors: a primitive that does not
+    /// exist; a material that cannot be edited.
+    pub fn remove_emission(&mut self, primitives: &[MappedPrimitive]) -> Result<(), Error> {
+        for (primitive, _) in primitives {
+            let Some(material) = self.primitive(primitive)?.material else { continue };
+            let edited = self.edit_element("materials", material, |material| {
+                remove_extension(material, EMISSIVE_STRENGTH);
+                if let Some(members) = material.as_object_mut() {
+                    members.remove("emissiveTexture");
+                    members.remove("emissiveFactor");
+                }
+            });
+            edited.map_err(|error| error.in_file(self.name()))?;
+        }
+        Ok(())
+    }
+
+    /// Gives primitives without a material a new one per UV set, and copies materials of several UV sets and
+    /// of other primitives. Returns the materials of all primitives, with their UV sets.
     fn materials_by_uv_set(&mut self, primitives: &[MappedPrimitive]) -> Result<Vec<(usize, usize)>, Error> {
         let mut material_of = BTreeMap::new();
         let mut has_one_set = BTreeSet::new();
+        let listed = primitives.iter().map(|(name, _)| (name.mesh, name.primitive)).collect();
         for (primitive, uv_set) in primitives {
             let old = self.primitive(primitive)?.material;
             let material = *material_of.entry((old, *uv_set)).or_insert_with(|| match old {
-                Some(old) if has_one_set.insert(old) => old,
+                Some(old) if has_one_set.insert(old) && !self.has_other_users(old, &listed) => old,
                 _ => self.push_material(old),
             });
             if Some(material) != old {
@@ -137,6 +163,14 @@ impl Document {
         self.push_element("materials", json.unwrap_or(object! {}))
     }
 
+    /// Whether a primitive that is not among these has a material.
+    fn has_other_users(&self, material: usize, listed: &BTreeSet<(usize, usize)>) -> bool {
+        let all = self.root.meshes.iter().enumerate().flat_map(|(mesh, stored)| {
+            stored.primitives.iter().enumerate().map(move |(primitive, stored)| ((mesh, primitive), stored))
+        });
+        all.filter(|(_, stored)| stored.material == Some(material)).any(|(place, _)| !listed.contains(&place))
+    }
+
     fn set_texture_of_material(
         &mut self,
         material: usize,
@@ -153,10 +187,12 @@ impl Document {
                 new["extensions"] = extensions;
             }
             put_texture(material, used, new);
+            remove_other_models(material, used);
         })
     }
 }
 
+const SPECULAR_GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
 const EMISSIVE_STRENGTH: &str = "KHR_materials_emissive_strength";
 
 /// Puts a texture into the JSON of a material, with the factors that show it as it is.
@@ -177,26 +213,56 @@ fn put_texture(material: &mut Value, used: MaterialTexture, texture: Value) {
         MaterialTexture::BaseColor { alpha } => {
             let metallic = &mut material["pbrMetallicRoughness"];
             metallic["baseColorTexture"] = texture;
-            let old = metallic["baseColorFactor"].get(3).filter(|_| !alpha).cloned();
+            let old = metallic["baseColorFactor"].get(3).filter(|_| alpha.is_none()).cloned();
             metallic["baseColorFactor"] = {
                 let one = Value::from(1u32);
                 vec![one.clone(), one.clone(), one.clone(), old.unwrap_or(one)].into()
             };
-            if alpha && material.get("alphaMode").is_none() {
-                material["alphaMode"] = "BLEND".into();
+            if let (Some(alpha), Some(members)) = (alpha, material.as_object_mut()) {
+                put_alpha(members, alpha);
             }
         }
         MaterialTexture::Emissive { strength } => {
             material["emissiveTexture"] = texture;
             material["emissiveFactor"] = vec![1u32; 3].into();
-            if strength != 1.0 {
+            if strength == 1.0 {
+                remove_extension(material, EMISSIVE_STRENGTH);
+            } else {
                 material["extensions"][EMISSIVE_STRENGTH] = object! { "emissiveStrength": strength };
-            } else if let Some(extensions) = material["extensions"].as_object_mut() {
-                extensions.remove(EMISSIVE_STRENGTH);
-            } else if let Some(members) = material.as_object_mut() {
-                members.remove("extensions");
             }
         }
+    }
+}
+
+/// Puts a mode of alpha into the JSON of a material.
+fn put_alpha(material: &mut Map, alpha: Alpha) {
+    let (mode, cutoff) = match alpha {
+        Alpha::Opaque => (None, None),
+        Alpha::Mask(cutoff) => (Some("MASK"), Some(cutoff)),
+        Alpha::Blend => (Some("BLEND"), None),
+    };
+    set(material, "alphaMode", mode.map(Value::from));
+    set(material, "alphaCutoff", cutoff.map(Value::from));
+}
+
+/// Sets a member, or removes it.
+fn set(object: &mut Map, name: &str, value: Option<Value>) {
+    match value {
+        Some(value) => _ = object.insert(name, value),
+        None => _ = object.remove(name),
+    }
+}
+
+/// Removes the extensions with which renderers leave a texture out.
+fn remove_other_models(material: &mut Value, used: MaterialTexture) {
+    match used {
+        MaterialTexture::BaseColor { .. } => _ = remove_extension(material, SPECULAR_GLOSSINESS),
+        MaterialTexture::MetallicRoughness { .. } => {
+            remove_extension(material, SPECULAR_GLOSSINESS);
+            remove_extension(material, UNLIT);
+        }
+        MaterialTexture::Normal | MaterialTexture::Occlusion => _ = remove_extension(material, UNLIT),
+        MaterialTexture::Emissive { .. } => {}
     }
 }
 
@@ -206,6 +272,19 @@ fn uses_set(material: &Material, uv_set: usize) -> bool {
         let of_transform = texture.extensions.transform.as_ref().and_then(|transform| transform.tex_coord);
         of_transform.unwrap_or(texture.tex_coord) == uv_set
     })
+}
+
+/// Removes the vertex colours of a primitive and of its morph targets.
+fn remove_vertex_colors(primitive: &mut Map) {
+    const COLORS: &str = "COLOR_0";
+    let attributes = primitive.get_mut("attributes").and_then(Value::as_object_mut);
+    if let Some(attributes) = attributes {
+        attributes.remove(COLORS);
+    }
+    let targets = primitive.get_mut("targets").and_then(Value::as_array_mut);
+    for target in targets.into_iter().flatten().filter_map(Value::as_object_mut) {
+        target.remove(COLORS);
+    }
 }
 
 const UNLIT: &str = "KHR_materials_unlit";

@@ -18,7 +18,6 @@ use crate::commands::bake::arguments::BakeArguments;
 use crate::commands::bake::outputs::all_outputs;
 use crate::commands::bake::report::BakeReport;
 use crate::commands::bake::tile_names::has_place;
-use crate::memory;
 use crate::net;
 use crate::options::files::new_run;
 use crate::terminal::Messages;
@@ -149,8 +148,8 @@ fn bake_task(task: &BakeTask) -> Result<BakedEntry, String> {
     let recorded =
         Recorded { folder: &folder, record: task.record.as_ref(), may_have_written: task.may_have_written };
     let of_entry = arguments_of(entry, Some(recorded))?;
-    let (run, limit) = (RunId(task.run), memory::available(None));
-    let bake = || bake_entry(&of_entry, &entry.options, Some(recorded), run, limit, &Messages::new(true));
+    let run = RunId(task.run);
+    let bake = || bake_entry(&of_entry, &entry.options, Some(recorded), run, None, &Messages::new(true));
     net::catch(&task.low.display(), || bake().map_err(String::from))
 }
 

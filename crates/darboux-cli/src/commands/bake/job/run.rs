@@ -16,7 +16,7 @@ use crate::batch::journal::{Earlier, Journal, OutputInputs, Record, skipped};
 use crate::commands::bake::arguments::{BakeArguments, OwnOutputs};
 use crate::commands::bake::conflicts::{InputFile, all_inputs, files_of, outputs_of, refuse_twice};
 use crate::commands::bake::failure::BakeFailure;
-use crate::commands::bake::outputs::refuse_existing;
+use crate::commands::bake::outputs::{maps_of, named, refuse_existing};
 use crate::commands::bake::report::{BakeReport, summary};
 use crate::commands::bake::single::{bake_files, check_usage, progress_units};
 use crate::commands::bake::skew::SkewChoice;
@@ -124,11 +124,22 @@ fn files_of_models(entries: &[Entry]) -> Vec<InputFile> {
 
 fn print_entries(entries: &[Entry], messages: &Messages) {
     for Entry { arguments, .. } in entries {
-        let BakeArguments { low, high, cage, output, .. } = arguments;
+        let BakeArguments { low, high, cage, .. } = arguments;
         let high: Vec<String> = high.iter().map(|path| path.display().to_string()).collect();
         let cage = cage.as_ref().map(|cage| format!(", cage {}", cage.display())).unwrap_or_default();
-        messages.say(&format!("{} from {}{cage}: {}", low.display(), high.join(", "), output.display()));
+        let outputs = shown_outputs(arguments);
+        messages.say(&format!("{} from {}{cage}: {outputs}", low.display(), high.join(", ")));
     }
+}
+
+/// The model that an entry writes, and its images: as a pattern where there are several.
+fn shown_outputs(arguments: &BakeArguments) -> String {
+    let images = match &maps_of(arguments)[..] {
+        [(_, image)] if arguments.pack.is_empty() => image.display().to_string(),
+        _ => named(arguments, "*").display().to_string(),
+    };
+    let model = arguments.write_model.as_ref().map(|model| format!("{}, ", model.display()));
+    model.unwrap_or_default() + &images
 }
 
 /// The report of an entry; none if an earlier run has done it. Errors are one sentence each.
@@ -208,11 +219,11 @@ impl Work<'_> {
         let within_share = || {
             let Some(mine) = share.take() else { return bake(None) };
             if mine.is_whole() {
-                let done = bake(memory::available(mine.limit()));
+                let done = bake(mine.limit());
                 share.set(Some(mine));
                 return done;
             }
-            let done = bake(memory::available(Some(estimate().beside_models())));
+            let done = bake(Some(estimate().beside_models()));
             if !matches!(done, Err(BakeFailure::Memory(_))) {
                 share.set(Some(mine));
                 return done;
@@ -220,7 +231,7 @@ impl Work<'_> {
             // The estimate was too small: alone, it may use all memory.
             drop(mine);
             let whole = self.memory.wait_for(|| u64::MAX);
-            let done = bake(memory::available(whole.limit()));
+            let done = bake(whole.limit());
             share.set(Some(whole));
             done
         };
@@ -326,24 +337,24 @@ pub fn arguments_of(entry: &Entry, recorded: Option<Recorded<'_>>) -> Result<Bak
 }
 
 /// Bakes an entry, unless an earlier run has done it. `arguments`: of [`arguments_of`]; `recorded`: none
-/// without `--resume`; `memory_limit`: the bytes that the bake may use.
+/// without `--resume`; `memory`: as the share of [`bake_files`].
 pub fn bake_entry(
     arguments: &BakeArguments,
     options: &str,
     recorded: Option<Recorded<'_>>,
     run: RunId,
-    memory_limit: Option<u64>,
+    memory: Option<u64>,
     messages: &Messages,
 ) -> Result<BakedEntry, BakeFailure> {
     let Some(Recorded { folder, record, .. }) = recorded else {
-        let report = bake_files(arguments, None, memory_limit, messages)?;
+        let report = bake_files(arguments, None, memory, messages)?;
         return Ok(BakedEntry { report: Some(report), record: None });
     };
     let inputs = inputs_of(arguments, options.to_owned())?;
     if record.is_some_and(|record| record.is_up_to_date(&inputs, folder)) {
         return Ok(BakedEntry { report: None, record: None });
     }
-    let report = bake_files(arguments, Some(run), memory_limit, messages)?;
+    let report = bake_files(arguments, Some(run), memory, messages)?;
     let record = Record::new(folder, &arguments.output, inputs, &report.files(), &report)?;
     Ok(BakedEntry { report: Some(report), record })
 }

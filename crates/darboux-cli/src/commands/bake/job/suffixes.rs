@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Command};
+use darboux_bake::suffix_start;
 use darboux_io::{FileKind, system_reason};
 
 use super::entry::Entry;
@@ -73,7 +74,10 @@ pub fn pairs(arguments: &BakeArguments) -> Result<Pairs, String> {
             return Err(format!("{first} and {second} have one name; move one of them to another folder"));
         }
         match (pair.low.first(), pair.high.first()) {
-            (Some(_), Some(_)) => entries.push(entry(arguments, &name, pair)?),
+            (Some(_), Some(_)) => {
+                warnings.extend(without_effect(arguments, &pair));
+                entries.push(entry(arguments, &name, pair)?);
+            }
             (low, _) => warnings.extend(unpaired(&name, low, &pair, images.get(&name))),
         }
     }
@@ -100,8 +104,6 @@ fn entry(job: &BakeArguments, name: &str, pair: Pair) -> Result<Entry, String> {
     arguments.high = pair.high;
     arguments.makes_folders = true;
     arguments.map = job.completed_map();
-    arguments.output = image(job, name)?;
-    let folder = arguments.output.parent().unwrap_or(Path::new("")).to_owned();
     for (path, ending) in [
         (&mut arguments.write_model, "baked.glb"),
         (&mut arguments.report, "report.html"),
@@ -110,34 +112,40 @@ fn entry(job: &BakeArguments, name: &str, pair: Pair) -> Result<Entry, String> {
         (&mut arguments.heat_model, "errors.glb"),
     ] {
         if let Some(given) = path {
-            *given = match with_name(given, name) {
-                Some(path) => path,
-                None => folder.join(format!("{name}.{ending}")),
-            };
+            *given = in_folder(given, name, ending)?;
         }
     }
+    arguments.output = image(job, name, arguments.write_model.as_deref())?;
     if let Some(cage) = pair.cage.into_iter().next() {
-        (arguments.cage, arguments.cage_offset, arguments.distance) = (Some(cage), None, None);
+        (arguments.cage, arguments.distance) = (Some(cage), None);
         (arguments.auto_cage, arguments.offset_colors) = (None, false);
     }
     let options = format!("{:?}", without_messages(&arguments));
     Ok(Entry { arguments, options, place: None })
 }
 
-/// The image of a pair: NAME.png in the folder of `-o`, or `-o` with the name in it.
-fn image(job: &BakeArguments, name: &str) -> Result<PathBuf, String> {
-    let output = &job.output;
-    if output.as_os_str().is_empty() {
-        return Ok(job.low.join(format!("{name}.png")));
+/// The image of a pair: by `-o`, or else beside its model, or else in the folder of the pairs.
+fn image(job: &BakeArguments, name: &str, model: Option<&Path>) -> Result<PathBuf, String> {
+    match (job.output.as_os_str().is_empty(), model) {
+        (false, _) => in_folder(&job.output, name, "png"),
+        (true, Some(model)) => Ok(model.with_extension("png")),
+        (true, None) => Ok(job.low.join(format!("{name}.png"))),
     }
-    match (with_name(output, name), encode::FileKind::of(output)) {
-        (Some(path), _) => Ok(path),
-        (None, Some(_)) if !output.is_dir() => Err(format!(
-            "{}: all pairs would write it; name a folder, or write {NAME} in the name",
-            output.display()
-        )),
-        (None, _) => Ok(output.join(format!("{name}.png"))),
+}
+
+/// The output of a pair: the path with the name in it, or NAME and an ending in the folder of this path.
+/// Errors: the path is that of a file.
+fn in_folder(path: &Path, name: &str, ending: &str) -> Result<PathBuf, String> {
+    if let Some(path) = with_name(path, name) {
+        return Ok(path);
     }
+    let file = format!("{name}.{ending}");
+    let is_file = encode::FileKind::of(path).is_some() || path.extension() == Path::new(&file).extension();
+    if is_file && !path.is_dir() {
+        let path = path.display();
+        return Err(format!("{path}: all pairs would write it; name a folder, or write {NAME} in the name"));
+    }
+    Ok(path.join(file))
 }
 
 fn with_name(path: &Path, name: &str) -> Option<PathBuf> {
@@ -158,6 +166,18 @@ fn without_messages(arguments: &BakeArguments) -> BakeArguments {
         messages,
         ..arguments.clone()
     }
+}
+
+/// What is said about options that the cage of a pair overrules.
+fn without_effect(job: &BakeArguments, pair: &Pair) -> Option<String> {
+    let overruled = [
+        ("--distance", job.distance.is_some()),
+        ("--auto-cage", job.auto_cage.is_some()),
+        ("--offset-colors", job.offset_colors),
+    ];
+    let cage = pair.cage.first()?.display();
+    let (option, _) = overruled.into_iter().find(|(_, is_given)| *is_given)?;
+    Some(format!("{cage}: is the cage of its pair, so that {option} is without effect there"))
 }
 
 /// What is said about models of which no pair can be made.
@@ -204,7 +224,7 @@ fn part_of(path: &Path) -> Option<(String, Part)> {
     let ends = [
         (Part::Low, stem.strip_suffix("_low").map(str::len)),
         (Part::Cage, stem.strip_suffix("_cage").map(str::len)),
-        (Part::High, stem.rfind("_high")),
+        (Part::High, suffix_start(&stem, "_high")),
     ];
     let (part, end) = ends.into_iter().find_map(|(part, end)| Some((part, end?)))?;
     Some((stem[..end].to_owned(), part))

@@ -1,50 +1,12 @@
 //! What is unusual about a bake, and what to change.
 
-use darboux_bake::{BakeReport, HighModel, LowModel, LowSurface, crossing_triangles};
+use darboux_bake::{BakeReport, LowSurface, crossing_triangles};
 
 use crate::commands::bake::arguments::BakeArguments;
 use crate::text::counted;
 
 /// The share of charted texels without a hit, or with inverted normals, from which on there is a warning.
 const NOTABLE: f64 = 0.01;
-
-/// The length of a model over its width from which on single precision cannot hold its directions.
-const LONGEST: f64 = 1e6;
-
-/// Warnings about the models, before the bake.
-pub fn of_models(low: &LowModel<'_>, low_name: &str, high: &[HighModel<'_>]) -> Vec<String> {
-    let flat: usize = high.iter().map(HighModel::flat_count).sum();
-    let counts = [
-        (
-            low.repeated_meshes,
-            "mesh is in the scene more than once; its first place is baked",
-            "meshes are in the scene more than once; their first places are baked",
-        ),
-        (
-            low.without_uvs,
-            "primitive has no UVs of the chosen set and is not baked",
-            "primitives have no UVs of the chosen set and are not baked",
-        ),
-    ];
-    let of_low = counts.into_iter().filter(|(count, ..)| *count > 0);
-    let of_low = of_low.map(|(count, one, many)| format!("{low_name}: {}", counted(count, one, many)));
-    let of_high = (flat > 0).then(|| {
-        let subject = counted(flat, "primitive of the high models has", "primitives of the high models have");
-        format!(
-            "{subject} no normals, so every triangle is flat, as glTF requires; darboux normals makes \
-             smooth ones"
-        )
-    });
-    let materials = low.materials.len();
-    let of_materials = (materials > 1).then(|| {
-        format!(
-            "{low_name}: {materials} materials share this map, which is right only where their charts lie \
-             beside each other; for materials with maps of their own use --material"
-        )
-    });
-    let of_maps = high.iter().flat_map(HighModel::warnings).cloned();
-    of_low.chain(of_materials).chain(of_high).chain(of_maps).collect()
-}
 
 /// Warnings about rays that cross. `names`: of the surfaces; `outwards`: how far outside rays begin without a
 /// cage.
@@ -88,9 +50,9 @@ pub fn has_many_misses(report: &BakeReport) -> bool {
     report.missed_texels as f64 > NOTABLE * report.charted_texels as f64
 }
 
-/// The reason why maps of this bake would show nothing of the high models; none where they do. `elongation`:
-/// of the low model.
-pub fn failure(report: &BakeReport, arguments: &BakeArguments, elongation: f64) -> Option<String> {
+/// The reason why maps of this bake would show nothing of the high models; none where they do. `misfit`:
+/// of the models.
+pub fn failure(report: &BakeReport, arguments: &BakeArguments, misfit: Option<&str>) -> Option<String> {
     let is_all = |count: u64, of: u64| count > 0 && count == of;
     if is_all(report.non_finite_low_triangles, report.low_triangles) {
         return Some(
@@ -109,7 +71,7 @@ pub fn failure(report: &BakeReport, arguments: &BakeArguments, elongation: f64) 
     if report.charted_texels == 0 {
         return Some("no triangle of the low model covers a texel; check its UVs".to_owned());
     }
-    let cause = || cause_of_misses(report, arguments, elongation);
+    let cause = || cause_of_misses(report, arguments, misfit);
     if report.missed_texels == report.charted_texels {
         return Some(format!("all rays hit nothing, and nothing was written: {}", cause()));
     }
@@ -129,10 +91,9 @@ fn percent(report: &BakeReport, count: u64) -> String {
     format!("{:.1} %", 100.0 * count as f64 / report.charted_texels.max(1) as f64)
 }
 
-fn cause_of_misses(report: &BakeReport, arguments: &BakeArguments, elongation: f64) -> &'static str {
-    if elongation > LONGEST {
-        "the low model is more than a million times as long as wide, so that numbers cannot hold its \
-         directions; scale it evenly in its scene"
+fn cause_of_misses<'a>(report: &BakeReport, arguments: &BakeArguments, misfit: Option<&'a str>) -> &'a str {
+    if let Some(misfit) = misfit {
+        misfit
     } else if 2 * report.back_facing_texels > report.missed_texels {
         "most of these rays meet the high models from behind, so their faces are turned inside out; turn \
          them, or use --back-faces"
@@ -144,18 +105,18 @@ fn cause_of_misses(report: &BakeReport, arguments: &BakeArguments, elongation: f
     }
 }
 
-/// Warnings about the result. `elongation`: of the low model.
+/// Warnings about the result. `misfit`: of the models.
 pub fn of_report(
     report: &BakeReport,
     arguments: &BakeArguments,
-    elongation: f64,
+    misfit: Option<&str>,
     misses: Option<&str>,
 ) -> Vec<String> {
     let share = |count: u64| count as f64 / report.charted_texels.max(1) as f64;
     let percent = |count: u64| percent(report, count);
     let mut warnings = Vec::new();
     if has_many_misses(report) {
-        let (missed, why) = (percent(report.missed_texels), cause_of_misses(report, arguments, elongation));
+        let (missed, why) = (percent(report.missed_texels), cause_of_misses(report, arguments, misfit));
         let place = misses.map(|path| format!("; {path} shows where")).unwrap_or_default();
         let is_most = share(report.missed_texels) > 0.5;
         let result = if is_most { "most of the map shows nothing of the high models: " } else { "" };
