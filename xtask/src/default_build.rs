@@ -31,8 +31,24 @@ pub fn check() -> Outcome {
     println!("built and ran in {:.0} s", start.elapsed().as_secs_f32());
     let darboux = folder.join("release/darboux");
     MISSING.iter().try_for_each(|line| refuses(&darboux, line))?;
+    says_what_it_lacks(&darboux)?;
     names_fbx(&darboux)?;
     completes_no_missing_subcommand(&darboux)
+}
+
+/// Errors: the help does not name what the build lacks, or how to install it.
+fn says_what_it_lacks(darboux: &Path) -> Outcome {
+    for option in ["-h", "--help"] {
+        let help = output_of(Command::new(darboux).arg(option))?;
+        // The help is wrapped.
+        let words = String::from_utf8_lossy(&help).split_whitespace().collect::<Vec<_>>().join(" ");
+        if let Some(part) =
+            ["darboux bake,", "models in FBX,", INSTALL].iter().find(|part| !words.contains(**part))
+        {
+            return Err(format!("darboux {option} of the default build must name {part}"));
+        }
+    }
+    Ok(())
 }
 
 /// Errors: the command does not say that a file is FBX, and how to install what reads it; or the help lists

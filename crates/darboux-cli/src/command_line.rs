@@ -21,12 +21,13 @@ use crate::commands::report::arguments::{self as report, ReportArguments};
 use crate::commands::tangents::arguments::{self as tangents, TangentsArguments};
 #[cfg(feature = "view")]
 use crate::commands::view::arguments::{self as view, ViewArguments};
+use crate::installing::left_out;
 use crate::options::formats::with_endings;
 
 /// Finds and repairs what is wrong with the normal maps and tangents of 3D models; computes, bakes and
 /// converts them
 #[derive(Debug, Parser)]
-#[command(name = "darboux", version, long_about = LONG_ABOUT, arg_required_else_help = true, max_term_width = 100)]
+#[command(name = "darboux", version, long_about = LONG_ABOUT, arg_required_else_help = true, max_term_width = 100, after_help = left_out())]
 pub struct Arguments {
     /// The subcommand
     #[command(subcommand)]

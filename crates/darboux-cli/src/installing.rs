@@ -1,7 +1,27 @@
 //! The command line that installs what this build lacks.
 
+use clap::builder::{Resettable, StyledStr};
+
+/// The parts of the command that a build may lack, and whether this one has them.
+const PARTS: [(&str, bool); 7] = [
+    ("darboux bake", cfg!(feature = "bake")),
+    ("darboux render", cfg!(feature = "gpu")),
+    ("darboux view", cfg!(feature = "view")),
+    ("darboux devices", cfg!(feature = "gpu")),
+    ("GPUs", cfg!(feature = "gpu")),
+    ("models in FBX", cfg!(feature = "fbx")),
+    ("maps in KTX 2", cfg!(feature = "ktx2")),
+];
+
+/// The parts that this build lacks and how to install them, for the end of the help; none if it has all.
+pub fn left_out() -> Resettable<StyledStr> {
+    let missing: Vec<&str> = PARTS.iter().filter(|(_, is_here)| !is_here).map(|(name, _)| *name).collect();
+    let sentence =
+        || format!("Not in this build: {}. To install all: {}", missing.join(", "), install_with("full"));
+    (!missing.is_empty()).then(|| sentence().into()).into()
+}
+
 /// The command line that installs the command with a feature.
-#[cfg(not(all(feature = "bake", feature = "fbx", feature = "gpu", feature = "view")))]
 pub fn install_with(feature: &str) -> String {
     format!("cargo install --locked {} --features {feature}", package(env!("CARGO_MANIFEST_DIR")))
 }

@@ -11,7 +11,6 @@ mod gpu;
 mod heat_scale;
 mod html_page;
 mod inputs;
-#[cfg(any(test, not(all(feature = "bake", feature = "fbx", feature = "gpu", feature = "view"))))]
 mod installing;
 mod interrupt;
 mod json;

@@ -109,7 +109,8 @@ pub fn refuse_foreign(
 /// Why `--resume` does not replace a file.
 pub fn foreign(path: &Path) -> String {
     format!(
-        "{}: exists, and the journal of --resume does not list it; use --force to replace it, or move it away",
+        "{}: exists, and the journal of --resume does not list it (runs without --resume keep none); use \
+         --force to replace it, or move it away",
         path.display()
     )
 }
