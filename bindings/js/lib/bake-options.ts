@@ -18,6 +18,8 @@ const IS_SHARED: { [Option in keyof Required<BakeModelsOptions>]: Option extends
   size: false,
   cageOffset: false,
   autoCage: false,
+  cage: false,
+  skew: false,
   distance: false,
   maps: true,
   samples: false,
@@ -54,16 +56,29 @@ export function optionsOfScope(options: BakeModelsOptions, shared: boolean): Bak
   return Object.fromEntries(given);
 }
 
+/** Options of the functions beside bakes of models. */
+const OTHER_OPTIONS = ['meshConvention', 'sourceConvention', 'to', 'written'];
+
+/** Errors: a name that no option has, which is most likely mistyped, and values that are not true or false. */
+function checkNames(options: object): void {
+  for (const [name, value] of Object.entries(options)) {
+    if (!Object.hasOwn(IS_SHARED, name) && !OTHER_OPTIONS.includes(name)) {
+      throw new TypeError(`${name} is not an option; the options are ${[...Object.keys(IS_SHARED), 'meshConvention'].join(', ')}`);
+    }
+    if (['backFaces', 'highMaps', 'aoOwnPart'].includes(name) && value != null) checkType(name, value, ['Boolean']);
+  }
+}
+
 /** Width and height in texels. */
 export function sizeOf({ size }: BakeOptions): readonly [number, number] {
   return size ?? [1024, 1024];
 }
 
-/** Errors: a value that is not an array of two. */
-function checkPair(name: string, pair: readonly [number, number] | null | undefined): void {
-  if (pair == null) return;
-  checkType(name, pair, ['Array']);
-  if (pair.length !== 2) throw new RangeError(`${name} has ${(pair as readonly number[]).length} elements; it must have 2`);
+/** Errors: a value that is not an array of so many elements. */
+function checkTuple(name: string, tuple: readonly number[] | null | undefined, count: number): void {
+  if (tuple == null) return;
+  checkType(name, tuple, ['Array']);
+  if (tuple.length !== count) throw new RangeError(`${name} has ${tuple.length} elements; it must have ${count}`);
 }
 
 /** The value of an option, or `fallback`. Errors: a value that is not among `values`. */
@@ -71,27 +86,36 @@ function named<V extends string>(option: string, value: V | null | undefined, va
   return values[choice(option, value, values, fallback)]!;
 }
 
+/** A value in a message: text with its quotes. */
+function shown(value: unknown): string {
+  return typeof value === 'string' ? JSON.stringify(value) : `${value}`;
+}
+
 /** The options as the JSON that the module reads. Errors: numbers that JSON or the module does not have. */
 export function optionsText(options: BakeModelsOptions, { meshConvention, sourceConvention, toObject }: OtherOptions = {}): string {
   const { cageOffset, autoCage, distance, maps, samples, padding, material, uvSet, udim, aoRays, aoDistance } = options;
-  checkPair('size', options.size);
-  checkPair('distance', distance);
+  checkNames(options);
+  checkTuple('size', options.size, 2);
+  checkTuple('distance', distance, 2);
+  checkTuple('worldDirection', options.worldDirection, 3);
   if (maps != null) checkType('maps', maps, ['Array']);
   const whole = { width: sizeOf(options)[0], height: sizeOf(options)[1], samples: samples ?? 1, padding, material, uvSet, udim, aoRays: aoRays ?? 64 };
   for (const [name, value] of Object.entries(whole)) {
-    if (value != null && !(Number.isInteger(value) && value >= 0 && value < 2 ** 32)) throw new RangeError(`${name} is ${value}; it must be a whole number from 0 on`);
+    if (value != null && !(Number.isInteger(value) && value >= 0 && value < 2 ** 32)) throw new RangeError(`${name} is ${shown(value)}; it must be a whole number from 0 on`);
   }
   const [x, y, z] = options.worldDirection ?? [0, 1, 0];
-  const { thicknessDistance, curvatureRadius } = options;
-  const lengths = { cageOffset, autoCage, aoDistance, thicknessDistance, curvatureRadius, 'worldDirection[0]': x, 'worldDirection[1]': y, 'worldDirection[2]': z, 'the first distance': distance?.[0], 'the second distance': distance?.[1] };
+  const { thicknessDistance, curvatureRadius, skew } = options;
+  const lengths = { cageOffset, autoCage, skew, aoDistance, thicknessDistance, curvatureRadius, 'worldDirection[0]': x, 'worldDirection[1]': y, 'worldDirection[2]': z, 'the first distance': distance?.[0], 'the second distance': distance?.[1] };
   for (const [name, value] of Object.entries(lengths)) {
-    if (value != null && !Number.isFinite(value)) throw new RangeError(`${name} is ${value}; it must be a finite number`);
+    if (value != null && !Number.isFinite(value)) throw new RangeError(`${name} is ${shown(value)}; it must be a finite number`);
   }
   return JSON.stringify({
     size: sizeOf(options),
     cageOffset: cageOffset ?? null,
     autoCage: autoCage ?? null,
     distance: distance ?? null,
+    hasCage: options.cage != null,
+    skew: skew ?? null,
     maps: (maps ?? ['normal']).map((kind) => named('maps', kind, MAP_KINDS)),
     samples: whole.samples,
     bitangent: named('bitangent', options.bitangent, BITANGENTS, 'pixel'),

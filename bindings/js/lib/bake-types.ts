@@ -18,7 +18,7 @@ export interface LowMesh {
   indices?: Indices | null;
   /** 4 per corner, as `generateTangents` returns them, which is the default. The sign w in a glTF file's TANGENT is the opposite of theirs: negate it first. */
   tangents?: Float32Array | null;
-  /** Rays begin on the mesh with its vertices moved to these positions, 3 per vertex, in place of the inflated copy. */
+  /** Rays begin on the mesh with its vertices moved to these positions, 3 per vertex, in place of the inflated copy; they end as far inside as `cageOffset` or `distance` says. */
   cage?: Float32Array | null;
 }
 
@@ -43,6 +43,8 @@ export interface BakeOptions {
    * stands on the surface lies inside it, and what stands over it behind a gap outside. It is at most `cageOffset` away; default for that: 10 % of the diagonal.
    */
   autoCage?: number | null;
+  /** Turns rays to the normals of the low model's triangles, from 0, not at all, to 1. Default: 0. */
+  skew?: number | null;
   /** In place of a cage: how far outside rays begin along the normals, and how far inside they end, in units of the positions. */
   distance?: readonly [number, number] | null;
   /** The images that are made; they share rays. Default: ['normal']. */
@@ -83,6 +85,8 @@ export interface BakeOptions {
 
 /** Options of `bakeModels`. */
 export interface BakeModelsOptions extends Omit<BakeOptions, 'meshConvention'> {
+  /** The bytes of a cage: the low model with its vertices moved, on which rays begin; they end as far inside as `cageOffset` says. */
+  cage?: Uint8Array | null;
   /** The index of the only material of the low model that is baked. Default: all. */
   material?: number | null;
   /** The n of `TEXCOORD_n`. Default: the set that the normal map of each material uses. */
@@ -213,13 +217,13 @@ export interface BakeReport {
 export type NormalTexels = Uint8Array | Uint16Array | Float32Array;
 
 /** Options of `verify`: those of the bake that count. */
-export interface VerifyOptions extends Pick<BakeOptions, 'cageOffset' | 'autoCage' | 'distance' | 'bitangent' | 'convention' | 'backFaces' | 'udim' | 'meshConvention' | 'onProgress'> {
+export interface VerifyOptions extends Pick<BakeOptions, 'cageOffset' | 'autoCage' | 'skew' | 'distance' | 'bitangent' | 'convention' | 'backFaces' | 'udim' | 'meshConvention' | 'onProgress'> {
   /** The map as it is in its file. Default: the map of the bake. */
   written?: NormalTexels | null;
 }
 
 /** Options of `verifyModels`: those of the bake that count. */
-export interface VerifyModelsOptions extends Omit<VerifyOptions, 'meshConvention'>, Pick<BakeModelsOptions, 'material' | 'uvSet' | 'match' | 'highMaps'> {}
+export interface VerifyModelsOptions extends Omit<VerifyOptions, 'meshConvention'>, Pick<BakeModelsOptions, 'cage' | 'material' | 'uvSet' | 'match' | 'highMaps'> {}
 
 /** Statistics of angles in degrees. All are 0 where there are no points. */
 export interface ErrorStatistics {

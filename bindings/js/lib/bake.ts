@@ -129,8 +129,8 @@ export function bake(low: LowMesh, high: HighMesh, options?: BakeOptions | null)
  * cannot be read, a model without normals, UVs or triangles, and numbers out of range.
  */
 export function bakeModels(low: Uint8Array, high: Uint8Array | readonly Uint8Array[], options?: BakeModelsOptions | null): BakedMaps {
-  const files = checkedFiles(low, high);
   const chosen = optionsOf(options);
+  const files = [...checkedFiles(low, high), ...checkedCage(chosen)];
   const text = optionsText(chosen);
   return call(chosen.onProgress, (exports) => {
     for (const file of files) writeBytes(exports, file);
@@ -171,7 +171,10 @@ export class PreparedModels {
    */
   bake(options?: Omit<BakeModelsOptions, keyof PreparedModelsOptions> | null): BakedMaps {
     const chosen = { ...optionsOfScope(optionsOf(options), false), ...this.#options };
-    return this.#call(chosen.onProgress, optionsText(chosen), () => {}, 'bake_prepared_models', bakedMaps(chosen));
+    const cage = checkedCage(chosen);
+    return this.#call(chosen.onProgress, optionsText(chosen), (exports) => {
+      for (const file of cage) writeBytes(exports, file);
+    }, 'bake_prepared_models', bakedMaps(chosen));
   }
 
   #call<R, T>(onProgress: BakeOptions['onProgress'], text: string, write: Write, work: 'prepare_models' | 'bake_prepared_models', read: (report: R, exports: BakeExports) => T): T {
@@ -212,8 +215,8 @@ export function verify(low: LowMesh, high: HighMesh, baked: BakedMaps, options?:
  * @throws As {@link bakeModels}; Error for a map of another size.
  */
 export function verifyModels(low: Uint8Array, high: Uint8Array | readonly Uint8Array[], baked: BakedMaps, options?: VerifyModelsOptions | null): Verification {
-  const files = checkedFiles(low, high);
   const chosen = optionsOf(options);
+  const files = [...checkedFiles(low, high), ...checkedCage(chosen)];
   const writeMaps = checkedMaps(baked, chosen.written);
   const text = optionsText({ ...chosen, size: baked.size });
   return call(chosen.onProgress, (exports) => {
@@ -355,6 +358,13 @@ function checkedFiles(low: Uint8Array, high: Uint8Array | readonly Uint8Array[])
   if (files.length === 1) throw new RangeError('high is empty; give at least one model');
   files.forEach((file, at) => checkType(at ? 'high' : 'low', file, ['Uint8Array']));
   return files;
+}
+
+/** The file of a cage, if there is one. Errors: another type. */
+function checkedCage({ cage }: Pick<BakeModelsOptions, 'cage'>): Uint8Array[] {
+  if (cage == null) return [];
+  checkType('cage', cage, ['Uint8Array']);
+  return [cage];
 }
 
 /** Errors: maps that are not of a bake with a normal map, and texels of another type. */

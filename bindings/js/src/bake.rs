@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::arena::with_arena;
 use crate::bake_arrays::BakeArrays;
-use crate::bake_settings::{Setup, Surfaces, bake_settings, read_options, text};
+use crate::bake_settings::{Options, Setup, Surfaces, bake_settings, read_options, text};
 use crate::inputs::resized;
 use crate::options::choice;
 use crate::prepared_models::PreparedModels;
@@ -32,7 +32,7 @@ pub extern "C" fn begin_bake() {
     with_arena(|arena| arena.bake.clear_models());
 }
 
-/// The bytes of the next file: the low model, then the high ones.
+/// The bytes of the next file: the low model, then the high ones, then a cage, of which the options tell.
 #[unsafe(no_mangle)]
 pub extern "C" fn model_bytes(bytes: usize) -> *mut u8 {
     with_arena(|arena| {
@@ -92,7 +92,8 @@ pub struct LegendEntry {
 
 impl Report {
     pub fn new(baked: &Baked, setup: Setup) -> Self {
-        let Setup { diagonal, distance, warnings, id_names, .. } = setup;
+        let Setup { diagonal, distance, mut warnings, misfit, id_names, .. } = setup;
+        warnings.extend(baked.report.warning_of_misses(misfit.as_deref()));
         let legends = legends(baked, &id_names);
         Self { counts: baked.report, diagonal, distance, warnings, legends }
     }
@@ -157,9 +158,11 @@ pub extern "C" fn prepare_models() -> *const u8 {
 pub extern "C" fn bake_prepared_models() -> *const u8 {
     with_arena(|arena| {
         let arrays = &mut arena.bake;
+        let mut files = take(&mut arrays.files);
         let result = read_options(&arrays.options).and_then(|options| {
+            let cage = cage_among(&mut files, &options);
             let prepared = arrays.prepared.as_ref().ok_or("no models were prepared")?;
-            prepared.with_surfaces(&options, &mut arena.context, bake_surfaces)
+            prepared.with_surfaces(cage, &options, &mut arena.context, bake_surfaces)
         });
         put_baked(arrays, result)
     })
@@ -190,15 +193,24 @@ pub fn tell(BakeProgress { done, total }: BakeProgress) {
     progress(done, total);
 }
 
+/// Takes the last of the files, if the options say that it is a cage.
+fn cage_among(files: &mut Vec<Vec<u8>>, options: &Options) -> Option<Vec<u8>> {
+    if options.has_cage { files.pop() } else { None }
+}
+
 /// Reads the models and works on their surfaces. Errors: one sentence.
 pub fn with_models<T>(
-    files: Vec<Vec<u8>>,
+    mut files: Vec<Vec<u8>>,
     options: &[u8],
     context: &mut Context,
     work: impl FnOnce(Surfaces<'_>, &mut Context) -> Result<T, String>,
 ) -> Result<(T, Setup), String> {
     let options = read_options(options)?;
-    // Wrong options are told before the work on the models. Any diagonal gives a valid distance.
-    bake_settings(&options, options.ray_origin()?.distance(1.0))?.check().map_err(text)?;
-    PreparedModels::read(files, &options, context)?.with_surfaces(&options, context, work)
+    let cage = cage_among(&mut files, &options);
+    // Wrong options are told before the work on the models.
+    let origin = options.ray_origin()?;
+    origin.check().map_err(text)?;
+    bake_settings(&options, origin.distance(1.0))?.check().map_err(text)?;
+    options.high_options()?;
+    PreparedModels::read(files, &options, context)?.with_surfaces(cage, &options, context, work)
 }

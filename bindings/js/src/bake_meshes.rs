@@ -61,17 +61,20 @@ pub fn with_meshes<T>(
 ) -> Result<(T, Setup), String> {
     let options = read_options(&arrays.options)?;
     with_low_mesh(low, arrays, context, |low, context| {
-        let (origin, diagonal) = (options.ray_origin()?, low.diagonal());
+        let cage = arrays.cage.as_deref();
+        let origin =
+            cage.map_or_else(|| options.ray_origin(), |_| options.ray_origin_with_cage("low.cage"))?;
+        let diagonal = low.diagonal();
         let high = high_surface(arrays)?;
         let prepared = PreparedSurfaces::new(&[low], &[high], None, context).map_err(text)?;
-        let cages = match arrays.cage.as_deref() {
+        let cages = match cage {
             Some(given) => {
                 Cages { positions: vec![rows(given).to_vec()], distance: origin.distance(diagonal) }
             }
             None => origin.cages(diagonal, &[low], &prepared, context).map_err(text)?,
         };
         let distance = cages.distance;
-        let caged = with_cages(&[low], &cages.positions).map_err(text)?;
+        let caged = options.straightened(with_cages(&[low], &cages.positions).map_err(text)?)?;
         let settings = bake_settings(&options, distance)?;
         let prepared = &prepared.with_low(&caged, context).map_err(text)?;
         let done = work(Surfaces { prepared, settings: &settings }, context)?;

@@ -2,8 +2,9 @@
 
 use darboux::Convention;
 use darboux_bake::{
-    BakeOptions, Bitangent, CurvatureRadius, IdSource, MapKind, MapSet, OcclusionFalloff, OcclusionWeights,
-    PartMatch, PreparedSurfaces, RayOrigin, Udim,
+    BakeOptions, Bitangent, CurvatureRadius, HighModelOptions, IdSource, LowSurface, MapKind, MapSet,
+    OcclusionFalloff, OcclusionWeights, PartMatch, PreparedSurfaces, RayOrigin, SkewCorrection, Udim,
+    with_skew,
 };
 use serde::Deserialize;
 
@@ -17,6 +18,9 @@ pub struct Options {
     cage_offset: Option<f32>,
     auto_cage: Option<f32>,
     distance: Option<[f32; 2]>,
+    /// Whether a cage lies behind the other files.
+    pub has_cage: bool,
+    skew: Option<f32>,
     maps: Vec<Named<MapKind>>,
     samples: u32,
     pub bitangent: Named<Bitangent>,
@@ -62,14 +66,47 @@ impl Options {
 
     /// Where rays begin. Errors: two options say so.
     pub fn ray_origin(&self) -> Result<RayOrigin, String> {
-        match (self.distance, self.auto_cage) {
-            (Some(_), Some(_)) => {
-                Err("distance and autoCage both say where rays begin; leave one of them out".to_owned())
-            }
-            (Some(distance), None) => Ok(RayOrigin::Normals(distance)),
-            (None, Some(share)) => Ok(RayOrigin::AutoCage { share, reach: self.cage_offset }),
-            (None, None) => Ok(RayOrigin::InflatedCage(self.cage_offset)),
+        match self.has_cage {
+            true => self.ray_origin_with_cage("cage"),
+            false => self.ray_origin_without_cage(),
         }
+    }
+
+    fn ray_origin_without_cage(&self) -> Result<RayOrigin, String> {
+        match (self.distance, self.auto_cage, self.cage_offset) {
+            (Some(_), Some(_), _) => Err(two_origins("distance", "autoCage")),
+            (Some(_), None, Some(_)) => Err(two_origins("distance", "cageOffset")),
+            (Some(distance), None, None) => Ok(RayOrigin::Normals(distance)),
+            (None, Some(share), reach) => Ok(RayOrigin::AutoCage { share, reach }),
+            (None, None, offset) => Ok(RayOrigin::InflatedCage(offset)),
+        }
+    }
+
+    /// How far inside rays end that begin on a given cage. `name`: of the cage. Errors: another option says
+    /// where they begin, too.
+    pub fn ray_origin_with_cage(&self, name: &str) -> Result<RayOrigin, String> {
+        match self.auto_cage {
+            Some(_) => Err(two_origins(name, "autoCage")),
+            None => self.ray_origin_without_cage(),
+        }
+    }
+
+    /// The surfaces with the correction of skew. Errors: an amount out of range.
+    pub fn straightened<'a>(&self, low: Vec<LowSurface<'a>>) -> Result<Vec<LowSurface<'a>>, String> {
+        match self.skew {
+            Some(amount) => with_skew(&low, SkewCorrection::Everywhere(amount)).map_err(text),
+            None => Ok(low),
+        }
+    }
+
+    /// What counts on high models. Errors: a texture without its map, or the other way round.
+    pub fn high_options(&self) -> Result<HighModelOptions, String> {
+        let options = HighModelOptions::default()
+            .with_normal_maps(self.high_maps)
+            .with_maps(chosen_maps(self))
+            .with_texture(self.texture.clone());
+        options.check().map_err(text)?;
+        Ok(options)
     }
 
     /// The tile that is worked on; none for all.
@@ -82,12 +119,18 @@ impl Options {
     }
 }
 
+fn two_origins(one: &str, other: &str) -> String {
+    format!("{one} and {other} both say where rays begin; leave one of them out")
+}
+
 /// What was chosen for models or meshes before the work on them.
 #[derive(Default)]
 pub struct Setup {
     pub diagonal: f64,
     pub distance: [f32; 2],
     pub warnings: Vec<String>,
+    /// As of `Models::misfit`.
+    pub misfit: Option<String>,
     /// Of what the colours of [`MapKind::Id`] stand for.
     pub id_names: Vec<String>,
     /// Of the low surfaces.

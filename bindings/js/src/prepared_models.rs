@@ -3,13 +3,13 @@
 
 use darboux::Context;
 use darboux_bake::{
-    HighModel, HighModelOptions, LowModel, LowModelOptions, LowSurface, ModelSurfaces, Models,
-    PreparedSurfaces, with_cages,
+    Cages, HighModel, LowModel, LowModelOptions, LowSurface, ModelSurfaces, Models, PreparedSurfaces,
+    cage_of, with_cages,
 };
 use darboux_io::gltf::{Document, PrimitiveCorners};
 use self_cell::self_cell;
 
-use crate::bake_settings::{Options, Setup, Surfaces, bake_settings, chosen_maps, sentence, text};
+use crate::bake_settings::{Options, Setup, Surfaces, bake_settings, sentence, text};
 use crate::reading::load_options;
 
 type Corners<'a> = Vec<Vec<PrimitiveCorners<'a>>>;
@@ -66,28 +66,39 @@ impl PreparedModels {
         Ok(Self { surfaces, warnings })
     }
 
-    /// Works on the surfaces, with the cage and the settings of a bake. Errors: one sentence.
+    /// Works on the surfaces, with the cage and the settings of a bake. `cage`: the bytes of a given one.
+    /// Errors: one sentence.
     pub fn with_surfaces<T>(
         &self,
+        cage: Option<Vec<u8>>,
         options: &Options,
         context: &mut Context,
         work: impl FnOnce(Surfaces<'_>, &mut Context) -> Result<T, String>,
     ) -> Result<(T, Setup), String> {
-        let Models { low, highs } = self.surfaces.borrow_owner().borrow_dependent();
+        let models = self.surfaces.borrow_owner().borrow_dependent();
+        let Models { low, highs } = models;
         let Prepared { low: without_cage, surfaces } = self.surfaces.borrow_dependent();
         let id_names = HighModel::names_of_all(highs, options.id_from.0);
         let origin = options.ray_origin()?;
         bake_settings(options, origin.distance(low.diagonal()))?.check().map_err(text)?;
-        let cages = origin.cages(low.diagonal(), without_cage, surfaces, context).map_err(text)?;
+        let cages = match cage {
+            Some(file) => {
+                let positions = cage_of(&open("the cage", file)?, without_cage).map_err(sentence)?;
+                Cages { positions, distance: origin.distance(low.diagonal()) }
+            }
+            None => origin.cages(low.diagonal(), without_cage, surfaces, context).map_err(text)?,
+        };
         let setup = Setup {
             diagonal: low.diagonal(),
             distance: cages.distance,
             warnings: self.warnings.clone(),
+            misfit: models.misfit(),
             id_names: id_names.into_iter().map(str::to_owned).collect(),
             part_names: low.names().map(str::to_owned).collect(),
         };
         let settings = &bake_settings(options, setup.distance)?;
         let caged = with_cages(without_cage, &cages.positions).map_err(text)?;
+        let caged = options.straightened(caged)?;
         let surfaces = &surfaces.with_low(&caged, context).map_err(text)?;
         Ok((work(Surfaces { prepared: surfaces, settings }, context)?, setup))
     }
@@ -97,11 +108,7 @@ fn read_models<'a>(files: &'a ReadFiles, options: &Options) -> Result<Models<'a>
     let no_model = || "there is no model to bake";
     let (low, highs) = files.borrow_owner().split_first().ok_or_else(no_model)?;
     let (low_corners, high_corners) = files.borrow_dependent().split_first().ok_or_else(no_model)?;
-    let high_options = HighModelOptions::default()
-        .with_normal_maps(options.high_maps)
-        .with_maps(chosen_maps(options))
-        .with_texture(options.texture.clone());
-    Models::read((low, low_corners), (highs, high_corners), &low_options(options), &high_options)
+    Models::read((low, low_corners), (highs, high_corners), &low_options(options), &options.high_options()?)
         .map_err(sentence)
 }
 

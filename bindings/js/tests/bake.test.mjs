@@ -82,7 +82,24 @@ for (const [name, { bake, bakeModels, PreparedModels, TEXEL_STATES, verify, veri
     assert.deepEqual(bake(fan(0), fan(0.5), { ...options, cageOffset: 2 }).height, made.height);
     assert.ok(bakeModels(bytes(0), high, options).report.missedTexels > 0, 'the slope is higher than 10 % of the diagonal');
     assert.throws(() => bakeModels(bytes(0), high, { ...options, distance: [1, 1] }), { message: 'distance and autoCage both say where rays begin; leave one of them out' });
-    assert.throws(() => bakeModels(bytes(0), high, { ...options, autoCage: 2 }), /share/);
+    assert.throws(() => bakeModels(bytes(0), high, { ...options, autoCage: null, cageOffset: 2, distance: [1, 1] }), { message: 'distance and cageOffset both say where rays begin; leave one of them out' });
+    assert.throws(() => bake({ ...fan(0), cage: fan(0).positions }, fan(0.5), options), { message: 'low.cage and autoCage both say where rays begin; leave one of them out' });
+    assert.throws(() => bakeModels(Uint8Array.of(1), high, { ...options, autoCage: 2 }), /share/, 'options are checked before files');
+  });
+
+  test(`${name}: a cage can be a model, and rays straight`, () => {
+    const options = { size: [8, 4], maps: ['height'] };
+    const [low, high, cage] = [bytes(0), bytes(0.5), bytes(1)];
+    const near = { ...options, cageOffset: 0.001 };
+    const caged = bakeModels(low, high, { ...near, cage });
+    assert.deepEqual([caged.report.missedTexels, caged.distance[1]], [0, 0.001], 'the slope lies between the models');
+    assert.ok(bakeModels(low, high, near).report.missedTexels > 0);
+    assert.deepEqual(new PreparedModels(low, high, { maps: ['height'] }).bake({ size: [8, 4], cageOffset: 0.001, cage }), caged);
+    assert.throws(() => bakeModels(low, high, { ...options, cage, autoCage: 0.001 }), { message: 'cage and autoCage both say where rays begin; leave one of them out' });
+    assert.throws(() => bakeModels(low, high, { ...options, cage: shield }), /the cage has .* but (the low model has|that of the low)/);
+    assert.throws(() => bakeModels(low, high, { ...options, cage: [1] }), { name: 'TypeError' });
+    assert.throws(() => bakeModels(low, high, { ...options, skew: 2 }), /a skew correction is 2; it must be from 0 to 1/);
+    assert.deepEqual(bakeModels(low, high, { ...options, cageOffset: 1, skew: 1 }).height, bakeModels(low, high, { ...options, cageOffset: 1 }).height, 'a flat mesh has nothing to straighten');
   });
 
   test(`${name}: prepared models refuse what a bake of models refuses, and stay usable`, () => {
@@ -106,7 +123,10 @@ for (const [name, { bake, bakeModels, PreparedModels, TEXEL_STATES, verify, veri
   });
 
   test(`${name}: options of prepared models and of their bakes are told apart`, () => {
-    const shared = { maps: ['base-color'], material: 0, uvSet: 0, match: 'name', highMaps: true, texture: 'occlusionTexture' };
+    const place = 'occlusionTexture';
+    assert.throws(() => bakeModels(Uint8Array.of(1), bytes(0.5), { maps: ['texture'] }), /the map texture needs the option texture/);
+    assert.throws(() => new PreparedModels(bytes(0), bytes(0.5), { texture: place }), /the option texture is for the map texture/);
+    const shared = { maps: ['base-color'], material: 0, uvSet: 0, match: 'name', highMaps: true, texture: place };
     const prepared = new PreparedModels(bytes(0), bytes(0.5), { size: undefined, onProgress: null });
     for (const [option, value] of Object.entries(shared)) {
       assert.throws(() => prepared.bake({ [option]: value }), { name: 'TypeError', message: `${option} is an option of PreparedModels, not of its bakes` });
@@ -247,6 +267,11 @@ for (const [name, { bake, bakeModels, PreparedModels, TEXEL_STATES, verify, veri
     assert.throws(() => bakeModels(shield, []), { name: 'RangeError', message: 'high is empty; give at least one model' });
     assert.throws(() => bakeModels(shield, shield, { samples: 1.5 }), RangeError);
     assert.throws(() => bakeModels(shield, shield, { cageOffset: NaN }), RangeError);
+    assert.throws(() => bakeModels(shield, shield, { sampels: 4 }), { name: 'TypeError', message: /^sampels is not an option; the options are size, cageOffset/ });
+    assert.throws(() => bakeModels(shield, shield, { backFaces: 'false' }), { name: 'TypeError', message: 'backFaces must be a Boolean, not String' });
+    assert.throws(() => bakeModels(shield, shield, { highMaps: 0 }), { name: 'TypeError', message: 'highMaps must be a Boolean, not Number' });
+    assert.throws(() => bakeModels(shield, shield, { worldDirection: [0, 0] }), { name: 'RangeError', message: 'worldDirection has 2 elements; it must have 3' });
+    assert.throws(() => bakeModels(shield, shield, { size: ['8', 8] }), { message: 'width is "8"; it must be a whole number from 0 on' });
     assert.throws(() => bakeModels(shield, shield, { cageOffset: -1 }), /^Error: rays cannot begin -1 outside the low surface/);
     assert.throws(() => bakeModels(shield, shield, { size: [0, 4] }), /^Error: an image of 0 x 4 texels cannot be made/);
     assert.throws(() => bakeModels(shield, shield, { convention: 'quake' }), /^Error: convention: /);

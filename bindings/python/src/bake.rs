@@ -254,15 +254,18 @@ impl Skew {
         ColorTexture::new(size, texels, false).map(Self::Map).map_err(bake_error)
     }
 
+    pub fn correction(&self) -> SkewCorrection<'_> {
+        match self {
+            Self::Everywhere(amount) => SkewCorrection::Everywhere(*amount),
+            Self::PerTriangle(amounts) => SkewCorrection::PerTriangle(amounts),
+            Self::Map(map) => SkewCorrection::Map(map),
+        }
+    }
+
     /// The surface with this correction, or as it is without one.
     pub fn on<'a>(skew: Option<&'a Self>, surface: LowSurface<'a>) -> PyResult<LowSurface<'a>> {
-        let correction = match skew {
-            None => return Ok(surface),
-            Some(Self::Everywhere(amount)) => SkewCorrection::Everywhere(*amount),
-            Some(Self::PerTriangle(amounts)) => SkewCorrection::PerTriangle(amounts),
-            Some(Self::Map(map)) => SkewCorrection::Map(map),
-        };
-        surface.with_skew_correction(correction).map_err(bake_error)
+        let Some(skew) = skew else { return Ok(surface) };
+        surface.with_skew_correction(skew.correction()).map_err(bake_error)
     }
 }
 

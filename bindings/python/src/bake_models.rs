@@ -5,16 +5,16 @@ use std::sync::mpsc::Sender;
 
 use darboux::{Cancel, Context};
 use darboux_bake::{
-    BakeOptions, BakeProgress, Baked, HighModel, HighModelOptions, LowModelOptions, ModelSurfaces, Models,
-    ModelsError, PartMatch, PreparedSurfaces, RayOrigin, with_cages,
+    BakeOptions, BakeProgress, Baked, Cages, HighModel, HighModelOptions, LowModelOptions, ModelSurfaces,
+    Models, ModelsError, PartMatch, PreparedSurfaces, RayOrigin, cage_of, with_cages, with_skew,
 };
-use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
+use darboux_io::{LoadOptions, memory_of_process};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyBytes};
 
-use crate::bake::bake_error;
+use crate::bake::{Skew, bake_error};
 use crate::bake_result::{Setup, baked_maps};
 use crate::bake_settings::BakeSettings;
 use crate::choices::named_choice;
@@ -44,6 +44,12 @@ use crate::threads::{check_progress, run_interruptibly};
 ///     Rays begin on a cage that is made for the models: at every vertex as close as all but this share of
 ///     the rays around allows, such as 0.001. It is at most `cage_offset` away, by default 10 % of the
 ///     diagonal.
+/// cage : path-like or bytes, optional
+///     Rays begin on the low model with its vertices moved, a model, and end as far inside as `cage_offset`
+///     says.
+/// skew : float or (N, M) uint8 array, optional
+///     Turns rays to the normals of the low model's triangles: by an amount from 0 to 1, or by an image over
+///     its UVs, white where rays follow the triangle's normal.
 /// distance : (float, float), optional
 ///     In place of a cage: how far outside rays begin along the normals, and how far inside they end, in
 ///     units of the positions.
@@ -88,7 +94,7 @@ use crate::threads::{check_progress, run_interruptibly};
 ///     Images and models need more memory than there is.
 #[pyfunction]
 #[pyo3(signature = (
-    low, high, *, size=(Natural(1024), Natural(1024)), cage_offset=None, auto_cage=None, distance=None,
+    low, high, *, size=(Natural(1024), Natural(1024)), cage_offset=None, auto_cage=None, cage=None, skew=None, distance=None,
     maps=vec!["normal".to_owned()], samples=1, target="gltf", bitangent="pixel", padding=None, back_faces=false, ao_rays=64,
     ao_distance=f32::INFINITY, ao_falloff="none", ao_weights="cosine", thickness_distance=f32::INFINITY,
     curvature_radius=4.0, curvature_unit="texels", world_direction=(0.0, 1.0, 0.0), udim=None, material=None,
@@ -103,6 +109,8 @@ pub fn bake_models<'py>(
     size: (Natural, Natural),
     cage_offset: Option<f32>,
     auto_cage: Option<f32>,
+    cage: Option<&Bound<'py, PyAny>>,
+    skew: Option<&Bound<'py, PyAny>>,
     distance: Option<(f32, f32)>,
     maps: Vec<String>,
     #[pyo3(from_py_with = natural)] samples: u32,
@@ -150,25 +158,28 @@ pub fn bake_models<'py>(
         world_direction,
         udim,
     };
-    let origin = ray_origin(cage_offset, auto_cage, distance)?;
-    // Any diagonal gives a valid distance; wrong options are told before files are read.
+    let origin = ray_origin(cage_offset, auto_cage, cage.is_some(), distance)?;
+    // Wrong options are told before files are read. The distance is known when the low model is.
+    origin.check().map_err(bake_error)?;
     let options = settings
         .options(origin.distance(1.0))?
         .with_own_part_only(ao_own_part)
         .with_id_source(named_choice(id_from)?);
-    options.check().map_err(bake_error)?;
+    options.check().and_then(|()| options.check_memory()).map_err(bake_error)?;
+    let high_options =
+        HighModelOptions::default().with_normal_maps(high_maps).with_maps(options.maps).with_texture(texture);
+    high_options.check().map_err(bake_error)?;
     let index = |Natural(number)| number as usize;
     let job = Job {
         low: ModelSource::new("low", low)?,
+        cage: cage.map(|cage| ModelSource::new("cage", cage)).transpose()?,
+        skew: skew.map(Skew::new).transpose()?,
         highs: ModelSource::several("high", high)?,
         loading: load_options(memory_limit).with_allow_outside(allow_outside),
         low_options: LowModelOptions::default()
             .with_material(material.map(index))
             .with_uv_set(uv_set.map(index)),
-        high_options: HighModelOptions::default()
-            .with_normal_maps(high_maps)
-            .with_maps(options.maps)
-            .with_texture(texture),
+        high_options,
         part_match: named_choice(r#match)?,
         origin,
         options,
@@ -192,21 +203,26 @@ pub fn bake_models<'py>(
 fn ray_origin(
     cage_offset: Option<f32>,
     auto_cage: Option<f32>,
+    has_cage: bool,
     distance: Option<(f32, f32)>,
 ) -> PyResult<RayOrigin> {
-    let Some(distance) = distance else {
-        return Ok(match auto_cage {
-            Some(share) => RayOrigin::AutoCage { share, reach: cage_offset },
-            None => RayOrigin::InflatedCage(cage_offset),
-        });
-    };
-    let others = [("cage_offset", cage_offset.is_some()), ("auto_cage", auto_cage.is_some())];
-    match others.into_iter().find(|(_, is_given)| *is_given) {
-        Some((other, _)) => Err(PyValueError::new_err(format!(
-            "{other} and distance both say where rays begin; leave one of them out"
-        ))),
-        None => Ok(RayOrigin::Normals(distance.into())),
+    let (has_distance, has_made) = (distance.is_some(), auto_cage.is_some());
+    let both = [
+        (has_distance && cage_offset.is_some(), "cage_offset and distance"),
+        (has_distance && has_made, "auto_cage and distance"),
+        (has_distance && has_cage, "cage and distance"),
+        (has_made && has_cage, "cage and auto_cage"),
+    ];
+    if let Some((_, names)) = both.into_iter().find(|(are_given, _)| *are_given) {
+        return Err(PyValueError::new_err(format!(
+            "{names} both say where rays begin; leave one of them out"
+        )));
     }
+    Ok(match (distance, auto_cage) {
+        (Some(distance), _) => RayOrigin::Normals(distance.into()),
+        (None, Some(share)) => RayOrigin::AutoCage { share, reach: cage_offset },
+        (None, None) => RayOrigin::InflatedCage(cage_offset),
+    })
 }
 
 /// A model that a caller passes.
@@ -260,6 +276,8 @@ impl ModelSource {
 struct Job {
     low: ModelSource,
     highs: Vec<ModelSource>,
+    cage: Option<ModelSource>,
+    skew: Option<Skew>,
     loading: LoadOptions,
     low_options: LowModelOptions,
     high_options: HighModelOptions,
@@ -286,15 +304,28 @@ impl Job {
 
         let ModelSurfaces { low: surfaces, highs: high_surfaces, warnings: of_names } =
             models.surfaces(self.part_match)?;
-        let mut options = self.options;
+        // What the models take is no longer free.
+        let mut options = self.options.with_memory_limit(memory_of_process());
         let prepared = PreparedSurfaces::new(&surfaces, &high_surfaces, options.memory_limit, context)?;
-        let cages = self.origin.cages(models.low.diagonal(), &surfaces, &prepared, context)?;
+        let diagonal = models.low.diagonal();
+        let cages = match self.cage {
+            Some(cage) => {
+                let positions = cage_of(&cage.open("the cage", &self.loading)?, &surfaces)?;
+                Cages { positions, distance: self.origin.distance(diagonal) }
+            }
+            None => self.origin.cages(diagonal, &surfaces, &prepared, context)?,
+        };
         options.distance = cages.distance;
-        let prepared = prepared.with_low(&with_cages(&surfaces, &cages.positions)?, context)?;
+        let mut caged = with_cages(&surfaces, &cages.positions)?;
+        if let Some(skew) = &self.skew {
+            caged = with_skew(&caged, skew.correction())?;
+        }
+        let prepared = prepared.with_low(&caged, context)?;
         let baked = prepared.bake(&options, context, progress)?;
 
         let of_files = highs.iter().chain([&low]).flat_map(Document::warnings).cloned();
-        let warnings = of_files.chain(models.warnings()).chain(of_names);
+        let of_misses = baked.report.warning_of_misses(models.misfit().as_deref());
+        let warnings = of_files.chain(models.warnings()).chain(of_names).chain(of_misses);
         let id_names = HighModel::names_of_all(&models.highs, options.id_source);
         let setup = Setup {
             distance: options.distance,

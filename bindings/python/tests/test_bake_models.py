@@ -169,6 +169,26 @@ def test_a_cage_is_made_for_models() -> None:
     assert darboux.bake_models(low, high, size=(8, 4), auto_cage=0.001).report.missed_texels > 0
 
 
+def test_a_cage_can_be_a_model_and_rays_can_be_straight(tmp_path: Path) -> None:
+    low, high = model(part(PLATE)), model(part(ROOF))
+    cage = tmp_path / "cage.glb"
+    cage.write_bytes(model(part(PLATE + np.float32([0, 0, 2]))))
+    options: Any = {"size": (8, 4), "maps": ["height"]}
+    inflated = darboux.bake_models(low, high, cage_offset=2, **options)
+    for given in (cage, cage.read_bytes()):
+        baked = darboux.bake_models(low, high, cage=given, cage_offset=2, **options)
+        assert baked.height is not None and inflated.height is not None
+        assert np.allclose(baked.height, inflated.height, atol=1e-6)
+    with pytest.raises(ValueError, match="the cage has 2 primitives but the low model has 1; make the cage by moving"):
+        darboux.bake_models(low, high, cage=model(part(PLATE), part(PLATE)), **options)
+    with pytest.raises(ValueError, match="cage and auto_cage both say where rays begin"):
+        darboux.bake_models(low, high, cage=cage, auto_cage=0.001, **options)
+    for skew in (0.0, np.zeros((2, 2), np.uint8)):
+        assert darboux.bake_models(low, high, cage_offset=2, skew=skew, **options).height is not None
+    with pytest.raises(ValueError, match="a skew correction is 2; it must be from 0 to 1"):
+        darboux.bake_models(low, high, skew=2.0, **options)
+
+
 def test_bad_models_are_told_in_one_sentence(tmp_path: Path) -> None:
     plate, missing = model(part(PLATE)), tmp_path / "missing.glb"
     with pytest.raises(FileNotFoundError, match="missing.glb"):
@@ -189,6 +209,12 @@ def test_bad_models_are_told_in_one_sentence(tmp_path: Path) -> None:
         darboux.bake_models(plate, plate, cage_offset=1, distance=(1, 1))
     with pytest.raises(ValueError, match="auto_cage and distance both say where rays begin"):
         darboux.bake_models(plate, plate, auto_cage=0.001, distance=(1, 1))
+    with pytest.raises(ValueError, match="the share of rays that may change their hit is 2"):
+        darboux.bake_models(missing, missing, auto_cage=2)
+    with pytest.raises(ValueError, match="the map texture needs the option texture"):
+        darboux.bake_models(missing, missing, maps=["texture"])
+    with pytest.raises(ValueError, match="the option texture is for the map texture"):
+        darboux.bake_models(missing, missing, texture="occlusionTexture")
     with pytest.raises(ValueError, match="match is 'near'; it must be one of 'nearest', 'name'"):
         darboux.bake_models(plate, plate, match="near")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="high is empty; give one model or several"):

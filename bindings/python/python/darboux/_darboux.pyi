@@ -359,12 +359,14 @@ def bake(
     threads: Optional[int] = None,
 ) -> BakedMaps: ...
 def bake_models(
-    low: Union[_Path, bytes],
-    high: Union[_Path, bytes, Iterable[Union[_Path, bytes]]],
+    low: Union[_Path, bytes, bytearray],
+    high: Union[_Path, bytes, bytearray, Iterable[Union[_Path, bytes, bytearray]]],
     *,
     size: Tuple[int, int] = ...,
     cage_offset: Optional[float] = None,
     auto_cage: Optional[float] = None,
+    cage: Union[_Path, bytes, bytearray, None] = None,
+    skew: Union[float, npt.NDArray[np.uint8], None] = None,
     distance: Optional[Tuple[float, float]] = None,
     maps: Sequence[MapKind] = ...,
     samples: int = 1,
