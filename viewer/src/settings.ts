@@ -41,6 +41,8 @@ export interface Settings {
   seams: boolean;
   /** Whether the outline of the model's fault is drawn. */
   outline: boolean;
+  /** Whether lit models stand on the ground. */
+  ground: boolean;
   /** Whether the edges of triangles are drawn. */
   wireframe: boolean;
   /** The numbers of the parts that are not shown. */

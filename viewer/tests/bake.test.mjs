@@ -140,6 +140,21 @@ test('further maps share a bake with the normal map: they are listed, saved, and
   assert.ok(saved['plate_low.ao.png'].share((r, g, b) => r === g && g === b && r < 250) > 0.1, 'the valleys are occluded');
 });
 
+test('a baked base colour is not multiplied by colours of the vertices', async () => {
+  const low = plate(2, 0);
+  low.attributes.COLOR_0 = [Float32Array.from(low.attributes.POSITION[0], (_, at) => Number(at % 3 === 2)), 3];
+  await viewer.give('files', [path('red_high.gltf'), write('blue_low.gltf', low)]);
+  await viewer.slide('split', 0);
+  const part = async (channel) => (await viewer.picture()).share((...texel) => texel[channel] > 1.2 * Math.max(...texel.filter((_, at) => at !== channel)));
+  const [red, blue] = [await part(0), await part(2)];
+  assert.ok(red > 0.1 && blue === 0, `${red} red, ${blue} blue`);
+  await viewer.click('#bake-kind-base-color');
+  assert.ok((await part(2)) > 0.1, 'without the map, the low model is blue');
+  await viewer.click('#bake-kind-base-color');
+  await viewer.slide('split', 50);
+  await viewer.give('files', [path('red_high.gltf'), path('plate_low.gltf')]);
+});
+
 test('the further maps are the command\'s', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {
   const kinds = ['ao', 'base-color', 'curvature', 'thickness', 'height', 'position', 'object-normal', 'id'];
   for (const kind of kinds) await viewer.page.setChecked(`#bake-kind-${kind}`, true);

@@ -108,9 +108,9 @@ test('what is saved of an FBX or OBJ is the command\'s', { skip: !DARBOUX && 'DA
   }
 });
 
-test('what three.js cannot read is said', async () => {
+test('sparse and quantised elements that lie apart', async () => {
   await viewer.give('files', [asset('made/quantised-sparse.glb')]);
-  assert.match(await viewer.text('error'), /three\.js does not read sparse accessors/);
+  assert.deepEqual([await viewer.text('error'), await viewer.text('status')], ['', '36 triangles in 1 part']);
 });
 
 test('an OBJ, and what is saved of it', async () => {
@@ -262,6 +262,23 @@ test('textures that are missing are said, and not looked for elsewhere', async (
   await viewer.give('folder', path);
   assert.equal(await viewer.text('error'), '');
   assert.match(await viewer.text('status'), /3 textures missing or not decodable$/);
+});
+
+test('textures in KTX 2 that are missing are said, and not looked for elsewhere', async () => {
+  const plane = JSON.parse(readFileSync(asset('TwoSidedPlane/TwoSidedPlane.gltf'), 'utf8'));
+  const image = plane.images.push({ uri: 'rock.ktx2', mimeType: 'image/ktx2' }) - 1;
+  plane.textures = plane.textures.map(() => ({ extensions: { KHR_texture_basisu: { source: image } } }));
+  plane.extensionsUsed = ['KHR_texture_basisu'];
+  const path = join(folder, 'rock');
+  mkdirSync(path);
+  copyFileSync(asset('TwoSidedPlane/TwoSidedPlane.bin'), join(path, 'TwoSidedPlane.bin'));
+  writeFileSync(join(path, 'rock.gltf'), JSON.stringify(plane));
+  const asked = [];
+  viewer.page.on('request', (request) => request.url().includes('rock.ktx2') && asked.push(request.url()));
+  await viewer.give('folder', path);
+  assert.equal(await viewer.text('error'), '');
+  assert.match(await viewer.text('status'), /textures? in KTX 2 (is|are) left out: its file is missing; give the whole folder/);
+  assert.deepEqual(asked, []);
 });
 
 test('bad files get a sentence, and leave the model that is open', async () => {

@@ -1,13 +1,13 @@
 // Models with skins, morph targets, instances, and textures in formats of extensions.
 
 import assert from 'node:assert/strict';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { browser, serve, Viewer } from './page.mjs';
-import { gltf, QUAD, TANGENTS } from './quads.mjs';
+import { browser, root, serve, Viewer } from './page.mjs';
+import { gltf, interleaved, QUAD, TANGENTS } from './quads.mjs';
 
 let server, chromium, viewer, folder;
 
@@ -117,6 +117,13 @@ test('morph targets move models and their frames as the scene weights them', asy
   await looksAs(weighted([0.5, 0]), baked, weighted([0, 0]), ['mikktspace', 'file']);
 });
 
+test('elements that lie apart are where the file has them, sparse ones too', async () => {
+  const attributes = { ...QUAD, TANGENT: TANGENTS };
+  const [plain, moved] = [gltf({ attributes }), interleaved({ attributes, replaced: [0, 5], isSparse: false })];
+  await looksAs(interleaved({ attributes }), plain, moved, ['mikktspace', 'file']);
+  await looksAs(interleaved({ attributes, replaced: [0, 5] }), plain, moved, ['mikktspace', 'file']);
+});
+
 test('instances are where the file places them', async () => {
   const [translations, scales] = [Float32Array.of(0, 0, 0, 2.5, 0, 0, 0, 2, 1), Float32Array.of(1, 1, 1, 1, 2, 1, -1, 1, 1)];
   const turned = { rotation: [0, 0, Math.sin(0.2), Math.cos(0.2)] };
@@ -167,10 +174,20 @@ test('textures in WebP and AVIF are shown', async () => {
   }
 });
 
-test('textures in KTX 2 are left out with a warning, or their fallback images are shown', async () => {
+const isBlue = (r, g, b) => b > 1.2 * r && b > 1.2 * g;
+
+test('textures in KTX 2 are shown', async () => {
+  for (const name of ['bumps-uastc', 'bumps-uastc-zstd', 'bumps-etc1s']) {
+    await open(dressed('KHR_texture_basisu', 'image/ktx2', readFileSync(join(root, 'crates/darboux-io/tests/ktx2', `${name}.ktx2`))));
+    assert.equal(await viewer.text('status'), '4 triangles in 1 part');
+    assert.ok((await viewer.picture()).share(isBlue) > 0.05, name);
+  }
+});
+
+test('damaged textures in KTX 2 are left out with a warning, or their fallback images are shown', async () => {
   const ktx2 = Buffer.from('«KTX 20»\r\n\x1a\n', 'latin1');
   await open(dressed('KHR_texture_basisu', 'image/ktx2', ktx2));
-  assert.match(await viewer.text('status'), /; 1 texture in KTX 2 is left out, because this page has no decoder for it$/);
+  assert.match(await viewer.text('status'), /; 1 texture in KTX 2 is left out: the texture cannot be decoded \(its header is damaged\); save it again$/);
   assert.ok((await viewer.picture()).share(isGreen) < 0.001);
   await open(dressed('KHR_texture_basisu', 'image/ktx2', ktx2, { source: 1 }));
   assert.equal(await viewer.text('status'), '4 triangles in 1 part');

@@ -42,6 +42,44 @@ export function gltf({ attributes = QUAD, indices = INDICES, targets = [], more 
   return JSON.stringify({ asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }], meshes: [{ primitives: [one], ...mesh }], accessors, bufferViews, buffers, ...others });
 }
 
+/**
+ * The text of the same glTF with all attributes in one buffer view, which ends with its last element. The vertices `replaced` have other numbers
+ * there, and sparse elements give them back where `isSparse`.
+ */
+export function interleaved({ attributes = QUAD, replaced = [], isSparse = true } = {}) {
+  const file = JSON.parse(gltf({ attributes }));
+  const parts = [Buffer.from(file.buffers[0].uri.split(',')[1], 'base64')];
+  let length = parts[0].length;
+  const view = (bytes, members = {}) => {
+    parts.push(bytes, Buffer.alloc(-bytes.length & 3));
+    file.bufferViews.push({ buffer: 0, byteOffset: length, byteLength: bytes.length, ...members });
+    length += bytes.length + (-bytes.length & 3);
+    return file.bufferViews.length - 1;
+  };
+  const all = Object.values(attributes);
+  const byteStride = 8 + all.reduce((sum, [, width]) => sum + 4 * width, 0);
+  const count = all[0][0].length / all[0][1];
+  const rows = Buffer.alloc(byteStride * count, 0xff);
+  let byteOffset = 0;
+  const places = all.map(([array, width], at) => {
+    array.forEach((x, i) => rows.writeFloatLE(replaced.includes(Math.floor(i / width)) ? 0.5 : x, Math.floor(i / width) * byteStride + byteOffset + (i % width) * 4));
+    const accessor = Object.assign(file.accessors[at], { byteOffset });
+    byteOffset += 4 * width;
+    return accessor;
+  });
+  const shared = view(rows.subarray(0, rows.length - 8), { byteStride });
+  places.forEach((accessor, at) => {
+    accessor.bufferView = shared;
+    if (!replaced.length || !isSparse) return;
+    const [array, width] = all[at];
+    const indices = { bufferView: view(Buffer.from(replaced)), componentType: 5121 };
+    const values = { bufferView: view(Buffer.from(Float32Array.from(replaced.flatMap((vertex) => [...array.subarray(vertex * width, (vertex + 1) * width)])).buffer)) };
+    accessor.sparse = { count: replaced.length, indices, values };
+  });
+  file.buffers = [{ byteLength: length, uri: `data:application/octet-stream;base64,${Buffer.concat(parts).toString('base64')}` }];
+  return JSON.stringify(file);
+}
+
 /** A square grid of quads, for {@link gltf}. u grows from the middle to both sides. */
 export function grid(side) {
   const line = Array.from({ length: side + 1 }, (_, at) => at / side - 0.5);

@@ -151,3 +151,34 @@ test('the light moves', async () => {
   await viewer.slide('light-around', 40);
   assert.equal((await viewer.picture()).differs(before), 0);
 });
+
+test('a lit model stands on the ground, unless it is seen from below or the switch is off', async () => {
+  const page = await Viewer.open(chromium, `${server.address}#first-sight=0`, { colorScheme: 'light' });
+  const darkened = async () => {
+    // The line around what has the focus is no part of the picture.
+    await page.page.$eval('#view', (view) => view.blur());
+    const on = await page.picture();
+    await page.click('#ground');
+    const off = await page.picture();
+    await page.click('#ground');
+    return on.differs(off);
+  };
+  assert.ok((await darkened()) > 0.01, 'shaded');
+  await page.click('input[name=paint][value=sign]');
+  assert.equal(await darkened(), 0, 'frames as colours have no ground');
+  await page.click('input[name=paint][value=plain]');
+  assert.ok((await darkened()) > 0.01, 'plain grey');
+  await page.click('#ground');
+  await page.page.waitForFunction(() => /ground=0/.test(location.hash));
+  const other = await Viewer.open(chromium, page.page.url());
+  assert.equal(await other.page.isChecked('#ground'), false, 'a link carries the switch');
+  await other.close();
+  await page.click('#reset');
+  assert.equal(await page.page.isChecked('#ground'), true);
+  await page.page.focus('#view');
+  for (let press = 0; press < 12; press++) await page.page.keyboard.press('ArrowDown');
+  await page.settled();
+  assert.equal(await darkened(), 0, 'not from below');
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});

@@ -14,10 +14,10 @@ interface Exports extends WebAssembly.Exports {
   made_len(): number;
   text(): number;
   text_len(): number;
-  check(): number;
-  repair(): number;
-  make_normals(): number;
 }
+
+/** Functions that take the given name and file. A build without the module that reads all formats has no decoder of textures. */
+type Task = 'check' | 'repair' | 'make_normals' | 'decode_texture';
 
 /** A file that was made, and the JSON that describes it. */
 export interface Outcome<T> {
@@ -54,7 +54,7 @@ export interface Summary {
   totals: { written: number; kept: number; skipped: number };
 }
 
-/** The module that also reads other formats than glTF, at most one. A quick build has none: its one module reads them, or a sentence says what to do. */
+/** The module that also reads other formats than glTF, and textures in KTX 2, at most one. A quick build has none: its one module reads them, or a sentence says what to do. */
 const larger = Object.values(import.meta.glob<string>('./darboux_viewer_larger.wasm', { eager: true, query: '?url', import: 'default' }));
 
 /** The modules that were loaded, by address. */
@@ -84,8 +84,13 @@ export function makeNormals(name: string, bytes: Uint8Array): Promise<Outcome<un
   return run('make_normals', name, bytes);
 }
 
+/** Decodes a texture in KTX 2 to its RGBA texels, row by row, and its width and height. Errors: one sentence. */
+export function decodeTexture(bytes: Uint8Array): Promise<Outcome<[number, number]>> {
+  return run('decode_texture', 'the texture', bytes);
+}
+
 /** Runs a function in a new instance, because the memory of an instance never shrinks. */
-async function run<T>(task: 'check' | 'repair' | 'make_normals', name: string, bytes: Uint8Array, bundle: FileBundle = new Map()): Promise<Outcome<T>> {
+async function run<T>(task: Task, name: string, bytes: Uint8Array, bundle: FileBundle = new Map()): Promise<Outcome<T>> {
   const read = (address: number, length: number) => new Uint8Array(exports.memory.buffer, address >>> 0, length >>> 0).slice();
   const write = (from: Uint8Array, address: number) => new Uint8Array(exports.memory.buffer, address >>> 0, from.length).set(from);
   const decoded = (address: number, length: number) => new TextDecoder().decode(read(address, length));
@@ -114,7 +119,9 @@ async function run<T>(task: 'check' | 'repair' | 'make_normals', name: string, b
     const encodedName = new TextEncoder().encode(name);
     write(encodedName, exports.name(encodedName.length));
     write(bytes, exports.file(bytes.length));
-    const isDone = exports[task]();
+    const work = exports[task] as (() => number) | undefined;
+    if (!work) throw new Error('this page was built without a decoder of KTX 2; build it with clang.');
+    const isDone = work();
     const text = decoded(exports.text(), exports.text_len());
     if (!isDone) throw new Error(`${text}.`);
     return { bytes: read(exports.made(), exports.made_len()), description: JSON.parse(text) };

@@ -1,14 +1,16 @@
 // Opens glTF and GLB with three.js, after the worker has made the file self-contained and has checked it.
 
-import { type AnimationClip, type Camera, LoadingManager, Mesh, type Object3D, type Texture } from 'three';
-import { type GLTF, GLTFLoader, type GLTFLoaderPlugin, type GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
+import { type AnimationClip, type Camera, LoadingManager, Mesh, type Object3D } from 'three';
+import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 import { counted } from '../plural';
 import { TANGENT_TARGETS } from '../scene/morph-and-skin';
 import { call } from '../worker/surfaces';
 import type { FileBundle } from './file-bundle';
 import type { Source } from './gltf-wasm';
+import { withKtx2 } from './ktx2';
 import { setOrigin } from './origin';
+import { withPackedElements } from './packed-elements';
 
 /** An opened .gltf or .glb. */
 export interface Gltf {
@@ -21,22 +23,6 @@ export interface Gltf {
   warnings: string[];
   /** The words of the file; null for glTF. */
   source: Source | null;
-}
-
-const KTX2 = 'KHR_texture_basisu';
-
-/**
- * Handles textures in KTX 2 without a decoder, which would be larger than the rest of the page. A texture with a fallback image loads that.
- * One without is left out, and `onMissing` is called.
- */
-function withoutKtx2({ json }: GLTFParser, onMissing: () => void): GLTFLoaderPlugin {
-  const loadTexture = (index: number) => {
-    const { source, extensions } = json.textures[index];
-    if (!extensions?.[KTX2] || source !== undefined) return null;
-    onMissing();
-    return Promise.resolve(null) as unknown as Promise<Texture>;
-  };
-  return { name: KTX2, loadTexture };
 }
 
 /** The members of a primitive that are read here. */
@@ -66,13 +52,13 @@ export async function openGltf(name: string, bytes: Uint8Array<ArrayBuffer>, bun
   const manager = new LoadingManager().setURLModifier((url) => (/^(data|blob):/.test(url) ? url : 'data:,'));
   let lost = 0;
   manager.onError = () => lost++;
-  let ktx2 = 0;
-  const loader = new GLTFLoader(manager).register((parser) => withoutKtx2(parser, () => ktx2++));
+  const lostKtx2: string[] = [];
+  const loader = new GLTFLoader(manager).register((parser) => withKtx2(parser, (reason) => lostKtx2.push(reason))).register(withPackedElements);
   try {
     const gltf = await loader.parseAsync(file.buffer, '');
     await storeIgnored(gltf);
     const warnings = [...description.warnings];
-    if (ktx2) warnings.push(`${counted(ktx2, 'texture in KTX 2 is', 'textures in KTX 2 are')} left out, because this page has no decoder for it`);
+    if (lostKtx2.length) warnings.push(`${counted(lostKtx2.length, 'texture in KTX 2 is', 'textures in KTX 2 are')} left out: ${lostKtx2[0].replace(/\.$/, '')}`);
     if (lost) warnings.push(`${counted(lost, 'texture', 'textures')} missing or not decodable`);
     if (hasMoreJoints(gltf.scene)) warnings.push('vertices have more than 4 joints, and only the first 4 are used');
     return { scene: gltf.scene, animations: gltf.animations, cameras: gltf.cameras, bytes: file, warnings, source: description.source };

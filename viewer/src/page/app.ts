@@ -41,7 +41,7 @@ import { clearError, showDone, showError, showProgress } from './status';
 import { connectTheme } from './theme';
 import { ValuesPanel } from './values-panel';
 import type { ShownBake } from '../bake/baker';
-import type { Settings } from '../settings';
+import { isLit, type Settings } from '../settings';
 import { counted } from '../plural';
 import type { Place } from '../surface/places';
 
@@ -326,6 +326,7 @@ export class App {
     this.sides = [this.sideOf(0, now), this.sideOf(1, now)];
     this.changed();
     this.viewport.show(this.sides, now.layout);
+    this.viewport.standOn(now.ground && isLit(now.paint) ? this.view.groundShadow(now.hidden) : null);
     showLayoutFrame(now.layout);
     showLegend(legendOf(now, this.firstScreen.hasFault()));
     this.firstScreen.drawOutline(now);

@@ -61,7 +61,7 @@ export function connectControls(changes: Changes): void {
   }
   element('paints').append(...PAINTS.map(paintButton));
   element('paints').addEventListener('change', changes.look);
-  for (const id of [...VECTORS.map((name) => `lines-${name}`), 'seams', 'outline', 'wireframe', 'layout']) {
+  for (const id of [...VECTORS.map((name) => `lines-${name}`), 'seams', 'outline', 'ground', 'wireframe', 'layout']) {
     element(id).addEventListener('change', changes.look);
   }
   element('length').addEventListener('input', changes.look);
@@ -161,6 +161,7 @@ export function settings(): Settings {
     length: numberOf('length') / 100,
     seams: isOn('seams'),
     outline: isOn('outline'),
+    ground: isOn('ground'),
     wireframe: isOn('wireframe'),
     hidden: hiddenParts(),
     layout: isOn('layout'),

@@ -103,7 +103,7 @@ export function hideVerdict(): void {
 function costOf({ leftBecause }: Finding, cost: Cost | null): string {
   if (leftBecause !== null) return 'It is not repaired here; Evidence, in Check, says why.';
   if (!cost) return '';
-  const vertices = cost.vertices > 0 ? `${counted(cost.vertices, 'vertex', 'vertices')} more` : 'no vertex more';
+  const vertices = cost.vertices > 0 ? `${counted(cost.vertices, 'vertex', 'vertices')} more` : 'the same number of vertices';
   const bytes = cost.bytes > 0 ? ` and ${bytesInWords(cost.bytes)} more` : '';
   return `The repaired file has ${vertices}${bytes}.`;
 }

@@ -7,7 +7,7 @@ import { hiddenParts, hideParts } from './parts-list';
 import { showTab, shownTab } from './tabs';
 
 /** The controls whose values a link carries. */
-const CONTROLS = ['left', 'right', 'split', 'first-sight', 'outline', 'lines-tangent', 'lines-bitangent', 'lines-normal', 'seams', 'layout', 'wireframe', 'length', 'light-around', 'light-above', 'light', 'exposure', 'surroundings-name', 'surroundings', 'bake-rays', 'bake-distance', 'bake-inwards', 'bake-size', 'bake-samples', 'bake-back-faces', 'bake-misses', ...KIND_BOXES];
+const CONTROLS = ['left', 'right', 'split', 'first-sight', 'outline', 'lines-tangent', 'lines-bitangent', 'lines-normal', 'seams', 'layout', 'wireframe', 'length', 'light-around', 'light-above', 'light', 'exposure', 'surroundings-name', 'surroundings', 'ground', 'bake-rays', 'bake-distance', 'bake-inwards', 'bake-size', 'bake-samples', 'bake-back-faces', 'bake-misses', ...KIND_BOXES];
 
 /** A choice that depends on the model, which a link does not carry. */
 const OF_MODEL = 'bake-material';

@@ -18,7 +18,8 @@ const SHOW: Partial<Record<FurtherKind, (material: MeshStandardMaterial, map: Te
   'ao': (material, aoMap) => Object.assign(material, { aoMap, aoMapIntensity: 1 }),
   'roughness': (material, roughnessMap) => Object.assign(material, { roughnessMap, roughness: 1 }),
   'metalness': (material, metalnessMap) => Object.assign(material, { metalnessMap, metalness: 1 }),
-  'base-color': (material, map, white) => Object.assign(material, { map }).color.setScalar(white),
+  // The baked colour is that of the high model, which colours of the low model's vertices would multiply.
+  'base-color': (material, map, white) => Object.assign(material, { map, vertexColors: false }).color.setScalar(white),
   'emission': (material, emissiveMap, white) => Object.assign(material, { emissiveMap, emissiveIntensity: 1 }).emissive.setScalar(white),
 };
 

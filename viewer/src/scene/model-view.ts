@@ -7,6 +7,7 @@ import { cornerAngles, NO_ANGLE } from '../surface/angles';
 import type { Comparison } from '../surface/comparison';
 import type { BakedMap } from './baked-map';
 import { frameMaterial } from './frame-material';
+import { groundShadow, type GroundShadow } from './ground-shadow';
 import { seamLines, vectorLines } from './frame-lines';
 import { boundsOfCopies, type Copy, placesOf, type Part } from './model-parts';
 import { sharedAttributes, sideGeometry, sideMaterial, type SharedAttributes } from './side-geometry';
@@ -49,10 +50,13 @@ export interface Values {
 /** A model, and the objects that show it. */
 export class ModelView {
   private parts: ComparedPart[] = [];
+  /** The shadow on the ground, and the parts that cast it; null before it is asked for. */
+  private shadow: { of: string; shadow: GroundShadow | null } | null = null;
 
   /** Replaces the parts. */
   setParts(parts: Part[], comparisons: Comparison[]): void {
     this.parts.forEach(disposeGeometries);
+    this.shadow = null;
     this.parts = parts.map((part, at) => {
       const comparison = comparisons[at];
       const [shared, indices] = [sharedAttributes(part, comparison), new BufferAttribute(comparison.indices, 1)];
@@ -69,6 +73,17 @@ export class ModelView {
   boundsOfPart(at: number): Box3 {
     const { part, comparison } = this.parts[at];
     return boundsOfCopies(part, comparison.positions);
+  }
+
+  /** The shadow on the ground of the parts that are shown; null if there is none. */
+  groundShadow(hidden: Set<number>): GroundShadow | null {
+    const shown = this.parts.filter((_, at) => !hidden.has(at));
+    const of = [...hidden].join();
+    if (this.shadow?.of !== of) {
+      const placed = shown.map(({ part, comparison }) => ({ positions: comparison.positions, indices: comparison.indices, places: placesOf(part) }));
+      this.shadow = { of, shadow: groundShadow(placed) };
+    }
+    return this.shadow.shadow;
   }
 
   /** The values at the corner that is nearest to a hit on one of the meshes. */

@@ -22,6 +22,8 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 import { fly, type View } from './camera-flight';
 import { framing } from './framing';
+import { Ground } from './ground';
+import type { GroundShadow } from './ground-shadow';
 import { LayoutCamera } from './layout-camera';
 import type { Side } from './model-view';
 import { seenDifference, type SeenDifference } from './seen-difference';
@@ -71,6 +73,7 @@ export class Viewport {
   private readonly scene = new Scene();
   private readonly light = new DirectionalLight(0xffffff, 2);
   private readonly layouts = new Scene();
+  private readonly ground = new Ground();
   /** The part of the UV layout that is shown. */
   readonly layoutCamera = new LayoutCamera(() => this.draw());
   private readonly sphere = new Sphere(new Vector3(), 1);
@@ -102,7 +105,7 @@ export class Viewport {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.moved());
     this.controls.addEventListener('start', () => this.stopFlight());
-    this.scene.add(this.light, this.light.target);
+    this.scene.add(this.light, this.light.target, this.ground.object);
     this.surround(ENVIRONMENTS[0].name);
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
@@ -124,6 +127,8 @@ export class Viewport {
   showCoarse(): void {
     this.useCoarse();
     this.hasSides = false;
+    // That of the model before.
+    this.ground.show(null);
     this.draw();
   }
 
@@ -164,6 +169,12 @@ export class Viewport {
     this.draw();
   }
 
+  /** Shows the ground with a shadow, or no ground. */
+  standOn(shadow: GroundShadow | null): void {
+    this.ground.show(shadow);
+    this.draw();
+  }
+
   /** Adds an object that both sides show. */
   add(object: Object3D): void {
     this.scene.add(object);
@@ -172,6 +183,7 @@ export class Viewport {
   /** Sets the colours behind the model and behind its layout. */
   background(color: string, layout: string): void {
     this.scene.background = new Color(color);
+    this.ground.background(this.scene.background);
     this.layouts.background = new Color(layout);
     this.draw();
   }
@@ -337,6 +349,8 @@ export class Viewport {
   differenceFrom(view: View): SeenDifference {
     const { camera, split, renderer, canvas } = this;
     const [eye, turn, near, far] = [camera.position.clone(), camera.quaternion.clone(), camera.near, camera.far];
+    const hasGround = this.ground.object.visible;
+    this.ground.object.visible = false;
     this.setDepths(view);
     camera.position.copy(view.eye);
     camera.lookAt(view.target);
@@ -352,6 +366,7 @@ export class Viewport {
       return context.getImageData(0, 0, width, height);
     });
     this.split = split;
+    this.ground.object.visible = hasGround;
     camera.position.copy(eye);
     camera.quaternion.copy(turn);
     [camera.near, camera.far] = [near, far];

@@ -168,6 +168,29 @@ pub extern "C" fn make_normals() -> u32 {
     })
 }
 
+/// Decodes the given texture file in KTX 2. Returns 1 where the text is its width and height in JSON and the
+/// resulting file has its RGBA texels row by row, and 0 where the text is an error.
+#[cfg(feature = "larger")]
+#[unsafe(no_mangle)]
+pub extern "C" fn decode_texture() -> u32 {
+    use darboux_io::image::{DecodeLimits, RgbaImage};
+
+    BUFFERS.with_borrow_mut(|buffers| {
+        let file = take(&mut buffers.file);
+        let limits = DecodeLimits::of_file(file.len(), LoadOptions::default().memory_limit);
+        match RgbaImage::decode(&file, &limits) {
+            Ok(RgbaImage { width, height, texels }) => {
+                (buffers.text, buffers.made) = (to_json(&[width, height]), texels.into_flattened());
+                1
+            }
+            Err(error) => {
+                buffers.text = format!("the texture {error}").into_bytes();
+                0
+            }
+        }
+    })
+}
+
 /// Opens the given file, and stores the results of `work` or its error.
 fn run(work: impl FnOnce(&mut Document) -> Result<(Vec<u8>, Vec<u8>), Error>) -> u32 {
     BUFFERS.with_borrow_mut(|buffers| {
