@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import casefile
+import model_page
 import wrong
 from judge import CLASSES, LEVELS
 
@@ -15,6 +16,7 @@ HERE = Path(__file__).resolve().parent
 PAGE, TABLE, WRONG = HERE / "results/index.html", HERE.parent / "docs/conformance.md", HERE / "WRONG.md"
 REFERENCE = "mikktspace-c"
 OTHERS = "These do not claim to compute MikkTSpace. A case that fails is no defect of theirs; it says where a map baked with MikkTSpace looks different."
+OTHERS_DRAWN = "These do not claim to compute MikkTSpace, so a difference is no defect of theirs."
 
 
 def summaries():
@@ -63,6 +65,8 @@ def markdown(all_of_them):
         "",
         *table([s for s in all_of_them if is_another_method(s)]),
     ]
+    made = model_page.read()
+    lines += ["", *model_page.markdown(made, *model_page.parts(made, REFERENCE, is_another_method), OTHERS_DRAWN)]
     machines = sorted({s["machine"] for s in all_of_them})
     lines += ["", f"Machine: {'; '.join(machines)}. What they are installed from: " + "; ".join(f"{s['name']}: {s['package']}" for s in all_of_them) + ".", ""]
     lines += ["[WRONG.md](../conformance/WRONG.md) shows on which of them wrong inputs and wrong builds were tried, and how many cases noticed.", "", "## Reports", ""]
@@ -130,23 +134,24 @@ def page(all_of_them):
     cases = {case["name"]: case for case in casefile.read_all()}
     shown = {row["name"] for s in all_of_them for row in s["failing"] if "tangents" in row}
     geometry = {name: picture_data(cases[name]) for name in sorted(shown)}
-    sentences = {path.stem: json.loads(path.read_text(encoding="utf-8"))["failure"] for path in casefile.CASES.glob("*.json")}
+    sentences = {path.stem: json.loads(path.read_text(encoding="utf-8"))["shows"] for path in casefile.CASES.glob("*.json")}
     data = {
         "cases": geometry,
-        "sentences": {row["name"]: sentences[row["name"]] for s in all_of_them for row in s["failing"] if row["name"] in sentences},
         "found": {s["id"]: {row["name"]: row["tangents"] for row in s["failing"] if "tangents" in row} for s in all_of_them},
     }
     rows = "\n".join(table_row(s) for s in all_of_them if not is_another_method(s))
     rows += f'\n<tr><th colspan="{len(CLASSES) + 2}">{html.escape(OTHERS)}</th></tr>\n'
     rows += "\n".join(table_row(s) for s in all_of_them if is_another_method(s))
-    details = "\n".join(section(s, data["sentences"]) for s in all_of_them if s["failing"])
+    details = "\n".join(section(s, sentences) for s in all_of_them if s["failing"])
     absent = "\n".join(f"<tr><th>{html.escape(name)}</th><td>{html.escape(reason)}</td></tr>" for name, reason in unavailable())
     heads = "".join(f"<th>{name}</th>" for name in CLASSES)
     embedded = json.dumps(data, separators=(",", ":")).replace("</", "<\\/")
     template = (HERE / "page.html").read_text(encoding="utf-8")
     bars = "\n".join(bar_row(s) for s in all_of_them if not s.get("ours") and not is_another_method(s))
     others = "\n".join(bar_row(s) for s in all_of_them if is_another_method(s))
-    parts = {"SUMMARY": headline(all_of_them), "DARBOUX": darboux_row(all_of_them), "BARS": bars, "OTHERS": others, "OTHERS_WORDS": html.escape(OTHERS)}
+    made = model_page.read()
+    real = model_page.section(made, *model_page.parts(made, REFERENCE, is_another_method), OTHERS_DRAWN)
+    parts = {"MODEL": real, "SUMMARY": headline(all_of_them), "DARBOUX": darboux_row(all_of_them), "BARS": bars, "OTHERS": others, "OTHERS_WORDS": html.escape(OTHERS)}
     for key, value in {**parts, "HEADS": heads, "ROWS": rows, "DETAILS": details, "ABSENT": absent, "DATA": embedded}.items():
         template = template.replace(f"<!-- {key} -->", value)
     return template
@@ -272,7 +277,7 @@ def failing_case(identity, row, sentences):
     numbers += [f"{m[key]} {words}" for key, words in (("wrong_signs", "wrong signs"), ("non_finite", "not finite"), ("zero", "zero"), ("missing_splits", "vertices not split")) if m[key]]
     level = f"passes {row['levels'][0]}" if row["levels"] else "passes no level"
     picture = f' data-of="{identity}" data-case="{row["name"]}"' if "tangents" in row else ""
-    return f'<details class="case"{picture}><summary>{row["name"]} <small>{level}</small></summary><p class="numbers">{", ".join(numbers)}</p><p>Possible cause, not measured: {html.escape(sentences[row["name"]])}</p></details>'
+    return f'<details class="case"{picture}><summary>{row["name"]} <small>{level}</small></summary><p class="numbers">{", ".join(numbers)}</p><p>The case: {html.escape(sentences[row["name"]])}</p></details>'
 
 
 def picture_data(case):

@@ -102,6 +102,13 @@ def check_debian(adapter, log):
             raise Unavailable(f"it needs version {adapter['version']} of Debian's package {package}: apt-get install {package}")
 
 
+def check_variables(adapter):
+    """Adapters of Darboux find its interfaces by environment variables."""
+    for variable in adapter.get("needs", []):
+        if variable not in os.environ:
+            raise Unavailable(f"the environment variable {variable} is not set; cargo xtask conformance sets it")
+
+
 def summarize(adapter, run, cases, results, machine):
     """What the table and the page need: verdicts by class and level, and the failing cases with their tangents."""
     verdicts = judge.judge(cases, results, "bits", False)
@@ -135,9 +142,7 @@ def run_adapter(folder, work, cases, machine):
     adapter = json.loads((folder / "adapter.json").read_text(encoding="utf-8"))
     log = work / f"{folder.name}.log"
     log.unlink(missing_ok=True)
-    for variable in adapter.get("needs", []):
-        if variable not in os.environ:
-            raise Unavailable(f"the environment variable {variable} is not set; cargo xtask conformance sets it")
+    check_variables(adapter)
     command = install(folder, work, log)
     for run in adapter["runs"]:
         results = compute(command, run, work, log)
@@ -179,6 +184,11 @@ def dumps(summary):
     return head[:-2] + ',\n "failing": [' + (f"\n{failing}\n " if failing else "") + "]\n}\n"
 
 
+def this_machine():
+    """The processor and the system."""
+    return f"{processor()}, {platform.system()}"
+
+
 def processor():
     with contextlib.suppress(OSError):
         for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
@@ -210,7 +220,7 @@ def main():
     work, names = arguments(__doc__)
     prepare(work)
     cases = judge.select(HERE / "cases", None)
-    machine = f"{processor()}, {platform.system()}"
+    machine = this_machine()
     unavailable = {}
     for folder in adapters(names):
         try:
