@@ -21,11 +21,11 @@
 
   /** What people look for first, and reports, which answer hardly anybody's question. */
   const FIRST = ['docs/learn/symptoms', 'docs/check.', 'docs/viewer', 'docs/matching-your-baker', 'index.html'];
-  const LAST = ['docs/notes/', 'docs/check-mistakes', 'conformance/', 'benches/', 'docs/api/'];
+  const LAST = ['docs/notes/', 'docs/check-mistakes', 'conformance/', 'benches/', 'docs/api/', 'CHANGELOG', 'CONTRIBUTING', 'ATTRIBUTION'];
 
   /** How well a section fits the words; 0 unless it has all of them. */
   function score({ low, lowTitle, page, path }, words) {
-    let sum = FIRST.some((name) => path.startsWith(name)) ? 15 : LAST.some((name) => path.startsWith(name)) ? -15 : 0;
+    let sum = FIRST.some((name) => path.startsWith(name)) ? 15 : 0;
     for (const word of words) {
       const inTitle = lowTitle.includes(word) ? 20 : 0;
       const inPage = page.toLowerCase().includes(word) ? 5 : 0;
@@ -33,7 +33,7 @@
       if (!inTitle && !inPage && !times) return 0;
       sum += inTitle + inPage + Math.min(times, 5);
     }
-    return Math.max(sum, 1);
+    return sum;
   }
 
   /** The text around the first of the words. */
@@ -52,9 +52,9 @@
     const words = field.value.toLowerCase().split(/\s+/).filter((word) => word.length > 1);
     const sections = words.length ? await load() : [];
     const best = sections
-      .map((section) => ({ section, score: score(section, words) }))
+      .map((section) => ({ section, score: score(section, words), isLast: LAST.some((name) => section.path.startsWith(name)) }))
       .filter(({ score }) => score > 0)
-      .sort((a, b) => b.score - a.score)
+      .sort((a, b) => Number(a.isLast) - Number(b.isLast) || b.score - a.score)
       .slice(0, MOST);
     found.replaceChildren(...best.map(({ section }) => item(section, words)));
     if (words.length && !best.length) found.append(Object.assign(document.createElement('li'), { textContent: 'Nothing found.' }));
@@ -82,13 +82,21 @@
   // The system's colours, or those that the button chose before.
   const button = document.getElementById('theme');
   const setTheme = (theme) => (document.documentElement.dataset.theme = theme);
-  const kept = localStorage.getItem('theme');
+  // Browsers can be set to keep nothing for a page.
+  const stored = (work) => {
+    try {
+      return work(localStorage);
+    } catch {
+      return null;
+    }
+  };
+  const kept = stored((storage) => storage.getItem('theme'));
   if (kept === 'light' || kept === 'dark') setTheme(kept);
   button.hidden = false;
   button.addEventListener('click', () => {
     const isDark = document.documentElement.dataset.theme ? document.documentElement.dataset.theme === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
     setTheme(isDark ? 'light' : 'dark');
-    localStorage.setItem('theme', isDark ? 'light' : 'dark');
+    stored((storage) => storage.setItem('theme', isDark ? 'light' : 'dark'));
   });
 
   field.addEventListener('input', search);

@@ -189,7 +189,9 @@ fn html_block(page: &Path, text: &str) -> Option<String> {
 /// The viewer in a frame, with a link to it.
 fn viewer(page: &Path, state: &str, caption: &str) -> String {
     let base = "../".repeat(page.components().count() - 1);
-    let (address, caption) = (escaped(&format!("{base}viewer/index.html#{state}")), escaped(caption));
+    // An empty fragment would scroll the page to the frame.
+    let fragment = if state.is_empty() { String::new() } else { format!("#{state}") };
+    let (address, caption) = (escaped(&format!("{base}viewer/index.html{fragment}")), escaped(caption));
     format!(
         "<figure class=\"viewer\">\n<iframe src=\"{address}\" title=\"The viewer\" \
          loading=\"lazy\"></iframe>\n\
