@@ -35,6 +35,7 @@ pub fn add_scaled(sum: D3, weight: f64, v: D3) -> D3 {
 
 /// `v`, normalised. `None` for zero and for vectors that are not finite. Squares of `f32` values neither
 /// overflow nor underflow in `f64`.
+#[inline]
 pub fn unit(v: D3) -> Option<D3> {
     let length = length(v);
     (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))

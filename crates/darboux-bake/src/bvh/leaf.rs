@@ -1,10 +1,16 @@
 //! Leaves: four triangles, tested at once.
 
+use std::array::from_fn;
+
 use super::compare::{greater, lesser};
 use super::ray::{Hit, PreparedRay, Sides};
 
 /// Triangles per leaf.
 pub const SIZE: usize = 4;
+
+/// A number of each triangle. Arrays that are made at once, of whole arrays, are computed by vector
+/// instructions.
+type Lanes = [f32; SIZE];
 
 /// No triangle.
 const ABSENT: u32 = u32::MAX;
@@ -13,7 +19,7 @@ const ABSENT: u32 = u32::MAX;
 #[derive(Clone, Copy, Debug)]
 pub struct Leaf {
     /// `corners[corner][axis][triangle]`. Absent triangles are points, which no ray hits.
-    corners: [[[f32; SIZE]; 3]; 3],
+    corners: [[Lanes; 3]; 3],
     ids: [u32; SIZE],
 }
 
@@ -47,38 +53,27 @@ impl Leaf {
         accepts: &impl Fn(u32) -> bool,
         best: Option<Hit>,
     ) -> Option<Hit> {
-        let [first, second, last] = ray.axes;
-        let [shear_x, shear_y, scale] = ray.shear;
-        let mut sheared = [[[0f32; SIZE]; 3]; 3];
-        for (sheared, corner) in sheared.iter_mut().zip(&self.corners) {
-            for i in 0..SIZE {
-                let z = corner[last][i] - ray.origin[last];
-                sheared[0][i] = (corner[first][i] - ray.origin[first]) - shear_x * z;
-                sheared[1][i] = (corner[second][i] - ray.origin[second]) - shear_y * z;
-                sheared[2][i] = scale * z;
-            }
-        }
-        let [a, b, c] = &sheared;
-        let edge = |p: &[[f32; SIZE]; 3], q: &[[f32; SIZE]; 3]| -> [f32; SIZE] {
-            std::array::from_fn(|i| p[0][i] * q[1][i] - p[1][i] * q[0][i])
-        };
-        let [u, v, w] = [edge(c, b), edge(a, c), edge(b, a)];
-        let sum: [f32; SIZE] = std::array::from_fn(|i| u[i] + v[i] + w[i]);
-        let depth: [f32; SIZE] = std::array::from_fn(|i| u[i] * a[2][i] + v[i] * b[2][i] + w[i] * c[2][i]);
+        let [a, b, c] = [0, 1, 2].map(|corner| self.sheared(corner, ray));
+        let [u, v, w] = [edges(&c, &b), edges(&a, &c), edges(&b, &a)];
+        let sum: Lanes = from_fn(|i| u[i] + v[i] + w[i]);
+        let depth: Lanes = from_fn(|i| u[i] * a[2][i] + v[i] * b[2][i] + w[i] * c[2][i]);
         let farthest = best.map_or(ray.length, |best| best.distance);
         // A NaN among the edges makes the distance NaN, so that there is no hit whatever these say.
-        let least: [f32; SIZE] = std::array::from_fn(|i| lesser(lesser(u[i], v[i]), w[i]));
-        let greatest: [f32; SIZE] = std::array::from_fn(|i| greater(greater(u[i], v[i]), w[i]));
-        let distances: [f32; SIZE] = std::array::from_fn(|i| {
+        let least: Lanes = from_fn(|i| lesser(lesser(u[i], v[i]), w[i]));
+        let greatest: Lanes = from_fn(|i| greater(greater(u[i], v[i]), w[i]));
+        let distances: Lanes = from_fn(|i| {
             let distance = depth[i] / sum[i];
-            let is_hit = match sides {
-                Sides::Front => (least[i] >= 0.0) & (sum[i] > 0.0),
-                Sides::Both => ((least[i] >= 0.0) | (greatest[i] <= 0.0)) & (sum[i] != 0.0),
-            };
-            let is_in_reach = (distance >= 0.0) & (distance <= farthest);
-            if is_hit & is_in_reach { distance } else { f32::INFINITY }
+            let distance = if distance >= 0.0 { distance } else { f32::INFINITY };
+            let distance = if distance <= farthest { distance } else { f32::INFINITY };
+            let from_front = if (sum[i] > 0.0) & (least[i] >= 0.0) { distance } else { f32::INFINITY };
+            let from_behind = if (sum[i] < 0.0) & (greatest[i] <= 0.0) { distance } else { f32::INFINITY };
+            match sides {
+                Sides::Front => from_front,
+                Sides::Both => lesser(from_front, from_behind),
+            }
         });
-        if distances == [f32::INFINITY; SIZE] {
+        let nearest = lesser(lesser(distances[0], distances[1]), lesser(distances[2], distances[3]));
+        if nearest == f32::INFINITY {
             return best;
         }
         let mut found = best;
@@ -94,4 +89,22 @@ impl Leaf {
         }
         found
     }
+
+    /// A corner of each triangle in the sheared space of a ray, whose last axis is the ray.
+    #[inline(always)]
+    fn sheared(&self, corner: usize, ray: &PreparedRay) -> [Lanes; 3] {
+        let along = |axis: usize| -> Lanes {
+            let (corner, origin) = (&self.corners[corner][axis], ray.origin[axis]);
+            from_fn(|i| corner[i] - origin)
+        };
+        let [x, y, z] = ray.axes.map(along);
+        let [shear_x, shear_y, scale] = ray.shear;
+        [from_fn(|i| x[i] - shear_x * z[i]), from_fn(|i| y[i] - shear_y * z[i]), from_fn(|i| scale * z[i])]
+    }
+}
+
+/// The edge functions at the ray of the edges between two corners.
+#[inline(always)]
+fn edges(p: &[Lanes; 3], q: &[Lanes; 3]) -> Lanes {
+    from_fn(|i| p[0][i] * q[1][i] - p[1][i] * q[0][i])
 }
