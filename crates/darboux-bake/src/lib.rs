@@ -79,7 +79,7 @@ pub use model::{
     HighModel, HighModelOptions, LowModel, LowModelOptions, ModelSurfaces, Models, ModelsError, PartMatch,
     UnpairedParts, cage_of, group_by_name, is_color_texture,
 };
-pub use name_match::{NameMatch, match_names, suffix_start};
+pub use name_match::{HIGH_SUFFIXES, LOW_SUFFIXES, NameMatch, match_names, suffix_start};
 pub use normal_texture::NormalTexture;
 pub use options::{BakeOptions, Bitangent, CurvatureRadius, IdSource, OcclusionFalloff, OcclusionWeights};
 pub use palette::IdColor;

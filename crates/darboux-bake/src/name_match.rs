@@ -1,5 +1,11 @@
 //! Pairs parts of the low and the high models by their names.
 
+/// What ends the names of low models. [`suffix_start`] says where.
+pub const LOW_SUFFIXES: [&str; 3] = ["_low", "_lowpoly", "_lp"];
+
+/// What ends the names of high models, or is followed by the name of a detail.
+pub const HIGH_SUFFIXES: [&str; 3] = ["_high", "_highpoly", "_hp"];
+
 /// Which parts belong together.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NameMatch {
@@ -13,7 +19,7 @@ pub struct NameMatch {
 
 /// Pairs parts by their names: `crate_low` with `crate_high`, `crate_high_bolts` and so on.
 ///
-/// What precedes the last `_low` or `_high` (see [`suffix_start`]) counts, in upper or lower case; of other
+/// What precedes the last of [`LOW_SUFFIXES`] or [`HIGH_SUFFIXES`] counts, in upper or lower case; of other
 /// names all but a number after a point, as in `crate.001`. Low parts of the same name share a group.
 pub fn match_names(low: &[&str], high: &[&str]) -> NameMatch {
     let mut bases: Vec<String> = Vec::new();
@@ -35,19 +41,23 @@ pub fn match_names(low: &[&str], high: &[&str]) -> NameMatch {
     NameMatch { group_of_low, group_of_high, low_without_high }
 }
 
-/// Where the last `suffix` of a name starts after which the name ends or goes on with a digit or one of
-/// `_`, `.`, `-` and a space: `lamp_high_bolts` and `lamp_high2` have `_high`, `lamp_highlight` does not.
-pub fn suffix_start(name: &str, suffix: &str) -> Option<usize> {
+/// Where the last of some suffixes of a name in lower case starts after which the name ends or goes on with
+/// a digit or one of `_`, `.`, `-` and a space: `lamp_high_bolts` and `lamp_high2` have `_high`,
+/// `lamp_highlight` does not.
+pub fn suffix_start(name: &str, suffixes: &[&str]) -> Option<usize> {
     let ends_word = |next: char| next.is_ascii_digit() || "_.- ".contains(next);
-    let is_suffix =
-        |&(start, _): &(usize, &str)| name[start + suffix.len()..].chars().next().is_none_or(ends_word);
-    name.rmatch_indices(suffix).find(is_suffix).map(|(start, _)| start)
+    let start_of = |suffix: &&str| {
+        let is_suffix =
+            |&(start, _): &(usize, &str)| name[start + suffix.len()..].chars().next().is_none_or(ends_word);
+        name.rmatch_indices(*suffix).find(is_suffix).map(|(start, _)| start)
+    };
+    suffixes.iter().filter_map(start_of).max()
 }
 
 /// What of a name counts.
 fn base_name(name: &str) -> String {
     let name = name.to_lowercase();
-    let end = ["_low", "_high"].iter().filter_map(|suffix| suffix_start(&name, suffix)).max();
+    let end = suffix_start(&name, &[LOW_SUFFIXES, HIGH_SUFFIXES].concat());
     match (end, name.rsplit_once('.')) {
         (Some(end), _) => name[..end].to_owned(),
         (None, Some((base, number))) if number.bytes().all(|digit| digit.is_ascii_digit()) => base.to_owned(),
@@ -67,6 +77,14 @@ mod tests {
         assert_eq!(found.group_of_low, [0, 1, 2, 3]);
         assert_eq!(found.group_of_high, [Some(0), Some(0), Some(1), Some(2), None]);
         assert_eq!(found.low_without_high, [3]);
+    }
+
+    #[test]
+    fn short_and_long_suffixes_are_known() {
+        let low = ["crate_LP", "lid_lowpoly", "bolt_low", "alp"];
+        let high = ["crate_hp", "Crate_HP_nails", "lid_HighPoly", "bolt_hp.001", "chp"];
+        let found = match_names(&low, &high);
+        assert_eq!(found.group_of_high, [Some(0), Some(0), Some(1), Some(2), None]);
     }
 
     #[test]

@@ -246,8 +246,22 @@ fn models_without_a_pair_are_named() {
     run(&["-o", text(&out), "--force"]).exits(0);
     assert_eq!(names_in(&out), ["crate.png", "leaf.png"]);
     write("crate_high.obj", b"");
-    assert!(run(&["-o", text(&out), "--force"]).exits(2).stderr.contains("have one name; move one"));
+    assert!(
+        run(&["-o", text(&out), "--force"])
+            .exits(2)
+            .stderr
+            .contains("are the same part of one pair; move one")
+    );
     fs::remove_file(folder.join("crate_high.obj")).expect("the file");
+    write("bolt_LP.glb", &low);
+    write("bolt_HighPoly.glb", &high);
+    run(&["-o", text(&out), "--force"]).exits(0);
+    assert_eq!(names_in(&out), ["bolt.png", "crate.png", "leaf.png"]);
+    write("bolt_low.glb", &low);
+    assert!(run(&["-o", text(&out), "--force"]).exits(2).stderr.contains("are the same part of one pair"));
+    for name in ["bolt_low.glb", "bolt_LP.glb", "bolt_HighPoly.glb"] {
+        fs::remove_file(folder.join(name)).expect("the file");
+    }
     for option in ["--high", "--cage"] {
         let model = folder.join("wall_high.glb");
         let refused = darboux(&["bake", text(&folder), "--suffixes", option, text(&model)]).exits(2);

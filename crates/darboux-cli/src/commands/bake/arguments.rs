@@ -241,6 +241,8 @@ pub struct BakeArguments {
     /// Bake each NAME_low in the folder LOW from NAME_high, with the cage NAME_cage if there is one, into
     /// NAME.png in the folder of -o, or in LOW
     ///
+    /// _lowpoly and _lp mean _low, and _highpoly and _hp mean _high.
+    ///
     /// An -o such as maps/%NAME%.%UDIM%.exr has another name for the images of each pair. --write-model,
     /// --report and the other results take a folder or such a name, too: --write-model models alone writes
     /// models/NAME.baked.glb with all textures of a material, and their images beside it.

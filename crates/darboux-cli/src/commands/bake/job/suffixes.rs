@@ -1,12 +1,12 @@
 //! The pairs of a folder: NAME_low with NAME_high, NAME_high_bolts and so on, and the cage NAME_cage if there
-//! is one.
+//! is one. [`LOW_SUFFIXES`] and [`HIGH_SUFFIXES`] have the other suffixes.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Command};
-use darboux_bake::suffix_start;
+use darboux_bake::{HIGH_SUFFIXES, LOW_SUFFIXES, suffix_start};
 use darboux_io::{FileKind, system_reason};
 
 use super::entry::Entry;
@@ -33,15 +33,19 @@ struct Pair {
 }
 
 impl Pair {
-    /// Two models with one name, such as an FBX and the GLB that was made from it.
-    fn same_names(&self) -> Option<[&PathBuf; 2]> {
+    /// Two models that are the same part, such as an FBX and the GLB that was made from it.
+    fn twice(&self) -> Option<[&PathBuf; 2]> {
         let stem = |path: &Path| path.file_stem().map(|stem| stem.to_ascii_lowercase());
-        let of_part =
+        let of_one = |files: &'_ [PathBuf]| (files.len() > 1).then_some(1);
+        let of_high =
             |files: &'_ [PathBuf]| (1..files.len()).find(|&at| stem(&files[at]) == stem(&files[at - 1]));
-        [&self.low, &self.high, &self.cage].into_iter().find_map(|files| {
-            let at = of_part(files)?;
-            Some([&files[at - 1], &files[at]])
-        })
+        let found = [
+            (&self.low, of_one(&self.low)),
+            (&self.high, of_high(&self.high)),
+            (&self.cage, of_one(&self.cage)),
+        ];
+        let (files, at) = found.into_iter().find_map(|(files, at)| Some((files, at?)))?;
+        Some([&files[at - 1], &files[at]])
     }
 }
 
@@ -69,9 +73,11 @@ pub fn pairs(arguments: &BakeArguments) -> Result<Pairs, String> {
     let Found { pairs, images } = find(folder)?;
     let (mut entries, mut warnings) = (Vec::new(), Vec::new());
     for (name, pair) in pairs {
-        if let Some([first, second]) = pair.same_names() {
+        if let Some([first, second]) = pair.twice() {
             let (first, second) = (first.display(), second.display());
-            return Err(format!("{first} and {second} have one name; move one of them to another folder"));
+            return Err(format!(
+                "{first} and {second} are the same part of one pair; move one of them to another folder"
+            ));
         }
         match (pair.low.first(), pair.high.first()) {
             (Some(_), Some(_)) => {
@@ -221,10 +227,12 @@ fn find(folder: &Path) -> Result<Found, String> {
 /// The name of a pair, and the part of it that a file is by its name.
 fn part_of(path: &Path) -> Option<(String, Part)> {
     let stem = path.file_stem()?.to_str()?.to_lowercase();
+    let end_of =
+        |suffixes: &[&str]| suffixes.iter().find_map(|suffix| stem.strip_suffix(suffix)).map(str::len);
     let ends = [
-        (Part::Low, stem.strip_suffix("_low").map(str::len)),
-        (Part::Cage, stem.strip_suffix("_cage").map(str::len)),
-        (Part::High, suffix_start(&stem, "_high")),
+        (Part::Low, end_of(&LOW_SUFFIXES)),
+        (Part::Cage, end_of(&["_cage"])),
+        (Part::High, suffix_start(&stem, &HIGH_SUFFIXES)),
     ];
     let (part, end) = ends.into_iter().find_map(|(part, end)| Some((part, end?)))?;
     Some((stem[..end].to_owned(), part))
