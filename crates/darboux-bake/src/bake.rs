@@ -115,7 +115,7 @@ impl PreparedSurfaces<'_> {
         };
         let mut report = bake_bands(&stages, &mut images, context, progress)?;
         fill(&mut images, options.padding, context)?;
-        let legends = color_labels(&mut images, options);
+        let legends = color_labels(&mut images, options, context)?;
         count_triangles(&mut report, low, high, &layout, groups);
         Ok(Baked { images, report, legends })
     }
@@ -166,16 +166,20 @@ fn fill(images: &mut Images, padding: Option<u32>, context: &Context) -> Result<
     Ok(())
 }
 
-/// Gives labels their colours; returns the legends.
-fn color_labels(images: &mut Images, options: &BakeOptions) -> Vec<(MapKind, Vec<IdColor>)> {
+/// Gives labels their colours; returns the legends. Errors: the context's token was cancelled.
+fn color_labels(
+    images: &mut Images,
+    options: &BakeOptions,
+    context: &Context,
+) -> Result<Vec<(MapKind, Vec<IdColor>)>, BakeError> {
     let mut legends = Vec::new();
     for kind in options.maps.kinds().filter(|&kind| is_label(kind)) {
         match has_palette(kind, options) {
-            true => legends.push((kind, palette::color_labels(images, kind))),
+            true => legends.push((kind, palette::color_labels(images, kind, context)?)),
             false => palette::unpack_colors(images, kind),
         }
     }
-    legends
+    Ok(legends)
 }
 
 fn count_triangles(
