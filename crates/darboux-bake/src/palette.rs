@@ -156,7 +156,8 @@ fn choose(
         near.extend(of_label.iter().map(|&(_, other)| colors[other as usize]));
         // Of recent colours too, so that parts of a model look different from each other.
         let recent = &colors[label.saturating_sub(SPARE)..];
-        colors.extend(unused.take_farthest(&near, recent, &distance));
+        // Where 8 bits have no more colours, labels are black, as the background.
+        colors.push(unused.take_farthest(&near, recent, &distance).unwrap_or_default());
     }
     Ok(colors)
 }
