@@ -7,7 +7,7 @@
 use std::sync::{Arc, LazyLock};
 
 use darboux_io::gltf::Wrap;
-use darboux_io::image::srgb_to_linear;
+use darboux_io::image::{RgbaCodes, srgb_to_linear};
 
 use crate::BakeError;
 use crate::texture_wrap::Mix;
@@ -27,12 +27,16 @@ static LINEAR_OF_SRGB: LazyLock<[f32; 256]> =
 static LINEAR_OF_CODE: LazyLock<[f32; 256]> =
     LazyLock::new(|| std::array::from_fn(|code| (code as f64 / 255.0) as f32));
 
+/// The linear values of 16-bit codes in sRGB.
+static LINEAR_OF_DEEP_SRGB: LazyLock<Vec<f32>> =
+    LazyLock::new(|| (0..=u16::MAX).map(|code| srgb_to_linear(f64::from(code) / 65_535.0) as f32).collect());
+
 /// A texture of red, green, blue and alpha with its mip levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColorTexture {
     size: [usize; 2],
     /// Copies share them.
-    texels: Arc<Vec<[u8; 4]>>,
+    texels: Arc<RgbaCodes>,
     is_srgb: bool,
     wrap: [Wrap; 2],
     /// The levels above the texels, in linear light, each with its size.
@@ -51,10 +55,18 @@ impl ColorTexture {
     /// `size`: texels per row, and rows; `texels`: row after row, the top row first; `is_srgb`: whether red,
     /// green and blue are in sRGB. Errors: another number of texels.
     pub fn new(size: [u32; 2], texels: Vec<[u8; 4]>, is_srgb: bool) -> Result<Self, BakeError> {
+        Self::of_codes(size, RgbaCodes::Bytes(texels), is_srgb)
+    }
+
+    /// As [`ColorTexture::new`], of codes of 8 or 16 bits.
+    pub(crate) fn of_codes(size: [u32; 2], texels: RgbaCodes, is_srgb: bool) -> Result<Self, BakeError> {
         let size = size.map(|side| side as usize);
-        if size[0].checked_mul(size[1]) != Some(texels.len()) || texels.is_empty() {
-            let expected = size[0].saturating_mul(size[1]);
-            return Err(BakeError::Texels { expected, found: texels.len() });
+        let found = match &texels {
+            RgbaCodes::Bytes(texels) => texels.len(),
+            RgbaCodes::Words(texels) => texels.len(),
+        };
+        if size[0].checked_mul(size[1]) != Some(found) || found == 0 {
+            return Err(BakeError::Texels { expected: size[0].saturating_mul(size[1]), found });
         }
         let (texels, wrap) = (Arc::new(texels), [Wrap::Repeat; 2]);
         let mut texture = Self { size, texels, is_srgb, wrap, levels: Arc::default() };
@@ -94,9 +106,22 @@ impl ColorTexture {
 
     /// A texel of the image in linear light.
     fn texel(&self, at: usize) -> Color {
-        let [r, g, b, a] = self.texels[at].map(usize::from);
-        let color = if self.is_srgb { &*LINEAR_OF_SRGB } else { &*LINEAR_OF_CODE };
-        [color[r], color[g], color[b], LINEAR_OF_CODE[a]].map(f64::from)
+        match &*self.texels {
+            RgbaCodes::Bytes(texels) => {
+                let [r, g, b, a] = texels[at].map(usize::from);
+                let color = if self.is_srgb { &*LINEAR_OF_SRGB } else { &*LINEAR_OF_CODE };
+                [color[r], color[g], color[b], LINEAR_OF_CODE[a]].map(f64::from)
+            }
+            RgbaCodes::Words(texels) => {
+                let linear = |code: u16| f64::from(code) / 65_535.0;
+                let [r, g, b, a] = texels[at];
+                let color = |code: u16| match self.is_srgb {
+                    true => f64::from(LINEAR_OF_DEEP_SRGB[usize::from(code)]),
+                    false => linear(code),
+                };
+                [color(r), color(g), color(b), linear(a)]
+            }
+        }
     }
 
     /// The mean over a footprint around a UV, in linear light. `along`: the two sides of the footprint, in
@@ -210,6 +235,30 @@ mod tests {
         let centre = texture.mean([0.75, 0.5], [[0.0; 2]; 2]).expect("finite");
         assert_eq!(centre, [1.0; 4]);
         assert_eq!(grey([1, 1], &[51], false).mean([0.0; 2], whole).map(|x| x[0] as f32), Some(0.2));
+    }
+
+    /// Codes of 16 bits that have the values of codes of 8 bits, 257 times as large, and codes between them.
+    #[test]
+    fn texels_of_16_bits_keep_them() {
+        let place = [[0.0; 2]; 2];
+        for is_srgb in [false, true] {
+            for code in 0..=255u8 {
+                let (byte, word) = ([code, 255 - code, 7, code], u16::from(code));
+                let deep = [257 * word, 65_535 - 257 * word, 7 * 257, 257 * word];
+                let deep = ColorTexture::of_codes([1, 1], RgbaCodes::Words(vec![deep]), is_srgb);
+                let [deep, plain] = [deep, ColorTexture::new([1, 1], vec![byte], is_srgb)]
+                    .map(|texture| texture.expect("a texel").mean([0.5; 2], place).expect("finite"));
+                let differs = |i: usize| (deep[i] - plain[i]).abs() > f64::from(f32::EPSILON);
+                assert!(!(0..4).any(differs), "{deep:?} {plain:?}");
+            }
+            let value = |code: u16| {
+                let texture = ColorTexture::of_codes([1, 1], RgbaCodes::Words(vec![[code; 4]]), is_srgb);
+                texture.expect("a texel").mean([0.5; 2], place).expect("finite")
+            };
+            assert!((0..65_535).step_by(97).all(|code| value(code)[0] < value(code + 1)[0]));
+            let alpha = value(12_345)[3];
+            assert_eq!(alpha, 12_345.0 / 65_535.0);
+        }
     }
 
     #[test]

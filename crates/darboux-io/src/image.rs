@@ -27,5 +27,5 @@ pub use normal_map::{
 };
 pub use png_image::{PngImage, Sample};
 #[cfg(feature = "textures")]
-pub use rgba::RgbaImage;
+pub use rgba::{RgbaCodes, RgbaImage};
 pub use srgb::{linear_to_srgb, srgb_to_linear};

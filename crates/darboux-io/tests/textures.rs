@@ -1,7 +1,7 @@
 //! Texture files decode to the texels that were encoded.
 #![cfg(feature = "textures")]
 
-use darboux_io::image::{DecodeError, DecodeLimits, PngImage, RgbaImage};
+use darboux_io::image::{DecodeError, DecodeLimits, PngImage, RgbaCodes, RgbaImage};
 use darboux_io::{LoadOptions, MemoryLimit};
 
 /// A PNG of 8 or 16 bits per channel.
@@ -40,6 +40,33 @@ fn every_kind_of_png_becomes_rgba() {
         assert_eq!((image.width, image.height), (2, 1));
         assert_eq!(image.texels, texels, "{color:?} {depth:?}");
     }
+}
+
+#[test]
+fn pngs_of_16_bits_keep_them() {
+    use png::BitDepth::{Eight, Sixteen};
+    use png::ColorType::{Grayscale, GrayscaleAlpha, Rgb, Rgba};
+
+    let decoded = |file: &[u8]| RgbaCodes::decode(file, &DecodeLimits::default());
+    let words = [0x0102u16, 0xfffe, 0x8000, 7, 0, 0x00ff, 0xff00, 0x1234];
+    let data: Vec<u8> = words.iter().flat_map(|word| word.to_be_bytes()).collect();
+    let [a, b, c, d, e, f, g, h] = words;
+    let cases = [
+        (Grayscale, 2, [[a, a, a, 0xffff], [b, b, b, 0xffff]]),
+        (GrayscaleAlpha, 4, [[a, a, a, b], [c, c, c, d]]),
+        (Rgb, 6, [[a, b, c, 0xffff], [d, e, f, 0xffff]]),
+        (Rgba, 8, [[a, b, c, d], [e, f, g, h]]),
+    ];
+    for (color, count, texels) in cases {
+        let file = png(color, Sixteen, [2, 1], &data[..2 * count]);
+        assert_eq!(decoded(&file), Ok(([2, 1], RgbaCodes::Words(texels.to_vec()))), "{color:?}");
+        assert!(RgbaCodes::decode(&file, &DecodeLimits::default().with_max_texels(1)).is_err());
+    }
+    let file = png(Rgba, Eight, [2, 1], &data[..8]);
+    let texels = vec![[1, 2, 0xff, 0xfe], [0x80, 0, 0, 7]];
+    assert_eq!(decoded(&file), Ok(([2, 1], RgbaCodes::Bytes(texels))));
+    let cut = png(Rgb, Sixteen, [2, 1], &data[..12]);
+    assert!(decoded(&cut[..cut.len() - 20]).is_err());
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::collections::{HashMap, HashSet};
 
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners, TextureUse};
-use darboux_io::image::RgbaImage;
+use darboux_io::image::RgbaCodes;
 
 use super::decoded_bytes::DecodedBytes;
 use super::image_key::ImageKey;
@@ -174,8 +174,9 @@ impl ColorTextures {
     }
 }
 
-/// Four bytes per texel, and for the levels above a third of sixteen.
-const BYTES_PER_TEXEL: [u64; 2] = [10; 2];
+/// The bytes of a texel with channels of 8 bits: four, and for the levels above a third of sixteen. With
+/// channels of 16 bits: eight, and eight more while it is decoded.
+const BYTES_PER_TEXEL: [u64; 2] = [10, 16];
 
 /// The error is a clause.
 fn decode(
@@ -185,10 +186,10 @@ fn decode(
     decoded: &mut DecodedBytes,
 ) -> Result<ColorTexture, String> {
     let (bytes, limits) = decoded.limits(document, used.image, BYTES_PER_TEXEL)?;
-    let image = RgbaImage::decode(&bytes, &limits).map_err(|error| format!("the image {error}"))?;
-    let size = [image.width, image.height];
+    let decoding = RgbaCodes::decode(&bytes, &limits);
+    let (size, codes) = decoding.map_err(|error| format!("the image {error}"))?;
     decoded.add(&bytes, size, BYTES_PER_TEXEL);
-    ColorTexture::new(size, image.texels, is_srgb).map_err(|error| error.to_string())
+    ColorTexture::of_codes(size, codes, is_srgb).map_err(|error| error.to_string())
 }
 
 /// The colours of a primitive's vertices, opaque where they have no alpha. Errors: invalid data.

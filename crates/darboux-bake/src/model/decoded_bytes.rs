@@ -28,8 +28,7 @@ impl DecodedBytes {
         if matches!(bytes, Cow::Owned(_)) {
             self.files = self.files.saturating_add(bytes.len());
         }
-        let is_deep = PngImage::size_of(&bytes).is_some() && bytes.get(24) == Some(&16);
-        let per_texel = per_texel[usize::from(is_deep)];
+        let per_texel = per_texel[usize::from(PngImage::is_deep(&bytes))];
         let left = document
             .memory_limit_of(document.source_size().saturating_add(self.files))
             .saturating_sub(self.used);

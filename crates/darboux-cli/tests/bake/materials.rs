@@ -114,6 +114,42 @@ fn specular_glossiness_becomes_a_color_and_a_roughness() {
     assert!(near(&roughness, &[0.52], 0.5 / 255.0 + 1e-6), "{roughness:?}");
 }
 
+/// A gradient of 4,096 steps of 16 codes, onto the same UVs. A ray hits within 1e-4 of a texel of its place, and
+/// neighbours differ by at most 1,024 codes, in linear light by at most 2.4 times the share, so that a texel is
+/// off by at most 0.25 codes and the rounding: by one code.
+#[test]
+fn textures_of_16_bits_keep_them() {
+    const SIDE: usize = 64;
+    let pair = Pair::new();
+    let codes: Vec<u16> = (0..SIDE * SIDE).map(|texel| 16 * texel as u16).collect();
+    let texels = codes.iter().flat_map(|&code| [code; 3]).collect();
+    let image = image::ImageBuffer::<image::Rgb<u16>, Vec<u16>>::from_raw(SIDE as u32, SIDE as u32, texels);
+    image.expect("all texels").save(pair.path("ramp.png")).expect("a PNG");
+    let high = edited(&plate([0.0, 0.0], &FULL, 1.0), |json| {
+        json["meshes"][0]["primitives"][0]["material"] = 0.into();
+        let texture = json!({"index": 0});
+        json["materials"] = json!([{
+            "pbrMetallicRoughness": {"baseColorTexture": texture, "metallicRoughnessTexture": texture},
+            "occlusionTexture": texture,
+        }]);
+        json["images"] = json!([{"uri": "ramp.png"}]);
+        json["samplers"] = json!([{"wrapS": 33071, "wrapT": 33071}]);
+        json["textures"] = json!([{"source": 0, "sampler": 0}]);
+    });
+    fs::write(pair.path("high.glb"), high).expect("a file");
+    let [low, high, map] = ["low.glb", "high.glb", "map.png"].map(|name| pair.path(name));
+    let line = ["bake", text(&low), "--high", text(&high), "-o", text(&map), "--size", "64", "--bits", "16"];
+    let maps = ["--map", "base-color,roughness,texture", "--texture", "occlusionTexture"];
+    darboux(&[&line[..], &["--cage-offset", "1"], &maps].concat()).exits(0);
+    for map in ["base-color", "roughness", "texture"] {
+        let found = image::open(pair.path(&format!("map.{map}.png"))).expect("a map").into_rgb16();
+        let reds: Vec<u16> = found.pixels().map(|texel| texel.0[0]).collect();
+        let largest = reds.iter().zip(&codes).map(|(red, code)| red.abs_diff(*code)).max();
+        assert!(largest <= Some(1), "{map}: {largest:?}");
+        assert_eq!(std::collections::HashSet::<u16>::from_iter(reds).len(), SIDE * SIDE, "{map}");
+    }
+}
+
 /// Where only some primitives have a material, white metal is a patch that nobody wanted.
 #[test]
 fn primitives_without_a_material_are_counted() {

@@ -1,4 +1,4 @@
-//! What the decoders of textures share: limits, errors, and texels of 8 bits.
+//! What the decoders of textures share: limits, errors, and texels.
 
 use crate::MemoryLimit;
 
@@ -97,7 +97,10 @@ pub(super) fn check_memory(
     Ok(())
 }
 
-pub(super) fn rgba<const N: usize>(channels: &[u8], texel: impl Fn([u8; N]) -> [u8; 4]) -> Vec<[u8; 4]> {
+pub(super) fn rgba<S: Copy, C, const N: usize>(
+    channels: &[S],
+    texel: impl Fn([S; N]) -> [C; 4],
+) -> Vec<[C; 4]> {
     channels.as_chunks().0.iter().map(|&channels| texel(channels)).collect()
 }
 

@@ -155,6 +155,11 @@ impl PngImage {
         Some([number(16)?, number(20)?])
     }
 
+    /// Whether a file is a PNG whose channels have 16 bits, judged by its header.
+    pub fn is_deep(file: &[u8]) -> bool {
+        Self::size_of(file).is_some() && file.get(24) == Some(&16)
+    }
+
     /// Why a file cannot be read as an image of this kind, judged by its header and the kinds of its chunks,
     /// as a clause whose subject is the image; none if it can, unless its texels are damaged.
     pub fn obstacle(file: &[u8]) -> Option<String> {

@@ -1,5 +1,5 @@
-//! Decodes texture files (PNG, JPEG, WebP, TGA; KTX 2 with the feature `ktx2`) to 8-bit RGBA texels. The
-//! first bytes of a file decide its format.
+//! Decodes texture files (PNG, JPEG, WebP, TGA; KTX 2 with the feature `ktx2`) to RGBA texels of 8 bits, or
+//! of 16 bits where a PNG has them. The first bytes of a file decide its format.
 
 use std::io::Cursor;
 
@@ -26,6 +26,30 @@ pub struct RgbaImage {
     pub height: u32,
     /// The texels, row after row, the top row first.
     pub texels: Vec<[u8; 4]>,
+}
+
+/// The RGBA texels of an image in the depth of its file, row after row, the top row first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[expect(clippy::exhaustive_enums, reason = "samples of images have 8 or 16 bits")]
+pub enum RgbaCodes {
+    /// 8 bits per channel.
+    Bytes(Vec<[u8; 4]>),
+    /// 16 bits per channel.
+    Words(Vec<[u16; 4]>),
+}
+
+impl RgbaCodes {
+    /// Decodes an image file as [`RgbaImage::decode`] does, but keeps the 16 bits of a PNG. Returns the
+    /// texels per row and the rows, and the texels.
+    ///
+    /// A PNG of 16 bits takes up to 16 bytes per texel while it is decoded; other images take up to 8.
+    pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<([u32; 2], Self), DecodeError> {
+        if PngImage::is_deep(file) {
+            return decode_deep_png(file, limits);
+        }
+        let RgbaImage { width, height, texels } = RgbaImage::decode(file, limits)?;
+        Ok(([width, height], Self::Bytes(texels)))
+    }
 }
 
 const JPEG: &[u8] = b"\xFF\xD8\xFF";
@@ -122,14 +146,8 @@ impl RgbaImage {
 }
 
 fn decode_png(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
-    let mut decoder = png::Decoder::new(Cursor::new(file));
-    decoder.set_transformations(Transformations::EXPAND);
-    decoder.set_ignore_text_chunk(true);
-    decoder.set_ignore_iccp_chunk(true);
-    let mut reader = decoder.read_info().map_err(|error| broken(reasons::of_png(&error)))?;
-    check_palette(reader.info()).map_err(|problem| broken(&problem))?;
+    let mut reader = open_png(file, limits)?;
     let (width, height) = (reader.info().width, reader.info().height);
-    texel_count(width as usize, height as usize, limits)?;
     let (color, depth) = reader.output_color_type();
     let length = reader.output_buffer_size().ok_or_else(|| broken("it is too large"))?;
     // The channels of 16 bits are there until those of 8 bits are.
@@ -140,14 +158,48 @@ fn decode_png(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeErr
     if depth == png::BitDepth::Sixteen {
         bytes = bytes.as_chunks().0.iter().map(|&word| to_byte(u16::from_be_bytes(word))).collect();
     }
-    let texels = match color {
-        ColorType::Grayscale => rgba(&bytes, |[l]| [l, l, l, 255]),
-        ColorType::GrayscaleAlpha => rgba(&bytes, |[l, a]| [l, l, l, a]),
-        ColorType::Rgb => rgba(&bytes, |[r, g, b]| [r, g, b, 255]),
-        ColorType::Rgba => rgba(&bytes, |texel| texel),
-        ColorType::Indexed => return Err(broken("its palette is missing")),
-    };
+    let texels = texels_of_png(color, &bytes, |byte| byte, u8::MAX)?;
     Ok(RgbaImage { width, height, texels })
+}
+
+fn decode_deep_png(file: &[u8], limits: &DecodeLimits) -> Result<([u32; 2], RgbaCodes), DecodeError> {
+    let mut reader = open_png(file, limits)?;
+    let size = [reader.info().width, reader.info().height];
+    let (color, _) = reader.output_color_type();
+    let mut bytes = vec![0; reader.output_buffer_size().ok_or_else(|| broken("it is too large"))?];
+    reader.next_frame(&mut bytes).map_err(|error| broken(reasons::of_png(&error)))?;
+    let texels = texels_of_png(color, bytes.as_chunks().0, u16::from_be_bytes, u16::MAX)?;
+    Ok((size, RgbaCodes::Words(texels)))
+}
+
+/// A reader of a PNG whose palette and channels of fewer than 8 bits are expanded, once its header was
+/// checked.
+fn open_png<'a>(file: &'a [u8], limits: &DecodeLimits) -> Result<png::Reader<Cursor<&'a [u8]>>, DecodeError> {
+    let mut decoder = png::Decoder::new(Cursor::new(file));
+    decoder.set_transformations(Transformations::EXPAND);
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    let reader = decoder.read_info().map_err(|error| broken(reasons::of_png(&error)))?;
+    check_palette(reader.info()).map_err(|problem| broken(&problem))?;
+    texel_count(reader.info().width as usize, reader.info().height as usize, limits)?;
+    Ok(reader)
+}
+
+/// The texels of a PNG's samples. `code`: of a sample; `opaque`: the code of alpha where the PNG has none.
+fn texels_of_png<S: Copy, C: Copy>(
+    color: ColorType,
+    samples: &[S],
+    code: impl Fn(S) -> C,
+    opaque: C,
+) -> Result<Vec<[C; 4]>, DecodeError> {
+    let grey = |[l, a]: [C; 2]| [l, l, l, a];
+    Ok(match color {
+        ColorType::Grayscale => rgba(samples, |[l]| grey([code(l), opaque])),
+        ColorType::GrayscaleAlpha => rgba(samples, |texel: [S; 2]| grey(texel.map(&code))),
+        ColorType::Rgb => rgba(samples, |[r, g, b]| [code(r), code(g), code(b), opaque]),
+        ColorType::Rgba => rgba(samples, |texel: [S; 4]| texel.map(&code)),
+        ColorType::Indexed => return Err(broken("its palette is missing")),
+    })
 }
 
 fn decode_jpeg(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
