@@ -96,15 +96,20 @@ impl<'a> SurfaceMaterial<'a> {
         [roughness, metalness]
     }
 
+    /// The factor of a property.
+    pub fn factor(&self, property: MaterialProperty) -> [f32; 4] {
+        match (self.properties[property as usize], property) {
+            (Some(Property { factor, .. }), _) => factor,
+            (None, MaterialProperty::BaseColor | MaterialProperty::MetallicRoughness) => [1.0; 4],
+            (None, MaterialProperty::Emission) => [0.0, 0.0, 0.0, 1.0],
+            (None, MaterialProperty::Texture | MaterialProperty::Glossiness) => [0.0; 4],
+        }
+    }
+
     /// The mean of a property over the footprint of a sample.
     pub fn mean(&self, property: MaterialProperty, place: &TrianglePlace) -> Color {
-        let Some(Property { factor, texture }) = self.properties[property as usize] else {
-            return match property {
-                MaterialProperty::BaseColor | MaterialProperty::MetallicRoughness => [1.0; 4],
-                MaterialProperty::Emission => [0.0, 0.0, 0.0, 1.0],
-                MaterialProperty::Texture | MaterialProperty::Glossiness => [0.0; 4],
-            };
-        };
+        let factor = self.factor(property);
+        let texture = self.properties[property as usize].and_then(|property| property.texture);
         let shown = texture.and_then(|(texture, uvs)| {
             let corners = place.vertices.map(|vertex| uvs.get(vertex));
             let along: [Place; 2] = place.changes.map(|change| weighted(change, corners));

@@ -199,6 +199,19 @@ impl<'a> HighSurface<'a> {
         Ok(surface)
     }
 
+    /// The most red, green or blue that a map of a property may have of this surface: the largest factor, and
+    /// of the base colour times the largest colour of a vertex. Textures have at most 1.
+    pub fn most_light(&self, property: MaterialProperty) -> f32 {
+        let most = |[red, green, blue, _]: [f32; 4]| red.max(green).max(blue);
+        let of_vertices = match (property, self.colors) {
+            (MaterialProperty::BaseColor, Some(colors)) => {
+                (0..colors.len()).map(|vertex| most(colors.get(vertex))).fold(0.0, f32::max)
+            }
+            _ => 1.0,
+        };
+        most(self.material.factor(property)) * of_vertices
+    }
+
     /// This surface with a meaning of its material's alpha. By default, it is the opacity.
     ///
     /// `cutoff`: the least alpha of a mask that is opaque.

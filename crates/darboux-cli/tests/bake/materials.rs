@@ -114,9 +114,9 @@ fn specular_glossiness_becomes_a_color_and_a_roughness() {
     assert!(near(&roughness, &[0.52], 0.5 / 255.0 + 1e-6), "{roughness:?}");
 }
 
-/// A gradient of 4,096 steps of 16 codes, onto the same UVs. A ray hits within 1e-4 of a texel of its place, and
-/// neighbours differ by at most 1,024 codes, in linear light by at most 2.4 times the share, so that a texel is
-/// off by at most 0.25 codes and the rounding: by one code.
+/// A gradient of 4,096 steps of 16 codes, onto the same UVs. A ray hits within 1e-4 of a texel of its place,
+/// and neighbours differ by at most 1,024 codes, in linear light by at most 2.4 times the share, so that a
+/// texel is off by at most 0.25 codes and the rounding: by one code.
 #[test]
 fn textures_of_16_bits_keep_them() {
     const SIDE: usize = 64;
@@ -246,13 +246,21 @@ fn positions_lie_in_the_box_of_the_high_models() {
     }
 }
 
-/// Positions lie in one box for all tiles; that the light of each tile has a range of its own is said.
+/// The upper sides of two tiles beside each other.
+const TWO_TILES: &str = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\nvt 2 0\nvt 0 1\n\
+                         vt 1 1\nvt 2 1\nvn 0 0 1\nf 1/1/1 2/2/1 5/5/1 4/4/1\nf 2/2/1 3/3/1 6/6/1 5/5/1\n";
+
+/// The ranges of a map in a report, by tile.
+fn ranges(report: &Value, map: &str) -> Vec<Value> {
+    let maps = report["maps"].as_array().expect("a list");
+    maps.iter().filter(|found| found["map"] == map).map(|found| found["range"].clone()).collect()
+}
+
+/// Light and positions of all tiles have one range, so that neighbours fit together.
 #[test]
-fn tiles_with_ranges_of_their_own_are_warned_about() {
+fn tiles_have_one_range() {
     let pair = Pair::new();
-    let low = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\nvt 2 0\nvt 0 1\nvt 1 1\nvt 2 1\n\
-               vn 0 0 1\nf 1/1/1 2/2/1 5/5/1 4/4/1\nf 2/2/1 3/3/1 6/6/1 5/5/1\n";
-    fs::write(pair.path("low.obj"), low).expect("a file");
+    fs::write(pair.path("low.obj"), TWO_TILES).expect("a file");
     let strength = "KHR_materials_emissive_strength";
     for (name, x, light) in [("dim.glb", 0.0, 1.0), ("bright.glb", 1.0, 4.0)] {
         let material =
@@ -271,20 +279,46 @@ fn tiles_with_ranges_of_their_own_are_warned_about() {
         let line = ["bake", text(&low), "-o", text(&output), "--size", "8", "--json", "--padding", "0"];
         darboux(&[&line[..], &all, &["--cage-offset", "1"], more].concat()).exits(0)
     };
-    let run = bake("u.%UDIM%.png", &[]);
-    let words = "emission has a range of its own in each tile";
-    assert_eq!(run.stderr.matches(words).count(), 1, "{}", run.stderr);
-    let report = run.json();
-    let maps = report["maps"].as_array().expect("a list").clone();
-    let ranges = |map: &str| -> Vec<Value> {
-        maps.iter().filter(|found| found["map"] == map).map(|found| found["range"].clone()).collect()
-    };
-    assert_eq!(
-        ranges("emission"),
-        [json!([[0.0, 1.0], [0.0, 1.0], [0.0, 1.0]]), json!([[0.0, 4.0], [0.0, 4.0], [0.0, 4.0]])]
-    );
+    let light = |most: f64| json!(vec![[0.0, most]; 3]);
+    let report = bake("u.%UDIM%.png", &[]).json();
+    assert_eq!(ranges(&report, "emission"), [light(4.0), light(4.0)]);
     let whole = json!([[0.0, 2.0], [0.0, 1.0], [0.0, 0.0]]);
-    assert_eq!(ranges("position"), [whole.clone(), whole]);
-    assert!(!bake("u.%UDIM%.exr", &[]).stderr.contains(words));
-    assert!(!bake("one.png", &[]).stderr.contains(words));
+    assert_eq!(ranges(&report, "position"), [whole.clone(), whole]);
+    // A quarter of the light is 0.537 in sRGB.
+    let [dim, bright] = ["u.1001.emission.png", "u.1002.emission.png"].map(|name| pair.texel(name).0);
+    assert_eq!([dim, bright], [vec![137.0 / 255.0; 3], vec![1.0; 3]]);
+    // Files that have the numbers themselves need no common range.
+    let own = bake("u.%UDIM%.exr", &[]).json();
+    assert_eq!(ranges(&own, "emission"), [light(1.0), light(4.0)]);
+}
+
+/// The range of thickness is that of the thickest tile, to the bit, whatever else is baked.
+#[test]
+fn tiles_have_the_range_of_the_thickest() {
+    let pair = Pair::new();
+    fs::write(pair.path("low.obj"), TWO_TILES).expect("a file");
+    let mut boxes = String::new();
+    for (x, depth) in [(0, 0.1), (1, 0.3)] {
+        let corners = (0..8).map(|i| [x + i % 2, i / 2 % 2, i / 4]);
+        boxes.extend(corners.map(|[x, y, z]| format!("v {x} {y} {}\n", f64::from(z - 1) * depth)));
+        let sides = [[5, 6, 8, 7], [1, 3, 4, 2], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]];
+        boxes.extend(sides.map(|side| {
+            let [a, b, c, d] = side.map(|corner| 8 * x + corner);
+            format!("f {a} {b} {c} {d}\n")
+        }));
+    }
+    fs::write(pair.path("high.obj"), boxes).expect("a file");
+    let bake = |output: &str, more: &[&str]| {
+        let [low, high, output] = ["low.obj", "high.obj", output].map(|name| pair.path(name));
+        let line = ["bake", text(&low), "--high", text(&high), "-o", text(&output), "--size", "8", "--json"];
+        darboux(&[&line[..], &["--cage-offset", "0.01"], more].concat()).exits(0).json()
+    };
+    let own = ranges(&bake("t.%UDIM%.exr", &["--map", "thickness,normal", "--bits", "32"]), "thickness");
+    let most = |range: &Value| range[0][1].as_f64().expect("a number");
+    assert!(most(&own[0]) > 0.09 && most(&own[1]) > 1.5 * most(&own[0]), "{own:?}");
+    let of_all = [own[1].clone(), own[1].clone()];
+    assert_eq!(ranges(&bake("t.%UDIM%.png", &["--map", "thickness,normal,ao"]), "thickness"), of_all);
+    let packed = bake("p.%UDIM%.png", &["--map", "normal", "--pack", "two=ao,thickness"]);
+    let pack = json!([[0.0, 1.0], own[1][0]]);
+    assert_eq!(ranges(&packed, "two"), [pack.clone(), pack]);
 }

@@ -12,6 +12,7 @@ use darboux_bake::{
 };
 use darboux_io::SaveOptions;
 
+use super::encode::FileKind;
 use super::map_choice::{MapChoice, map_choice};
 use super::skew::{SkewChoice, skew};
 use crate::file_id::FileId;
@@ -409,6 +410,16 @@ impl BakeArguments {
             .with_normal_maps(!self.no_high_maps)
             .with_maps(self.baked_maps())
             .with_texture(self.content.texture.clone())
+    }
+
+    /// The bits per channel of the file of a map.
+    pub fn bits_of_map(&self, kind: FileKind, map: MapKind) -> u8 {
+        self.bits.unwrap_or_else(|| kind.default_bits(map))
+    }
+
+    /// The bits per channel of the files of packed maps.
+    pub fn bits_of_packs(&self, kind: FileKind) -> u8 {
+        self.bits.unwrap_or(kind.bits()[0])
     }
 
     /// Whether images of the high models are decoded.

@@ -51,6 +51,30 @@ impl FileKind {
     }
 }
 
+/// The values that black and white mean, of maps for which they are known before an image is encoded: one
+/// pair per channel.
+#[derive(Debug, Default)]
+pub struct Ranges(Vec<(MapKind, Vec<[f32; 2]>)>);
+
+impl Ranges {
+    /// The range of a map, if it is known.
+    pub fn of(&self, map: MapKind) -> Option<&[[f32; 2]]> {
+        self.0.iter().find(|(known, _)| *known == map).map(|(_, range)| &range[..])
+    }
+
+    /// Widens the range of a map to what it has in one more image.
+    pub fn widen(&mut self, map: MapKind, range: Vec<[f32; 2]>) {
+        match self.0.iter_mut().find(|(known, _)| *known == map) {
+            Some((_, known)) => {
+                for (known, [from, to]) in known.iter_mut().zip(range) {
+                    *known = [known[0].min(from), known[1].max(to)];
+                }
+            }
+            None => self.0.push((map, range)),
+        }
+    }
+}
+
 /// How the numbers of a map are encoded in a file.
 pub struct Encoding {
     content: MapContent,
@@ -61,23 +85,22 @@ pub struct Encoding {
 }
 
 impl Encoding {
-    /// `texture`: the name of the texture of [`MapKind::Texture`]; `positions`: the range of each axis.
+    /// `texture`: the name of the texture of [`MapKind::Texture`]; `ranges`: those that are known; others are
+    /// the image's own.
     pub fn new(
         map: MapKind,
         images: &Images,
         options: &BakeOptions,
         texture: Option<&str>,
-        positions: &[[f32; 2]],
+        ranges: &Ranges,
     ) -> Self {
         let is_color = map == MapKind::Texture && texture.is_some_and(is_color_texture);
         let content = if is_color { MapContent::Light } else { map.content() };
         let numbers = images.numbers(map).unwrap_or_default();
         let is_opaque = map.channels() == 4 && numbers.as_chunks::<4>().0.iter().all(|texel| texel[3] == 1.0);
         let channels = if is_opaque { 3 } else { map.channels() };
-        let range = match map {
-            MapKind::Position => positions.to_vec(),
-            _ => range(map, content, numbers, options),
-        };
+        let known = ranges.of(map).map(<[_]>::to_vec);
+        let range = known.unwrap_or_else(|| range(map, content, numbers, options));
         Self { content, channels, range }
     }
 

@@ -1,10 +1,31 @@
-//! What black and white mean where that depends on more than an image: the box of positions, and tiles that
-//! differ.
+//! What black and white mean where that depends on more than an image: the box of positions, and what the
+//! tiles of a bake have together.
 
-use darboux_bake::{BakeOptions, HighSurface};
+use darboux_bake::{BakeOptions, HighSurface, MapKind, MapSet, MaterialProperty};
 
+use super::arguments::BakeArguments;
 use super::encode::FileKind;
-use super::write::WrittenMap;
+use super::outputs::{maps_of, packs_of};
+
+/// The maps whose range every tile may widen, so that no tile can be encoded before all were baked: of files
+/// that have codes, heights, thickness, and light where a high surface may have more than 1.
+pub fn maps_of_all_tiles(arguments: &BakeArguments, highs: &[HighSurface<'_>]) -> MapSet {
+    let kind = FileKind::of(&arguments.output).unwrap_or(FileKind::Png);
+    let maps = maps_of(arguments).into_iter().map(|(map, _)| map);
+    let mut coded: Vec<MapKind> =
+        maps.filter(|&map| kind.has_codes(arguments.bits_of_map(kind, map))).collect();
+    if kind.has_codes(arguments.bits_of_packs(kind)) {
+        coded.extend(packs_of(arguments).flat_map(|(pack, _)| &pack.maps));
+    }
+    let is_bright = |property| highs.iter().any(|high| high.most_light(property) > 1.0);
+    coded.retain(|map| match map {
+        MapKind::Height | MapKind::Thickness => true,
+        MapKind::BaseColor => is_bright(MaterialProperty::BaseColor),
+        MapKind::Emission => is_bright(MaterialProperty::Emission),
+        _ => false,
+    });
+    MapSet::of(&coded)
+}
 
 /// The extents of the box around the high surfaces along the axes of the map. Coordinates that are not finite
 /// do not count.
@@ -21,26 +42,4 @@ pub fn of_positions(highs: &[HighSurface<'_>], options: &BakeOptions) -> Vec<[f3
         }
     }
     ranges
-}
-
-/// A warning where black and white mean other numbers in one tile than in another; none for files that have
-/// the numbers themselves.
-pub fn warning_of_tiles(kind: FileKind, maps: &[WrittenMap]) -> Option<String> {
-    let has_codes = |map: &&WrittenMap| kind.has_codes(map.bits);
-    let differs = |map: &&WrittenMap| {
-        let first = maps.iter().find(|first| first.map == map.map);
-        first.is_some_and(|first| first.range != map.range)
-    };
-    let mut names: Vec<&str> =
-        maps.iter().filter(has_codes).filter(differs).map(|map| map.map.as_str()).collect();
-    names.sort_unstable();
-    names.dedup();
-    let several = if names.len() == 1 { "has" } else { "have" };
-    (!names.is_empty()).then(|| {
-        format!(
-            "{} {several} a range of its own in each tile, which the file and --json say, so that tiles do not fit \
-             together as they are; EXR and TIFF with --bits 32 have the numbers themselves",
-            names.join(", ")
-        )
-    })
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use darboux::Context;
 use darboux_bake::{
-    BakeOptions, BakeProgress, MapKind, ModelSurfaces, Models, PreparedSurfaces, check_verification,
+    BakeOptions, BakeProgress, Baked, MapKind, ModelSurfaces, Models, PreparedSurfaces, check_verification,
 };
 use darboux_io::gltf::{Document, PrimitiveCorners};
 use darboux_io::{Outputs, RunId};
@@ -14,7 +14,7 @@ use super::arguments::BakeArguments;
 use super::cage::{CagePositions, Rays};
 use super::cage_file::stage_cage;
 use super::conflicts::{InputFile, all_inputs, files_of, outputs_of, refuse_twice};
-use super::encode::FileKind;
+use super::encode::{Encoding, Ranges};
 use super::failure::BakeFailure;
 use super::legend::stage_legends;
 use super::map_choice::choices_for;
@@ -129,14 +129,15 @@ pub fn bake_files(
 
     let outputs = Outputs::new(run);
     let page = PageContent::default();
-    let positions = match arguments.baked_maps().has(MapKind::Position) {
-        true => ranges::of_positions(&high_surfaces, &options(arguments, rays.distance(), memory_limit)),
-        false => Vec::new(),
-    };
+    let options = options(arguments, rays.distance(), memory_limit);
+    let mut ranges = Ranges::default();
+    if options.maps.has(MapKind::Position) {
+        ranges.widen(MapKind::Position, ranges::of_positions(&high_surfaces, &options));
+    }
     let mut bake = Run {
         models: &models,
         surfaces: &surfaces,
-        positions,
+        ranges,
         context,
         messages,
         warnings,
@@ -165,16 +166,14 @@ pub fn bake_files(
         tiles: Vec::new(),
         warnings: Vec::new(),
     };
-    for tile in &tiles {
-        bake.tile(
-            tile,
-            &options(arguments, rays.distance(), memory_limit).with_udim(tile.udim),
-            &mut report,
-        )?;
+    if tiles.len() > 1 {
+        let maps = ranges::maps_of_all_tiles(arguments, &high_surfaces);
+        bake.find_ranges(&tiles, &options.with_maps(maps), &mut report)?;
     }
-    let Run { page, mut outputs, mut warnings, .. } = bake;
-    let kind = FileKind::of(&arguments.output).unwrap_or(FileKind::Png);
-    warnings.extend(ranges::warning_of_tiles(kind, &report.maps));
+    for tile in &tiles {
+        bake.tile(tile, &options.with_udim(tile.udim), &mut report)?;
+    }
+    let Run { page, mut outputs, warnings, .. } = bake;
     report.warnings = distinct(warnings);
     // The pictures of the page need memory, too.
     drop(surfaces);
@@ -187,8 +186,8 @@ pub fn bake_files(
 struct Run<'a> {
     models: &'a Models<'a>,
     surfaces: &'a PreparedSurfaces<'a>,
-    /// The range of each axis of positions.
-    positions: Vec<[f32; 2]>,
+    /// Of maps whose range is not that of one image.
+    ranges: Ranges,
     context: Context,
     messages: &'a Messages,
     warnings: Vec<String>,
@@ -198,6 +197,36 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
+    /// Finds the ranges that maps have in all tiles together, so that tiles fit together: bakes these maps
+    /// alone, one tile after the other, and keeps no image.
+    fn find_ranges(
+        &mut self,
+        tiles: &[Tile],
+        options: &BakeOptions,
+        report: &mut BakeReport,
+    ) -> Result<(), BakeFailure> {
+        if options.maps.is_empty() {
+            return Ok(());
+        }
+        for tile in tiles {
+            let options = options.with_udim(tile.udim);
+            let baked = self.bake(tile, &options)?;
+            for map in options.maps.kinds() {
+                let encoding = Encoding::new(map, &baked.images, &options, None, &Ranges::default());
+                self.ranges.widen(map, encoding.range);
+            }
+        }
+        report.seconds.rays += self.clock.lap();
+        Ok(())
+    }
+
+    /// Bakes a tile and tells its progress.
+    fn bake(&mut self, tile: &Tile, options: &BakeOptions) -> Result<Baked, BakeFailure> {
+        let progress = self.messages.file(&tile.arguments.output.display().to_string(), PROGRESS_UNITS);
+        let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
+        Ok(self.surfaces.bake(options, &mut self.context, &mut tell)?)
+    }
+
     /// Bakes a tile, stages its files and adds it to the report.
     fn tile(
         &mut self,
@@ -207,10 +236,7 @@ impl Run<'_> {
     ) -> Result<(), BakeFailure> {
         let Tile { udim, arguments } = tile;
         let low = &self.models.low;
-        let progress = self.messages.file(&arguments.output.display().to_string(), PROGRESS_UNITS);
-        let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
-        let baked = self.surfaces.bake(options, &mut self.context, &mut tell)?;
-        drop(tell);
+        let baked = self.bake(tile, options)?;
         report.seconds.rays += self.clock.lap();
         let misfit = (baked.report.missed_texels > 0).then(|| self.models.misfit()).flatten();
         let misfit = misfit.as_deref();
@@ -218,7 +244,7 @@ impl Run<'_> {
             return Err(udim.map_or(reason.clone(), |udim| format!("tile {udim}: {reason}")).into());
         }
         let outputs = &mut self.outputs;
-        let mut written = stage_maps(arguments, &baked.images, options, &self.positions, outputs)?;
+        let mut written = stage_maps(arguments, &baked.images, options, &self.ranges, outputs)?;
         self.warnings.append(&mut written.warnings);
         let misses = pictures::misses(arguments, &baked, &mut self.warnings, outputs)?;
         let legends = stage_legends(arguments, &baked.legends, &self.models.highs, outputs)?;

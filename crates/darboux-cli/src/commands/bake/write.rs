@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::arguments::BakeArguments;
 use super::dither::BlueNoise;
-use super::encode::{Channels, Encoding, FileKind};
+use super::encode::{Channels, Encoding, FileKind, Ranges};
 use super::files::{LARGEST_HALF, Notes, file_bytes, png};
 use super::outputs::{maps_of, packs_of};
 use super::thumbnail::thumbnail;
@@ -59,20 +59,19 @@ pub fn commit(outputs: Outputs) -> Result<(), String> {
     outputs.commit().map(drop).map_err(|error| error.to_string())
 }
 
-/// Stages all maps. `positions`: the range of each axis of [`MapKind::Position`]. Errors are one sentence
-/// each.
+/// Stages all maps. `ranges`: those that are not the image's own. Errors are one sentence each.
 pub fn stage_maps(
     arguments: &BakeArguments,
     images: &Images,
     options: &BakeOptions,
-    positions: &[[f32; 2]],
+    ranges: &Ranges,
     outputs: &mut Outputs,
 ) -> Result<WrittenMaps, String> {
     let mut written = WrittenMaps::default();
     let kind = FileKind::of(&arguments.output).unwrap_or(FileKind::Png);
     let noise = arguments.dither.map(BlueNoise::new);
     let texture = arguments.content.texture.as_deref();
-    let encoding = |map| Encoding::new(map, images, options, texture, positions);
+    let encoding = |map| Encoding::new(map, images, options, texture, ranges);
     let udim = options.udim.map(Udim::number);
     let mut stage_file =
         |path: &Path, name: &str, bits: u8, channels: &Channels<'_>, range: Vec<[f32; 2]>| {
@@ -90,14 +89,14 @@ pub fn stage_maps(
             Ok::<_, String>(())
         };
     for (map, path) in maps_of(arguments) {
-        let bits = arguments.bits.unwrap_or_else(|| kind.default_bits(map));
+        let bits = arguments.bits_of_map(kind, map);
         let encoding = encoding(map);
         let channels = Channels::of_map(map, &encoding, images);
         stage_file(&path, map.name(), bits, &channels, encoding.range.clone())?;
     }
     for (pack, path) in packs_of(arguments) {
         let encodings: Vec<_> = pack.maps.iter().map(|&map| (map, encoding(map))).collect();
-        let bits = arguments.bits.unwrap_or(kind.bits()[0]);
+        let bits = arguments.bits_of_packs(kind);
         let range = encodings.iter().flat_map(|(_, encoding)| encoding.range.clone()).collect();
         stage_file(&path, &pack.name, bits, &Channels::packed(&encodings, images), range)?;
     }
