@@ -5,6 +5,7 @@ import { after, before, test } from 'node:test';
 
 import { changedMap, glb, parts, shield, withImage } from './glb.mjs';
 import { browser, Picture, serve, Viewer } from './page.mjs';
+import { gltf } from './quads.mjs';
 
 let server, chromium;
 
@@ -17,9 +18,9 @@ after(async () => {
   server?.close();
 });
 
-/** Opens the page as people do. */
-async function opened(use, options = {}) {
-  const viewer = await Viewer.open(chromium, `${server.address}#`, { viewport: { width: 800, height: 500 }, ...options });
+/** Opens the page as people do. `state`: of controls, as in links. */
+async function opened(use, options = {}, state = '') {
+  const viewer = await Viewer.open(chromium, `${server.address}#${state}`, { viewport: { width: 800, height: 500 }, ...options });
   await use(viewer);
   assert.deepEqual(viewer.faults, []);
   await viewer.close();
@@ -51,6 +52,63 @@ test('the camera goes to the fault, which has an outline, and a sentence says wh
     const isBack = (r, g, b) => Math.abs(r - 223) < 3 && Math.abs(g - 225) < 3 && Math.abs(b - 228) < 3;
     assert.ok(near.share(isBack) + 0.1 < (await viewer.picture()).share(isBack), 'the fault was seen from nearby');
   }));
+
+/** A tall strip whose signs are wrong at its upper end. u grows upwards. */
+function strip() {
+  const count = 40;
+  const vertices = Array.from({ length: 2 * (count + 1) }, (_, at) => [0.5 - (at & 1), ((at >> 1) / count - 0.5) * 8]);
+  const of = (width, values) => [Float32Array.from(vertices.flatMap(values)), width];
+  const attributes = {
+    POSITION: of(3, ([x, y]) => [x, y, 0]),
+    NORMAL: of(3, () => [0, 0, 1]),
+    TEXCOORD_0: of(2, ([x, y]) => [y / 8, 0.5 + x]),
+    TANGENT: of(4, ([, y]) => [0, 1, 0, y > 3 ? -1 : 1]),
+  };
+  const indices = Uint16Array.from({ length: 6 * count }, (_, at) => 2 * Math.floor(at / 6) + [0, 2, 1, 1, 2, 3][at % 6]);
+  const { json, binary } = parts(shield());
+  const { byteOffset, byteLength } = json.bufferViews[json.images[0].bufferView];
+  const uri = `data:image/png;base64,${binary.subarray(byteOffset, byteOffset + byteLength).toString('base64')}`;
+  const dressed = { materials: [{ normalTexture: { index: 0 } }], textures: [{ source: 0 }], images: [{ uri }] };
+  return Buffer.from(gltf({ attributes, indices, primitive: { material: 0 }, json: () => dressed }));
+}
+
+/** The number of the model's pixels that nothing covers, and the part of them that is left of the divide. */
+async function seen(viewer) {
+  // The line around what has the focus is no part of the picture.
+  await viewer.page.$eval('#view', (view) => view.blur());
+  const [top, bottom] = await viewer.page.evaluate(() => {
+    const [view, caption, verdict] = ['view', 'caption-left', 'verdict'].map((id) => document.getElementById(id).getBoundingClientRect());
+    return [caption.bottom - view.top, verdict.top - view.top];
+  });
+  const { width, data } = await viewer.picture();
+  const divide = ((await viewer.page.inputValue('#split')) / 100) * width;
+  let [left, area] = [0, 0];
+  for (let at = width * Math.round(top); at < width * Math.round(bottom); at++) {
+    const isModel = [0x33, 0x37, 0x3e].some((channel, i) => Math.abs(data[4 * at + i] - channel) > 3);
+    area += Number(isModel);
+    left += Number(isModel && at % width < divide);
+  }
+  return { area, left: left / area };
+}
+
+test('a third of the model is in sight at first, and a fifth of that on each side of the divide', () =>
+  opened(
+    async (viewer) => {
+      await give(viewer, 'strip.gltf', strip());
+      assert.match(await viewer.text('verdict-text'), /signs w/);
+      const near = await seen(viewer);
+      await viewer.page.focus('#view');
+      const presses = 12;
+      for (let press = 0; press < presses; press++) await viewer.page.keyboard.press('-');
+      await viewer.settled();
+      const inSight = near.area / ((await seen(viewer)).area * 1.15 ** (2 * presses));
+      assert.ok(near.left > 0.19 && near.left < 0.81, `${near.left} of the model is left of the divide`);
+      assert.ok(inSight > 0.28, `${inSight} of the model is in sight`);
+      assert.ok(inSight < 0.9, 'the fault is seen from nearby');
+    },
+    { colorScheme: 'dark' },
+    'ground=0',
+  ));
 
 test('a fault of a map is shown beside the repaired file; a model without a fault is shown whole, without a sentence', () =>
   opened(async (viewer) => {

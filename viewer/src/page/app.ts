@@ -9,6 +9,7 @@ import { openModel, withTangents, type Model } from '../files/model';
 import type { FileBundle } from '../files/file-bundle';
 import { oddities } from '../scene/oddities';
 import { BakedMap } from '../scene/baked-map';
+import type { View } from '../scene/camera-flight';
 import { PlaceMarker } from '../scene/place-marker';
 import { coarseCopy } from '../scene/coarse';
 import { boundsOfCopies, partsOf, placesOf, uvSquare, type Part } from '../scene/model-parts';
@@ -79,7 +80,7 @@ export class App {
     comparisons: () => this.comparisons,
     costOfRepair: () => this.examination.costOfRepair(),
     repair: () => this.examination.repair(),
-    visit: (finding) => this.visitFinding(finding, 0),
+    visit: (finding) => this.visitFinding(finding, 0, true),
     build: () => this.build(),
     split: (percent) => this.setSplit(percent),
     showAngles: () => this.showAngles(),
@@ -401,8 +402,8 @@ export class App {
     this.viewport.brightness(numberOf('surroundings'), numberOf('light'), numberOf('exposure'));
   }
 
-  /** Moves the camera to the n-th place of a finding, or to its whole part. */
-  private async visitFinding(finding: Finding, n: number): Promise<{ text: string; count: number }> {
+  /** Moves the camera to the n-th place of a finding, or to its whole part. `isFirst`: far enough away to recognise the model, which nobody has seen yet. */
+  private async visitFinding(finding: Finding, n: number, isFirst = false): Promise<{ text: string; count: number }> {
     const { mesh, primitive, material, first, firstAre } = finding;
     const title = `${placeOf(finding)}: ${finding.text}`;
     const isHere = ({ origin }: Part) => (mesh === null ? origin?.material === material : origin?.mesh === mesh && origin.primitive === primitive);
@@ -410,27 +411,32 @@ export class App {
     if (part < 0) return { text: `${title}, which the scene does not show`, count: 1 };
     const places = await call('places', part, firstAre, first);
     const turn = places.length ? n % places.length : 0;
-    const at = places.length ? this.visitPlace(part, places[turn]) : this.visitPart(part);
+    const at = places.length ? this.visitPlace(part, places[turn], isFirst) : this.visitPart(part, isFirst);
     const number = places.length ? `, ${firstAre === 'triangles' ? 'triangle' : 'vertex'} ${first[turn]}, place ${turn + 1} of ${places.length}` : '';
     return { text: `${title}${number}, at (${rounded(at)})`, count: places.length };
   }
 
-  private visitPlace(part: number, { position, normal, corners }: Place): number[] {
+  private visitPlace(part: number, { position, normal, corners }: Place, isFirst: boolean): number[] {
     const [matrix] = placesOf(this.parts[part]);
     const at = new Vector3(...position).applyMatrix4(matrix);
     const direction = new Vector3(...normal).applyMatrix3(new Matrix3().getNormalMatrix(matrix));
     const size = corners ? new Box3().setFromArray(corners).applyMatrix4(matrix).getSize(new Vector3()).length() : 0;
     this.marker.showAt(at, corners, matrix);
-    this.viewport.look(at, Math.min(this.viewport.radius, Math.max(CLOSE_UP * this.viewport.radius, size)), facing(direction), true);
+    const near = this.viewport.viewOfSphere(at, Math.min(this.viewport.radius, Math.max(CLOSE_UP * this.viewport.radius, size)), facing(direction));
+    this.flyTo(near, isFirst);
     return at.toArray();
   }
 
   /** Shows the whole of a part, and marks its box. */
-  private visitPart(part: number): number[] {
+  private visitPart(part: number, isFirst: boolean): number[] {
     const box = this.view.boundsOfPart(part);
     this.marker.showBox(box);
-    this.viewport.lookAtBox(box, new Vector3(0.35, 0.3, 1), true);
+    this.flyTo(this.viewport.viewOfBox(box), isFirst);
     return box.getCenter(new Vector3()).toArray();
+  }
+
+  private flyTo(view: View, isFirst: boolean): void {
+    this.viewport.moveTo(isFirst ? this.viewport.recognised(view) : view, true);
   }
 
   private async savePicture(): Promise<void> {

@@ -31,7 +31,7 @@ const CLOSE_UP = 0.45;
 const MOST_OF_A_MODEL = 0.6;
 
 /** The share of a picture's pixels below which a difference is not seen. */
-const ALIKE = 0.004;
+const ALIKE = 0.0015;
 
 /** The share of a picture's pixels from which a difference is seen at once. */
 const PLAIN_TO_SEE = 0.1;
@@ -56,7 +56,7 @@ export interface Host {
   costOfRepair(): Promise<Cost | null>;
   /** Shows the repaired file on the right. */
   repair(): Promise<void>;
-  /** Leads to the first place of a finding. */
+  /** Leads to the first place of a finding, with enough of the model in sight to recognise it. */
   visit(finding: Finding): Promise<unknown>;
   /** Rebuilds the drawing by the settings. */
   build(): void;
@@ -131,7 +131,8 @@ export class FirstScreen {
     viewport.moveTo(view, true);
     const isAlike = seen.share < ALIKE;
     if (isAlike) this.announce(problem, cost, isOfTangents ? differenceOf(host.comparisons()) : 'unmeasured');
-    const rest = isOutlined || isAlike ? BESIDE : Math.min(WITHIN[1], Math.max(WITHIN[0], 100 * seen.column));
+    // Something of the model stays on both sides.
+    const rest = clamped(isOutlined || isAlike ? BESIDE : clamped(100 * seen.column, WITHIN), seen.divides.map((column) => 100 * column));
     const turnLight = (degrees: number) => viewport.lightFrom(numberOf('light-around') + degrees, numberOf('light-above'));
     void swing({ split: (percent) => host.split(percent), turnLight }, rest);
   }
@@ -198,7 +199,7 @@ export class FirstScreen {
   /** The view from nearby of where the sides differ most; null where that is not on the model. */
   private closer({ view, seen }: Found, radius: number): View | null {
     const at = this.viewport.pointAt(view, seen.strongest);
-    return at && this.viewport.viewOfSphere(at, radius * this.viewport.radius, view.eye.clone().sub(view.target));
+    return at && this.viewport.recognised(this.viewport.viewOfSphere(at, radius * this.viewport.radius, view.eye.clone().sub(view.target)));
   }
 
   /** The number of triangles that are wrong. */
@@ -222,7 +223,7 @@ export class FirstScreen {
     // From a little above, where bumps throw longer highlights.
     direction.y += 0.25;
     const around = Math.max(CLOSE_UP * this.viewport.radius, 1.5 * radius * matrix.getMaxScaleOnAxis());
-    return this.viewport.viewOfSphere(at, Math.min(this.viewport.radius, around), direction);
+    return this.viewport.recognised(this.viewport.viewOfSphere(at, Math.min(this.viewport.radius, around), direction));
   }
 
   /** Draws the outline of the fault, unless nearly everything is wrong. */
@@ -257,4 +258,9 @@ function lightAround({ eye, target }: View): number {
   const yaw = (Math.atan2(towards.x, towards.z) * 180) / Math.PI;
   const around = yaw + LIGHT_BESIDE;
   return around > 180 ? around - 360 : around;
+}
+
+/** The nearest number within bounds. */
+function clamped(x: number, [least, most]: readonly number[]): number {
+  return Math.min(most, Math.max(least, x));
 }

@@ -14,6 +14,7 @@ import {
   Scene,
   Sphere,
   Spherical,
+  SRGBColorSpace,
   Vector2,
   Vector3,
   WebGLRenderer,
@@ -21,7 +22,7 @@ import {
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 import { fly, type View } from './camera-flight';
-import { framing } from './framing';
+import { framing, withInSight } from './framing';
 import { Ground } from './ground';
 import type { GroundShadow } from './ground-shadow';
 import { LayoutCamera } from './layout-camera';
@@ -53,6 +54,9 @@ const SLOW = 45;
 
 /** The height in pixels of the pictures that are compared for where both sides differ. */
 const COMPARED_HEIGHT = 150;
+
+/** The least part of the model that is in sight where a person shall recognise it. */
+const RECOGNISED = 1 / 3;
 
 /** The least share of the canvas's height that is framed, whatever lies over the picture. */
 const LEAST_FREE = 0.3;
@@ -223,17 +227,7 @@ export class Viewport {
 
   /** Shows the whole model, from the front and slightly above. */
   lookAtAll(): void {
-    this.lookAtBox(this.box, HOME);
-  }
-
-  /** Looks at a box from a direction, so that it fills the picture. */
-  lookAtBox(box: Box3, from: Vector3, isFlight = false): void {
-    this.moveTo(this.viewOfBox(box, from), isFlight);
-  }
-
-  /** Looks at a point from a direction, so that a sphere around it is in view. */
-  look(at: Vector3, radius: number, from: Vector3, isFlight = false): void {
-    this.moveTo(this.viewOfSphere(at, radius, from), isFlight);
+    this.moveTo(this.viewOfBox(this.box), false);
   }
 
   /** The views of the whole model from all around, the first one as {@link lookAtAll}. */
@@ -241,7 +235,8 @@ export class Viewport {
     return AROUND.map((from) => this.viewOfBox(this.box, from));
   }
 
-  private viewOfBox(box: Box3, from: Vector3): View {
+  /** The view of a box from a direction, so that it fills the picture. */
+  viewOfBox(box: Box3, from = HOME): View {
     const { fieldOfView, aspect } = this.free();
     return framing(box, from, fieldOfView, aspect);
   }
@@ -250,6 +245,12 @@ export class Viewport {
   viewOfSphere(at: Vector3, radius: number, from: Vector3): View {
     const distance = radius / Math.sin(((FIELD_OF_VIEW / 2) * Math.PI) / 180) / Math.min(1, this.camera.aspect);
     return { eye: at.clone().addScaledVector(from.clone().normalize(), distance), target: at.clone() };
+  }
+
+  /** A view in the same direction in which a third of the model or more is in sight. */
+  recognised(view: View): View {
+    const { fieldOfView, aspect } = this.free();
+    return withInSight(view, this.box, RECOGNISED, fieldOfView, aspect);
   }
 
   /** Keeps what the camera looks at out of bands at the top and at the bottom of the canvas, in CSS pixels. */
@@ -371,7 +372,8 @@ export class Viewport {
     camera.quaternion.copy(turn);
     [camera.near, camera.far] = [near, far];
     this.drawNow();
-    return seenDifference(left, right);
+    const { r, g, b } = (this.scene.background as Color).getRGB({ r: 0, g: 0, b: 0 }, SRGBColorSpace);
+    return seenDifference(left, right, [r, g, b].map((channel) => 255 * channel));
   }
 
   /** The point of the model at a place of the picture from a view, from 0 to 1 from the left and from the top; null where there is none. */
