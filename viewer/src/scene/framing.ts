@@ -50,7 +50,8 @@ export function withInSight({ eye, target }: Framing, box: Box3, share: number, 
     return Math.max(0, parts[0]) * Math.max(0, parts[1]);
   };
   let distance = eye.distanceTo(target);
-  while (inSight(distance) < share) distance *= STEP_BACK;
+  // An eye in the target itself would stay there.
+  while (distance > 0 && inSight(distance) < share) distance *= STEP_BACK;
   return { eye: target.clone().addScaledVector(towards, distance), target };
 }
 
