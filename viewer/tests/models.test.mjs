@@ -193,3 +193,99 @@ test('damaged textures in KTX 2 are left out with a warning, or their fallback i
   assert.equal(await viewer.text('status'), '4 triangles in 1 part');
   assert.ok((await viewer.picture()).share(isGreen) > 0.05);
 });
+
+/** A KTX 2 with green texels that are not compressed. */
+function greenKtx2(width, height) {
+  const start = Buffer.from('\u00abKTX 20\u00bb\r\n\x1a\n', 'latin1');
+  // R8G8B8A8_UNORM, one level, no descriptor, no keys and no global data.
+  const header = Uint32Array.of(37, 1, width, height, 0, 0, 1, 1, 0, 104, 4, 0, 0, 0, 0, 0, 0);
+  const texels = Buffer.alloc(4 * width * height, Buffer.of(0, 200, 0, 255));
+  const level = BigUint64Array.of(108n, BigInt(texels.length), BigInt(texels.length));
+  return Buffer.concat([start, Buffer.from(header.buffer), Buffer.from(level.buffer), Buffer.of(4, 0, 0, 0), texels]);
+}
+
+test('a texture in KTX 2 that the graphics card does not take is shown with fewer texels, which a sentence says', async (t) => {
+  const most = await viewer.page.evaluate(() => {
+    const gl = new OffscreenCanvas(1, 1).getContext('webgl2');
+    return gl.getParameter(gl.MAX_TEXTURE_SIZE);
+  });
+  if (most > 16_000) return t.skip('the graphics card takes all that is decoded');
+  await open(dressed('KHR_texture_basisu', 'image/ktx2', greenKtx2(most + 100, 5)));
+  assert.equal(await viewer.text('status'), `4 triangles in 1 part; 1 texture in KTX 2 has more than ${most} texels along a side, which the graphics card does not take, and is shown with fewer`);
+  assert.ok((await viewer.picture()).share(isGreen) > 0.05);
+});
+
+/** A quad with a wrong tangent, once for each texture in KTX 2. */
+function withTextures(textures) {
+  const file = JSON.parse(gltf({ attributes: { ...QUAD, TANGENT: TANGENTS } }));
+  const [mesh] = file.meshes;
+  mesh.primitives = textures.map((_, material) => ({ ...mesh.primitives[0], material }));
+  const extension = 'KHR_texture_basisu';
+  return JSON.stringify({
+    ...file,
+    materials: textures.map((_, index) => ({ normalTexture: { index }, pbrMetallicRoughness: { baseColorTexture: { index } } })),
+    textures: textures.map((_, source) => ({ extensions: { [extension]: { source } } })),
+    images: textures.map((texture) => ({ uri: `data:image/ktx2;base64,${texture.toString('base64')}` })),
+    extensionsUsed: [extension],
+    extensionsRequired: [extension],
+  });
+}
+
+/** The numbers of textures that were sent to threads for decoding since this was called first, and of replies. */
+const decoding = () =>
+  viewer.page.evaluate(() => {
+    if (globalThis.decoding === undefined) {
+      const counts = (globalThis.decoding = { sent: 0, replies: 0 });
+      const post = Worker.prototype.postMessage;
+      Worker.prototype.postMessage = function (message, ...rest) {
+        if (/decode/.test(message.name)) {
+          counts.sent++;
+          this.addEventListener('message', ({ data }) => (counts.replies += Number(data.id === message.id)));
+        }
+        return post.call(this, message, ...rest);
+      };
+    }
+    return globalThis.decoding;
+  });
+
+test('a texture in KTX 2 is decoded once, also for the repaired file', async () => {
+  const before = (await decoding()).sent;
+  const [one, other] = [greenKtx2(8, 8), greenKtx2(16, 8)];
+  await open(withTextures([one, other, one]));
+  assert.equal((await decoding()).sent - before, 2);
+  await viewer.click('#repair');
+  assert.equal(await viewer.page.inputValue('#right'), 'repaired');
+  await viewer.slide('split', 0);
+  assert.ok((await viewer.picture()).share(isGreen) > 0.05, 'the repaired file has its texture');
+  await viewer.slide('split', 100);
+  assert.equal((await decoding()).sent - before, 2);
+});
+
+/** A KTX 2 in UASTC with many times the blocks of a small one, which takes long to decode. */
+function largeKtx2(side) {
+  const small = readFileSync(join(root, 'crates/darboux-io/tests/ktx2/bumps-uastc.ktx2'));
+  const start = Number(small.readBigUInt64LE(80));
+  const head = Buffer.from(small.subarray(0, start));
+  const blocks = Buffer.alloc(side * side, small.subarray(start, start + 4096));
+  for (const at of [20, 24]) head.writeUInt32LE(side, at);
+  for (const at of [88, 96]) head.writeBigUInt64LE(BigInt(blocks.length), at);
+  return Buffer.concat([head, blocks]);
+}
+
+test('another file does not wait for the textures of the one before', async () => {
+  const textures = Array.from({ length: 20 }, (_, at) => {
+    const texture = largeKtx2(1024);
+    // Another block at the end, so that no two are equal.
+    texture.copy(texture, texture.length - 16, texture.length - 16 * (at + 2), texture.length - 16 * (at + 1));
+    return texture;
+  });
+  const give = (name, text) => viewer.page.setInputFiles('#files', { name, mimeType: 'model/gltf+json', buffer: Buffer.from(text) });
+  const before = await decoding();
+  await give('slow.gltf', withTextures(textures));
+  while ((await decoding()).sent === before.sent) await viewer.page.waitForTimeout(20);
+  await give('other.gltf', gltf());
+  await viewer.page.waitForFunction(() => document.getElementById('name').textContent === 'other.gltf');
+  const replies = (await decoding()).replies - before.replies;
+  assert.ok(replies < textures.length, `all ${replies} textures were decoded first`);
+  await viewer.settled();
+});

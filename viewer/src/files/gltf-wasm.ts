@@ -1,4 +1,4 @@
-// Reads and writes glTF with the same code as the command, compiled to WebAssembly (viewer/wasm). Runs in the worker.
+// Reads and writes glTF with the same code as the command, compiled to WebAssembly (viewer/wasm). Runs in the worker threads.
 
 import address from './darboux_viewer.wasm?url';
 import type { FileBundle } from './file-bundle';
@@ -111,7 +111,8 @@ async function run<T>(task: Task, name: string, bytes: Uint8Array, bundle: FileB
     (exports as Exports).seed_random(low, high);
     return exports as Exports;
   };
-  let exports = await instance(address);
+  // The larger module, where there is one, decodes textures.
+  let exports = await instance(task === 'decode_texture' && larger.length ? larger[0] : address);
   const head = bytes.subarray(0, HEAD);
   write(head, exports.file(head.length));
   if (larger.length && exports.needs_larger_module()) exports = await instance(larger[0]);

@@ -8,7 +8,7 @@ import { TANGENT_TARGETS } from '../scene/morph-and-skin';
 import { call } from '../worker/surfaces';
 import type { FileBundle } from './file-bundle';
 import type { Source } from './gltf-wasm';
-import { withKtx2 } from './ktx2';
+import { withKtx2, type Ktx2Report, type Ktx2Textures } from './ktx2';
 import { setOrigin } from './origin';
 import { withPackedElements } from './packed-elements';
 
@@ -46,19 +46,20 @@ async function storeIgnored({ scene, parser }: GLTF): Promise<void> {
 }
 
 /** Opens a .gltf or .glb, and what the worker makes a .glb of. Errors: one sentence to show. */
-export async function openGltf(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: FileBundle): Promise<Gltf> {
+export async function openGltf(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: FileBundle, textures: Ktx2Textures): Promise<Gltf> {
   const { bytes: file, description } = await call('check', name, bytes, bundle);
   // Nothing is fetched: missing files stay missing.
   const manager = new LoadingManager().setURLModifier((url) => (/^(data|blob):/.test(url) ? url : 'data:,'));
   let lost = 0;
   manager.onError = () => lost++;
-  const lostKtx2: string[] = [];
-  const loader = new GLTFLoader(manager).register((parser) => withKtx2(parser, (reason) => lostKtx2.push(reason))).register(withPackedElements);
+  const ktx2: Ktx2Report = { lost: [], smaller: 0 };
+  const loader = new GLTFLoader(manager).register((parser) => withKtx2(parser, textures, ktx2)).register(withPackedElements);
   try {
     const gltf = await loader.parseAsync(file.buffer, '');
     await storeIgnored(gltf);
     const warnings = [...description.warnings];
-    if (lostKtx2.length) warnings.push(`${counted(lostKtx2.length, 'texture in KTX 2 is', 'textures in KTX 2 are')} left out: ${lostKtx2[0].replace(/\.$/, '')}`);
+    if (ktx2.lost.length) warnings.push(`${counted(ktx2.lost.length, 'texture in KTX 2 is', 'textures in KTX 2 are')} left out: ${ktx2.lost[0].replace(/\.$/, '')}`);
+    if (ktx2.smaller) warnings.push(`${counted(ktx2.smaller, 'texture in KTX 2 has', 'textures in KTX 2 have')} more than ${textures.largest} texels along a side, which the graphics card does not take, and ${ktx2.smaller > 1 ? 'are' : 'is'} shown with fewer`);
     if (lost) warnings.push(`${counted(lost, 'texture', 'textures')} missing or not decodable`);
     if (hasMoreJoints(gltf.scene)) warnings.push('vertices have more than 4 joints, and only the first 4 are used');
     return { scene: gltf.scene, animations: gltf.animations, cameras: gltf.cameras, bytes: file, warnings, source: description.source };

@@ -4,6 +4,7 @@ import type { AnimationClip, Camera, Object3D } from 'three';
 
 import { MODEL_NAMES, type FileBundle } from './file-bundle';
 import { openGltf } from './gltf';
+import type { Ktx2Textures } from './ktx2';
 import { call } from '../worker/surfaces';
 import type { Outcome, Source, Summary } from './gltf-wasm';
 
@@ -22,6 +23,8 @@ export interface Model {
   warnings: string[];
   /** The words of the file; null for glTF. */
   source: Source | null;
+  /** The decoded textures in KTX 2 of this model and of what is made of it. */
+  textures: Ktx2Textures;
 }
 
 /** Receives the current task and its progress from 0 to 1, or null where that is unknown. */
@@ -31,7 +34,7 @@ export type Progress = (task: string, fraction: number | null) => void;
 const MAX_BYTES = 1.5e9;
 
 /** Opens the model of the preferred format, of several the one with the fewest folders in its path, and of these the first by name. Errors: one sentence to show. */
-export async function openModel(bundle: FileBundle, progress: Progress): Promise<Model> {
+export async function openModel(bundle: FileBundle, textures: Ktx2Textures, progress: Progress): Promise<Model> {
   const depth = (path: string) => path.split('/').length;
   const first = (names: RegExp) =>
     [...bundle.keys()].filter((path) => names.test(path)).sort((a, b) => depth(a) - depth(b) || a.localeCompare(b))[0];
@@ -42,7 +45,7 @@ export async function openModel(bundle: FileBundle, progress: Progress): Promise
   }
   const bytes = await read(name, bundle.get(name)!, progress);
   progress(`Opening ${name}`, null);
-  return { name, files: bundle, ...(await openGltf(name, bytes, bundle)) };
+  return { name, files: bundle, textures, ...(await openGltf(name, bytes, bundle, textures)) };
 }
 
 /** Writes MikkTSpace's tangents into the model and changes nothing else. A model of another format is read again, because its GLB has no quads. */

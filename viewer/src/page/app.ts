@@ -5,6 +5,7 @@ import { Box3, Matrix3, Vector3 } from 'three';
 
 import type { Checked } from '../check/checker';
 import { openGltf } from '../files/gltf';
+import { Ktx2Textures } from '../files/ktx2';
 import { openModel, withTangents, type Model } from '../files/model';
 import type { FileBundle } from '../files/file-bundle';
 import { oddities } from '../scene/oddities';
@@ -97,6 +98,8 @@ export class App {
     isQuick: () => trianglesOf(this.parts) <= QUICK_TRIANGLES,
   });
   private model: Model | null = null;
+  /** The textures in KTX 2 of the model that was opened last, which may not be shown yet. */
+  private textures: Ktx2Textures | null = null;
   private parts: Part[] = [];
   /** Whether the state in the address was applied to the first model. */
   private isLinkRead = false;
@@ -201,10 +204,12 @@ export class App {
     const turn = ++this.opening;
     const isOutdated = () => turn !== this.opening;
     element('broken').hidden = true;
+    this.textures?.stop();
+    const textures = (this.textures = new Ktx2Textures(this.viewport.mostTexels));
     try {
       showProgress('Searching for a model', null);
       const { low, high } = await find();
-      const model = await openModel(low, (task, fraction) => isOutdated() || showProgress(task, fraction));
+      const model = await openModel(low, textures, (task, fraction) => isOutdated() || showProgress(task, fraction));
       const parts = partsOf(model.scene);
       if (isOutdated()) return;
       // Stops the comparison of the model before.
@@ -347,7 +352,7 @@ export class App {
     const turn = ++this.openingHigh;
     showProgress('Opening the high model', null);
     if (!model) throw new Error('There is no low model to bake onto; open it first.');
-    const high = await openModel(bundle, showProgress);
+    const high = await openModel(bundle, model.textures, showProgress);
     const parts = partsOf(high.scene);
     await call('open', 'high', parts.map((part) => part.surface));
     const comparisons = await Promise.all(parts.map((_, at) => call('compare', 'high', at, ['file', 'file'])));
@@ -369,9 +374,10 @@ export class App {
 
   /** Opens the repaired file and shows it on the right. */
   private async showRepaired(file: Uint8Array<ArrayBuffer>): Promise<void> {
+    const { textures } = this.model!;
     const turn = this.opening;
     showProgress('Opening the repaired model', null);
-    const { scene } = await openGltf('the repaired model', file, new Map());
+    const { scene } = await openGltf('the repaired model', file, new Map(), textures);
     const parts = partsOf(scene);
     await call('open', 'repaired', parts.map((part) => part.surface));
     const comparisons = await Promise.all(parts.map((_, at) => call('compare', 'repaired', at, ['file', 'file'])));

@@ -119,6 +119,11 @@ export class Viewport {
     return this.sphere.radius;
   }
 
+  /** The most texels along a side of a texture. */
+  get mostTexels(): number {
+    return this.renderer.capabilities.maxTextureSize;
+  }
+
   /** Takes a function that makes the coarse copy of a model. The copy is shown while the camera moves, if pictures of the model take long. */
   offerCoarse(make: (() => Mesh) | null): void {
     this.coarse?.removeFromParent();

@@ -11,6 +11,12 @@ interface PendingCall {
 /** Calls a function of a worker. Errors: those of the function. */
 export type Caller<F extends Functions> = <K extends keyof F & string>(name: K, ...args: Parameters<F[K]>) => Promise<Awaited<ReturnType<F[K]>>>;
 
+/** Ends a worker. Its running calls fail with the reason. */
+export function endWorker(worker: Worker, reason: string): void {
+  worker.terminate();
+  worker.dispatchEvent(new ErrorEvent('error', { message: reason }));
+}
+
 /** Connects a worker with the functions `F`. `progress` receives the finished part of the running call, where the worker tells it. */
 export function callerOf<F extends Functions>(worker: Worker, progress?: (done: number) => void): Caller<F> {
   const pending = new Map<number, PendingCall>();

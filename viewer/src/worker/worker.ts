@@ -3,7 +3,7 @@
 import { ready } from 'darboux';
 
 import type { FileBundle } from '../files/file-bundle';
-import { check, decodeTexture, makeNormals, repair, type Checked, type Outcome, type Summary } from '../files/gltf-wasm';
+import { check, makeNormals, repair, type Checked, type Outcome, type Summary } from '../files/gltf-wasm';
 import { compareSources, type Comparison } from '../surface/comparison';
 import type { OtherModel, Source } from '../surface/sources';
 import { placesOf, type Place } from '../surface/places';
@@ -32,11 +32,6 @@ const functions = {
   /** Makes the normals that a glTF lacks, and returns it as GLB. */
   makeNormals(name: string, bytes: Uint8Array<ArrayBuffer>): Promise<Outcome<unknown>> {
     return makeNormals(name, bytes);
-  },
-
-  /** Decodes a texture in KTX 2 to RGBA texels. */
-  decodeTexture(bytes: Uint8Array<ArrayBuffer>): Promise<Outcome<[number, number]>> {
-    return decodeTexture(bytes);
   },
 
   /** Replaces the surfaces of a model. */
