@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 
 import { browser, serve, Viewer } from './page.mjs';
+import { gltf } from './quads.mjs';
 
 let server, chromium, viewer;
 
@@ -179,6 +180,29 @@ test('a lit model stands on the ground, unless it is seen from below or the swit
   for (let press = 0; press < 12; press++) await page.page.keyboard.press('ArrowDown');
   await page.settled();
   assert.equal(await darkened(), 0, 'not from below');
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});
+
+test('a sentence beside the switch says where a model has too many triangles for the ground', async () => {
+  const page = await Viewer.open(chromium, server.address);
+  const open = async (copies) => {
+    const extension = 'EXT_mesh_gpu_instancing';
+    // Large triangles that lie flat need more samples than small ones. They face down, so that they are not drawn.
+    const placed = (attributes) => ({ extensionsUsed: [extension], nodes: [{ mesh: 0, rotation: [Math.SQRT1_2, 0, 0, Math.SQRT1_2], extensions: { [extension]: { attributes } } }] });
+    const name = `${copies}.gltf`;
+    const buffer = Buffer.from(gltf({ more: { TRANSLATION: [new Float32Array(3 * copies), 3] }, json: placed }));
+    await page.page.setInputFiles('#files', { name, mimeType: 'model/gltf+json', buffer });
+    await page.page.waitForFunction((name) => document.getElementById('name').textContent === name, name);
+    await page.settled();
+    await page.reveal('#ground');
+    return page.page.isVisible('#no-ground');
+  };
+  assert.equal(await open(1), false);
+  assert.equal(await open(2000), true);
+  assert.match(await page.text('no-ground'), /no ground: it has too many triangles/);
+  await page.click('#ground');
+  assert.equal(await page.page.isVisible('#no-ground'), false, 'nobody asks for a ground');
   assert.deepEqual(page.faults, []);
   await page.close();
 });

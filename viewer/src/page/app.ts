@@ -332,11 +332,18 @@ export class App {
     this.sides = [this.sideOf(0, now), this.sideOf(1, now)];
     this.changed();
     this.viewport.show(this.sides, now.layout);
-    this.viewport.standOn(now.ground && isLit(now.paint) ? this.view.groundShadow(now.hidden) : null);
+    this.standOnGround(now);
     showLayoutFrame(now.layout);
     showLegend(legendOf(now, this.firstScreen.hasFault()));
     this.firstScreen.drawOutline(now);
     showCaptions(captionsOf(now, this.parts));
+  }
+
+  /** Shows the ground below a lit model, or says beside its switch that the model has too many triangles for it. */
+  private standOnGround({ ground, paint, hidden }: Settings): void {
+    const shadow = ground && isLit(paint) ? this.view.groundShadow(hidden) : null;
+    element('no-ground').hidden = shadow !== 'too many samples';
+    this.viewport.standOn(typeof shadow === 'string' ? null : shadow);
   }
 
   private sideOf(at: 0 | 1, now: Settings): Side {

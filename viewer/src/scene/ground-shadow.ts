@@ -24,13 +24,16 @@ export interface GroundShadow {
   texels: Uint8Array<ArrayBuffer>;
 }
 
+/** Why there is no shadow: the parts have no extent, or they need too many samples. */
+export type NoShadow = 'no extent' | 'too many samples';
+
 /** A point in the square: x in texels, the height as a fraction of half the diagonal of the model's box, and z in texels. */
 type Point = readonly [number, number, number];
 
-/** The shadow below the parts; null if they have no extent, or if they need too many samples. */
-export function groundShadow(parts: PlacedTriangles[]): GroundShadow | null {
+/** The shadow below the parts, or why there is none. */
+export function groundShadow(parts: PlacedTriangles[]): GroundShadow | NoShadow {
   const triangles = parts.reduce((sum, { indices, places }) => sum + (indices.length / 3) * places.length, 0);
-  if (triangles > LOOK.most_steps) return null;
+  if (triangles > LOOK.most_steps) return 'too many samples';
   const [min, max] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
   visitTriangles(parts, (triangle) => {
     for (let at = 0; at < 9; at++) {
@@ -40,7 +43,7 @@ export function groundShadow(parts: PlacedTriangles[]): GroundShadow | null {
   });
   const half = min.map((least, i) => 0.5 * (max[i] - least));
   const radius = Math.sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
-  if (!(radius > 0) || !Number.isFinite(radius)) return null;
+  if (!(radius > 0) || !Number.isFinite(radius)) return 'no extent';
   const [x, height, z] = [0.5 * (min[0] + max[0]), min[1], 0.5 * (min[2] + max[2])];
   const halfSide = Math.max(half[0], half[2]) + LOOK.margin * radius;
   const texelsPerUnit = LOOK.texels / (2 * halfSide);
@@ -54,7 +57,7 @@ export function groundShadow(parts: PlacedTriangles[]): GroundShadow | null {
     heights.add(triangle);
   });
   const texels = heights.darkness(radius * texelsPerUnit);
-  return texels && { middle: [x, height, z], halfSide, side: LOOK.texels, texels };
+  return texels ? { middle: [x, height, z], halfSide, side: LOOK.texels, texels } : 'too many samples';
 }
 
 /** Visits the triangles of all places in the scene, except those that are not finite there. The array is valid during the call. */

@@ -7,7 +7,7 @@ import { cornerAngles, NO_ANGLE } from '../surface/angles';
 import type { Comparison } from '../surface/comparison';
 import type { BakedMap } from './baked-map';
 import { frameMaterial } from './frame-material';
-import { groundShadow, type GroundShadow } from './ground-shadow';
+import { groundShadow, type GroundShadow, type NoShadow } from './ground-shadow';
 import { seamLines, vectorLines } from './frame-lines';
 import { boundsOfCopies, type Copy, placesOf, type Part } from './model-parts';
 import { sharedAttributes, sideGeometry, sideMaterial, type SharedAttributes } from './side-geometry';
@@ -51,7 +51,7 @@ export interface Values {
 export class ModelView {
   private parts: ComparedPart[] = [];
   /** The shadow on the ground, and the parts that cast it; null before it is asked for. */
-  private shadow: { of: string; shadow: GroundShadow | null } | null = null;
+  private shadow: { of: string; shadow: GroundShadow | NoShadow } | null = null;
 
   /** Replaces the parts. */
   setParts(parts: Part[], comparisons: Comparison[]): void {
@@ -75,8 +75,8 @@ export class ModelView {
     return boundsOfCopies(part, comparison.positions);
   }
 
-  /** The shadow on the ground of the parts that are shown; null if there is none. */
-  groundShadow(hidden: Set<number>): GroundShadow | null {
+  /** The shadow on the ground of the parts that are shown, or why there is none. */
+  groundShadow(hidden: Set<number>): GroundShadow | NoShadow {
     const shown = this.parts.filter((_, at) => !hidden.has(at));
     const of = [...hidden].join();
     if (this.shadow?.of !== of) {
