@@ -53,16 +53,16 @@ test('the camera goes to the fault, which has an outline, and a sentence says wh
     assert.ok(near.share(isBack) + 0.1 < (await viewer.picture()).share(isBack), 'the fault was seen from nearby');
   }));
 
-/** A tall strip whose signs are wrong at its upper end. u grows upwards. */
-function strip() {
+/** A strip whose signs are wrong at its upper end, or at its right end if it lies. u grows towards that. */
+function strip(lies = false) {
   const count = 40;
   const vertices = Array.from({ length: 2 * (count + 1) }, (_, at) => [0.5 - (at & 1), ((at >> 1) / count - 0.5) * 8]);
   const of = (width, values) => [Float32Array.from(vertices.flatMap(values)), width];
   const attributes = {
-    POSITION: of(3, ([x, y]) => [x, y, 0]),
+    POSITION: of(3, ([x, y]) => (lies ? [y, -x, 0] : [x, y, 0])),
     NORMAL: of(3, () => [0, 0, 1]),
     TEXCOORD_0: of(2, ([x, y]) => [y / 8, 0.5 + x]),
-    TANGENT: of(4, ([, y]) => [0, 1, 0, y > 3 ? -1 : 1]),
+    TANGENT: of(4, ([, y]) => [...(lies ? [1, 0] : [0, 1]), 0, y > (lies ? 3.5 : 3) ? -1 : 1]),
   };
   const indices = Uint16Array.from({ length: 6 * count }, (_, at) => 2 * Math.floor(at / 6) + [0, 2, 1, 1, 2, 3][at % 6]);
   const { json, binary } = parts(shield());
@@ -105,6 +105,18 @@ test('a third of the model is in sight at first, and a fifth of that on each sid
       assert.ok(near.left > 0.19 && near.left < 0.81, `${near.left} of the model is left of the divide`);
       assert.ok(inSight > 0.28, `${inSight} of the model is in sight`);
       assert.ok(inSight < 0.9, 'the fault is seen from nearby');
+    },
+    { colorScheme: 'dark' },
+    'ground=0',
+  ));
+
+test('a fault at the right end of a model is not hidden under the cure', () =>
+  opened(
+    async (viewer) => {
+      await give(viewer, 'lying.gltf', strip(true));
+      assert.match(await viewer.text('verdict-text'), /signs w/);
+      const split = Number(await viewer.page.inputValue('#split'));
+      assert.ok(split >= 50 && (await seen(viewer)).left < 1, `the divide stands at ${split} %`);
     },
     { colorScheme: 'dark' },
     'ground=0',

@@ -45,9 +45,12 @@ const BETTER = 1.5;
 /** The radii in view around the place where the sides differ most, relative to the model's radius. */
 const CLOSER = [0.45, 0.2] as const;
 
-/** The slider's positions in percent at the end: where the fault is one place, left of the slider, and within which bounds where it is everywhere. */
+/** The slider's positions in percent at the end: where the fault is one place, left of the slider, and within which bounds where it is everywhere. Both as far as something of the model is on either side. */
 const BESIDE = 62;
 const WITHIN = [35, 65] as const;
+
+/** Where the camera looks, in percent from the left: at the fault, if that is one place. */
+const MIDDLE = 50;
 
 /** What the first screen needs of the application. */
 export interface Host {
@@ -131,8 +134,9 @@ export class FirstScreen {
     viewport.moveTo(view, true);
     const isAlike = seen.share < ALIKE;
     if (isAlike) this.announce(problem, cost, isOfTangents ? differenceOf(host.comparisons()) : 'unmeasured');
-    // Something of the model stays on both sides.
-    const rest = clamped(isOutlined || isAlike ? BESIDE : clamped(100 * seen.column, WITHIN), seen.divides.map((column) => 100 * column));
+    // Something of the model stays on both sides, and not more than half of the fault under the cure.
+    const divided = clamped(isOutlined || isAlike ? BESIDE : clamped(100 * seen.column, WITHIN), seen.divides.map((column) => 100 * column));
+    const rest = isOutlined ? Math.max(MIDDLE, divided) : divided;
     const turnLight = (degrees: number) => viewport.lightFrom(numberOf('light-around') + degrees, numberOf('light-above'));
     void swing({ split: (percent) => host.split(percent), turnLight }, rest);
   }
@@ -173,7 +177,8 @@ export class FirstScreen {
   private bestView(): Found {
     const { viewport } = this;
     const start = performance.now();
-    const place = this.hasFault() ? this.look(this.viewOfFault(), true) : null;
+    const fault = this.hasFault() ? this.viewOfFault() : null;
+    const place = fault && this.look(viewport.recognised(fault), true);
     if (place && place.seen.share >= ALIKE) return place;
     const [first, ...others] = viewport.viewsAround();
     let best = this.look(first);
@@ -187,7 +192,10 @@ export class FirstScreen {
       const near = view && this.look(view);
       if (near && near.seen.share > BETTER * best.seen.share) best = near;
     }
-    return place && best.seen.share < ALIKE ? place : best;
+    if (!place || best.seen.share >= ALIKE) return best;
+    // What nobody sees with so much of the model in sight is shown from nearer.
+    const near = this.look(fault, true);
+    return near.seen.share >= ALIKE ? near : place;
   }
 
   /** What differs in a view, with the light beside the camera. */
@@ -213,7 +221,7 @@ export class FirstScreen {
     return wrong > 0 && wrong < MOST_OF_A_MODEL * trianglesOf(this.host.parts());
   }
 
-  /** The view of the place where the sides differ most. */
+  /** The view from nearby of the place where the sides differ most. */
   private viewOfFault(): View {
     const part = this.faults.reduce((worst, fault, at) => ((fault?.weight ?? 0) > (this.faults[worst]?.weight ?? 0) ? at : worst), 0);
     const { position, normal, radius } = this.faults[part]!;
@@ -223,7 +231,7 @@ export class FirstScreen {
     // From a little above, where bumps throw longer highlights.
     direction.y += 0.25;
     const around = Math.max(CLOSE_UP * this.viewport.radius, 1.5 * radius * matrix.getMaxScaleOnAxis());
-    return this.viewport.recognised(this.viewport.viewOfSphere(at, Math.min(this.viewport.radius, around), direction));
+    return this.viewport.viewOfSphere(at, Math.min(this.viewport.radius, around), direction);
   }
 
   /** Draws the outline of the fault, unless nearly everything is wrong. */

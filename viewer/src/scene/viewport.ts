@@ -252,7 +252,7 @@ export class Viewport {
     return { eye: at.clone().addScaledVector(from.clone().normalize(), distance), target: at.clone() };
   }
 
-  /** A view in the same direction in which a third of the model or more is in sight. */
+  /** A view in the same direction in which about a third of the box around the model is in sight. */
   recognised(view: View): View {
     const { fieldOfView, aspect } = this.free();
     return withInSight(view, this.box, RECOGNISED, fieldOfView, aspect);
