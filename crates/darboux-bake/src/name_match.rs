@@ -41,9 +41,9 @@ pub fn match_names(low: &[&str], high: &[&str]) -> NameMatch {
     NameMatch { group_of_low, group_of_high, low_without_high }
 }
 
-/// Where the last of some suffixes of a name in lower case starts after which the name ends or goes on with
-/// a digit or one of `_`, `.`, `-` and a space: `lamp_high_bolts` and `lamp_high2` have `_high`,
-/// `lamp_highlight` does not.
+/// Where the last suffix in a name starts, of the given ones. What follows a suffix is nothing, a digit, or
+/// one of `_`, `.`, `-` and a space: `lamp_high_bolts` and `lamp_high2` have `_high`, `lamp_highlight` does
+/// not. `name`, `suffixes`: in lower case.
 pub fn suffix_start(name: &str, suffixes: &[&str]) -> Option<usize> {
     let ends_word = |next: char| next.is_ascii_digit() || "_.- ".contains(next);
     let start_of = |suffix: &&str| {

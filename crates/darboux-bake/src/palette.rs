@@ -34,6 +34,9 @@ const COMPARED: usize = 64;
 /// colours: the choice does not become worse abruptly.
 const MORE_COMPARED: usize = 1 << 20;
 
+/// The largest label: the image keeps labels plus 1 as `f32`, which has all integers up to here.
+const MOST_LABELS: usize = 1 << 24;
+
 /// No texel has the label.
 const NOWHERE: u32 = u32::MAX;
 
@@ -49,7 +52,8 @@ pub fn color_labels(images: &mut Images, kind: MapKind, context: &Context) -> Re
     let has_label = |state: TexelState| state.has_content() || is_low && state.is_missed();
     let states = &images.states;
     let Some(numbers) = images.numbers(kind) else { return Ok(Vec::new()) };
-    let label = |texel: usize| has_label(states[texel]).then(|| numbers[3 * texel] as usize - 1);
+    let label =
+        |texel: usize| has_label(states[texel]).then(|| (numbers[3 * texel] as usize).min(MOST_LABELS) - 1);
     let Labels { mut entries, rank_of_label } = Labels::count([width, height], label, context)?;
     let rank = |texel: usize| label(texel).map(|label| rank_of_label[label]);
     let meetings = meetings([width, height], rank, context)?;
@@ -59,7 +63,10 @@ pub fn color_labels(images: &mut Images, kind: MapKind, context: &Context) -> Re
         check(context)?;
         for texel in row.as_chunks_mut::<3>().0 {
             // Where no padding reaches, the background is 0.
-            let rank = (texel[0] as usize).checked_sub(1).and_then(|label| rank_of_label.get(label));
+            let rank = (texel[0] as usize)
+                .min(MOST_LABELS)
+                .checked_sub(1)
+                .and_then(|label| rank_of_label.get(label));
             let color = rank.and_then(|&rank| colors.get(rank as usize));
             *texel = color.map_or([0.0; 3], |color| color.map(|code| f32::from(code) / 255.0));
         }

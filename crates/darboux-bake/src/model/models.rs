@@ -25,8 +25,8 @@ pub enum PartMatch {
 
 choice! { PartMatch, "match",
     Nearest => "nearest", "All of them: the first that a ray meets";
-    Name => "name", "Those of the same name: crate_low gets the detail of crate_high and crate_high_bolts. \
-         The names of nodes count, or else of meshes";
+    Name => "name", "Those of the same name: crate_low gets the detail of crate_high and crate_high_bolts \
+         (_lowpoly and _lp mean _low, _highpoly and _hp mean _high). The names of nodes count, or else of meshes";
 }
 
 /// The low model and the high models of a bake.

@@ -29,7 +29,7 @@ impl UnpairedParts {
             let names = named(&self.low);
             warnings.push(format!(
                 "no part of the high models belongs to {names}; name it as the low part with _high in place \
-                 of _low, or do not match names"
+                 of _low (or _hp of _lp), or do not match names"
             ));
         }
         if !self.high.is_empty() {

@@ -259,7 +259,16 @@ fn models_without_a_pair_are_named() {
     assert_eq!(names_in(&out), ["bolt.png", "crate.png", "leaf.png"]);
     write("bolt_low.glb", &low);
     assert!(run(&["-o", text(&out), "--force"]).exits(2).stderr.contains("are the same part of one pair"));
-    for name in ["bolt_low.glb", "bolt_LP.glb", "bolt_HighPoly.glb"] {
+    fs::remove_file(folder.join("bolt_low.glb")).expect("the file");
+    write("bolt_hp_nails.glb", &high);
+    run(&["-o", text(&out), "--force"]).exits(0);
+    write("Bolt_high.glb", &high);
+    let twice = run(&["-o", text(&out), "--force"]).exits(2).stderr;
+    assert!(
+        twice.contains("Bolt_high.glb and ") && twice.contains("bolt_HighPoly.glb are the same part"),
+        "{twice}"
+    );
+    for name in ["Bolt_high.glb", "bolt_hp_nails.glb", "bolt_LP.glb", "bolt_HighPoly.glb"] {
         fs::remove_file(folder.join(name)).expect("the file");
     }
     for option in ["--high", "--cage"] {

@@ -42,7 +42,8 @@ impl RgbaCodes {
     /// Decodes an image file as [`RgbaImage::decode`] does, but keeps the 16 bits of a PNG. Returns the
     /// texels per row and the rows, and the texels.
     ///
-    /// A PNG of 16 bits takes up to 16 bytes per texel while it is decoded; other images take up to 8.
+    /// A PNG of 16 bits takes up to 16 bytes per texel while it is decoded, twice as many as
+    /// [`DecodeLimits::of_file`] counts; other images take up to 8.
     pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<([u32; 2], Self), DecodeError> {
         if PngImage::is_deep(file) {
             return decode_deep_png(file, limits);

@@ -189,7 +189,8 @@ fn suffixes(random: &mut Random) -> Case {
     let mut case = Case::new(["bake", "models", "--suffixes", "--size", "16", "--cage-offset", "0.1"]);
     for _ in 0..1 + random.below(3) {
         let stem = random.pick(NAMES);
-        for suffix in ["_low", "_high", "_cage"].iter().take(2 + random.below(2)) {
+        let suffixes = random.pick(&[["_low", "_high", "_cage"], ["_lp", "_HighPoly", "_cage"]]);
+        for suffix in suffixes.iter().take(2 + random.below(2)) {
             let mut name = OsStr::from_bytes(stem).to_os_string();
             name.push(format!("{suffix}.glb"));
             let bytes = if random.one_in(8) { b"glTF".to_vec() } else { Mesh::grid(2).glb() };

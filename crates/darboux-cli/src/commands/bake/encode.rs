@@ -200,6 +200,9 @@ fn dithered(signed: f32, threshold: f32) -> f32 {
     code / 127.5 - 1.0
 }
 
+/// The most that a mean of white may have by rounding.
+const MOST_OF_WHITE: f32 = 1.0 + 4.0 * f32::EPSILON;
+
 /// What black and white mean: heights from as far inside to as far outside as rays can reach, thickness and
 /// light up to the largest.
 fn range(map: MapKind, content: MapContent, numbers: &[f32], options: &BakeOptions) -> Vec<[f32; 2]> {
@@ -212,7 +215,9 @@ fn range(map: MapKind, content: MapContent, numbers: &[f32], options: &BakeOptio
         (_, MapContent::Lengths) => vec![[0.0, largest]],
         (_, MapContent::Light) => {
             let light = numbers.chunks_exact(map.channels()).flat_map(|texel| &texel[..3]);
-            let brightest = light.fold(1f32, |most, x| most.max(*x));
+            let brightest = light.fold(0f32, |most, x| most.max(*x));
+            // Weights of corners, texels and samples sum to 1 but for their rounding, and so does white.
+            let brightest = if brightest <= MOST_OF_WHITE { 1.0 } else { brightest };
             let mut range = vec![[0.0, brightest]; 3];
             range.resize(map.channels(), [0.0, 1.0]);
             range

@@ -220,11 +220,20 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Bakes a tile and tells its progress.
-    fn bake(&mut self, tile: &Tile, options: &BakeOptions) -> Result<Baked, BakeFailure> {
-        let progress = self.messages.file(&tile.arguments.output.display().to_string(), PROGRESS_UNITS);
+    /// Bakes a tile and tells its progress. Errors: those of the bake; what its counts do not allow.
+    fn bake(&mut self, Tile { udim, arguments }: &Tile, options: &BakeOptions) -> Result<Baked, BakeFailure> {
+        let progress = self.messages.file(&arguments.output.display().to_string(), PROGRESS_UNITS);
         let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
-        Ok(self.surfaces.bake(options, &mut self.context, &mut tell)?)
+        let baked = self.surfaces.bake(options, &mut self.context, &mut tell)?;
+        match advice::failure(&baked.report, arguments, self.misfit(&baked).as_deref()) {
+            Some(reason) => Err(udim.map_or(reason.clone(), |udim| format!("tile {udim}: {reason}")).into()),
+            None => Ok(baked),
+        }
+    }
+
+    /// How the models do not fit together, where rays hit nothing.
+    fn misfit(&self, baked: &Baked) -> Option<String> {
+        (baked.report.missed_texels > 0).then(|| self.models.misfit()).flatten()
     }
 
     /// Bakes a tile, stages its files and adds it to the report.
@@ -238,11 +247,6 @@ impl Run<'_> {
         let low = &self.models.low;
         let baked = self.bake(tile, options)?;
         report.seconds.rays += self.clock.lap();
-        let misfit = (baked.report.missed_texels > 0).then(|| self.models.misfit()).flatten();
-        let misfit = misfit.as_deref();
-        if let Some(reason) = advice::failure(&baked.report, arguments, misfit) {
-            return Err(udim.map_or(reason.clone(), |udim| format!("tile {udim}: {reason}")).into());
-        }
         let outputs = &mut self.outputs;
         let mut written = stage_maps(arguments, &baked.images, options, &self.ranges, outputs)?;
         self.warnings.append(&mut written.warnings);
@@ -273,7 +277,8 @@ impl Run<'_> {
             _ => None,
         };
         report.seconds.verifying += self.clock.lap();
-        let advice = advice::of_report(&baked.report, arguments, misfit, misses.as_deref());
+        let advice =
+            advice::of_report(&baked.report, arguments, self.misfit(&baked).as_deref(), misses.as_deref());
         let named = |warning: String| udim.map_or(warning.clone(), |udim| format!("tile {udim}: {warning}"));
         self.warnings.extend(advice.into_iter().map(named));
         report.maps.extend(written.maps);

@@ -33,20 +33,27 @@ struct Pair {
 }
 
 impl Pair {
-    /// Two models that are the same part, such as an FBX and the GLB that was made from it.
+    /// Two models that are the same part, such as an FBX and the GLB that was made from it, or NAME_high and
+    /// NAME_hp.
     fn twice(&self) -> Option<[&PathBuf; 2]> {
-        let stem = |path: &Path| path.file_stem().map(|stem| stem.to_ascii_lowercase());
-        let of_one = |files: &'_ [PathBuf]| (files.len() > 1).then_some(1);
-        let of_high =
-            |files: &'_ [PathBuf]| (1..files.len()).find(|&at| stem(&files[at]) == stem(&files[at - 1]));
-        let found = [
-            (&self.low, of_one(&self.low)),
-            (&self.high, of_high(&self.high)),
-            (&self.cage, of_one(&self.cage)),
-        ];
-        let (files, at) = found.into_iter().find_map(|(files, at)| Some((files, at?)))?;
-        Some([&files[at - 1], &files[at]])
+        let only = |_: &Path| String::new();
+        let of_high = first_equal(&self.high, detail_of);
+        first_equal(&self.low, only).or(of_high).or_else(|| first_equal(&self.cage, only))
     }
+}
+
+/// The first file whose key another one before it has, and that one.
+fn first_equal(files: &[PathBuf], key: impl Fn(&Path) -> String) -> Option<[&PathBuf; 2]> {
+    let mut known = BTreeMap::new();
+    files.iter().find_map(|file| known.insert(key(file), file).map(|other| [other, file]))
+}
+
+/// What follows the suffix in the name of a high model.
+fn detail_of(path: &Path) -> String {
+    let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default().to_lowercase();
+    let start = suffix_start(&stem, &HIGH_SUFFIXES).unwrap_or_default();
+    let after = HIGH_SUFFIXES.iter().filter_map(|suffix| stem[start..].strip_prefix(suffix));
+    after.min_by_key(|detail| detail.len()).unwrap_or_default().to_owned()
 }
 
 /// Files that are named like the models of pairs, by name.
