@@ -546,7 +546,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand bake" -l skew -d 'Turn r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l max-misses -d 'Fail, and write nothing, if the rays of more than this SHARE of the texels hit nothing; without it they are a warning, unless all miss' -r
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l write-cage -d 'Write the cage as a model, which --cage reads' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l match -d 'Which high parts the rays of a low part can hit' -r -f -a "nearest\t'All of them: the first that a ray meets'
-name\t'Those of the same name: crate_low gets the detail of crate_high and crate_high_bolts. The names of nodes count, or else of meshes'"
+name\t'Those of the same name: crate_low gets the detail of crate_high and crate_high_bolts (_lowpoly and _lp mean _low, _highpoly and _hp mean _high). The names of nodes count, or else of meshes'"
 complete -c darboux -n "__fish_darboux_using_subcommand bake" -l method -d 'How tangents are computed; by default those of the low model\'s file are used, and mikktspace if it has none for the UV set' -r -f -a "mikktspace\t'The standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF)'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
 lengyel\t'The sum of dP/du, not normalised, separate for each UV orientation'
