@@ -142,7 +142,7 @@ def test_several_high_models_and_names() -> None:
     assert [entry.name for entry in near.legends["id"]] == ["left_high", "other_high"]
     assert [entry.name for entry in named.legends["id"]] == ["left_high"] and near.warnings == []
     assert named.warnings == [
-        "no part of the high models belongs to right_low; name it as the low part with _high in place of _low, or do not match names",
+        "no part of the high models belongs to right_low; name it as the low part with _high in place of _low (or _hp of _lp), or do not match names",
         "no part of the low model belongs to other_high, which is left out",
     ]
     with pytest.raises(ValueError, match="no part of the high models belongs to left_low, right_low;"):
