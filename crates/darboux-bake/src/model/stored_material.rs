@@ -23,13 +23,15 @@ pub enum Shading {
     MetallicRoughness,
     /// `KHR_materials_unlit`: the base colour is shown without light.
     Unlit,
-    /// `KHR_materials_pbrSpecularGlossiness`.
+    /// `KHR_materials_pbrSpecularGlossiness`, unless the material has a metallic-roughness texture, too,
+    /// which maps need.
     SpecularGlossiness,
 }
 
 /// A part of a material: its factor, and the place of its texture in the material's JSON if it may have one.
 pub type StoredProperty<'t> = (MaterialProperty, [f32; 4], Option<&'t str>);
 
+const METALLIC_TEXTURE: &str = "pbrMetallicRoughness.metallicRoughnessTexture";
 const UNLIT: &str = "extensions.KHR_materials_unlit";
 const SPECULAR: &str = "extensions.KHR_materials_pbrSpecularGlossiness";
 const DIFFUSE_FACTOR: &str = "extensions.KHR_materials_pbrSpecularGlossiness.diffuseFactor";
@@ -40,9 +42,9 @@ const EMISSIVE_STRENGTH: &str = "extensions.KHR_materials_emissive_strength.emis
 
 impl StoredMaterial<'_> {
     pub fn shading(&self) -> Shading {
-        match [UNLIT, SPECULAR].map(|member| self.json(member).is_object()) {
-            [true, _] => Shading::Unlit,
-            [false, true] => Shading::SpecularGlossiness,
+        match [UNLIT, METALLIC_TEXTURE, SPECULAR].map(|member| self.json(member).is_object()) {
+            [true, ..] => Shading::Unlit,
+            [false, false, true] => Shading::SpecularGlossiness,
             _ => Shading::MetallicRoughness,
         }
     }
@@ -101,8 +103,8 @@ impl StoredMaterial<'_> {
             Shading::MetallicRoughness => {
                 let [roughness] = self.numbers("pbrMetallicRoughness.roughnessFactor", [1.0])?;
                 let [metalness] = self.numbers("pbrMetallicRoughness.metallicFactor", [1.0])?;
-                let texture = "pbrMetallicRoughness.metallicRoughnessTexture";
-                Ok((MaterialProperty::MetallicRoughness, [1.0, roughness, metalness, 1.0], Some(texture)))
+                let factor = [1.0, roughness, metalness, 1.0];
+                Ok((MaterialProperty::MetallicRoughness, factor, Some(METALLIC_TEXTURE)))
             }
         }
     }

@@ -107,11 +107,26 @@ fn specular_glossiness_becomes_a_color_and_a_roughness() {
         json["images"] = json!([{"uri": "gloss.png"}]);
         json["textures"] = json!([{"source": 0}]);
     });
-    fs::write(pair.path("high.glb"), textured).expect("a file");
+    fs::write(pair.path("high.glb"), &textured).expect("a file");
     pair.bake(&["--map", "base-color,roughness,metalness", "--force"]).exits(0);
     assert_eq!(pair.texel("map.base-color.png").0, [51.0 / 255.0, 0.0, 0.0]);
     let roughness = pair.texel("map.roughness.png").0;
     assert!(near(&roughness, &[0.52], 0.5 / 255.0 + 1e-6), "{roughness:?}");
+    // With a metallic-roughness texture the extension does not count: green and blue, times the base colour.
+    let both = edited(&textured, |json| {
+        json["materials"][0]["pbrMetallicRoughness"]["metallicRoughnessTexture"] = json!({"index": 0});
+    });
+    fs::write(pair.path("high.glb"), both).expect("a file");
+    let run = pair.bake(&["--map", "base-color,roughness,metalness", "--force"]).exits(0);
+    assert!(!run.stderr.contains("specular colours"), "{}", run.stderr);
+    assert_eq!(pair.texel("map.base-color.png").0, [0.0, 1.0, 0.0]);
+    let [roughness, metalness] =
+        ["roughness", "metalness"].map(|map| pair.texel(&format!("map.{map}.png")).0);
+    let share = 99.0 / 255.0;
+    assert!(
+        near(&[roughness[0], metalness[0]], &[share; 2], 0.5 / 255.0 + 1e-6),
+        "{roughness:?} {metalness:?}"
+    );
 }
 
 /// A gradient of 4,096 steps of 16 codes, onto the same UVs. A ray hits within 1e-4 of a texel of its place,
