@@ -37,8 +37,8 @@ const MORE_COMPARED: usize = 1 << 20;
 /// The largest label: the image keeps labels plus 1 as `f32`, which has all integers up to here.
 const MOST_LABELS: usize = 1 << 24;
 
-/// No texel has the label.
-const NOWHERE: u32 = u32::MAX;
+/// The place of a label that no texel has.
+const NO_ENTRY: u32 = u32::MAX;
 
 /// Replaces the labels in the first channel of a map, each plus 1, by colours from 0 to 1. Returns the
 /// colours, in the order of the labels.
@@ -56,8 +56,8 @@ pub fn color_labels(images: &mut Images, kind: MapKind, context: &Context) -> Re
         |texel: usize| has_label(states[texel]).then(|| (numbers[3 * texel] as usize).min(MOST_LABELS) - 1);
     let Labels { mut entries, rank_of_label } = Labels::count([width, height], label, context)?;
     let rank = |texel: usize| label(texel).map(|label| rank_of_label[label]);
-    let meetings = meetings([width, height], rank, context)?;
-    let colors = choose(entries.len(), &meetings, distance, context)?;
+    let adjacency = adjacency([width, height], rank, context)?;
+    let colors = choose(entries.len(), &adjacency, distance, context)?;
     entries.iter_mut().zip(&colors).for_each(|(entry, color)| entry.color = *color);
     for row in images.numbers_mut(kind).unwrap_or_default().chunks_mut(3 * width) {
         check(context)?;
@@ -109,7 +109,7 @@ impl Labels {
             }
         }
         let mut entries = Vec::new();
-        let mut rank_of_label = vec![NOWHERE; texels_of_label.len()];
+        let mut rank_of_label = vec![NO_ENTRY; texels_of_label.len()];
         for (id, texels) in (0..).zip(texels_of_label).filter(|(_, texels)| *texels > 0) {
             rank_of_label[id as usize] = entries.len() as u32;
             entries.push(IdColor { id, color: [0; 3], texels });
@@ -118,9 +118,9 @@ impl Labels {
     }
 }
 
-/// The labels that meet at sides of texels: pairs of a label and an earlier one, each once, sorted. Errors:
+/// The labels of texels that share a side: pairs of a label and an earlier one, each once, sorted. Errors:
 /// the context's token was cancelled.
-fn meetings(
+fn adjacency(
     [width, height]: [usize; 2],
     label: impl Fn(usize) -> Option<u32>,
     context: &Context,
@@ -144,11 +144,11 @@ fn meetings(
     Ok(pairs)
 }
 
-/// The colours of labels from 0 to `count`. `meetings`: as [`meetings`] returns them. Errors: the context's
+/// The colours of labels from 0 to `count`. `adjacency`: as that function returns it. Errors: the context's
 /// token was cancelled.
 fn choose(
     count: usize,
-    mut meetings: &[(u32, u32)],
+    mut adjacency: &[(u32, u32)],
     distance: impl Fn([u8; 3], [u8; 3]) -> u64,
     context: &Context,
 ) -> Result<Vec<[u8; 3]>, Error> {
@@ -157,8 +157,9 @@ fn choose(
     let mut near = Vec::new();
     for label in 0..count {
         check(context)?;
-        let (of_label, later) = meetings.split_at(meetings.partition_point(|&(of, _)| of as usize <= label));
-        meetings = later;
+        let (of_label, later) =
+            adjacency.split_at(adjacency.partition_point(|&(of, _)| of as usize <= label));
+        adjacency = later;
         near.clear();
         near.extend(of_label.iter().map(|&(_, other)| colors[other as usize]));
         // Of recent colours too, so that parts of a model look different from each other.
@@ -180,7 +181,7 @@ struct Unused {
 
 impl Unused {
     /// Of few labels, each is compared with all colours. For many labels, there are twice as many colours in
-    /// random order, and each label is compared with the next ones: the time is in proportion.
+    /// random order, and each label is compared with the next ones: the time is linear.
     fn for_labels(count: usize) -> Self {
         if count <= FEW {
             let colors = candidates(count + SPARE);
@@ -268,11 +269,11 @@ mod tests {
     type Color = [u8; 3];
 
     /// Every unused colour compared with all neighbours and all recent colours.
-    fn choose_slowly(count: usize, meetings: &[(u32, u32)]) -> Vec<Color> {
+    fn choose_slowly(count: usize, adjacency: &[(u32, u32)]) -> Vec<Color> {
         let mut unused = candidates(count + SPARE);
         let mut colors: Vec<Color> = Vec::new();
         for label in 0..count {
-            let near: Vec<Color> = meetings
+            let near: Vec<Color> = adjacency
                 .iter()
                 .filter(|pair| pair.0 as usize == label)
                 .map(|pair| colors[pair.1 as usize])
@@ -289,7 +290,7 @@ mod tests {
     }
 
     /// Pairs of labels, of which each meets at most `most` earlier ones.
-    fn random_meetings(count: usize, most: usize, dice: &mut Dice) -> Vec<(u32, u32)> {
+    fn random_adjacency(count: usize, most: usize, dice: &mut Dice) -> Vec<(u32, u32)> {
         let mut pairs = HashSet::new();
         for label in 1..count {
             for _ in 0..dice.below(most + 1) {
@@ -320,21 +321,21 @@ mod tests {
     fn few_labels_get_the_best_colours_of_all() {
         let mut dice = Dice::from_seed(34);
         for (count, most) in [(1, 0), (2, 1), (30, 0), (30, 4), (300, 0), (300, 12), (FEW, 3)] {
-            let meetings = random_meetings(count, most, &mut dice);
-            let colors = choose(count, &meetings, distance, &Context::new()).expect("not cancelled");
-            assert_eq!(colors, choose_slowly(count, &meetings), "{count} {most}");
+            let adjacency = random_adjacency(count, most, &mut dice);
+            let colors = choose(count, &adjacency, distance, &Context::new()).expect("not cancelled");
+            assert_eq!(colors, choose_slowly(count, &adjacency), "{count} {most}");
         }
     }
 
     #[test]
     fn colours_differ_and_those_of_neighbours_are_far_apart() {
         for side in [17, 31, 32, 200] {
-            let meetings = rows(side);
+            let adjacency = rows(side);
             let count = (side * side) as usize;
-            let colors = choose(count, &meetings, distance, &Context::new()).expect("not cancelled");
+            let colors = choose(count, &adjacency, distance, &Context::new()).expect("not cancelled");
             assert_eq!(colors.iter().collect::<HashSet<_>>().len(), count);
             let apart = |&(a, b): &(u32, u32)| distance(colors[a as usize], colors[b as usize]);
-            let least = meetings.iter().map(apart).min().expect("labels meet");
+            let least = adjacency.iter().map(apart).min().expect("labels meet");
             // Black and white are 764 apart.
             assert!(least > 256 * 180 * 180, "{side} {}", (least as f64 / 256.0).sqrt());
         }
@@ -343,7 +344,7 @@ mod tests {
     /// The comparisons are counted: of each label with at most so many colours, for each with at most its
     /// neighbours and the recent colours.
     #[test]
-    fn the_time_is_in_proportion_to_the_labels() {
+    fn the_time_is_linear_in_the_labels() {
         let comparisons = |side: u32| {
             let count = Cell::new(0u64);
             let counted = |a, b| {

@@ -249,7 +249,7 @@ impl<'a> HighModel<'a> {
     }
 }
 
-/// What chosen maps show nothing of.
+/// Warnings of chosen maps for which the high models have no content.
 fn warnings_of_content(
     document: &Document,
     parts: &[HighPart<'_>],

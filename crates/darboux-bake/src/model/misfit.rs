@@ -5,7 +5,7 @@ use crate::vector::{Vector, add_scaled, length, sub};
 /// The length of a model over its width from which on single precision cannot hold its directions.
 const LONGEST: f64 = 1e6;
 
-/// How many times as large as another a model is that has another unit.
+/// The ratio of two models' extents from which on they are taken to have different units.
 const OTHER_UNIT: f64 = 5.0;
 
 /// How far the corners of two boxes are apart, relative to a diagonal, from which on they differ, and up to
